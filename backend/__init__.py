@@ -1,0 +1,1 @@
+"""Spindle's server: talks to drive units, keeps rides, serves the API and the pages."""

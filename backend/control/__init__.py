@@ -1,0 +1,1 @@
+"""The only door from the backend to the unit's own C law: surface, lint, replay."""

@@ -1,0 +1,1 @@
+"""The vocabulary, pure: assist modes, fuzzy table, calibration metrics, ride, energy, quantities."""

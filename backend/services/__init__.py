@@ -1,0 +1,1 @@
+"""Use cases, one verb each: connect, tune, calibrate, record, review, upload."""

@@ -1,0 +1,1 @@
+"""SQL and objects: rides, revisions, live tails. The only door to SQLAlchemy and pyarrow."""

@@ -1,0 +1,1 @@
+"""The wire between host and drive unit; depends on nothing of ours."""

@@ -1,0 +1,1 @@
+"""The drive unit: its firmware, the physics around it, and both as a simulated unit."""

@@ -1,0 +1,1 @@
+"""The firmware in C99: law, product, hardware interface, boards."""

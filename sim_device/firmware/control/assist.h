@@ -1,0 +1,90 @@
+/* The assist law as one pipeline: raw counts in, motor torque out, 100 times a second.
+ *
+ * Pure C99 and float32: no globals, no heap, no libm. State lives in a struct the caller owns, so
+ * two instances never meet. The same code runs in the unit, the simulator and the preview. */
+#ifndef SPINDLE_ASSIST_H
+#define SPINDLE_ASSIST_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "fuzzy_table.h" // fuzzy_table
+
+#define ASSIST_MODE_SLOTS 5
+#define ASSIST_RATE_HISTORY 64 /* control steps the torque-rate interval can span, at most */
+
+typedef enum { ASSIST_LAW_OFF = 0, ASSIST_LAW_FIXED = 1, ASSIST_LAW_FUZZY = 2 } assist_law;
+
+typedef struct {
+    float step_s;                         /* control period, 0.01 s */
+    float sensor_offset_counts;
+    float sensor_gain_nm_per_count;
+    float torque_filter_s;
+    float torque_rate_interval_s;
+    float torque_rate_floor_nm;
+    uint8_t mode_laws[ASSIST_MODE_SLOTS]; /* assist_law */
+    float mode_ratios[ASSIST_MODE_SLOTS];
+    float fixed_taper_start_kmh;
+    float fixed_taper_end_kmh;
+    float assist_ramp_up_nm_per_s;        /* at the crank */
+    float assist_ramp_down_nm_per_s;
+    float pedal_torque_nm_min;
+    fuzzy_table table;
+    uint8_t fuzzy_falling_torque;         /* 0: rate held at zero, 1: no gain */
+    float assist_cutoff_kmh;
+    float assist_cutoff_band_kmh;
+    float motor_torque_nm_max;
+    float battery_current_a_max;
+    float battery_voltage_v_min;
+    float motor_speed_rpm_max;
+    float pedal_stop_s;
+    float gear_ratio;
+    float motor_torque_constant_nm_per_a;
+    float motor_resistance_ohm;
+} assist_config;
+
+typedef struct {
+    float torque_raw_counts;
+    float speed_kmh;
+    float cadence_rpm;
+    float motor_speed_rpm;
+    float battery_voltage_v;
+    uint8_t mode; /* slot 0 to 4 */
+    uint8_t brake;
+} assist_input;
+
+typedef struct {
+    float rider_torque_nm;          /* calibrated, unfiltered */
+    float rider_torque_filtered_nm; /* averaged over the stroke */
+    float torque_rate;              /* relative change over the rate interval, clamped to the table */
+    float assist_ratio;             /* gain included, before limits */
+    float fuzzy_gain;               /* NaN where the mode does not use it */
+    float motor_torque_nm;          /* demand at the motor's shaft after every limit */
+    uint16_t limit_flags;           /* bits of registry.toml limit_flags */
+} assist_output;
+
+/* What the law remembers. Zero-initialised (`assist_state s = {0};`) is a bike at rest. */
+typedef struct {
+    float torque_filtered_nm;
+    float torque_history_nm[ASSIST_RATE_HISTORY];
+    uint16_t history_length;
+    uint16_t history_next;
+    float assist_torque_nm;         /* at the crank, after the ramp */
+    float pedal_idle_s;
+} assist_state;
+
+enum { ASSIST_OK = 0, ASSIST_INPUT_REFUSED = -1, ASSIST_CONFIG_REFUSED = -2 };
+
+/* One control step. A NaN or infinite input gives zero torque, sets INPUT_REFUSED and leaves the
+ * filter as it was. Returns ASSIST_OK or ASSIST_INPUT_REFUSED; the output is valid either way. */
+int assist_step(const assist_config *config, assist_state *state, const assist_input *input,
+                assist_output *output);
+
+/* `count` steps in a row: exactly `count` calls of assist_step. Returns how many were refused. */
+size_t assist_run(const assist_config *config, assist_state *state, const assist_input *inputs,
+                  assist_output *outputs, size_t count);
+
+/* ASSIST_OK, or ASSIST_CONFIG_REFUSED if a value is not finite or out of its physical range. */
+int assist_config_check(const assist_config *config);
+
+#endif

@@ -1,0 +1,32 @@
+/* The fuzzy gain: two inputs, five sets each, 25 rules, one gain (thesis 4.6, table 4-2). */
+#ifndef SPINDLE_FUZZY_TABLE_H
+#define SPINDLE_FUZZY_TABLE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define FUZZY_SETS 5
+
+typedef enum { FUZZY_MAMDANI_CENTROID = 0, FUZZY_WEIGHTED_AVERAGE = 1 } fuzzy_inference;
+
+typedef struct {
+    float speed_points_kmh[FUZZY_SETS];   /* peaks, increasing; a left shoulder at the first */
+    float torque_rate_points[FUZZY_SETS];
+    float gain_points[FUZZY_SETS];
+    uint8_t rules[FUZZY_SETS][FUZZY_SETS]; /* [speed][torque rate], label 0 NB to 4 PB */
+    uint8_t inference;                     /* fuzzy_inference */
+} fuzzy_table;
+
+enum { FUZZY_OK = 0, FUZZY_INPUT_REFUSED = -1, FUZZY_TABLE_REFUSED = -2 };
+
+/* FUZZY_OK, or FUZZY_TABLE_REFUSED if points are not finite and increasing or a label is unknown. */
+int fuzzy_table_check(const fuzzy_table *table);
+
+/* Gain at one point, inputs clamped to the table. A non-finite input is refused and gain set to 0. */
+int fuzzy_gain(const fuzzy_table *table, float speed_kmh, float torque_rate, float *gain);
+
+/* `count` points; a refused point gives NaN. Returns how many were refused. */
+size_t fuzzy_gain_run(const fuzzy_table *table, const float *speeds_kmh, const float *torque_rates,
+                      float *gains, size_t count);
+
+#endif

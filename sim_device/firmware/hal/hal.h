@@ -1,0 +1,62 @@
+/* The only way from the firmware to the world: time, serial line, sensors, motor, flash.
+ *
+ * A board fills in the functions; each gets `context` back. Nothing here blocks. Physical values
+ * carry their unit in the name. What a board cannot measure it reports as NaN, never as zero. */
+#ifndef SPINDLE_HAL_H
+#define SPINDLE_HAL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct {
+    float torque_raw_counts;      /* signed bridge reading; the sensor word is 16 bit */
+    float sensor_temperature_degc;
+    float speed_kmh;
+    float crank_angle_deg;        /* 0 <= angle < 360, 0 with the left crank up */
+    float cadence_rpm;            /* negative when pedalling backwards */
+    float motor_speed_rpm;
+    float motor_current_a;
+    float motor_temperature_degc;
+    float battery_voltage_v;
+    float battery_current_a;
+    float battery_soc_pct;
+    uint8_t mode_selected;        /* slot chosen on the handlebar; HAL_MODE_NOT_SELECTED: none yet */
+    uint8_t brake;                /* 1 while a brake lever is pulled */
+} hal_inputs;
+
+#define HAL_MODE_NOT_SELECTED 255
+
+typedef struct {
+    void *context;
+
+    uint64_t (*now_us)(void *context); /* since boot, monotonic */
+
+    /* Serial line. read: bytes copied, 0 when there are none. write: bytes taken; a full line takes
+     * fewer. writable: bytes that write would take now. */
+    size_t (*serial_read)(void *context, uint8_t *bytes, size_t capacity);
+    size_t (*serial_write)(void *context, const uint8_t *bytes, size_t length);
+    size_t (*serial_writable)(void *context);
+
+    void (*inputs_read)(void *context, hal_inputs *inputs);
+    void (*motor_torque_set)(void *context, float motor_torque_nm);
+
+    /* Flash for configuration: erase sets a block to 0xFF, program can only clear bits.
+     * 0 on success, negative on failure. */
+    size_t flash_block_size;
+    size_t flash_size;
+    int (*flash_read)(void *context, size_t address, uint8_t *bytes, size_t length);
+    int (*flash_erase)(void *context, size_t address);
+    int (*flash_program)(void *context, size_t address, const uint8_t *bytes, size_t length);
+
+    /* Requests above service 0x70 belong to the board (a simulated unit's controls). Returns a
+     * status and fills the response; NULL where the board has none. */
+    int (*board_request)(void *context, uint16_t message_id, const uint8_t *request, size_t length,
+                         uint8_t *response, size_t capacity, size_t *response_length);
+
+    const uint8_t *uid;           /* 12 bytes */
+    uint8_t device_class;
+    uint16_t hardware_revision;
+    uint32_t boot_id;
+} hal;
+
+#endif

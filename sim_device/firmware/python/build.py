@@ -1,0 +1,61 @@
+"""Compiles the unit's C into one extension module, with the headers as the only declaration.
+
+Every public header is read as it stands: cffi compares it with the compiled code, so a wrong
+signature fails the build. Headers listed here therefore keep to plain declarations: integer
+``#define``s, enums, structs and prototypes.
+"""
+
+import re
+from pathlib import Path
+
+from cffi import FFI
+
+ROOT = Path(__file__).resolve().parents[3]
+
+SOURCE_FOLDERS = (
+    "firmware_protocol/c",
+    "sim_device/firmware/control",
+    "sim_device/firmware/app",
+    "sim_device/firmware/boards/host",
+    "sim_device/physics",
+)
+
+# In order of dependence. A header that is not here cannot be called from Python.
+HEADERS: tuple[str, ...] = ()
+
+# Without contraction and fast-math the host and a Cortex-M4F agree to the bit (ADR 1).
+COMPILE_ARGUMENTS = ["-std=c99", "-O2", "-ffp-contract=off", "-fno-math-errno"]
+
+
+def declarations(header: str) -> str:
+    """The header's text without what cffi cannot read: comments and preprocessor lines."""
+    text = re.sub(r"/\*.*?\*/", " ", (ROOT / header).read_text(encoding="utf-8"), flags=re.S)
+    text = re.sub(r"//[^\n]*", "", text)
+    kept = []
+    for line in text.splitlines():
+        if not line.lstrip().startswith("#"):
+            kept.append(line)
+        elif re.match(r"\s*#define\s+\w+\s+(0x[0-9a-fA-F]+|\d+)u?\s*$", line):
+            kept.append(re.sub(r"u\s*$", "", line))
+    return "\n".join(kept)
+
+
+def sources() -> list[str]:
+    """Every C file that belongs to the host build, relative to the project's root."""
+    return [
+        str(path.relative_to(ROOT))
+        for folder in SOURCE_FOLDERS
+        for path in sorted((ROOT / folder).glob("*.c"))
+        if not path.name.startswith("main_")
+    ]
+
+
+ffibuilder = FFI()
+ffibuilder.cdef("\n".join(declarations(header) for header in HEADERS))
+ffibuilder.set_source(
+    "sim_device.firmware.python._native",
+    "\n".join(f'#include "{Path(header).name}"' for header in HEADERS),
+    sources=sources(),
+    include_dirs=[*SOURCE_FOLDERS, "sim_device/firmware/hal"],
+    extra_compile_args=COMPILE_ARGUMENTS,
+)
