@@ -1,0 +1,161 @@
+"""The errors of the backend. A message says what, on which port or ride, and what to do.
+
+SpindleError
+├── LinkError                the port: absent, busy, vanished
+│   └── NoAnswer             the unit is connected but silent; nothing is known to have changed
+├── PeerProtocolError        the unit broke the protocol
+├── OurProtocolError         we broke it: a bug of ours
+├── DeviceRefused            the unit answered with a status other than OK
+├── RequestRefused           we or the unit said no, and nothing changed
+│   ├── InvalidRequest       the values make no sense
+│   ├── LimitViolation       a value is outside what the parameter allows; each is named
+│   ├── ConfigConflict       somebody else changed the configuration first
+│   ├── AccessDenied         the parameter needs a higher access level
+│   ├── NotStandingStill     the wheel or the motor still turns
+│   ├── Conflict             the thing is not in a state that allows this
+│   └── NotFound             no such device, ride, upload or port
+├── BadFile                  a log that cannot be read; says where and what could be saved
+└── StoreError               the database or the object store
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class FieldError:
+    """One field at fault.
+
+    field: the name in the request or of the parameter, with indices (`fuzzy_rules[2][0]`).
+    code: lower-case word for programs (`above_max`).
+    message: sentence for people, with the value, the bounds and the unit.
+    """
+
+    field: str
+    code: str
+    message: str
+
+
+class SpindleError(Exception):
+    """Anything that is the world's fault rather than ours.
+
+    message: what, where, what to do. code: lower-case word for programs; the class has a default.
+    fields: every field at fault, so that a form can mark them all at once.
+    """
+
+    default_code = "error"
+
+    def __init__(
+        self, message: str, code: str | None = None, fields: Iterable[FieldError] = ()
+    ) -> None:
+        super().__init__(message)
+        self.message = message
+        self.code = code or self.default_code
+        self.fields = tuple(fields)
+
+
+class LinkError(SpindleError):
+    """The port is absent, busy or vanished."""
+
+    default_code = "link"
+
+
+class NoAnswer(LinkError):
+    """The unit stayed silent until the deadline."""
+
+    default_code = "no_answer"
+
+
+class PeerProtocolError(SpindleError):
+    """The unit sent what the protocol does not allow."""
+
+    default_code = "peer_protocol"
+
+
+class OurProtocolError(SpindleError):
+    """We asked for what the protocol does not allow: a bug of ours."""
+
+    default_code = "our_protocol"
+
+
+class DeviceRefused(SpindleError):
+    """The unit answered with a status other than OK.
+
+    status: name of the protocol's status (`RANGE`). detail: the number that came with it.
+    """
+
+    default_code = "device_refused"
+
+    def __init__(
+        self,
+        message: str,
+        status: str = "",
+        detail: int = 0,
+        code: str | None = None,
+        fields: Iterable[FieldError] = (),
+    ) -> None:
+        super().__init__(message, code or (status.lower() or None), fields)
+        self.status = status
+        self.detail = detail
+
+
+class RequestRefused(SpindleError):
+    """We or the unit said no, and nothing changed."""
+
+    default_code = "refused"
+
+
+class InvalidRequest(RequestRefused):
+    """The values make no sense together or on their own."""
+
+    default_code = "invalid"
+
+
+class LimitViolation(RequestRefused):
+    """At least one value is outside what its parameter allows."""
+
+    default_code = "out_of_range"
+
+
+class ConfigConflict(RequestRefused):
+    """The configuration is no longer the one the change was made for."""
+
+    default_code = "config_changed"
+
+
+class AccessDenied(RequestRefused):
+    """The parameter needs a higher access level or a token."""
+
+    default_code = "access_denied"
+
+
+class NotStandingStill(RequestRefused):
+    """The wheel or the motor turns, and this needs them at rest."""
+
+    default_code = "not_standing_still"
+
+
+class Conflict(RequestRefused):
+    """The thing is not in a state that allows this."""
+
+    default_code = "conflict"
+
+
+class NotFound(RequestRefused):
+    """No such device, ride, upload or port."""
+
+    default_code = "not_found"
+
+
+class BadFile(SpindleError):
+    """A log that cannot be read at all; the message says where it breaks and why."""
+
+    default_code = "bad_file"
+
+
+class StoreError(SpindleError):
+    """The database or the object store failed; the message names which and what was not saved."""
+
+    default_code = "store"
