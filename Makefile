@@ -1,11 +1,112 @@
-# `make help` lists what there is. Everything installs itself: a fresh machine needs Python 3.11,
+# `make help` lists what there is. Everything installs itself; a fresh machine needs Python 3.11,
 # Node 20 and a C compiler.
 
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+STAMP := .make
 export PYTHONDONTWRITEBYTECODE = 1
 
+C_SOURCES := $(wildcard firmware_protocol/c/*.[ch] sim_device/firmware/*/*.[ch] \
+	sim_device/firmware/boards/host/*.[ch] sim_device/physics/*.[ch])
+WEB_SOURCES := $(shell find frontend -type f -not -path '*/node_modules/*' -not -path '*/dist/*')
+
+.PHONY: help
+help: ## what can be made
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
+
+.PHONY: run
+run: setup ## start Spindle with one simulated drive unit; Ctrl-C stops all of it
+	@exec $(BIN)/spindle serve
+
+.PHONY: sim
+sim: setup ## a simulated drive unit alone, on tcp port 7500
+	@exec $(BIN)/spindle sim --tcp 7500
+
+.PHONY: setup
+setup: $(STAMP)/native $(STAMP)/web ## install and build everything, start nothing
+
+.PHONY: test
+test: setup $(STAMP)/chromium lint ## every test there is, a real browser included
+	$(BIN)/pytest
+
+.PHONY: test-fast
+test-fast: $(STAMP)/native ## unit and conformance tests
+	$(BIN)/pytest tests/unit tests/conformance tests/architecture
+
+.PHONY: lint
+lint: $(STAMP)/native $(STAMP)/web-modules ## all static checks, Python, C and browser
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	.ci/lint-c
+	cd frontend && npm run --silent lint && npm run --silent check
+
+.PHONY: fix
+fix: $(STAMP)/python ## format, and mend what the linters can
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+.PHONY: gen
+gen: $(STAMP)/native $(STAMP)/web-modules ## regenerate everything that comes from the registry and the API
+	$(BIN)/python -m firmware_protocol.generate
+	cd frontend && npm run --silent gen
+
+.PHONY: bench
+bench: setup $(STAMP)/rivals ## ratios against named rivals in one run, into docs/benchmarks.md
+	$(BIN)/python -m tests.bench
+
+.PHONY: lock
+lock: $(STAMP)/python ## pin versions and hashes again, without registry addresses
+	$(BIN)/uv pip compile -q pyproject.toml --universal --generate-hashes --no-emit-index-url \
+		--no-header --all-extras -o requirements.lock
+	$(BIN)/uv pip compile -q build.in --universal --generate-hashes --no-emit-index-url \
+		--no-header -o build.lock
+	$(BIN)/uv pip compile -q tests/bench/rivals.in --universal --generate-hashes \
+		--no-emit-index-url --no-header -o tests/bench/rivals.lock
+
 .PHONY: native
-native: ## the C extension, rebuilt in place
+native: $(STAMP)/python ## the C extension, rebuilt in place
 	$(BIN)/python setup.py -q build_ext --inplace
+
+.PHONY: clean
+clean: ## everything built or installed here; rides in data/ stay
+	rm -rf $(VENV) $(STAMP) build *.egg-info frontend/node_modules frontend/dist test-results
+	find sim_device -name '*.so' -delete
+
+.PHONY: ci
+ci: test ## what the delivery is checked with
+
+# ---------------------------------------------------------------- steps behind the targets above
+
+# uv is taken from the lock as well: one pip call, then everything else in seconds.
+$(STAMP)/python: requirements.lock build.lock pyproject.toml setup.py
+	@mkdir -p $(STAMP)
+	@.ci/check-machine $(PYTHON)
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install -q --disable-pip-version-check --require-hashes --no-deps -r build.lock
+	$(BIN)/uv pip sync -q --require-hashes requirements.lock build.lock
+	@touch $@
+
+$(STAMP)/native: $(STAMP)/python $(C_SOURCES) sim_device/firmware/python/build.py
+	$(BIN)/uv pip install -q --no-build-isolation --no-deps -e .
+	@touch $@
+
+$(STAMP)/web-modules: frontend/package-lock.json
+	@mkdir -p $(STAMP)
+	cd frontend && npm ci --no-audit --no-fund --loglevel=error
+	@touch $@
+
+$(STAMP)/web: $(STAMP)/web-modules $(WEB_SOURCES)
+	cd frontend && npm run --silent build
+	@touch $@
+
+$(STAMP)/chromium: $(STAMP)/python
+	.ci/ensure-chromium $(BIN)
+	@touch $@
+
+$(STAMP)/rivals: tests/bench/rivals.lock $(STAMP)/python
+	$(BIN)/uv venv -q --clear $(STAMP)/rivals-venv
+	$(BIN)/uv pip sync -q --python $(STAMP)/rivals-venv/bin/python --require-hashes tests/bench/rivals.lock
+	@touch $@
