@@ -1,0 +1,92 @@
+/* Byte by byte, so that neither alignment nor the host's byte order matters. */
+#include "ebl_bytes.h"
+
+#include <string.h>
+
+uint8_t ebl_get_u8(const uint8_t *bytes)
+{
+    return bytes[0];
+}
+
+uint16_t ebl_get_u16(const uint8_t *bytes)
+{
+    return (uint16_t)(bytes[0] | (bytes[1] << 8));
+}
+
+uint32_t ebl_get_u32(const uint8_t *bytes)
+{
+    return (uint32_t)ebl_get_u16(bytes) | ((uint32_t)ebl_get_u16(bytes + 2) << 16);
+}
+
+uint64_t ebl_get_u64(const uint8_t *bytes)
+{
+    return (uint64_t)ebl_get_u32(bytes) | ((uint64_t)ebl_get_u32(bytes + 4) << 32);
+}
+
+int16_t ebl_get_i16(const uint8_t *bytes)
+{
+    uint16_t bits = ebl_get_u16(bytes);
+    int16_t value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+int32_t ebl_get_i32(const uint8_t *bytes)
+{
+    uint32_t bits = ebl_get_u32(bytes);
+    int32_t value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+float ebl_get_f32(const uint8_t *bytes)
+{
+    uint32_t bits = ebl_get_u32(bytes);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+void ebl_put_u8(uint8_t *bytes, uint8_t value)
+{
+    bytes[0] = value;
+}
+
+void ebl_put_u16(uint8_t *bytes, uint16_t value)
+{
+    bytes[0] = (uint8_t)(value & 0xffu);
+    bytes[1] = (uint8_t)(value >> 8);
+}
+
+void ebl_put_u32(uint8_t *bytes, uint32_t value)
+{
+    ebl_put_u16(bytes, (uint16_t)(value & 0xffffu));
+    ebl_put_u16(bytes + 2, (uint16_t)(value >> 16));
+}
+
+void ebl_put_u64(uint8_t *bytes, uint64_t value)
+{
+    ebl_put_u32(bytes, (uint32_t)(value & 0xffffffffu));
+    ebl_put_u32(bytes + 4, (uint32_t)(value >> 32));
+}
+
+void ebl_put_i16(uint8_t *bytes, int16_t value)
+{
+    uint16_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    ebl_put_u16(bytes, bits);
+}
+
+void ebl_put_i32(uint8_t *bytes, int32_t value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    ebl_put_u32(bytes, bits);
+}
+
+void ebl_put_f32(uint8_t *bytes, float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    ebl_put_u32(bytes, bits);
+}

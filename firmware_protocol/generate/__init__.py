@@ -1,0 +1,1 @@
+"""Turns registry.toml into C, Python, TypeScript and the tables of SPEC.md."""

@@ -1,0 +1,161 @@
+"""ebl_registry.h: everything the firmware and the simulator include, in plain declarations."""
+
+from firmware_protocol.generate.c_names import (
+    NOTICE,
+    config_member,
+    enum_prefix,
+    layouts,
+    member,
+)
+from firmware_protocol.generate.registry import Registry
+
+TYPES = """\
+typedef struct {
+    uint16_t id;
+    uint16_t request_length;  /* of the fixed fields: the shortest payload that is accepted */
+    uint16_t response_length; /* the same, after the status byte */
+} ebl_message;
+
+typedef enum { EBL_TYPE_U8 = 0, EBL_TYPE_U16 = 1, EBL_TYPE_F32 = 2, EBL_TYPE_TEXT = 3 } ebl_type;
+
+enum {
+    EBL_PARAMETER_INCREASING = 1, /* each element is greater than the one before */
+    EBL_PARAMETER_CHOICE = 2      /* an enumeration: 0 to max */
+};
+
+typedef struct {
+    uint16_t id;
+    uint16_t image_offset; /* bytes from the start of the image */
+    uint8_t type;          /* ebl_type */
+    uint8_t count;         /* elements */
+    uint8_t length;        /* bytes of one element */
+    uint8_t access;        /* ebl_access */
+    uint8_t flags;
+    float min;             /* no meaning for texts */
+    float max;
+} ebl_parameter;
+
+/* The value of `low` must be less than that of `high`; both are single floats. */
+typedef struct {
+    uint16_t low_offset;
+    uint16_t high_offset;
+    uint16_t high_id;
+    uint8_t violation; /* ebl_violation */
+} ebl_order;
+
+typedef struct {
+    uint8_t id;
+    float scale; /* value = count * scale */
+} ebl_channel;
+"""
+
+CALLS = """\
+extern const ebl_message ebl_messages[EBL_MESSAGE_COUNT];
+extern const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT]; /* in the order of their ids */
+extern const ebl_order ebl_orders[EBL_ORDER_COUNT];
+extern const ebl_channel ebl_channels[EBL_CHANNEL_COUNT];       /* in the order of their ids */
+
+extern const uint8_t ebl_schema_hash[EBL_SCHEMA_HASH_LENGTH];
+extern const uint8_t ebl_schema[EBL_SCHEMA_LENGTH]; /* zlib */
+
+/* NULL where the id is unknown. */
+const ebl_message *ebl_message_find(uint16_t id);
+const ebl_parameter *ebl_parameter_find(uint16_t id);
+const ebl_channel *ebl_channel_find(uint8_t id);
+
+/* The typed configuration and its image of EBL_IMAGE_LENGTH bytes. Neither checks values. */
+void ebl_config_default(ebl_config *config);
+void ebl_config_pack(const ebl_config *config, uint8_t *image);
+void ebl_config_unpack(ebl_config *config, const uint8_t *image);
+"""
+
+
+def header(registry: Registry, schema_length: int) -> str:
+    """The text of ebl_registry.h."""
+    lines = [
+        NOTICE,
+        "#ifndef SPINDLE_EBL_REGISTRY_H",
+        "#define SPINDLE_EBL_REGISTRY_H",
+        "",
+        "#include <stddef.h>",
+        "#include <stdint.h>",
+        "",
+        *_numbers(registry, schema_length),
+        "",
+        "enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */",
+        "",
+        *_enums(registry),
+        TYPES,
+        *_config(registry),
+        CALLS,
+        *_structs(registry),
+        "#endif",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _numbers(registry: Registry, schema_length: int) -> list[str]:
+    numbers = {
+        "MAJOR": registry.protocol["major"],
+        "MINOR": registry.protocol["minor"],
+        "MTU_BEFORE_HELLO": registry.protocol["mtu_before_hello"],
+        "MTU": registry.protocol["mtu"],
+        "MAX_OUTSTANDING": registry.protocol["max_outstanding"],
+        "CONTROL_PERIOD_US": registry.protocol["control_period_us"],
+        "IMAGE_LENGTH": registry.image_length,
+        "MESSAGE_COUNT": len(registry.messages),
+        "PARAMETER_COUNT": len(registry.parameters),
+        "ORDER_COUNT": len(registry.orders),
+        "CHANNEL_COUNT": len(registry.channels),
+        "SCHEMA_HASH_LENGTH": 8,
+        "SCHEMA_LENGTH": schema_length,
+    }
+    return [f"#define EBL_{name} {value}" for name, value in numbers.items()]
+
+
+def _enums(registry: Registry) -> list[str]:
+    lines = []
+    for table in registry.enums:
+        lines += [f"/* {table.doc} */", "typedef enum {"]
+        prefix = enum_prefix(table)
+        lines += [f"    {prefix}_{name} = {value}," for name, value in table.members.items()]
+        lines += [f"}} ebl_{table.name};", ""]
+    for table in registry.flags:
+        lines += [f"/* {table.doc} */", "enum {"]
+        prefix = enum_prefix(table)
+        lines += [f"    {prefix}_{name} = {1 << bit}," for name, bit in table.members.items()]
+        lines += ["};", ""]
+    lines += ["enum {"]
+    lines += [f"    EBL_MSG_{row.name} = 0x{row.id:04x}," for row in registry.messages]
+    lines += ["};", "", "enum {"]
+    lines += [
+        f"    EBL_PARAMETER_{row.name.upper()} = 0x{row.id:04x}," for row in registry.parameters
+    ]
+    lines += ["};", "", "enum {"]
+    lines += [f"    EBL_CHANNEL_{row.name.upper()} = {row.id}," for row in registry.channels]
+    return [*lines, "};", ""]
+
+
+def _config(registry: Registry) -> list[str]:
+    members = [f"    {config_member(parameter)}" for parameter in registry.parameters]
+    return ["typedef struct {", *members, "} ebl_config;", ""]
+
+
+def _structs(registry: Registry) -> list[str]:
+    lines = [
+        "/* Messages. get: EBL_OK, or EBL_ERROR_LENGTH if a field is missing; a tail points into",
+        " * `bytes`. put: EBL_OK and the length, or EBL_ERROR_SPACE. A response's bytes start",
+        " * after the status; an event's after code and time. */",
+    ]
+    for name, layout in layouts(registry):
+        upper = name.upper()
+        lines += [f"#define {upper}_LENGTH {layout.length}", "typedef struct {"]
+        lines += [f"    {text}" for field in layout.fields for text in member(field)]
+        lines += [
+            f"}} {name};",
+            f"int {name}_get({name} *message, const uint8_t *bytes, size_t length);",
+            f"int {name}_put(const {name} *message, uint8_t *bytes, size_t capacity,",
+            f"    {' ' * len(name)}    size_t *length);",
+            "",
+        ]
+    return lines

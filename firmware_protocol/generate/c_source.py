@@ -1,0 +1,198 @@
+"""ebl_registry.c, ebl_messages.c and ebl_schema.c: tables, and explicit little-endian copies."""
+
+from firmware_protocol.generate.c_names import NOTICE, float_literal, layouts, size
+from firmware_protocol.generate.registry import Layout, Registry
+from firmware_protocol.layout import Field, Parameter
+
+FIND = """\
+const ebl_{row} *ebl_{row}_find({type} id)
+{{
+    for (size_t at = 0; at < EBL_{upper}_COUNT; at++) {{
+        if (ebl_{row}s[at].id == id) {{
+            return &ebl_{row}s[at];
+        }}
+    }}
+    return NULL;
+}}
+"""
+
+
+def registry_source(registry: Registry) -> str:
+    """The text of ebl_registry.c."""
+    lines = [NOTICE, '#include "ebl_registry.h"', "", "#include <string.h>", ""]
+    lines += ['#include "ebl_bytes.h" // ebl_get_f32, ebl_put_f32', ""]
+    lines += ["const ebl_message ebl_messages[EBL_MESSAGE_COUNT] = {"]
+    lines += [
+        f"    {{0x{row.id:04x}, {row.request.length}, {row.response.length}}},"
+        for row in registry.messages
+    ]
+    lines += ["};", "", "const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT] = {"]
+    lines += [_parameter_row(registry, parameter) for parameter in registry.parameters]
+    lines += ["};", "", "const ebl_order ebl_orders[EBL_ORDER_COUNT] = {"]
+    rows = {parameter.name: parameter for parameter in registry.parameters}
+    for order in registry.orders:
+        low, high = rows[order.low], rows[order.high]
+        lines += [
+            f"    {{{low.image_offset}, {high.image_offset}, 0x{high.id:04x},"
+            f" EBL_VIOLATION_{order.violation}}},"
+        ]
+    lines += ["};", "", "const ebl_channel ebl_channels[EBL_CHANNEL_COUNT] = {"]
+    lines += [f"    {{{row.id}, {float_literal(row.scale)}}}," for row in registry.channels]
+    lines += ["};", ""]
+    for row, kind in (("message", "uint16_t"), ("parameter", "uint16_t"), ("channel", "uint8_t")):
+        lines += [FIND.format(row=row, type=kind, upper=row.upper())]
+    lines += [*_config_default(registry), "", *_config_copies(registry)]
+    return "\n".join(lines) + "\n"
+
+
+def _parameter_row(registry: Registry, parameter: Parameter) -> str:
+    low, high = parameter.min or 0.0, parameter.max or 0.0
+    if parameter.enum is not None:
+        high = max(registry.enum(parameter.enum).members.values())
+    flags = int(parameter.increasing) + 2 * int(parameter.enum is not None)
+    access = next(n for n, v in registry.enum("access").members.items() if v == parameter.access)
+    return (
+        f"    {{0x{parameter.id:04x}, {parameter.image_offset}, EBL_TYPE_{parameter.type.upper()},"
+        f" {parameter.count}, {parameter.length}, EBL_ACCESS_{access}, {flags},\n"
+        f"     {float_literal(low)}, {float_literal(high)}}}, /* {parameter.name} */"
+    )
+
+
+def _config_default(registry: Registry) -> list[str]:
+    lines = ["void ebl_config_default(ebl_config *config)", "{"]
+    lines += ["    static const ebl_config factory = {"]
+    for parameter in registry.parameters:
+        lines.append(f"        .{parameter.name} = {_initialiser(registry, parameter)},")
+    return [*lines, "    };", "    *config = factory;", "}"]
+
+
+def _initialiser(registry: Registry, parameter: Parameter) -> str:
+    choices = registry.enum(parameter.enum).members if parameter.enum else {}
+
+    def text(value: object) -> str:
+        if isinstance(value, tuple):
+            return "{" + ", ".join(text(item) for item in value) + "}"
+        if isinstance(value, str):
+            return (
+                f"EBL_{parameter.enum.upper()}_{value}"
+                if value in choices and parameter.enum
+                else '"' + value + '"'
+            )
+        return float_literal(float(str(value))) if parameter.type == "f32" else str(value)
+
+    if len(parameter.shape) < 2:
+        return text(parameter.default)
+    rows = ",\n            ".join(text(row) for row in _rows(parameter))
+    return "{\n            " + rows + "}"
+
+
+def _rows(parameter: Parameter) -> tuple[object, ...]:
+    assert isinstance(parameter.default, tuple)
+    return parameter.default
+
+
+def _config_copies(registry: Registry) -> list[str]:
+    pack = ["void ebl_config_pack(const ebl_config *config, uint8_t *image)", "{"]
+    unpack = ["void ebl_config_unpack(ebl_config *config, const uint8_t *image)", "{"]
+    for parameter in registry.parameters:
+        at = f"image + {parameter.image_offset}"
+        name = f"config->{parameter.name}"
+        kind, count = parameter.type, parameter.count
+        if kind in ("u8", "text") and parameter.size > 1:
+            pack.append(f"    memcpy({at}, {name}, {parameter.size});")
+            unpack.append(f"    memcpy({name}, {at}, {parameter.size});")
+        elif count > 1:
+            loop = f"    for (size_t i = 0; i < {count}; i++) {{"
+            step = f"{at} + {parameter.length} * i"
+            pack += [loop, f"        ebl_put_{kind}({step}, {name}[i]);", "    }"]
+            unpack += [loop, f"        {name}[i] = ebl_get_{kind}({step});", "    }"]
+        else:
+            pack.append(f"    ebl_put_{kind}({at}, {name});")
+            unpack.append(f"    {name} = ebl_get_{kind}({at});")
+    return [*pack, "}", "", *unpack, "}"]
+
+
+def messages_source(registry: Registry) -> str:
+    """The text of ebl_messages.c."""
+    lines = [NOTICE, '#include "ebl_registry.h"', "", "#include <string.h>", ""]
+    lines += ['#include "ebl_bytes.h" // ebl_get_u16, ebl_put_u16, EBL_OK', ""]
+    for name, layout in layouts(registry):
+        lines += [*_get(name, layout), "", *_put(name, layout), ""]
+    return "\n".join(lines[:-1]) + "\n"
+
+
+def _get(name: str, layout: Layout) -> list[str]:
+    lines = [f"int {name}_get({name} *message, const uint8_t *bytes, size_t length)", "{"]
+    if layout.length:
+        lines += [
+            f"    if (length < {layout.length}) {{",
+            "        return EBL_ERROR_LENGTH;",
+            "    }",
+        ]
+    at = 0
+    for field in layout.fields:
+        target, source = f"message->{field.name}", f"bytes + {at}"
+        if field.type == "bytes":
+            lines += [f"    {target} = {source};", f"    {target}_length = length - {at};"]
+            break
+        lines += _copy(field, f"{target} = ebl_get_{field.type}({{}});", target, source, source)
+        at += size(field)
+    return [*lines, "    return EBL_OK;", "}"]
+
+
+def _put(name: str, layout: Layout) -> list[str]:
+    lines = [
+        f"int {name}_put(const {name} *message, uint8_t *bytes, size_t capacity,",
+        f"    {' ' * len(name)}    size_t *length)",
+        "{",
+    ]
+    total = f"{layout.length}"
+    if layout.has_tail:
+        tail = f"message->{layout.fields[-1].name}_length"
+        lines += [f"    if (capacity < {total} || capacity - {total} < {tail}) {{"]
+        if not layout.length:
+            lines[-1] = f"    if (capacity < {tail}) {{"
+        total = f"{total} + {tail}"
+    else:
+        lines += [f"    if (capacity < {total}) {{"]
+    lines += ["        return EBL_ERROR_SPACE;", "    }"]
+    at = 0
+    for field in layout.fields:
+        source, target = f"message->{field.name}", f"bytes + {at}"
+        if field.type == "bytes":
+            lines += [f"    if ({source}_length > 0) {{"]
+            lines += [f"        memcpy({target}, {source}, {source}_length);", "    }"]
+            break
+        call = f"ebl_put_{field.type}({{}}, {source}" + ");"
+        lines += _copy(field, call, target, source, target)
+        at += size(field)
+    return [*lines, f"    *length = {total};", "    return EBL_OK;", "}"]
+
+
+def _copy(field: Field, call: str, target: str, source: str, bytes_at: str) -> list[str]:
+    """One field: a call, a memcpy for bytes, or a loop for an array of wider numbers."""
+    if field.count == 1:
+        return ["    " + call.format(bytes_at)]
+    if field.type == "u8":
+        return [f"    memcpy({target}, {source}, {field.count});"]
+    element = f"message->{field.name}"
+    step = call.format(f"{bytes_at} + {size(field) // field.count} * i")
+    return [
+        f"    for (size_t i = 0; i < {field.count}; i++) {{",
+        "        " + step.replace(element, element + "[i]"),
+        "    }",
+    ]
+
+
+def schema_source(compressed: bytes, schema_hash: bytes) -> str:
+    """The text of ebl_schema.c."""
+    lines = [NOTICE, '#include "ebl_registry.h"', ""]
+    for name, size_name, data in (
+        ("ebl_schema_hash", "EBL_SCHEMA_HASH_LENGTH", schema_hash),
+        ("ebl_schema", "EBL_SCHEMA_LENGTH", compressed),
+    ):
+        lines += [f"const uint8_t {name}[{size_name}] = {{"]
+        for at in range(0, len(data), 16):
+            lines.append("    " + ", ".join(f"0x{byte:02x}" for byte in data[at : at + 16]) + ",")
+        lines += ["};", ""]
+    return "\n".join(lines[:-1]) + "\n"

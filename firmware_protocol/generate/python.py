@@ -1,0 +1,147 @@
+"""_generated.py: IntEnums, message classes and the tables, as plain typed Python."""
+
+from firmware_protocol.generate.registry import Layout, Registry, Table
+from firmware_protocol.layout import Channel, Field, Parameter
+
+NOTICE = '"""Generated from registry.toml by `make gen`; change the registry, not this file."""'
+
+
+def camel(name: str) -> str:
+    """`CfgBegin` for CFG_BEGIN and `DeviceClass` for device_class."""
+    return "".join(part.capitalize() for part in name.split("_"))
+
+
+def module(registry: Registry, schema_hash: bytes) -> str:
+    """The text of _generated.py."""
+    parts = [
+        NOTICE,
+        "",
+        "from dataclasses import dataclass",
+        "from enum import IntEnum, IntFlag",
+        "from typing import ClassVar",
+        "",
+        "from firmware_protocol.layout import Channel, Field, Message, Order, Parameter",
+        "",
+        *_numbers(registry, schema_hash),
+        "",
+        *[line for table in registry.enums for line in _enum(table, "IntEnum")],
+        *[line for table in registry.flags for line in _enum(table, "IntFlag")],
+        *_message_ids(registry),
+        *_messages(registry),
+        *_tables(registry),
+    ]
+    return "\n".join(parts) + "\n"
+
+
+def _numbers(registry: Registry, schema_hash: bytes) -> list[str]:
+    names = ("major", "minor", "mtu_before_hello", "mtu", "max_outstanding", "control_period_us")
+    lines = [f"{name.upper()} = {registry.protocol[name]}" for name in names]
+    return [
+        *lines,
+        f"IMAGE_LENGTH = {registry.image_length}",
+        f'SCHEMA_HASH = bytes.fromhex("{schema_hash.hex()}")',
+        "",
+    ]
+
+
+def _enum(table: Table, base: str) -> list[str]:
+    members = [
+        f"    {name} = {1 << value if base == 'IntFlag' else value}"
+        for name, value in table.members.items()
+    ]
+    return [f"class {camel(table.name)}({base}):", f'    """{table.doc}"""', "", *members, "", ""]
+
+
+def _message_ids(registry: Registry) -> list[str]:
+    members = [f"    {row.name} = 0x{row.id:04X}" for row in registry.messages]
+    doc = '    """Service in the high byte, operation in the low byte."""'
+    return ["class MessageId(IntEnum):", doc, "", *members, "", ""]
+
+
+def _messages(registry: Registry) -> list[str]:
+    lines = []
+    for row in registry.messages:
+        for suffix, layout in (("Request", row.request), ("Response", row.response)):
+            identity = f"    MESSAGE_ID: ClassVar[MessageId] = MessageId.{row.name}"
+            lines += _class(f"{camel(row.name)}{suffix}", row.doc, identity, layout)
+    for name, layout in registry.events:
+        identity = f"    CODE: ClassVar[Event] = Event.{name}"
+        lines += _class(f"{camel(name)}Event", f"Fields of the event {name}.", identity, layout)
+    return lines
+
+
+def _class(name: str, doc: str, identity: str, layout: Layout) -> list[str]:
+    fields = [f"        {_field(field)}," for field in layout.fields]
+    lines = [
+        "@dataclass(frozen=True, slots=True)",
+        f"class {name}(Message):",
+        f'    """{doc}"""',
+        "",
+    ]
+    lines += [identity]
+    if fields:
+        lines += ["    LAYOUT: ClassVar[tuple[Field, ...]] = (", *fields, "    )"]
+        lines += [f"    LENGTH: ClassVar[int] = {layout.length}", ""]
+        lines += [f"    {field.name}: {_annotation(field)}" for field in layout.fields]
+    return [*lines, "", ""]
+
+
+def _field(field: Field) -> str:
+    count = f", {field.count}" if field.count > 1 else ""
+    return f'Field("{field.name}", "{field.type}"{count})'
+
+
+def _annotation(field: Field) -> str:
+    if field.type == "bytes" or (field.type == "u8" and field.count > 1):
+        return "bytes"
+    plain = "float" if field.type == "f32" else "int"
+    if field.count > 1:
+        return "tuple[" + ", ".join([plain] * field.count) + "]"
+    return plain
+
+
+def _tables(registry: Registry) -> list[str]:
+    lines = []
+    for suffix in ("Request", "Response"):
+        kind = f"{suffix.upper()}_BY_ID: dict[int, type[Message]]"
+        lines += [f"{kind} = {{"]
+        lines += [f"    0x{row.id:04X}: {camel(row.name)}{suffix}," for row in registry.messages]
+        lines += ["}", ""]
+    lines += ["EVENT_BY_CODE: dict[int, type[Message]] = {"]
+    lines += [f"    Event.{name}: {camel(name)}Event," for name, _ in registry.events]
+    lines += ["}", "", "ENUM_BY_NAME: dict[str, type[IntEnum]] = {"]
+    lines += [f'    "{table.name}": {camel(table.name)},' for table in registry.enums]
+    lines += ["}", "", "PARAMETERS: tuple[Parameter, ...] = ("]
+    for parameter in registry.parameters:
+        lines += _parameter(parameter)
+    lines += [")", "PARAMETER_BY_NAME = {parameter.name: parameter for parameter in PARAMETERS}"]
+    lines += ["PARAMETER_BY_ID = {parameter.id: parameter for parameter in PARAMETERS}", ""]
+    lines += ["ORDERS: tuple[Order, ...] = ("]
+    lines += [f'    Order("{o.low}", "{o.high}", "{o.violation}"),' for o in registry.orders]
+    lines += [")", "", "CHANNELS: tuple[Channel, ...] = ("]
+    lines += [f"    {_channel(channel)}," for channel in registry.channels]
+    lines += [")", "CHANNEL_BY_NAME = {channel.name: channel for channel in CHANNELS}"]
+    return [*lines, "CHANNEL_BY_ID = {channel.id: channel for channel in CHANNELS}"]
+
+
+def _quoted(text: str | None) -> str:
+    return "None" if text is None else '"' + text.replace('"', '\\"') + '"'
+
+
+def _parameter(row: Parameter) -> list[str]:
+    default = repr(row.default).replace("'", '"')
+    return [
+        "    Parameter(",
+        f"        id=0x{row.id:04X}, name={_quoted(row.name)}, group={_quoted(row.group)},",
+        f"        type={_quoted(row.type)}, unit={_quoted(row.unit)}, shape={row.shape!r},",
+        f"        length={row.length}, min={row.min}, max={row.max}, enum={_quoted(row.enum)},",
+        f"        increasing={row.increasing}, access={row.access},"
+        f" image_offset={row.image_offset},",
+        f"        default={default},",
+        f"        doc={_quoted(row.doc)},",
+        "    ),",
+    ]
+
+
+def _channel(row: Channel) -> str:
+    return f'Channel({row.id}, "{row.name}", "{row.unit}", {row.scale}, {_quoted(row.doc)})'

@@ -1,0 +1,143 @@
+"""The shapes the generated tables are made of: a message, a parameter, a channel.
+
+Pure data and the one generic way between a message and its bytes, so that the generated file
+holds nothing but facts from the registry.
+"""
+
+import struct
+from dataclasses import dataclass
+from typing import Any, ClassVar, Literal, Self, TypeAlias
+
+Value: TypeAlias = "float | int | str | list[Value]"
+"""A parameter in a configuration: a number, a text, an enum member's name, or nested lists."""
+
+Default: TypeAlias = "float | int | str | tuple[Default, ...]"
+ParameterType: TypeAlias = Literal["f32", "u8", "u16", "text"]
+
+STRUCT_CODES = {"u8": "B", "u16": "H", "u32": "I", "u64": "Q", "i16": "h", "i32": "i", "f32": "f"}
+MISSING = -32768
+"""The telemetry count that stands for no value."""
+
+
+class ShortPayload(ValueError):
+    """A payload ends before the last field its message must have."""
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """One field of a message: its name, its type, and how many (1 for a plain value)."""
+
+    name: str
+    type: str
+    count: int = 1
+
+
+class Message:
+    """Base of every generated message: fields in the order of the wire, little-endian.
+
+    A `u8` array is `bytes`; any other array a tuple; a last field of type `bytes` takes the rest.
+    """
+
+    __slots__ = ()
+    LAYOUT: ClassVar[tuple[Field, ...]] = ()
+    LENGTH: ClassVar[int] = 0
+    """Bytes of the fixed fields: the shortest payload that is accepted."""
+
+    @classmethod
+    def from_bytes(cls, payload: bytes) -> Self:
+        """The message in `payload`. Longer payloads come from a newer minor and are accepted.
+
+        Raises ShortPayload if a field is missing.
+        """
+        if len(payload) < cls.LENGTH:
+            raise ShortPayload(f"{cls.__name__} needs {cls.LENGTH} bytes, got {len(payload)}")
+        values: list[Any] = []
+        at = 0
+        for field in cls.LAYOUT:
+            if field.type == "bytes":
+                values.append(bytes(payload[at:]))
+                break
+            code = "<" + (f"{field.count}" if field.count > 1 else "") + STRUCT_CODES[field.type]
+            size = struct.calcsize(code)
+            if field.type == "u8" and field.count > 1:
+                values.append(bytes(payload[at : at + size]))
+            else:
+                numbers = struct.unpack_from(code, payload, at)
+                values.append(numbers if field.count > 1 else numbers[0])
+            at += size
+        return cls(*values)
+
+    def to_bytes(self) -> bytes:
+        """The payload. Raises struct.error or ValueError if a value does not fit its field."""
+        parts: list[bytes] = []
+        for field in self.LAYOUT:
+            value = getattr(self, field.name)
+            if field.type == "bytes":
+                parts.append(value)
+            elif field.type == "u8" and field.count > 1:
+                if len(value) != field.count:
+                    raise ValueError(f"{field.name} takes {field.count} bytes, got {len(value)}")
+                parts.append(value)
+            elif field.count > 1:
+                parts.append(struct.pack(f"<{field.count}{STRUCT_CODES[field.type]}", *value))
+            else:
+                parts.append(struct.pack("<" + STRUCT_CODES[field.type], value))
+        return b"".join(parts)
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One row of the parameter table.
+
+    `shape` is () for one value; a text has `length` bytes each; `min` and `max` are None where
+    the type or the enumeration is the only limit; `image_offset` is in bytes.
+    """
+
+    id: int
+    name: str
+    group: str
+    type: ParameterType
+    unit: str
+    shape: tuple[int, ...]
+    length: int
+    min: float | None
+    max: float | None
+    enum: str | None
+    increasing: bool
+    default: Default
+    access: int
+    image_offset: int
+    doc: str
+
+    @property
+    def count(self) -> int:
+        """How many elements, 1 for a plain value."""
+        count = 1
+        for size in self.shape:
+            count *= size
+        return count
+
+    @property
+    def size(self) -> int:
+        """Bytes in the image."""
+        return self.count * self.length
+
+
+@dataclass(frozen=True, slots=True)
+class Channel:
+    """One telemetry channel: value = count * scale, except MISSING."""
+
+    id: int
+    name: str
+    unit: str
+    scale: float
+    doc: str
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """A rule between two parameters: `low` must be less than `high`."""
+
+    low: str
+    high: str
+    violation: str
