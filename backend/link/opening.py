@@ -1,0 +1,94 @@
+"""From a url to an open link: which transport, and how to find the same adapter again.
+
+- `sim`, `sim:NAME?seed=&speed=&scenario=`: a simulated unit as a child process.
+- `socket://host:port`: a unit behind TCP.
+- `/dev/ttyUSB0`, `COM3`, any other path: a serial port; `?baud=921600` for another speed.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from urllib.parse import parse_qs, urlsplit
+
+from backend.errors import InvalidRequest
+from backend.link.base import Link
+from backend.link.ports import device_with_usb_serial, usb_serial_of
+from backend.link.serial_port import BAUD_DEFAULT, SerialPort
+from backend.link.simulated import SimulatedAddress, SimulatedLink
+from backend.link.socket_link import SocketLink
+
+BAUD_MAX = 4_000_000
+
+
+def open_link(url: str) -> Link:
+    """Open the way to a unit. Raises InvalidRequest for a bad url, LinkError when it fails."""
+    return Opener(url).open()
+
+
+def kind_of(url: str) -> str:
+    """`simulated`, `socket` or `serial`. Raises InvalidRequest when the url is none of them."""
+    if url == "sim" or url.startswith(("sim:", "sim?")):
+        SimulatedAddress.parse(url)
+        return "simulated"
+    if url.startswith("socket://"):
+        _host_and_port(url)
+        return "socket"
+    if "://" in url or not url.strip():
+        raise InvalidRequest(
+            f"`{url}` is no way to a unit; write `sim`, a serial port such as /dev/ttyUSB0 or "
+            "COM3, or socket://host:port."
+        )
+    _name_and_baud(url)
+    return "serial"
+
+
+class Opener:
+    """Opens one url again and again, and finds a USB adapter that came back under another name."""
+
+    def __init__(self, url: str) -> None:
+        self.url = url
+        self._kind = kind_of(url)
+        self._usb_serial_number: str | None = None
+
+    def open(self) -> Link:
+        """Open the link; raises LinkError with cause and remedy."""
+        if self._kind == "simulated":
+            return SimulatedLink(self.url)
+        if self._kind == "socket":
+            host, port = _host_and_port(self.url)
+            return SocketLink(host, port, url=self.url)
+        name, baud = _name_and_baud(self.url)
+        link = SerialPort(
+            self._present_name(name), self.url, baud, has_line=not _is_pseudo_terminal(name)
+        )
+        if self._usb_serial_number is None:
+            self._usb_serial_number = usb_serial_of(name)
+        return link
+
+    def _present_name(self, name: str) -> str:
+        if self._usb_serial_number is None:
+            return name
+        return device_with_usb_serial(self._usb_serial_number) or name
+
+
+def _host_and_port(url: str) -> tuple[str, int]:
+    try:
+        parts = urlsplit(url)
+        host, port = parts.hostname, parts.port
+    except ValueError:
+        host, port = None, None
+    if not host or not port:
+        raise InvalidRequest(f"`{url}`: write socket://host:port with a port from 1 to 65535.")
+    return host, port
+
+
+def _name_and_baud(url: str) -> tuple[str, int]:
+    name, _, query = url.partition("?")
+    given = parse_qs(query).get("baud", [str(BAUD_DEFAULT)])[-1]
+    if not given.isdigit() or not 300 <= int(given) <= BAUD_MAX:
+        raise InvalidRequest(f"`{url}`: baud is a whole number from 300 to {BAUD_MAX}.")
+    return name, int(given)
+
+
+def _is_pseudo_terminal(name: str) -> bool:
+    return str(Path(name).resolve()).startswith("/dev/pts/")

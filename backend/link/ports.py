@@ -1,0 +1,102 @@
+"""The ports there are: what hangs on each, who has it open, whether we may."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from serial.tools import list_ports as pyserial_ports
+
+
+@dataclass(frozen=True)
+class PortInfo:
+    """One port that can be added as a device.
+
+    url: what to add. description: the adapter's own words. usb_serial_number: finds the same
+    adapter again under a new name. in_use: None where it cannot be told without opening the port.
+    hint: what stands in the way and what to do about it, None when nothing does.
+    """
+
+    url: str
+    kind: str
+    description: str
+    manufacturer: str | None = None
+    usb_vendor_id: int | None = None
+    usb_product_id: int | None = None
+    usb_serial_number: str | None = None
+    in_use: bool | None = None
+    hint: str | None = None
+
+
+SIMULATED = PortInfo(
+    url="sim", kind="simulated", description="A simulated drive unit, started by Spindle"
+)
+
+
+def list_ports() -> list[PortInfo]:
+    """Every serial port of this machine, without opening any, and the simulated unit."""
+    found = sorted(pyserial_ports.comports(), key=lambda port: str(port.device))
+    holders = _open_devices()
+    return [_describe(port, holders) for port in found] + [SIMULATED]
+
+
+def device_with_usb_serial(number: str) -> str | None:
+    """The port the USB adapter with this serial number has now, None when it is not plugged in."""
+    for port in pyserial_ports.comports():
+        if port.serial_number == number:
+            return str(port.device)
+    return None
+
+
+def usb_serial_of(device: str) -> str | None:
+    """The serial number of the USB adapter behind `device`, None when it has none."""
+    for port in pyserial_ports.comports():
+        if port.device == device:
+            return str(port.serial_number) if port.serial_number else None
+    return None
+
+
+def _describe(port: pyserial_ports.ListPortInfo, holders: set[str] | None) -> PortInfo:
+    device = str(port.device)
+    in_use = None if holders is None else os.path.realpath(device) in holders
+    return PortInfo(
+        url=device,
+        kind="serial",
+        description=str(port.description or device),
+        manufacturer=port.manufacturer,
+        usb_vendor_id=port.vid,
+        usb_product_id=port.pid,
+        usb_serial_number=port.serial_number,
+        in_use=in_use,
+        hint=_hint(device, in_use),
+    )
+
+
+def _hint(device: str, in_use: bool | None) -> str | None:
+    if os.name == "posix" and not os.access(device, os.R_OK | os.W_OK):
+        return (
+            "You may not open this port. Add yourself to the group that owns it "
+            "(`sudo usermod -aG dialout $USER`) and sign in again."
+        )
+    if in_use:
+        return "A program has this port open."
+    return None
+
+
+def _open_devices() -> set[str] | None:
+    """Files under /dev that a process we may look at has open; None where that cannot be told."""
+    if not sys.platform.startswith("linux"):
+        return None
+    return {target for target in _link_targets(Path("/proc")) if target.startswith("/dev/tty")}
+
+
+def _link_targets(proc: Path) -> Iterable[str]:
+    for process in proc.glob("[0-9]*"):
+        try:
+            for descriptor in (process / "fd").iterdir():
+                yield str(descriptor.readlink())
+        except OSError:
+            continue

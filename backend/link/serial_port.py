@@ -1,0 +1,79 @@
+"""A serial port through pyserial: exclusive, control lines low, read in bulk, never waiting."""
+
+from __future__ import annotations
+
+import os
+
+import serial
+
+from backend.link.base import READ_BYTES_MAX
+from backend.link.trouble import cannot_open, vanished
+
+BAUD_DEFAULT = 115200
+
+# Where the driver cannot write without waiting (Windows), one write waits at most this long.
+WRITE_TIMEOUT_S = 0.2
+
+
+class SerialPort:
+    """An open serial port or pseudo-terminal.
+
+    name: `/dev/ttyUSB0`, `COM3`, or a pseudo-terminal's path. baud: the line's speed. has_line:
+    False where no wire limits the speed. Raises LinkError with cause and remedy when it does not
+    open.
+    """
+
+    def __init__(
+        self, name: str, url: str | None = None, baud: int = BAUD_DEFAULT, has_line: bool = True
+    ) -> None:
+        self._name = name
+        self._url = url or name
+        self._bits_per_second = float(baud) if has_line else None
+        self._port = serial.Serial()
+        self._port.port = name
+        self._port.baudrate = baud
+        self._port.timeout = 0
+        self._port.write_timeout = WRITE_TIMEOUT_S
+        self._port.exclusive = True
+        # Many adapters wire DTR or RTS to the unit's reset; opening the port must not restart it.
+        self._port.dtr = False
+        self._port.rts = False
+        try:
+            self._port.open()
+        except OSError as error:
+            raise cannot_open(name, error) from error
+        self._descriptor = self._port.fileno() if os.name == "posix" else None
+
+    @property
+    def url(self) -> str:
+        """What the port was opened with."""
+        return self._url
+
+    @property
+    def bits_per_second(self) -> float | None:
+        """The line's speed, None for a pseudo-terminal."""
+        return self._bits_per_second
+
+    def read(self, bytes_max: int = READ_BYTES_MAX) -> bytes:
+        """Return what has arrived, at most `bytes_max`; b"" when nothing has."""
+        try:
+            return bytes(self._port.read(bytes_max))
+        except (OSError, TypeError) as error:
+            raise vanished(self._name, error) from error
+
+    def write(self, data: bytes) -> int:
+        """Send what the port takes now and return how many bytes that was."""
+        try:
+            if self._descriptor is not None:
+                # pyserial 3.5 spins on a full buffer when told not to wait, so write ourselves.
+                return os.write(self._descriptor, data)
+            return int(self._port.write(data) or 0)
+        except (BlockingIOError, serial.SerialTimeoutException):
+            return 0
+        except OSError as error:
+            raise vanished(self._name, error) from error
+
+    def close(self) -> None:
+        """Give the port back; twice is allowed."""
+        self._descriptor = None
+        self._port.close()

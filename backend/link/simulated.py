@@ -1,0 +1,179 @@
+"""A simulated unit as a child process on a pseudo-terminal, opened through pyserial like any other.
+
+The child runs the real firmware against physics (`python -m sim_device unit`). It ends with this
+link, and by itself when this process dies.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import queue
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+from urllib.parse import parse_qs
+
+from backend.errors import InvalidRequest, LinkError
+from backend.link.base import READ_BYTES_MAX
+from backend.link.serial_port import SerialPort
+
+# A cold start of Python and numpy on a loaded machine takes about 2 s.
+READY_TIMEOUT_S = 15.0
+STOP_TIMEOUT_S = 2.0
+NAME_DEFAULT = "unit"
+SETTINGS = ("seed", "speed", "scenario")
+# What the child says last is quoted when it fails; more than this helps nobody.
+COMPLAINT_CHARACTERS_MAX = 600
+
+
+@dataclass(frozen=True)
+class SimulatedAddress:
+    """`sim` or `sim:NAME?seed=&speed=&scenario=`, taken apart.
+
+    Each name is a unit of its own: without a seed the name makes one, so two names never share a
+    serial number.
+    """
+
+    name: str
+    seed: int
+    speed: float
+    scenario: str | None
+
+    @classmethod
+    def parse(cls, url: str) -> SimulatedAddress:
+        """Read the url; raises InvalidRequest naming what is wrong."""
+        path, _, query = url.removeprefix("sim").removeprefix(":").partition("?")
+        name = path or NAME_DEFAULT
+        settings = {key: values[-1] for key, values in parse_qs(query).items()}
+        unknown = sorted(set(settings) - set(SETTINGS))
+        if unknown:
+            raise InvalidRequest(
+                f"{url}: `{unknown[0]}` is no setting of a simulated unit; "
+                f"there are {', '.join(SETTINGS)}."
+            )
+        try:
+            seed = int(settings.get("seed", zlib.crc32(name.encode()) % 1_000_000))
+            speed = float(settings.get("speed", 1.0))
+        except ValueError as error:
+            raise InvalidRequest(f"{url}: seed is a whole number, speed a number.") from error
+        if not 0.01 <= speed <= 1000.0:
+            raise InvalidRequest(f"{url}: speed is a factor from 0.01 to 1000.")
+        return cls(name, seed, speed, settings.get("scenario"))
+
+    def command(self, pty_path: Path) -> list[str]:
+        """The command line of the child that serves this address on `pty_path`."""
+        words = [sys.executable, "-m", "sim_device", "unit", "--pty", str(pty_path)]
+        words += ["--seed", str(self.seed), "--speed", str(self.speed)]
+        if self.scenario is not None:
+            words += ["--scenario", self.scenario]
+        return words
+
+
+class SimulatedLink:
+    """The child process and the serial port on its pseudo-terminal.
+
+    Raises LinkError with the child's own words when it does not get ready.
+    """
+
+    def __init__(self, url: str, ready_timeout_s: float = READY_TIMEOUT_S) -> None:
+        if os.name != "posix":
+            raise LinkError(
+                f"{url}: a simulated unit of Spindle's own needs pseudo-terminals. Here, start "
+                "`spindle sim --tcp 8751` and add `socket://127.0.0.1:8751`."
+            )
+        address = SimulatedAddress.parse(url)
+        self._url = url
+        self._folder = Path(tempfile.mkdtemp(prefix="spindle-sim-"))
+        self._complaints = (self._folder / "stderr").open("w+b")
+        self._child = self._start(address.command(self._folder / "port"))
+        try:
+            self._port = SerialPort(self._ready_path(ready_timeout_s), url=url, has_line=False)
+        except BaseException:
+            self._stop()
+            raise
+
+    @property
+    def url(self) -> str:
+        """What the unit was asked for with."""
+        return self._url
+
+    @property
+    def bits_per_second(self) -> float | None:
+        """None: a pseudo-terminal takes no time."""
+        return None
+
+    @property
+    def process_id(self) -> int:
+        """The child's process id."""
+        return self._child.pid
+
+    def read(self, bytes_max: int = READ_BYTES_MAX) -> bytes:
+        """Return what has arrived, at most `bytes_max`; b"" when nothing has."""
+        return self._port.read(bytes_max)
+
+    def write(self, data: bytes) -> int:
+        """Send what the port takes now and return how many bytes that was."""
+        return self._port.write(data)
+
+    def close(self) -> None:
+        """Close the port and end the child; twice is allowed."""
+        self._port.close()
+        self._stop()
+
+    def _start(self, command: list[str]) -> subprocess.Popen[bytes]:
+        folders = [str(Path(__file__).resolve().parents[2]), os.environ.get("PYTHONPATH")]
+        python_path = os.pathsep.join(folder for folder in folders if folder)
+        return subprocess.Popen(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=self._complaints,
+            env={**os.environ, "PYTHONPATH": python_path},
+            # Ctrl-C in the terminal goes to the server, which then ends its children in order.
+            start_new_session=True,
+        )
+
+    def _ready_path(self, timeout_s: float) -> str:
+        """Wait for the child's line `ready PATH` and return the path."""
+        lines: queue.Queue[bytes] = queue.Queue(maxsize=1)
+        stream = self._child.stdout
+        assert stream is not None
+        threading.Thread(
+            target=lambda: lines.put(stream.readline()), name=f"{self._url} ready", daemon=True
+        ).start()
+        try:
+            words = lines.get(timeout=timeout_s).decode("utf-8", "replace").split(maxsplit=1)
+        except queue.Empty:
+            raise self._not_ready(f"not ready after {timeout_s:g} s") from None
+        if len(words) != 2 or words[0] != "ready":
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._child.wait(STOP_TIMEOUT_S)
+            raise self._not_ready(f"it ended with code {self._child.returncode}")
+        return words[1].strip()
+
+    def _not_ready(self, cause: str) -> LinkError:
+        self._complaints.seek(0)
+        said = self._complaints.read().decode("utf-8", "replace").strip()
+        last = said[-COMPLAINT_CHARACTERS_MAX:] or "it said nothing"
+        return LinkError(
+            f"{self._url}: the simulated unit did not start ({cause}): {last}",
+            code="simulator_failed",
+        )
+
+    def _stop(self) -> None:
+        self._child.terminate()
+        try:
+            self._child.wait(STOP_TIMEOUT_S)
+        except subprocess.TimeoutExpired:
+            self._child.kill()
+            self._child.wait()
+        if self._child.stdout is not None:
+            self._child.stdout.close()
+        self._complaints.close()
+        shutil.rmtree(self._folder, ignore_errors=True)

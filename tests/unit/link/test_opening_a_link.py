@@ -1,0 +1,128 @@
+"""A url leads to the right transport, and a port that does not open says why and what to do."""
+
+from __future__ import annotations
+
+import os
+import socket
+import sys
+from pathlib import Path
+
+import pytest
+
+from backend.errors import InvalidRequest, LinkError
+from backend.link import kind_of, list_ports, open_link
+from backend.link.serial_port import SerialPort
+from backend.link.simulated import SimulatedAddress, SimulatedLink
+from backend.link.trouble import cannot_open
+
+
+@pytest.mark.parametrize(
+    ("url", "kind"),
+    [
+        ("sim", "simulated"),
+        ("sim:workshop?seed=3&speed=2&scenario=commute", "simulated"),
+        ("socket://127.0.0.1:9000", "socket"),
+        ("/dev/ttyUSB0", "serial"),
+        ("/dev/ttyUSB0?baud=921600", "serial"),
+        ("COM3", "serial"),
+    ],
+)
+def test_the_url_tells_the_transport(url: str, kind: str) -> None:
+    assert kind_of(url) == kind
+
+
+@pytest.mark.parametrize(
+    "url",
+    [
+        "",
+        "http://bike",
+        "socket://bike",
+        "socket://:80",
+        "sim:a?sped=2",
+        "sim:a?seed=x",
+        "COM3?baud=9",
+    ],
+)
+def test_a_url_that_leads_nowhere_is_refused(url: str) -> None:
+    with pytest.raises(InvalidRequest):
+        kind_of(url)
+
+
+def test_two_names_are_two_simulated_units_and_one_name_is_always_the_same() -> None:
+    left, right = SimulatedAddress.parse("sim:left"), SimulatedAddress.parse("sim:right")
+
+    assert left.seed != right.seed
+    assert left == SimulatedAddress.parse("sim:left")
+
+
+def test_an_absent_port_says_so_and_what_to_do(tmp_path: Path) -> None:
+    with pytest.raises(LinkError, match=r"no such port.*Plug the unit in") as caught:
+        open_link(str(tmp_path / "ttyUSB7"))
+
+    assert caught.value.code == "port_absent"
+
+
+def test_a_port_that_is_already_open_says_another_program_has_it() -> None:
+    master, slave = os.openpty()
+    first = SerialPort(os.ttyname(slave))
+
+    with pytest.raises(LinkError, match="another program has it open") as caught:
+        open_link(os.ttyname(slave))
+
+    assert caught.value.code == "port_busy"
+    first.close()
+    os.close(master)
+    os.close(slave)
+
+
+def test_a_forbidden_port_names_the_group() -> None:
+    error = cannot_open("/dev/ttyUSB0", PermissionError(13, "Permission denied"))
+
+    assert "dialout" in error.message
+    assert error.code == "port_permission"
+
+
+def test_a_host_where_nothing_listens_says_so() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        port = server.getsockname()[1]
+
+    with pytest.raises(LinkError, match="nothing listens there"):
+        open_link(f"socket://127.0.0.1:{port}")
+
+
+def test_the_list_of_ports_always_offers_a_simulated_unit() -> None:
+    assert list_ports()[-1].url == "sim"
+
+
+def child(program: str) -> list[str]:
+    return [sys.executable, "-c", program]
+
+
+def test_a_simulator_that_dies_at_start_is_quoted(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(
+        SimulatedAddress,
+        "command",
+        lambda self, path: child("raise SystemExit('no such scenario')"),
+    )
+
+    with pytest.raises(LinkError, match="no such scenario") as caught:
+        SimulatedLink("sim")
+
+    assert caught.value.code == "simulator_failed"
+
+
+def test_the_simulator_ends_with_its_link(monkeypatch: pytest.MonkeyPatch) -> None:
+    program = (
+        "import os, sys, tty, signal\n"
+        "master, slave = os.openpty(); tty.setraw(master)\n"
+        "print('ready', os.ttyname(slave), flush=True)\n"
+        "while True: os.write(master, os.read(master, 100))\n"
+    )
+    monkeypatch.setattr(SimulatedAddress, "command", lambda self, path: child(program))
+    link = SimulatedLink("sim")
+    process_id = link.process_id
+
+    link.close()
+
+    with pytest.raises(ProcessLookupError):
+        os.kill(process_id, 0)
