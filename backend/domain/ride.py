@@ -1,0 +1,286 @@
+"""A ride: rows of counts over time, what is known about it, and its figures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from datetime import UTC, datetime
+
+import numpy as np
+import numpy.typing as npt
+
+from backend.domain.channels import ChannelSpec, Counts, Values, channel_to_json
+from backend.domain.energy import (
+    BATTERY_POWER,
+    MOTOR_POWER,
+    RIDER_POWER,
+    energy,
+    sample_seconds,
+)
+
+TimesUs = npt.NDArray[np.int64]
+
+# Standing: slower than a walking push. Below this a wheel sensor with one magnet reports nothing.
+MOVING_KMH_MIN = 1.0
+# A break in irregular rows longer than this many usual spacings, and than this time, is a pause.
+PAUSE_SPACINGS = 5
+PAUSE_MIN_US = 10_000_000
+
+
+@dataclass(frozen=True)
+class RideRows:
+    """Rows of a ride, column by column.
+
+    times_us: int64 (n,), since the ride's start, strictly increasing. counts: by channel name,
+    each (n,) of the channel's dtype, its `missing` where there is no sample.
+    """
+
+    channels: tuple[ChannelSpec, ...]
+    times_us: TimesUs
+    counts: Mapping[str, Counts]
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """A stretch without samples, seconds since the ride's start; rows_lost where it is known."""
+
+    from_s: float
+    to_s: float
+    rows_lost: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class RideSummary:
+    """The figures of a ride; None where the ride lacks the channel.
+
+    Energies are sums over the samples that are there; the `*_excluded_s` beside them say how much
+    time was left out. Means of cadence and torque count turning cranks only, power counts all.
+    """
+
+    duration_s: float
+    moving_s: float | None = None
+    distance_km: float | None = None
+    rider_wh: float | None = None
+    rider_excluded_s: float | None = None
+    motor_wh: float | None = None
+    motor_excluded_s: float | None = None
+    battery_wh: float | None = None
+    battery_excluded_s: float | None = None
+    speed_kmh_mean: float | None = None
+    speed_kmh_max: float | None = None
+    cadence_rpm_mean: float | None = None
+    cadence_rpm_max: float | None = None
+    rider_torque_nm_mean: float | None = None
+    rider_torque_nm_max: float | None = None
+    rider_power_w_mean: float | None = None
+    rider_power_w_max: float | None = None
+    motor_torque_nm_max: float | None = None
+    motor_power_w_mean: float | None = None
+    motor_power_w_max: float | None = None
+    battery_soc_pct_used: float | None = None
+    motor_temperature_degc_max: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class RideContext:
+    """What was true of the bike while the ride was made; None where nobody knows."""
+
+    device_id: str | None = None
+    device_serial: str | None = None
+    device_model: str | None = None
+    firmware_version: str | None = None
+    config_generation: int | None = None
+    config_crc32: int | None = None
+    gear_ratio: float | None = None
+
+
+@dataclass(frozen=True)
+class Ride:
+    """One ride as the store knows it.
+
+    state: `live` while it is recorded, `done` when its object is written. origin: `recorded` or
+    `imported`. period_us: spacing of the rows, None when they are irregular. completeness: share
+    of the rows that should be there (0..1), None when nobody can say.
+    """
+
+    id: int
+    state: str
+    origin: str
+    name: str
+    notes: str
+    started_us: int
+    row_count: int
+    period_us: int | None
+    channels: tuple[ChannelSpec, ...]
+    derived: tuple[ChannelSpec, ...]
+    context: RideContext
+    gaps: tuple[Gap, ...] = ()
+    completeness: float | None = None
+    upload_id: str | None = None
+    source_sha256: str | None = None
+    object_key: str | None = None
+    object_bytes: int | None = None
+    summary: RideSummary | None = None
+    software: str | None = field(default=None)
+
+    @property
+    def offered(self) -> tuple[ChannelSpec, ...]:
+        """Every channel that can be asked for: recorded first, then derived."""
+        return self.channels + self.derived
+
+    def as_json(self) -> dict[str, object]:
+        """The ride as the API shows it: ISO times, null for missing."""
+        return {
+            "id": self.id,
+            "state": self.state,
+            "origin": self.origin,
+            "name": self.name,
+            "notes": self.notes,
+            "started_at": iso_utc(self.started_us),
+            "row_count": self.row_count,
+            "period_us": self.period_us,
+            "channels": [
+                {**channel_to_json(channel), "derived": channel in self.derived}
+                for channel in self.offered
+            ],
+            "device": asdict(self.context),
+            "gaps": [asdict(gap) for gap in self.gaps],
+            "completeness": self.completeness,
+            "upload_id": self.upload_id,
+            "object_bytes": self.object_bytes,
+            "summary": asdict(self.summary) if self.summary else None,
+        }
+
+
+def iso_utc(time_us: int) -> str:
+    """Microseconds since 1970 UTC -> ISO 8601 with `Z`."""
+    moment = datetime.fromtimestamp(time_us / 1e6, UTC)
+    return moment.isoformat(timespec="milliseconds").replace("+00:00", "Z")
+
+
+def pause_us(times_us: TimesUs, period_us: int | None) -> int:
+    """Longest spacing of rows that still counts as one recording, in microseconds."""
+    if period_us is not None:
+        return period_us
+    usual = float(np.median(np.diff(times_us))) if len(times_us) > 1 else 0.0
+    return max(PAUSE_MIN_US, int(PAUSE_SPACINGS * usual))
+
+
+def find_gaps(rows: RideRows, period_us: int | None) -> tuple[Gap, ...]:
+    """Where samples are missing: pauses in the time, and runs of rows without any sample."""
+    times = rows.times_us
+    if len(times) == 0:
+        return ()
+    spacing = np.diff(times)
+    before = np.flatnonzero(spacing > pause_us(times, period_us))
+    gaps = [Gap(times[i] / 1e6, times[i + 1] / 1e6) for i in before]
+    return tuple(sorted(gaps + empty_runs(rows), key=lambda gap: gap.from_s))
+
+
+def empty_runs(rows: RideRows) -> list[Gap]:
+    """Runs of rows in which every channel is missing."""
+    empty = np.ones(len(rows.times_us), dtype=bool)
+    for channel in rows.channels:
+        empty &= rows.counts[channel.name] == channel.missing
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], empty, [False])).astype(np.int8)))
+    runs = edges.reshape(-1, 2)
+    last = len(rows.times_us) - 1
+    return [
+        Gap(
+            rows.times_us[start] / 1e6,
+            rows.times_us[min(stop, last)] / 1e6,
+            rows_lost=int(stop - start),
+        )
+        for start, stop in runs
+    ]
+
+
+def summarise(
+    values: Mapping[str, Values], times_us: TimesUs, period_us: int | None
+) -> RideSummary:
+    """The ride's figures from physical values by channel name, each (n,), missing as NaN.
+
+    values: recorded and derived channels; only those present are used. times_us: int64 (n,).
+    """
+    seconds = sample_seconds(times_us, pause_us(times_us, period_us))
+    duration_s = float(times_us[-1] - times_us[0]) / 1e6 if len(times_us) else 0.0
+    figures: dict[str, float | None] = {}
+    figures |= movement_figures(values, seconds)
+    for owner, channel in (("rider", RIDER_POWER), ("motor", MOTOR_POWER)):
+        figures |= power_figures(owner, values.get(channel.name), seconds)
+    if BATTERY_POWER.name in values:
+        spent = energy(values[BATTERY_POWER.name], seconds)
+        figures |= {"battery_wh": spent.wh, "battery_excluded_s": spent.excluded_s}
+    figures |= crank_figures(values)
+    figures["motor_torque_nm_max"] = largest(values.get("motor_torque_nm"))
+    figures["motor_temperature_degc_max"] = largest(values.get("motor_temperature_degc"))
+    charge = present(values.get("battery_soc_pct"))
+    if len(charge):
+        figures["battery_soc_pct_used"] = float(charge[0] - charge[-1])
+    return RideSummary(duration_s=duration_s, **figures)
+
+
+def movement_figures(values: Mapping[str, Values], seconds: Values) -> dict[str, float | None]:
+    """Distance, moving time and speeds. A recorded odometer wins over the integral of speed."""
+    speed = values.get("speed_kmh")
+    figures: dict[str, float | None] = {}
+    if speed is not None and np.isfinite(speed).any():
+        there = np.isfinite(speed)
+        moving = there & (np.nan_to_num(speed) >= MOVING_KMH_MIN)
+        moving_s = float(np.sum(seconds[moving]))
+        kilometres = float(np.sum(speed[there] * seconds[there])) / 3600.0
+        figures |= {
+            "moving_s": moving_s,
+            "distance_km": kilometres,
+            "speed_kmh_max": float(np.max(speed[there])),
+        }
+    odometer = present(values.get("distance_m"))
+    if len(odometer):
+        figures["distance_km"] = float(np.max(odometer) - np.min(odometer)) / 1000.0
+    moving_s_known, distance_km = figures.get("moving_s"), figures.get("distance_km")
+    if moving_s_known and distance_km is not None:
+        figures["speed_kmh_mean"] = distance_km / (moving_s_known / 3600.0)
+    return figures
+
+
+def power_figures(owner: str, power_w: Values | None, seconds: Values) -> dict[str, float | None]:
+    """Energy, mean and maximum of the rider's or the motor's power."""
+    there = present(power_w)
+    if power_w is None or not len(there):
+        return {}
+    total = energy(power_w, seconds)
+    included_s = float(np.sum(seconds)) - total.excluded_s
+    return {
+        f"{owner}_wh": total.wh,
+        f"{owner}_excluded_s": total.excluded_s,
+        f"{owner}_power_w_mean": total.wh * 3600.0 / included_s if included_s > 0 else None,
+        f"{owner}_power_w_max": float(np.max(there)),
+    }
+
+
+def crank_figures(values: Mapping[str, Values]) -> dict[str, float | None]:
+    """Cadence and rider torque; means over turning cranks only, as head units do."""
+    cadence, torque = values.get("cadence_rpm"), values.get("rider_torque_nm")
+    figures: dict[str, float | None] = {
+        "cadence_rpm_max": largest(cadence),
+        "rider_torque_nm_max": largest(torque),
+    }
+    if cadence is not None:
+        turning = np.nan_to_num(cadence) > 0
+        if turning.any():
+            figures["cadence_rpm_mean"] = float(np.mean(cadence[turning]))
+            torques = present(torque[turning]) if torque is not None else present(None)
+            if len(torques):
+                figures["rider_torque_nm_mean"] = float(np.mean(torques))
+    return figures
+
+
+def present(values: Values | None) -> Values:
+    """The samples that are there."""
+    return values[np.isfinite(values)] if values is not None else np.empty(0)
+
+
+def largest(values: Values | None) -> float | None:
+    """Largest sample, None when there is none."""
+    there = present(values)
+    return float(np.max(there)) if len(there) else None

@@ -1,0 +1,305 @@
+"""Minimum and maximum of any channels over any window, in as many bins as the screen has pixels.
+
+How a window is cut:
+- Few rows: each row is its own bin (`kind` = `rows`), minimum and maximum are the row's value.
+- Regular rows: every bin has the same number of rows (the last may have fewer). From 64 rows a bin
+  on, bins are made of whole cells of the pyramid; the window then grows by less than one bin at
+  either end, and the bins' own times say so.
+- Irregular rows (head units): bins of equal time, cut at pauses; bins without rows are left out,
+  and one missing bin stands in each pause, so that no line is ever drawn across it.
+Either way the minimum and maximum of a bin are exactly those of the rows from its first to its
+last time, both included.
+
+Binary form, little-endian, `application/octet-stream`:
+    bytes 0..3    "SPV1"
+    bytes 4..7    u32 H, length of the header; 8 + H is a multiple of 8
+    bytes 8..8+H  header, JSON in UTF-8, padded with spaces
+    then          the arrays; their offsets count bytes from the first byte after the header
+The header:
+    {"from_s", "to_s":       the window that was asked for, seconds since the ride's start
+     "rows":                 rows of the ride in the bins
+     "bins": n,              length of every array
+     "kind":                 "rows" | "minmax"
+     "t_first_s": {"dtype": "float64", "offset"},  time of a bin's first row
+     "t_last_s":  {"dtype": "float64", "offset"},  time of its last row
+     "channels": [{"name", "unit", "scale", "dtype": "int16" | "int32", "missing",
+                   "min_offset", "max_offset"}]}
+value = count * scale, and count == missing means there is no sample. Every offset is a multiple of
+8. For `rows` the first and last times, and minimum and maximum, are one array: equal offsets.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from backend.domain.channels import ChannelSpec, Counts, Values
+from backend.domain.pyramid import Level, reduce_groups
+from backend.domain.ride import TimesUs, pause_us
+from backend.errors import InvalidRequest
+
+MAGIC = b"SPV1"
+# A screen has at most this many columns; more would only cost the browser memory.
+PIXELS_MAX = 8192
+ALIGNMENT = 8
+
+Starts = npt.NDArray[np.int64]
+
+
+class RideReader(Protocol):
+    """What a view needs to know of a ride; the store's reader offers it."""
+
+    @property
+    def row_count(self) -> int: ...
+    @property
+    def period_us(self) -> int | None: ...
+    @property
+    def offered(self) -> Sequence[ChannelSpec]: ...
+    def times_us(self, start: int, stop: int) -> TimesUs: ...
+    def counts(self, names: Sequence[str], start: int, stop: int) -> Mapping[str, Counts]: ...
+    def level(self, rows_per_bin: int) -> Level | None: ...
+
+
+@dataclass(frozen=True)
+class Trace:
+    """Bins of a window; arrays as the module's docstring tells."""
+
+    from_s: float
+    to_s: float
+    rows: int
+    kind: str
+    t_first_s: Values
+    t_last_s: Values
+    channels: tuple[ChannelSpec, ...]
+    minimum: Mapping[str, Counts]
+    maximum: Mapping[str, Counts]
+
+    def to_json(self) -> dict[str, object]:
+        """Plain JSON with physical values, missing as null."""
+        return {
+            "from_s": self.from_s,
+            "to_s": self.to_s,
+            "rows": self.rows,
+            "bins": len(self.t_first_s),
+            "kind": self.kind,
+            "t_first_s": self.t_first_s.tolist(),
+            "t_last_s": self.t_last_s.tolist(),
+            "channels": [
+                {
+                    "name": channel.name,
+                    "unit": channel.unit,
+                    "min": json_values(channel, self.minimum[channel.name]),
+                    "max": json_values(channel, self.maximum[channel.name]),
+                }
+                for channel in self.channels
+            ],
+        }
+
+    def to_bytes(self) -> bytes:
+        """The binary form of the module's docstring."""
+        body = bytearray()
+        placed: dict[int, int] = {}
+
+        def place(array: npt.NDArray[np.generic]) -> int:
+            if id(array) not in placed:
+                body.extend(bytes(-len(body) % ALIGNMENT))
+                placed[id(array)] = len(body)
+                body.extend(array.astype(array.dtype.newbyteorder("<"), copy=False).tobytes())
+            return placed[id(array)]
+
+        header = {
+            "from_s": self.from_s,
+            "to_s": self.to_s,
+            "rows": self.rows,
+            "bins": len(self.t_first_s),
+            "kind": self.kind,
+            "t_first_s": {"dtype": "float64", "offset": place(self.t_first_s)},
+            "t_last_s": {"dtype": "float64", "offset": place(self.t_last_s)},
+            "channels": [
+                {
+                    "name": channel.name,
+                    "unit": channel.unit,
+                    "scale": channel.scale,
+                    "dtype": channel.dtype.name,
+                    "missing": channel.missing,
+                    "min_offset": place(self.minimum[channel.name]),
+                    "max_offset": place(self.maximum[channel.name]),
+                }
+                for channel in self.channels
+            ],
+        }
+        text = json.dumps(header, separators=(",", ":")).encode()
+        text += b" " * (-(8 + len(text)) % ALIGNMENT)
+        return MAGIC + struct.pack("<I", len(text)) + text + bytes(body)
+
+
+def trace(
+    ride: RideReader,
+    names: Sequence[str] | None = None,
+    from_s: float | None = None,
+    to_s: float | None = None,
+    pixels: int = 1000,
+) -> Trace:
+    """Bins of the window [from_s, to_s] of a ride, at most `pixels` of them (pauses come on top).
+
+    names: channels, recorded or derived, None for all. from_s, to_s: seconds since the ride's
+    start, None for its ends. Raises InvalidRequest for unknown channels or a window of no width.
+    """
+    channels = chosen(ride, names)
+    if not 1 <= pixels <= PIXELS_MAX:
+        raise InvalidRequest(f"px is {pixels}: it must be from 1 to {PIXELS_MAX}.")
+    start, stop, window = row_window(ride, from_s, to_s)
+    rows_per_bin = -(-(stop - start) // pixels)
+    if ride.period_us is None:
+        return irregular_trace(ride, channels, start, stop, window, pixels)
+    level = ride.level(rows_per_bin)
+    if level is not None:
+        return pyramid_trace(ride, channels, level, start, stop, window, rows_per_bin)
+    starts = np.arange(0, stop - start, max(rows_per_bin, 1))
+    return reduced(ride, channels, start, stop, window, starts)
+
+
+def chosen(ride: RideReader, names: Sequence[str] | None) -> tuple[ChannelSpec, ...]:
+    """The ride's channels of these names, in this order."""
+    offered = {channel.name: channel for channel in ride.offered}
+    unknown = [name for name in names or () if name not in offered]
+    if unknown:
+        raise InvalidRequest(
+            f"This ride has no channel {', '.join(unknown)}. It has {', '.join(offered)}."
+        )
+    return tuple(offered[name] for name in dict.fromkeys(offered if names is None else names))
+
+
+def row_window(
+    ride: RideReader, from_s: float | None, to_s: float | None
+) -> tuple[int, int, tuple[float, float]]:
+    """Rows [start, stop) whose time lies in the window, and the window in seconds."""
+    count = ride.row_count
+    last_us = int(ride.times_us(count - 1, count)[0]) if count else 0
+    begin_s = 0.0 if from_s is None else from_s
+    end_s = last_us / 1e6 if to_s is None else to_s
+    if not (np.isfinite(begin_s) and np.isfinite(end_s)) or end_s < begin_s:
+        raise InvalidRequest(f"The window from {begin_s} s to {end_s} s has no width.")
+    begin_us = round(min(max(begin_s, 0.0) * 1e6, 2.0**62))
+    end_us = round(min(max(end_s, -1.0) * 1e6, 2.0**62))
+    if ride.period_us is not None:
+        start = min(-(-begin_us // ride.period_us), count)
+        stop = min(end_us // ride.period_us + 1, count)
+    else:
+        times = ride.times_us(0, count)
+        start = int(np.searchsorted(times, begin_us, side="left"))
+        stop = int(np.searchsorted(times, end_us, side="right"))
+    return start, max(stop, start), (begin_s, end_s)
+
+
+def reduced(
+    ride: RideReader,
+    channels: tuple[ChannelSpec, ...],
+    start: int,
+    stop: int,
+    window: tuple[float, float],
+    starts: Starts,
+) -> Trace:
+    """Bins over the raw rows [start, stop), beginning at `starts` counted from `start`."""
+    rows = stop - start
+    counts = ride.counts([channel.name for channel in channels], start, stop)
+    times = ride.times_us(start, stop) / 1e6
+    if len(starts) == rows:
+        return Trace(*window, rows, "rows", times, times, channels, counts, counts)
+    pairs = {name: reduce_groups(array, array, starts) for name, array in counts.items()}
+    ends = np.append(starts[1:], rows) - 1
+    minimum = {name: pair[0] for name, pair in pairs.items()}
+    maximum = {name: pair[1] for name, pair in pairs.items()}
+    return Trace(*window, rows, "minmax", times[starts], times[ends], channels, minimum, maximum)
+
+
+def pyramid_trace(
+    ride: RideReader,
+    channels: tuple[ChannelSpec, ...],
+    level: Level,
+    start: int,
+    stop: int,
+    window: tuple[float, float],
+    rows_per_bin: int,
+) -> Trace:
+    """Bins of whole cells of one level, over regular rows."""
+    period_us = ride.period_us or 1
+    cells_per_bin = -(-rows_per_bin // level.step)
+    first, last = start // level.step, -(-stop // level.step)
+    starts = np.arange(0, last - first, cells_per_bin)
+    pairs = {
+        channel.name: reduce_groups(
+            level.minimum[channel.name][first:last],
+            level.maximum[channel.name][first:last],
+            starts,
+        )
+        for channel in channels
+    }
+    first_rows = (starts + first) * level.step
+    covered = min(last * level.step, ride.row_count)
+    last_rows = np.append(first_rows[1:], covered) - 1
+    return Trace(
+        *window,
+        rows=covered - first * level.step,
+        kind="minmax",
+        t_first_s=first_rows * period_us / 1e6,
+        t_last_s=last_rows * period_us / 1e6,
+        channels=channels,
+        minimum={name: pair[0] for name, pair in pairs.items()},
+        maximum={name: pair[1] for name, pair in pairs.items()},
+    )
+
+
+def irregular_trace(
+    ride: RideReader,
+    channels: tuple[ChannelSpec, ...],
+    start: int,
+    stop: int,
+    window: tuple[float, float],
+    pixels: int,
+) -> Trace:
+    """Bins of equal time over irregular rows, cut at pauses, with a missing bin in each pause."""
+    times = ride.times_us(start, stop)
+    whole = ride.times_us(0, ride.row_count)
+    paused = np.diff(times) > pause_us(whole, None)
+    if len(times) <= pixels:
+        starts = np.arange(len(times))
+    else:
+        width_us = max((times[-1] - times[0]) / pixels, 1.0)
+        bins = np.minimum((times - times[0]) // width_us, pixels - 1)
+        starts = np.concatenate(([0], np.flatnonzero((np.diff(bins) > 0) | paused) + 1))
+    bare = reduced(ride, channels, start, stop, window, starts)
+    breaks = np.flatnonzero(paused[starts[1:] - 1]) + 1
+    if not len(breaks):
+        return bare
+    middles = (bare.t_last_s[breaks - 1] + bare.t_first_s[breaks]) / 2.0
+    first = np.insert(bare.t_first_s, breaks, middles)
+    same = bare.kind == "rows"
+    minimum = {c.name: np.insert(bare.minimum[c.name], breaks, c.missing) for c in channels}
+    maximum = {c.name: np.insert(bare.maximum[c.name], breaks, c.missing) for c in channels}
+    return Trace(
+        *window,
+        rows=bare.rows,
+        kind=bare.kind,
+        t_first_s=first,
+        t_last_s=first if same else np.insert(bare.t_last_s, breaks, middles),
+        channels=channels,
+        minimum=minimum,
+        maximum=minimum if same else maximum,
+    )
+
+
+def json_values(channel: ChannelSpec, counts: Counts) -> list[float | None]:
+    """Physical values rounded to what the scale can carry, missing as None."""
+    digits = max(0, -int(np.floor(np.log10(channel.scale)))) + 2
+    missing = channel.missing
+    return [
+        None if count == missing else round(count * channel.scale, digits)
+        for count in counts.tolist()
+    ]
