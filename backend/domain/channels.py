@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -16,7 +17,7 @@ import numpy.typing as npt
 MISSING_INT16 = -(2**15)
 MISSING_INT32 = -(2**31)
 
-Counts = npt.NDArray[np.int16] | npt.NDArray[np.int32]
+Counts = npt.NDArray[np.signedinteger[Any]]
 Values = npt.NDArray[np.float64]
 
 

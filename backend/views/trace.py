@@ -281,8 +281,8 @@ def irregular_trace(
     middles = (bare.t_last_s[breaks - 1] + bare.t_first_s[breaks]) / 2.0
     first = np.insert(bare.t_first_s, breaks, middles)
     same = bare.kind == "rows"
-    minimum = {c.name: np.insert(bare.minimum[c.name], breaks, c.missing) for c in channels}
-    maximum = {c.name: np.insert(bare.maximum[c.name], breaks, c.missing) for c in channels}
+    minimum = {c.name: interrupted(c, bare.minimum[c.name], breaks) for c in channels}
+    maximum = {c.name: interrupted(c, bare.maximum[c.name], breaks) for c in channels}
     return Trace(
         *window,
         rows=bare.rows,
@@ -293,6 +293,12 @@ def irregular_trace(
         minimum=minimum,
         maximum=minimum if same else maximum,
     )
+
+
+def interrupted(channel: ChannelSpec, counts: Counts, breaks: Starts) -> Counts:
+    """Counts with a missing one put in before each of `breaks`."""
+    widened: Counts = np.insert(counts, breaks, channel.missing).astype(counts.dtype)
+    return widened
 
 
 def json_values(channel: ChannelSpec, counts: Counts) -> list[float | None]:
