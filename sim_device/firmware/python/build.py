@@ -21,7 +21,15 @@ SOURCE_FOLDERS = (
 )
 
 # In order of dependence. A header that is not here cannot be called from Python.
-HEADERS: tuple[str, ...] = ()
+HEADERS: tuple[str, ...] = (
+    "sim_device/physics/road.h",
+    "sim_device/physics/rider.h",
+    "sim_device/physics/motor.h",
+    "sim_device/physics/battery.h",
+    "sim_device/physics/drivetrain.h",
+    "sim_device/physics/torque_sensor.h",
+    "sim_device/physics/physics.h",
+)
 
 # Without contraction and fast-math the host and a Cortex-M4F agree to the bit (ADR 1).
 COMPILE_ARGUMENTS = ["-std=c99", "-O2", "-ffp-contract=off", "-fno-math-errno"]
