@@ -28,6 +28,16 @@ const ebl_message ebl_messages[EBL_MESSAGE_COUNT] = {
     {0x7002, 0, 0},
 };
 
+const ebl_event_row ebl_event_rows[EBL_EVENT_COUNT] = {
+    {EBL_EVENT_BOOT, 5},
+    {EBL_EVENT_FAULT_SET, 2},
+    {EBL_EVENT_FAULT_CLEARED, 2},
+    {EBL_EVENT_CONFIG_COMMITTED, 8},
+    {EBL_EVENT_CONFIG_ROLLED_BACK, 8},
+    {EBL_EVENT_CONFIG_DEFAULTED, 8},
+    {EBL_EVENT_STREAM_STATS, 9},
+};
+
 const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT] = {
     {0x0100, 0, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, 0,
      -30000.0f, 30000.0f}, /* sensor_offset_counts */
@@ -131,6 +141,16 @@ const ebl_message *ebl_message_find(uint16_t id)
     for (size_t at = 0; at < EBL_MESSAGE_COUNT; at++) {
         if (ebl_messages[at].id == id) {
             return &ebl_messages[at];
+        }
+    }
+    return NULL;
+}
+
+const ebl_event_row *ebl_event_find(uint8_t code)
+{
+    for (size_t at = 0; at < EBL_EVENT_COUNT; at++) {
+        if (ebl_event_rows[at].code == code) {
+            return &ebl_event_rows[at];
         }
     }
     return NULL;

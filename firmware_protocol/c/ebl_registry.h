@@ -13,6 +13,8 @@
 #define EBL_CONTROL_PERIOD_US 10000
 #define EBL_IMAGE_LENGTH 299
 #define EBL_MESSAGE_COUNT 20
+#define EBL_EVENT_COUNT 7
+#define EBL_EVENT_HEAD_LENGTH 5
 #define EBL_PARAMETER_COUNT 34
 #define EBL_ORDER_COUNT 1
 #define EBL_CHANNEL_COUNT 20
@@ -246,6 +248,12 @@ typedef struct {
     uint16_t response_length; /* the same, after the status byte */
 } ebl_message;
 
+/* An event's payload starts with its code u8 and t_us u32; `length` is what must follow. */
+typedef struct {
+    uint8_t code; /* ebl_event */
+    uint16_t length;
+} ebl_event_row;
+
 typedef enum { EBL_TYPE_U8 = 0, EBL_TYPE_U16 = 1, EBL_TYPE_F32 = 2, EBL_TYPE_TEXT = 3 } ebl_type;
 
 enum {
@@ -316,6 +324,7 @@ typedef struct {
 } ebl_config;
 
 extern const ebl_message ebl_messages[EBL_MESSAGE_COUNT];
+extern const ebl_event_row ebl_event_rows[EBL_EVENT_COUNT];
 extern const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT]; /* in the order of their ids */
 extern const ebl_order ebl_orders[EBL_ORDER_COUNT];
 extern const ebl_channel ebl_channels[EBL_CHANNEL_COUNT];       /* in the order of their ids */
@@ -325,6 +334,7 @@ extern const uint8_t ebl_schema[EBL_SCHEMA_LENGTH]; /* zlib */
 
 /* NULL where the id is unknown. */
 const ebl_message *ebl_message_find(uint16_t id);
+const ebl_event_row *ebl_event_find(uint8_t code);
 const ebl_parameter *ebl_parameter_find(uint16_t id);
 const ebl_channel *ebl_channel_find(uint8_t id);
 

@@ -5,11 +5,11 @@ from firmware_protocol.generate.registry import Layout, Registry
 from firmware_protocol.layout import Field, Parameter
 
 FIND = """\
-const ebl_{row} *ebl_{row}_find({type} id)
+const {struct} *ebl_{row}_find({type} {key})
 {{
     for (size_t at = 0; at < EBL_{upper}_COUNT; at++) {{
-        if (ebl_{row}s[at].id == id) {{
-            return &ebl_{row}s[at];
+        if ({struct}s[at].{key} == {key}) {{
+            return &{struct}s[at];
         }}
     }}
     return NULL;
@@ -26,6 +26,8 @@ def registry_source(registry: Registry) -> str:
         f"    {{0x{row.id:04x}, {row.request.length}, {row.response.length}}},"
         for row in registry.messages
     ]
+    lines += ["};", "", "const ebl_event_row ebl_event_rows[EBL_EVENT_COUNT] = {"]
+    lines += [f"    {{EBL_EVENT_{name}, {layout.length}}}," for name, layout in registry.events]
     lines += ["};", "", "const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT] = {"]
     lines += [_parameter_row(registry, parameter) for parameter in registry.parameters]
     lines += ["};", "", "const ebl_order ebl_orders[EBL_ORDER_COUNT] = {"]
@@ -39,8 +41,13 @@ def registry_source(registry: Registry) -> str:
     lines += ["};", "", "const ebl_channel ebl_channels[EBL_CHANNEL_COUNT] = {"]
     lines += [f"    {{{row.id}, {float_literal(row.scale)}}}," for row in registry.channels]
     lines += ["};", ""]
-    for row, kind in (("message", "uint16_t"), ("parameter", "uint16_t"), ("channel", "uint8_t")):
-        lines += [FIND.format(row=row, type=kind, upper=row.upper())]
+    for row, struct, kind, key in (
+        ("message", "ebl_message", "uint16_t", "id"),
+        ("event", "ebl_event_row", "uint8_t", "code"),
+        ("parameter", "ebl_parameter", "uint16_t", "id"),
+        ("channel", "ebl_channel", "uint8_t", "id"),
+    ):
+        lines += [FIND.format(row=row, struct=struct, type=kind, key=key, upper=row.upper())]
     lines += [*_config_default(registry), "", *_config_copies(registry)]
     return "\n".join(lines) + "\n"
 
