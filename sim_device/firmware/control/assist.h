@@ -1,7 +1,8 @@
 /* The assist law as one pipeline: raw counts in, motor torque out, 100 times a second.
  *
  * Pure C99 and float32: no globals, no heap, no libm. State lives in a struct the caller owns, so
- * two instances never meet. The same code runs in the unit, the simulator and the preview. */
+ * two instances never meet. The same code runs in the unit, the simulator and the preview. Build
+ * with -ffp-contract=off and without fast-math, or hosts and targets differ in the last bit. */
 #ifndef SPINDLE_ASSIST_H
 #define SPINDLE_ASSIST_H
 
@@ -12,6 +13,22 @@
 
 #define ASSIST_MODE_SLOTS 5
 #define ASSIST_RATE_HISTORY 64 /* control steps the torque-rate interval can span, at most */
+
+/* Bits of limit_flags in registry.toml: which step held the motor back in this control step. A
+ * cut-off is told only while there was something to cut; it clears the bits of the ramps, because
+ * they no longer decide. */
+#define ASSIST_LIMIT_TAPER 0x0001
+#define ASSIST_LIMIT_SPEED_CUTOFF 0x0002
+#define ASSIST_LIMIT_PEDAL_STOP 0x0004
+#define ASSIST_LIMIT_BRAKE 0x0008
+#define ASSIST_LIMIT_RAMP_UP 0x0010
+#define ASSIST_LIMIT_RAMP_DOWN 0x0020
+#define ASSIST_LIMIT_MOTOR_TORQUE 0x0040
+#define ASSIST_LIMIT_BATTERY_CURRENT 0x0080
+#define ASSIST_LIMIT_MOTOR_SPEED 0x0100
+#define ASSIST_LIMIT_BATTERY_VOLTAGE 0x0200
+#define ASSIST_LIMIT_INPUT_REFUSED 0x0400
+#define ASSIST_LIMIT_MODE_OFF 0x0800
 
 typedef enum { ASSIST_LAW_OFF = 0, ASSIST_LAW_FIXED = 1, ASSIST_LAW_FUZZY = 2 } assist_law;
 
@@ -49,14 +66,14 @@ typedef struct {
     float cadence_rpm;
     float motor_speed_rpm;
     float battery_voltage_v;
-    uint8_t mode; /* slot 0 to 4 */
+    uint8_t mode; /* slot 0 to 4; any other is refused */
     uint8_t brake;
 } assist_input;
 
 typedef struct {
-    float rider_torque_nm;          /* calibrated, unfiltered */
+    float rider_torque_nm;          /* calibrated, unfiltered; NaN if the input was refused */
     float rider_torque_filtered_nm; /* averaged over the stroke */
-    float torque_rate;              /* relative change over the rate interval, clamped to the table */
+    float torque_rate;              /* relative change over the interval, clamped to the table */
     float assist_ratio;             /* gain included, before limits */
     float fuzzy_gain;               /* NaN where the mode does not use it */
     float motor_torque_nm;          /* demand at the motor's shaft after every limit */
@@ -66,17 +83,18 @@ typedef struct {
 /* What the law remembers. Zero-initialised (`assist_state s = {0};`) is a bike at rest. */
 typedef struct {
     float torque_filtered_nm;
-    float torque_history_nm[ASSIST_RATE_HISTORY];
-    uint16_t history_length;
+    float torque_history_nm[ASSIST_RATE_HISTORY]; /* ring of filtered torque, one a step */
     uint16_t history_next;
-    float assist_torque_nm;         /* at the crank, after the ramp */
-    float pedal_idle_s;
+    uint16_t pedal_steps_left; /* steps assist may go on without forward pedalling; 0 at rest */
+    float assist_torque_nm;    /* at the crank, after every limit: where the ramps go on from */
 } assist_state;
 
 enum { ASSIST_OK = 0, ASSIST_INPUT_REFUSED = -1, ASSIST_CONFIG_REFUSED = -2 };
 
-/* One control step. A NaN or infinite input gives zero torque, sets INPUT_REFUSED and leaves the
- * filter as it was. Returns ASSIST_OK or ASSIST_INPUT_REFUSED; the output is valid either way. */
+/* One control step. A NaN, an infinity, a number no sensor can give (beyond a million) or an
+ * unknown mode gives zero torque, sets INPUT_REFUSED and leaves the filter as it was.
+ * Returns ASSIST_OK or ASSIST_INPUT_REFUSED; the output is valid either way. `config` must have
+ * passed assist_config_check: a step does not check it again. */
 int assist_step(const assist_config *config, assist_state *state, const assist_input *input,
                 assist_output *output);
 

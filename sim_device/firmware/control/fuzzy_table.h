@@ -19,10 +19,13 @@ typedef struct {
 
 enum { FUZZY_OK = 0, FUZZY_INPUT_REFUSED = -1, FUZZY_TABLE_REFUSED = -2 };
 
-/* FUZZY_OK, or FUZZY_TABLE_REFUSED if points are not finite and increasing or a label is unknown. */
+/* FUZZY_OK, or FUZZY_TABLE_REFUSED if points are not finite and increasing, a gain is outside
+ * [0, 0.5] or a label or the inference is unknown. */
 int fuzzy_table_check(const fuzzy_table *table);
 
-/* Gain at one point, inputs clamped to the table. A non-finite input is refused and gain set to 0. */
+/* Gain at one point, inputs clamped to the table. A non-finite input is refused and gain set to 0.
+ * Centroid of triangles clipped by min and joined by max over [0, 0.5], exact; or the weighted mean
+ * of the peaks. The table must have passed fuzzy_table_check. */
 int fuzzy_gain(const fuzzy_table *table, float speed_kmh, float torque_rate, float *gain);
 
 /* `count` points; a refused point gives NaN. Returns how many were refused. */

@@ -1,0 +1,50 @@
+/* The steps of the pipeline in assist.c, one file each. Every step takes the demand as the step
+ * before left it and lowers it or leaves it; none raises it after the law. */
+#ifndef SPINDLE_ASSIST_STEPS_H
+#define SPINDLE_ASSIST_STEPS_H
+
+#include "assist.h" // assist_config, assist_state, assist_input, assist_output
+
+/* sensor.c */
+float sensor_torque_nm(const assist_config *config, float torque_raw_counts);
+
+/* stroke_average.c: first-order low-pass over the two strokes of a crank turn. */
+float stroke_average_nm(const assist_config *config, float averaged_nm, float torque_nm);
+
+/* torque_rate.c: filtered torque one interval ago; stores the present one in its place. */
+float torque_history_swap(const assist_config *config, assist_state *state);
+float torque_rate_of(const assist_config *config, float torque_nm, float earlier_torque_nm);
+
+/* law.c: torque at the crank the mode asks for, before any ramp or limit. */
+float apply_law(const assist_config *config, const assist_input *input, float earlier_torque_nm,
+                assist_output *output);
+
+/* cutoffs.c: the soft ramp below the cut-off speed. Before the ramps, which go on from the torque
+ * that was given: behind them the same share would be taken again at every step. */
+float apply_cutoff_band(const assist_config *config, const assist_input *input, float demand_nm,
+                        assist_output *output);
+
+/* ramps.c */
+float apply_ramps(const assist_config *config, float previous_nm, float wanted_nm,
+                  assist_output *output);
+
+/* cutoffs.c: whatever takes the torque away at once. */
+float apply_cutoffs(const assist_config *config, assist_state *state, const assist_input *input,
+                    float demand_nm, assist_output *output);
+
+/* limits.c: what motor and battery can give; crank torque in, motor torque out. */
+float apply_limits(const assist_config *config, const assist_input *input, float demand_nm,
+                   assist_output *output);
+
+/* Lowers the demand to the limit and says so. Whatever lowers it after the ramps decides in their
+ * place, so their bits go. */
+static inline float held_at(float limit_nm, float demand_nm, unsigned flag, assist_output *output)
+{
+    unsigned ramps = ASSIST_LIMIT_RAMP_UP | ASSIST_LIMIT_RAMP_DOWN;
+
+    if (demand_nm <= limit_nm) return demand_nm;
+    output->limit_flags = (uint16_t)((output->limit_flags & ~ramps) | flag);
+    return limit_nm;
+}
+
+#endif

@@ -1,0 +1,25 @@
+/* The few float32 operations the law needs, so that it never calls into libm. */
+#ifndef SPINDLE_FLOAT32_H
+#define SPINDLE_FLOAT32_H
+
+/* False for NaN and both infinities; needs a build without fast-math. */
+static inline int float32_is_finite(float value) { return value - value == 0.0f; }
+
+/* Quiet NaN: the value of what is not known. */
+static inline float float32_missing(void) { return __builtin_nanf(""); }
+
+static inline float float32_min(float a, float b) { return a < b ? a : b; }
+
+static inline float float32_max(float a, float b) { return a > b ? a : b; }
+
+static inline float float32_abs(float value) { return value < 0.0f ? -value : value; }
+
+static inline float float32_clamp(float value, float low, float high)
+{
+    return float32_max(low, float32_min(value, high));
+}
+
+/* One instruction where the compiler is told -fno-math-errno; `value` must not be negative. */
+static inline float float32_sqrt(float value) { return __builtin_sqrtf(value); }
+
+#endif
