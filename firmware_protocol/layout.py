@@ -42,6 +42,8 @@ class Message:
     LAYOUT: ClassVar[tuple[Field, ...]] = ()
     LENGTH: ClassVar[int] = 0
     """Bytes of the fixed fields: the shortest payload that is accepted."""
+    MESSAGE_ID: ClassVar[int] = 0
+    """Of a request or response; 0 for the fields of an event."""
 
     @classmethod
     def from_bytes(cls, payload: bytes) -> Self:
