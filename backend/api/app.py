@@ -1,0 +1,94 @@
+"""The application: routes, refusals, safety and pages put together. Starts nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import AbstractAsyncContextManager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from fastapi import APIRouter, FastAPI
+from fastapi.openapi.utils import get_openapi
+from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
+
+from backend.api import errors, live, pages
+from backend.api.problem import Problem
+from backend.api.routes import config, devices, health, law, rides, uploads
+from backend.api.safety import AllowedHosts, BodyBound, SameOriginOnly, SecurityHeaders
+
+PREFIX = "/api/v1"
+# A whole ride is a file and goes another way; the largest honest JSON body is a page of points.
+BODY_BYTES_MAX = 1024 * 1024
+# Ride samples and files are compressed already or not worth the processor's time.
+UNCOMPRESSED = (*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/octet-stream", "application/vnd.*")
+
+Lifespan = Callable[[FastAPI], AbstractAsyncContextManager[None]]
+
+
+@dataclass(frozen=True)
+class ApiSettings:
+    """What the API needs to know about its surroundings.
+
+    frontend: folder of the built pages, None where there is none.
+    """
+
+    version: str
+    hosts: AllowedHosts = field(default_factory=AllowedHosts)
+    frontend: Path | None = None
+    upload_bytes_max: int = 256 * 1024 * 1024
+
+
+def create_app(settings: ApiSettings, lifespan: Lifespan | None = None) -> FastAPI:
+    """The application. `lifespan` must put a `Services` on `app.state.services` before requests."""
+    app = FastAPI(
+        title="Spindle",
+        version=settings.version,
+        summary="Configure, calibrate, watch and understand mid-drive e-bikes.",
+        openapi_url=f"{PREFIX}/openapi.json",
+        docs_url=None,
+        redoc_url=None,
+        lifespan=lifespan,
+    )
+    app.state.upload_bytes_max = settings.upload_bytes_max
+    api = APIRouter(prefix=PREFIX)
+    for module in (health, devices, config, law, rides, uploads, live):
+        api.include_router(module.router)
+    app.include_router(api)
+    errors.install(app)
+    pages.install(app, settings.frontend)
+    app.openapi = lambda: openapi_of(app)  # type: ignore[method-assign]
+    _protect(app, settings)
+    return app
+
+
+def _protect(app: FastAPI, settings: ApiSettings) -> None:
+    """Middleware, innermost first: what is added last sees a request first."""
+    app.add_middleware(
+        GZipMiddleware, minimum_size=1024, compresslevel=4, exclude_content_types=UNCOMPRESSED
+    )
+    app.add_middleware(
+        BodyBound,
+        bytes_max=BODY_BYTES_MAX,
+        upload_bytes_max=settings.upload_bytes_max,
+        upload_paths=(f"{PREFIX}/uploads", f"{PREFIX}/rides/import"),
+    )
+    app.add_middleware(SameOriginOnly, hosts=settings.hosts)
+    app.add_middleware(SecurityHeaders)
+
+
+def openapi_of(app: FastAPI) -> dict[str, Any]:
+    """The OpenAPI description, computed once; every refusal in it is the one Problem model."""
+    if app.openapi_schema is None:
+        schema = get_openapi(
+            title=app.title,
+            version=app.version,
+            summary=app.summary,
+            routes=app.routes,
+            openapi_version=app.openapi_version,
+        )
+        problem = Problem.model_json_schema(ref_template="#/components/schemas/{model}")
+        definitions = problem.pop("$defs")
+        schema["components"]["schemas"].update({"Problem": problem, **definitions})
+        app.openapi_schema = schema
+    return app.openapi_schema

@@ -1,0 +1,108 @@
+"""Where the error tree becomes HTTP: the only place that knows both."""
+
+from __future__ import annotations
+
+import logging
+from http import HTTPStatus
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from starlette.exceptions import HTTPException
+
+from backend import errors
+from backend.api.problem import FieldProblem, problem_response
+
+LOG = logging.getLogger(__name__)
+
+# The most exact class wins; a class that is absent has the status of its nearest ancestor.
+STATUS_OF: dict[type[errors.SpindleError], int] = {
+    errors.SpindleError: 500,
+    errors.LinkError: 503,
+    errors.NoAnswer: 504,
+    errors.PeerProtocolError: 502,
+    errors.OurProtocolError: 500,
+    errors.DeviceRefused: 409,
+    errors.RequestRefused: 409,
+    errors.InvalidRequest: 422,
+    errors.LimitViolation: 422,
+    errors.ConfigConflict: 412,
+    errors.AccessDenied: 403,
+    errors.NotStandingStill: 409,
+    errors.Conflict: 409,
+    errors.NotFound: 404,
+    errors.BadFile: 422,
+    errors.StoreError: 500,
+}
+CODE_OF_STATUS = {
+    404: "not_found",
+    405: "method_not_allowed",
+    413: "too_large",
+    415: "unsupported_media_type",
+}
+# What an error list may hold: a table of 25 rules with every cell wrong still fits, and a hostile
+# body with a million bad fields does not become a response of that size.
+FIELD_ERRORS_MAX = 100
+
+
+def status_of(error: errors.SpindleError) -> int:
+    """The HTTP status of an error of the tree."""
+    return next(STATUS_OF[kind] for kind in type(error).__mro__ if kind in STATUS_OF)
+
+
+def spindle_problem(_: Request, error: Exception) -> JSONResponse:
+    """An error of our tree, with every field at fault."""
+    assert isinstance(error, errors.SpindleError)
+    status = status_of(error)
+    if status >= HTTPStatus.INTERNAL_SERVER_ERROR:
+        LOG.warning("%s: %s", type(error).__name__, error.message)
+    fields = [FieldProblem(field=f.field, code=f.code, message=f.message) for f in error.fields]
+    return problem_response(status, error.code, error.message, fields[:FIELD_ERRORS_MAX])
+
+
+def validation_problem(_: Request, error: Exception) -> JSONResponse:
+    """A request that does not have the declared shape. Values are not echoed."""
+    assert isinstance(error, RequestValidationError)
+    found = error.errors()
+    fields = [
+        FieldProblem(field=field_path(item["loc"]), code=item["type"], message=item["msg"])
+        for item in found[:FIELD_ERRORS_MAX]
+    ]
+    detail = "; ".join(f"{field.field}: {field.message}" for field in fields[:3])
+    more = f" and {len(found) - 3} more" if len(found) > 3 else ""
+    return problem_response(422, "invalid", f"{detail}{more}", fields)
+
+
+def field_path(location: tuple[int | str, ...]) -> str:
+    """`("body", "rules", 2, 0)` as a person writes it: `rules[2][0]`."""
+    parts = location[1:] if len(location) > 1 else location
+    path = ""
+    for part in parts:
+        path += f"[{part}]" if isinstance(part, int) else f".{part}" if path else part
+    return path
+
+
+def http_problem(request: Request, error: Exception) -> JSONResponse:
+    """What the framework refuses itself: unknown routes, wrong methods, unreadable bodies."""
+    assert isinstance(error, HTTPException)
+    status = error.status_code
+    code = CODE_OF_STATUS.get(status, HTTPStatus(status).name.lower())
+    detail = str(error.detail)
+    if status == HTTPStatus.NOT_FOUND and detail == HTTPStatus.NOT_FOUND.phrase:
+        detail = f"There is nothing at {request.url.path}; /api/docs lists what there is."
+    return problem_response(status, code, detail, headers=dict(error.headers or {}))
+
+
+def unexpected_problem(request: Request, error: Exception) -> JSONResponse:
+    """A bug of ours. The log has the trace; the answer does not give the insides away."""
+    LOG.error("%s %s failed", request.method, request.url.path, exc_info=error)
+    detail = "Something unexpected went wrong in the server; its log has the details."
+    return problem_response(500, "internal", detail)
+
+
+def install(app: FastAPI) -> None:
+    """Makes every error of the application a problem+json response."""
+    app.add_exception_handler(errors.SpindleError, spindle_problem)
+    app.add_exception_handler(RequestValidationError, validation_problem)
+    app.add_exception_handler(HTTPException, http_problem)
+    app.add_exception_handler(Exception, unexpected_problem)

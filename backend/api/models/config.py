@@ -1,0 +1,97 @@
+"""The configuration of a unit: whole, parameter by parameter, and as typed views."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from backend.api.models.base import Answer, Question
+
+ParameterValue = (
+    int
+    | float
+    | str
+    | Annotated[list[int | float | str], Field(max_length=64)]
+    | Annotated[
+        list[Annotated[list[int | float | str], Field(max_length=64)]], Field(max_length=64)
+    ]
+)
+Parameters = dict[str, ParameterValue]
+
+
+class Parameter(Answer):
+    """What a parameter is, and its value in the unit now.
+
+    `min`, `max` and `choices` are the unit's own bounds; enumerations are given by name.
+    """
+
+    id: int
+    name: str
+    group: str
+    type: str
+    shape: list[int]
+    unit: str
+    min: float | None
+    max: float | None
+    default: ParameterValue
+    access: Literal["RIDER", "DEALER", "FACTORY"]
+    value: ParameterValue | None
+    choices: list[str] | None = None
+    description: str
+
+
+class ParameterList(Answer):
+    items: list[Parameter]
+    next: str | None = None
+
+
+class Config(Answer):
+    generation: int
+    crc32: int
+    parameters: Parameters
+
+
+class ConfigPatch(Question):
+    parameters: Parameters = Field(min_length=1, max_length=400)
+    reason: str = Field(default="", max_length=400)
+    confirm_s: int = Field(
+        default=0, ge=0, le=255, description="0 commits for good; else the time to confirm."
+    )
+
+
+class Change(Answer):
+    name: str
+    old: ParameterValue | None
+    new: ParameterValue | None
+
+
+class ConfigChange(Answer):
+    """A change that the unit took, read back and compared field by field."""
+
+    generation: int
+    crc32: int
+    state: Literal["committed", "provisional"]
+    verified: bool
+    changed: list[Change]
+    expires_at: datetime | None
+
+
+class Revision(Answer):
+    """Who changed what, when and why."""
+
+    id: int
+    device: str
+    at: datetime
+    author: str | None
+    reason: str
+    generation: int
+    crc32: int
+    state: str
+    changed: list[Change]
+
+
+class RevisionList(Answer):
+    items: list[Revision]
+    next: str | None = None

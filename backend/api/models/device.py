@@ -1,0 +1,156 @@
+"""Ports, units, their live values, and the simulation behind a simulated unit."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from backend.api.models.base import Answer, Question
+
+DeviceKind = Literal["simulated", "serial", "socket"]
+DeviceState = Literal["connecting", "ready", "read_only", "lost", "closed"]
+RiderKind = Literal["off", "constant", "legs"]
+
+
+class DeviceHealth(Answer):
+    id: str
+    state: DeviceState
+
+
+class Health(Answer):
+    status: Literal["ok"]
+    version: str
+    devices: list[DeviceHealth]
+
+
+class Port(Answer):
+    """A place where a unit may be: pass `url` to `POST /devices`."""
+
+    url: str
+    description: str
+    kind: DeviceKind
+    manufacturer: str | None
+    usb_serial_number: str | None
+    in_use: bool | None = Field(description="null where it cannot be told without opening it.")
+    hint: str | None = Field(description="What stands in the way and what to do about it.")
+
+
+class PortList(Answer):
+    items: list[Port]
+    next: str | None = None
+
+
+class DeviceRequest(Question):
+    url: str = Field(
+        min_length=1,
+        max_length=400,
+        description="`sim`, `sim:NAME?seed=1`, `/dev/ttyUSB0`, `COM3` or `socket://host:port`.",
+    )
+
+
+class Identity(Answer):
+    serial_number: str
+    model: str
+    hardware_revision: int
+    firmware_version: str
+    protocol_version: str
+    schema_hash: str
+
+
+class ConfigStamp(Answer):
+    generation: int
+    crc32: int
+
+
+class Device(Answer):
+    """One unit. `reason` says in a sentence why the state is what it is."""
+
+    id: str
+    url: str
+    kind: DeviceKind
+    state: DeviceState
+    reason: str
+    identity: Identity | None
+    config: ConfigStamp | None
+    link: dict[str, int] = Field(description="Counters of the link since it was opened.")
+    faults_active: list[str]
+
+
+class DeviceList(Answer):
+    items: list[Device]
+    next: str | None = None
+
+
+class Snapshot(Answer):
+    """One row of every channel; a channel without a value is null."""
+
+    t_us: int
+    channels: dict[str, float | None]
+
+
+class Fault(Answer):
+    name: str
+    description: str
+
+
+class FaultList(Answer):
+    items: list[Fault]
+    next: str | None = None
+
+
+class SimulationRider(Answer):
+    kind: RiderKind
+    torque_nm: float
+    cadence_rpm_max: float
+
+
+class SimulationRoad(Answer):
+    grade_deg: float
+    wind_ms: float
+
+
+class Simulation(BaseModel):
+    """What rider, road and clock of a simulated unit do now. A unit may tell more than this."""
+
+    model_config = ConfigDict(from_attributes=True, extra="allow")
+
+    scenario: str | None
+    running: bool
+    speed_factor: float
+    t_s: float
+    seed: int
+    rider: SimulationRider
+    road: SimulationRoad
+    load_source: Literal["road", "dyno"]
+    mass_kg: float
+    assist_mode: int
+    brake: bool
+    energy_balance_error_pct: float | None
+    energy_consistent: bool
+
+
+class SimulationRiderChange(Question):
+    kind: RiderKind | None = None
+    torque_nm: float | None = Field(default=None, ge=0.0, le=300.0)
+    cadence_rpm_max: float | None = Field(default=None, ge=0.0, le=200.0)
+
+
+class SimulationRoadChange(Question):
+    grade_deg: float | None = Field(default=None, ge=-30.0, le=30.0)
+    wind_ms: float | None = Field(default=None, ge=-40.0, le=40.0)
+
+
+class SimulationChange(Question):
+    """Any subset; what is absent stays. A `scenario` starts from its beginning."""
+
+    scenario: str | None = Field(default=None, max_length=80)
+    running: bool | None = None
+    speed_factor: float | None = Field(default=None, gt=0.0, le=1000.0)
+    seed: int | None = Field(default=None, ge=0, le=2**32 - 1)
+    rider: SimulationRiderChange | None = None
+    road: SimulationRoadChange | None = None
+    load_source: Literal["road", "dyno"] | None = None
+    mass_kg: float | None = Field(default=None, ge=20.0, le=400.0)
+    assist_mode: int | None = Field(default=None, ge=0, le=4)
+    brake: bool | None = None

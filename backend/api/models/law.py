@@ -1,0 +1,145 @@
+"""The assist law as people edit it: table, modes, limits; and what the law's tools answer."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from backend.api.models.base import Answer, Question
+
+Label = Literal["NB", "NS", "ZO", "PS", "PB"]
+Five = Field(min_length=5, max_length=5)
+FivePoints = Annotated[list[float], Five]
+RuleRow = Annotated[list[Label], Five]
+
+
+class LawModel(BaseModel):
+    """Goes both ways, so that what was read can be edited and written back as it is."""
+
+    model_config = ConfigDict(from_attributes=True, extra="forbid", allow_inf_nan=False)
+
+
+class FuzzyTable(LawModel):
+    """Five by five rules: `rules[speed][torque rate]`."""
+
+    name: str = Field(max_length=24)
+    inference: Literal["mamdani_centroid", "weighted_average"]
+    speed_points_kmh: FivePoints
+    torque_rate_points: FivePoints
+    gain_points: FivePoints
+    rules: Annotated[list[RuleRow], Five]
+
+
+class AssistMode(LawModel):
+    """One of the five slots the rider's switch selects."""
+
+    name: str = Field(max_length=16)
+    law: Literal["off", "fixed", "fuzzy"]
+    ratio: float
+
+
+class AssistModes(LawModel):
+    modes: Annotated[list[AssistMode], Five]
+    mode_at_start: int = Field(ge=0, le=4)
+
+
+class Calibration(LawModel):
+    """How raw counts become newton metres, and how they are filtered."""
+
+    sensor_offset_counts: float
+    sensor_gain_nm_per_count: float
+    torque_filter_s: float
+    torque_rate_interval_ms: int
+    torque_rate_floor_nm: float
+
+
+class Limits(LawModel):
+    """What the unit enforces after the law, whatever the table says."""
+
+    assist_cutoff_kmh: float
+    assist_cutoff_band_kmh: float
+    motor_torque_nm_max: float
+    battery_current_a_max: float
+    battery_voltage_v_min: float
+    motor_speed_rpm_max: float
+    pedal_stop_ms: int
+
+
+class SurfaceRequest(Question):
+    fuzzy_table: FuzzyTable
+    speeds_kmh: list[float] = Field(min_length=1, max_length=512)
+    torque_rates: list[float] = Field(min_length=1, max_length=512)
+
+
+class Surface(Answer):
+    gain: list[list[float]] = Field(description="`gain[speed][torque rate]`")
+    engine: str = Field(description="Which code computed it: the unit's own.")
+
+
+class PointsRequest(Question):
+    fuzzy_table: FuzzyTable
+    points: list[tuple[float, float]] = Field(
+        min_length=1, max_length=20_000, description="Pairs of speed_kmh and torque_rate."
+    )
+
+
+class PointGains(Answer):
+    gain: list[float]
+    engine: str
+
+
+class LintRequest(Question):
+    fuzzy_table: FuzzyTable
+    assist_modes: AssistModes | None = None
+    limits: Limits | None = None
+
+
+class Finding(Answer):
+    code: str
+    message: str
+    where: str | None
+
+
+class LintReport(Answer):
+    errors: list[Finding]
+    warnings: list[Finding]
+    notes: list[Finding]
+
+
+Readings = Annotated[
+    list[Annotated[list[float], Field(min_length=2, max_length=200)]],
+    Field(min_length=1, max_length=100),
+]
+
+
+class EvaluationRequest(Question):
+    """Readings in Nm of `r` strokes over the `k` loads, rising and falling."""
+
+    full_scale_nm: float = Field(gt=0.0)
+    load_nm: list[float] = Field(min_length=2, max_length=200)
+    forward: Readings
+    reverse: Readings
+
+
+class TwoDefinitions(Answer):
+    """By deviation from the mean, and by the range of the readings (thesis_checks I-26)."""
+
+    deviation: float
+    range: float
+
+
+class Fit(Answer):
+    slope: float
+    offset_nm: float
+
+
+class Evaluation(Answer):
+    linearity_pct: float
+    hysteresis_pct: float
+    repeatability_pct: TwoDefinitions
+    total_pct: TwoDefinitions
+    fit: Fit
+    worst: dict[str, float | str | None] = Field(
+        description="Where each figure has its largest value."
+    )

@@ -1,0 +1,162 @@
+"""Rides: summary, list, traces, replay; and files on their way to becoming rides."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Any, Literal
+
+from pydantic import Field
+
+from backend.api.models.base import Answer, Question
+from backend.api.models.law import AssistModes, FuzzyTable
+
+
+class RideSummary(Answer):
+    """What a ride comes to; null where the ride lacks the channel.
+
+    Rider and motor energy are never added up. `*_excluded_s` is time without the channel.
+    """
+
+    duration_s: float
+    moving_s: float | None
+    distance_km: float | None
+    rider_wh: float | None
+    rider_excluded_s: float | None
+    motor_wh: float | None
+    motor_excluded_s: float | None
+    battery_wh: float | None
+    battery_excluded_s: float | None
+    speed_kmh_mean: float | None
+    speed_kmh_max: float | None
+    cadence_rpm_mean: float | None
+    cadence_rpm_max: float | None
+    rider_torque_nm_mean: float | None
+    rider_torque_nm_max: float | None
+    rider_power_w_mean: float | None
+    rider_power_w_max: float | None
+    motor_torque_nm_max: float | None
+    motor_power_w_mean: float | None
+    motor_power_w_max: float | None
+    battery_soc_pct_used: float | None
+    motor_temperature_degc_max: float | None
+
+
+class Gap(Answer):
+    """A stretch without samples; `rows_lost` where it is known."""
+
+    from_s: float
+    to_s: float
+    rows_lost: int | None
+
+
+class RideChannel(Answer):
+    """A channel that can be asked for; `derived` ones are computed from recorded ones."""
+
+    name: str
+    unit: str
+    scale: float
+    derived: bool
+
+
+class RideDevice(Answer):
+    """What was true of the bike while the ride was made; null where nobody knows."""
+
+    device_id: str | None
+    device_serial: str | None
+    device_model: str | None
+    firmware_version: str | None
+    config_generation: int | None
+    config_crc32: int | None
+    gear_ratio: float | None
+
+
+class Ride(Answer):
+    id: int
+    state: Literal["live", "closing", "done", "bad"]
+    origin: Literal["recorded", "imported"]
+    name: str
+    notes: str
+    started_at: datetime
+    row_count: int
+    period_us: int | None = Field(description="Spacing of the rows; null when irregular.")
+    channels: list[RideChannel]
+    device: RideDevice
+    gaps: list[Gap]
+    completeness: float | None = Field(
+        description="Share of the rows that should be there, 0 to 1; null when nobody can say."
+    )
+    upload_id: str | None
+    object_bytes: int | None
+    summary: RideSummary | None
+
+
+class RideList(Answer):
+    items: list[Ride]
+    next: str | None
+
+
+class RidePatch(Question):
+    name: str | None = Field(default=None, max_length=200)
+    notes: str | None = Field(default=None, max_length=20_000)
+
+
+class SeriesChannel(Answer):
+    """Least and greatest value of each bin; a bin without a sample is null."""
+
+    name: str
+    unit: str
+    min: list[float | None]
+    max: list[float | None]
+
+
+class Series(Answer):
+    """Traces reduced to the plot's width; every extreme of the window is in them.
+
+    `rows`: each bin is one sample, so min and max are the same. `minmax`: the least and greatest
+    of the samples from the bin's first time to its last.
+    """
+
+    from_s: float
+    to_s: float
+    rows: int = Field(description="Samples in the bins.")
+    bins: int
+    kind: Literal["rows", "minmax"]
+    t_first_s: list[float]
+    t_last_s: list[float]
+    channels: list[SeriesChannel]
+
+
+class Figure(Answer):
+    """A Plotly figure, for `Plotly.newPlot`."""
+
+    data: list[dict[str, Any]]
+    layout: dict[str, Any]
+
+
+class ReplayRequest(Question):
+    fuzzy_table: FuzzyTable | None = None
+    assist_modes: AssistModes | None = None
+
+
+class Replay(Answer):
+    """What the motor would have done with another table, against what it did."""
+
+    ride_id: int
+    motor_energy_wh: float
+    motor_energy_wh_recorded: float | None
+    motor_torque_nm_max: float
+    motor_torque_nm_max_recorded: float | None
+    difference: dict[str, float | None]
+    series: Series
+
+
+class Upload(Answer):
+    """Where a file stands. `code` and `detail` say why it is not a whole ride."""
+
+    id: str
+    state: Literal["receiving", "queued", "complete", "partial", "rejected"]
+    code: str | None
+    detail: str | None
+    ride_ids: list[int]
+    completeness: float | None
+    duplicate_of: int | None

@@ -1,0 +1,57 @@
+"""The browser's pages: the built frontend, every unknown path its entry page (it routes itself)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from fastapi import FastAPI
+from fastapi.responses import HTMLResponse, Response
+from starlette.exceptions import HTTPException
+from starlette.staticfiles import StaticFiles
+from starlette.types import Scope
+
+NOT_BUILT = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Spindle</title>
+<meta name="viewport" content="width=device-width">
+<body style="font-family: system-ui; max-width: 40rem; margin: 4rem auto; padding: 0 1rem">
+<h1>The pages are not built</h1>
+<p>The server runs and its API answers at <a href="/api/docs">/api/docs</a>, but the browser part
+is missing. Run <code>make setup</code> in the checkout, then load this page again.</p>
+"""
+
+
+class Pages(StaticFiles):
+    """Files of the built frontend; a path without a file gets the entry page.
+
+    Paths below `api/` and paths that look like files stay 404: a script that is asked for and
+    missing must not arrive as HTML.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(directory=folder, html=True)
+
+    async def get_response(self, path: str, scope: Scope) -> Response:
+        """The file at `path`, or the entry page with no caching."""
+        is_page = not path.startswith("api") and "." not in path.rsplit("/", 1)[-1]
+        try:
+            response = await super().get_response(path, scope)
+        except HTTPException as error:
+            if error.status_code != 404 or not is_page:
+                raise
+            response = await super().get_response("index.html", scope)
+            is_page = True
+        # Names under assets/ carry a hash of their content; everything else may change any time.
+        is_hashed = path.startswith("assets/")
+        cache = "public, max-age=31536000, immutable" if is_hashed else "no-cache"
+        response.headers["cache-control"] = cache
+        return response
+
+
+def install(app: FastAPI, folder: Path | None) -> None:
+    """Serves the frontend at `/`, or a page that says how to build it."""
+    if folder is not None and (folder / "index.html").is_file():
+        app.mount("/", Pages(folder), name="pages")
+        return
+
+    @app.get("/", include_in_schema=False)
+    async def not_built() -> HTMLResponse:
+        return HTMLResponse(NOT_BUILT)

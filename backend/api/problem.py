@@ -1,0 +1,68 @@
+"""The one shape of every refusal: application/problem+json (RFC 9457), 422 included."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from http import HTTPStatus
+from typing import Any
+
+from fastapi.responses import JSONResponse
+from pydantic import BaseModel, Field
+
+MEDIA_TYPE = "application/problem+json"
+
+
+class FieldProblem(BaseModel):
+    """One field at fault."""
+
+    field: str
+    code: str
+    message: str
+
+
+class Problem(BaseModel):
+    """Why a request was refused, what is at fault, and what to do about it."""
+
+    type: str = Field(
+        description="Stable name of the kind of problem: `urn:spindle:` and the code."
+    )
+    title: str
+    status: int
+    detail: str
+    code: str
+    errors: list[FieldProblem]
+
+
+def problem_response(
+    status: int,
+    code: str,
+    detail: str,
+    errors: Iterable[FieldProblem] = (),
+    headers: dict[str, str] | None = None,
+) -> JSONResponse:
+    """The response for one refusal. code: lower-case word for programs; detail: for people."""
+    problem = Problem(
+        type=f"urn:spindle:{code}",
+        title=HTTPStatus(status).phrase,
+        status=status,
+        detail=detail,
+        code=code,
+        errors=list(errors),
+    )
+    return JSONResponse(problem.model_dump(), status, headers=headers, media_type=MEDIA_TYPE)
+
+
+def refusals(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """The `responses=` of a route: each status described by the same Problem model.
+
+    422 is always in it, because every route can be asked wrongly, and FastAPI would otherwise
+    describe its own shape for it.
+    """
+    schema = {"$ref": "#/components/schemas/Problem"}
+    return {
+        status: {
+            "description": HTTPStatus(status).phrase,
+            "content": {MEDIA_TYPE: {"schema": schema}},
+        }
+        for status in sorted({422, *statuses})
+    }

@@ -1,0 +1,156 @@
+"""The configuration of a unit: read, change in one transaction, and who changed what."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Header, Query, Response
+
+from backend.api.models.config import Config, ConfigChange, ConfigPatch, ParameterList, RevisionList
+from backend.api.models.law import AssistModes, Calibration, FuzzyTable, Limits
+from backend.api.problem import refusals
+from backend.api.services import Provided
+
+router = APIRouter(
+    prefix="/devices/{device_id}",
+    tags=["configuration"],
+    responses=refusals(403, 404, 409, 412, 503, 504),
+)
+IfMatch = Annotated[
+    str | None,
+    Header(description="The ETag of the configuration the change was made for.", max_length=80),
+]
+Reason = Annotated[
+    str, Query(max_length=400, description="Why; kept with the revision for later readers.")
+]
+
+
+def etag(generation: int, crc32: int) -> str:
+    """The ETag of a configuration: it changes with every commit and names the exact content."""
+    return f'"{generation}-{crc32:08x}"'
+
+
+@router.get("/parameters", operation_id="list_parameters", response_model=ParameterList)
+def list_parameters(device_id: str, services: Provided) -> dict[str, Any]:
+    """Every parameter with its bounds, its meaning and its value in the unit now."""
+    return {"items": services.tuning.parameters(device_id)}
+
+
+@router.get("/config", operation_id="get_config", response_model=Config)
+def get_config(device_id: str, services: Provided, response: Response) -> Any:
+    """The whole configuration, read from the unit."""
+    config = services.tuning.read_config(device_id)
+    response.headers["etag"] = etag(config.generation, config.crc32)
+    return config
+
+
+@router.patch("/config", operation_id="patch_config", response_model=ConfigChange)
+def patch_config(
+    device_id: str,
+    body: ConfigPatch,
+    services: Provided,
+    response: Response,
+    if_match: IfMatch = None,
+) -> Any:
+    """Writes all the named parameters or none, reads them back and compares field by field."""
+    change = services.tuning.write_config(
+        device_id, dict(body.parameters), body.reason, if_match, body.confirm_s
+    )
+    response.headers["etag"] = etag(change.generation, change.crc32)
+    return change
+
+
+@router.get("/config/revisions", operation_id="list_revisions", response_model=RevisionList)
+def list_revisions(device_id: str, services: Provided) -> dict[str, Any]:
+    """Who changed what, when and why, newest first."""
+    return {"items": services.tuning.revisions(device_id)}
+
+
+@router.get("/fuzzy-table", operation_id="get_fuzzy_table", response_model=FuzzyTable)
+def get_fuzzy_table(device_id: str, services: Provided, response: Response) -> Any:
+    """The rule table and its points, as the surface and the linter take them."""
+    return _tagged(services.tuning.fuzzy_table(device_id), response)
+
+
+@router.put("/fuzzy-table", operation_id="put_fuzzy_table", response_model=ConfigChange)
+def put_fuzzy_table(
+    device_id: str,
+    body: FuzzyTable,
+    services: Provided,
+    response: Response,
+    if_match: IfMatch = None,
+    reason: Reason = "",
+) -> Any:
+    """Writes the whole table in one transaction."""
+    change = services.tuning.put_fuzzy_table(device_id, body.model_dump(), reason, if_match)
+    return _stamped(change, response)
+
+
+@router.get("/assist-modes", operation_id="get_assist_modes", response_model=AssistModes)
+def get_assist_modes(device_id: str, services: Provided, response: Response) -> Any:
+    """The five slots of the rider's switch."""
+    return _tagged(services.tuning.assist_modes(device_id), response)
+
+
+@router.put("/assist-modes", operation_id="put_assist_modes", response_model=ConfigChange)
+def put_assist_modes(
+    device_id: str,
+    body: AssistModes,
+    services: Provided,
+    response: Response,
+    if_match: IfMatch = None,
+    reason: Reason = "",
+) -> Any:
+    """Writes all five slots in one transaction."""
+    change = services.tuning.put_assist_modes(device_id, body.model_dump(), reason, if_match)
+    return _stamped(change, response)
+
+
+@router.get("/calibration", operation_id="get_calibration", response_model=Calibration)
+def get_calibration(device_id: str, services: Provided, response: Response) -> Any:
+    """How raw counts become newton metres in this unit."""
+    return _tagged(services.tuning.calibration(device_id), response)
+
+
+@router.put("/calibration", operation_id="put_calibration", response_model=ConfigChange)
+def put_calibration(
+    device_id: str,
+    body: Calibration,
+    services: Provided,
+    response: Response,
+    if_match: IfMatch = None,
+    reason: Reason = "",
+) -> Any:
+    """Writes offset, gain and filters in one transaction."""
+    change = services.tuning.put_calibration(device_id, body.model_dump(), reason, if_match)
+    return _stamped(change, response)
+
+
+@router.get("/limits", operation_id="get_limits", response_model=Limits)
+def get_limits(device_id: str, services: Provided, response: Response) -> Any:
+    """What the unit enforces whatever the table says."""
+    return _tagged(services.tuning.limits(device_id), response)
+
+
+@router.put("/limits", operation_id="put_limits", response_model=ConfigChange)
+def put_limits(
+    device_id: str,
+    body: Limits,
+    services: Provided,
+    response: Response,
+    if_match: IfMatch = None,
+    reason: Reason = "",
+) -> Any:
+    """Writes the limits in one transaction; the unit refuses what its market forbids."""
+    change = services.tuning.put_limits(device_id, body.model_dump(), reason, if_match)
+    return _stamped(change, response)
+
+
+def _tagged(view: Any, response: Response) -> Any:
+    response.headers["etag"] = etag(view.generation, view.crc32)
+    return view.value
+
+
+def _stamped(change: Any, response: Response) -> Any:
+    response.headers["etag"] = etag(change.generation, change.crc32)
+    return change

@@ -1,0 +1,89 @@
+"""Units: find, open, look at, close."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fastapi import APIRouter, Response, status
+
+from backend.api.models.device import (
+    Device,
+    DeviceList,
+    DeviceRequest,
+    FaultList,
+    PortList,
+    Simulation,
+    SimulationChange,
+    Snapshot,
+)
+from backend.api.problem import refusals
+from backend.api.services import Provided
+
+router = APIRouter(tags=["devices"], responses=refusals(404, 409, 503, 504))
+
+
+@router.get("/ports", operation_id="list_ports", response_model=PortList)
+def list_ports(services: Provided) -> dict[str, Any]:
+    """Serial ports of this machine, and the simulated unit."""
+    return {"items": services.devices.ports()}
+
+
+@router.get("/devices", operation_id="list_devices", response_model=DeviceList)
+async def list_devices(services: Provided) -> dict[str, Any]:
+    """Every unit that was added and not removed, whatever its state."""
+    return {"items": services.devices.list()}
+
+
+@router.post(
+    "/devices",
+    operation_id="add_device",
+    response_model=Device,
+    status_code=status.HTTP_201_CREATED,
+)
+def add_device(body: DeviceRequest, services: Provided, response: Response) -> Any:
+    """Opens a unit; it connects, and reconnects, in the background."""
+    device = services.devices.add(body.url)
+    response.headers["location"] = f"/api/v1/devices/{device.id}"
+    return device
+
+
+@router.get("/devices/{device_id}", operation_id="get_device", response_model=Device)
+async def get_device(device_id: str, services: Provided) -> Any:
+    """One unit: who it is, how its link is, and why."""
+    return services.devices.get(device_id)
+
+
+@router.delete(
+    "/devices/{device_id}", operation_id="remove_device", status_code=status.HTTP_204_NO_CONTENT
+)
+def remove_device(device_id: str, services: Provided) -> None:
+    """Lets a unit go; a simulated one ends. Its rides and revisions stay."""
+    services.devices.remove(device_id)
+
+
+@router.get("/devices/{device_id}/snapshot", operation_id="get_snapshot", response_model=Snapshot)
+def get_snapshot(device_id: str, services: Provided) -> Any:
+    """The newest value of every channel, asked of the unit."""
+    return services.devices.snapshot(device_id)
+
+
+@router.get("/devices/{device_id}/faults", operation_id="list_faults", response_model=FaultList)
+def list_faults(device_id: str, services: Provided) -> Any:
+    """The faults that are active in the unit now."""
+    return {"items": services.devices.faults(device_id)}
+
+
+@router.get(
+    "/devices/{device_id}/simulation", operation_id="get_simulation", response_model=Simulation
+)
+def get_simulation(device_id: str, services: Provided) -> Any:
+    """Rider, road and clock of a simulated unit; 409 for a real one."""
+    return services.devices.simulation_get(device_id)
+
+
+@router.put(
+    "/devices/{device_id}/simulation", operation_id="put_simulation", response_model=Simulation
+)
+def put_simulation(device_id: str, body: SimulationChange, services: Provided) -> Any:
+    """Changes what the body names and leaves the rest."""
+    return services.devices.simulation_set(device_id, body.model_dump(exclude_unset=True))

@@ -1,0 +1,55 @@
+"""The law without a unit: surface, single points, lint, and a sensor's calibration figures."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fastapi import APIRouter
+
+from backend.api.models.law import (
+    Evaluation,
+    EvaluationRequest,
+    LintReport,
+    LintRequest,
+    PointGains,
+    PointsRequest,
+    Surface,
+    SurfaceRequest,
+)
+from backend.api.problem import refusals
+from backend.api.services import Provided
+
+router = APIRouter(tags=["law"], responses=refusals())
+
+
+@router.post("/surface", operation_id="compute_surface", response_model=Surface)
+def compute_surface(body: SurfaceRequest, services: Provided) -> Any:
+    """The gain over a grid of speeds and torque rates, by the unit's own C law."""
+    return services.preview.surface(
+        body.fuzzy_table.model_dump(), body.speeds_kmh, body.torque_rates
+    )
+
+
+@router.post("/surface/points", operation_id="compute_points", response_model=PointGains)
+def compute_points(body: PointsRequest, services: Provided) -> Any:
+    """The gain at single points, by the unit's own C law."""
+    return services.preview.points(body.fuzzy_table.model_dump(), body.points)
+
+
+@router.post("/lint", operation_id="lint_table", response_model=LintReport)
+def lint_table(body: LintRequest, services: Provided) -> Any:
+    """What is wrong, doubtful or notable about a table before a rider finds out."""
+    question = body.model_dump()
+    return services.preview.lint(
+        question["fuzzy_table"], question["assist_modes"], question["limits"]
+    )
+
+
+@router.post(
+    "/calibration/evaluate", operation_id="evaluate_calibration", response_model=Evaluation
+)
+def evaluate_calibration(body: EvaluationRequest, services: Provided) -> Any:
+    """Linearity, hysteresis and repeatability of a sensor from its readings."""
+    return services.preview.evaluate_calibration(
+        body.full_scale_nm, body.load_nm, body.forward, body.reverse
+    )

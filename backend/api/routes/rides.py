@@ -1,0 +1,130 @@
+"""Rides: list, look, annotate, trace, export, replay, delete."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from datetime import datetime
+from typing import Annotated, Any, Literal
+
+from fastapi import APIRouter, Query, Request, Response, status
+from fastapi.responses import JSONResponse, StreamingResponse
+
+from backend.api.models.ride import (
+    Figure,
+    Replay,
+    ReplayRequest,
+    Ride,
+    RideList,
+    RidePatch,
+    Series,
+)
+from backend.api.problem import refusals
+from backend.api.services import Provided
+
+router = APIRouter(prefix="/rides", tags=["rides"], responses=refusals(404, 409, 415))
+
+Channels = Annotated[
+    str | None,
+    Query(max_length=600, description="Names separated by commas; absent means all of them."),
+]
+# The block described on top of backend/views/trace.py.
+BINARY_MEDIA_TYPE = "application/octet-stream"
+ExportFormat = Literal["csv", "parquet", "fit", "gpx", "original"]
+
+
+def channel_names(text: str | None) -> list[str] | None:
+    """`"a, b"` as a list; None where no channel was named."""
+    names = [name.strip() for name in (text or "").split(",")]
+    return [name for name in names if name] or None
+
+
+@router.get("", operation_id="list_rides", response_model=RideList)
+async def list_rides(
+    services: Provided,
+    begin: Annotated[datetime | None, Query(alias="from")] = None,
+    end: Annotated[datetime | None, Query(alias="to")] = None,
+    device: Annotated[str | None, Query(max_length=200, description="Serial number.")] = None,
+    limit: Annotated[int, Query(ge=1, le=500)] = 50,
+    cursor: Annotated[str | None, Query(max_length=200)] = None,
+) -> Any:
+    """Newest first; `next` is the cursor of the following page, or null."""
+    return services.rides.list(begin, end, device, limit, cursor)
+
+
+@router.get("/{ride_id}", operation_id="get_ride", response_model=Ride)
+async def get_ride(ride_id: int, services: Provided) -> Any:
+    """One ride with its summary, its gaps and its channels."""
+    return services.rides.get(ride_id)
+
+
+@router.patch("/{ride_id}", operation_id="patch_ride", response_model=Ride)
+def patch_ride(ride_id: int, body: RidePatch, services: Provided) -> Any:
+    """Changes name and notes; what was measured cannot be changed."""
+    return services.rides.patch(ride_id, **body.model_dump(exclude_unset=True))
+
+
+@router.delete("/{ride_id}", operation_id="delete_ride", status_code=status.HTTP_204_NO_CONTENT)
+def delete_ride(ride_id: int, services: Provided) -> None:
+    """Deletes a ride, its samples and its original file."""
+    services.rides.delete(ride_id)
+
+
+@router.get(
+    "/{ride_id}/series",
+    operation_id="get_ride_series",
+    response_model=Series,
+    responses={200: {"content": {BINARY_MEDIA_TYPE: {}}}},
+)
+def get_ride_series(
+    ride_id: int,
+    request: Request,
+    services: Provided,
+    channels: Channels = None,
+    from_s: Annotated[float | None, Query(ge=0.0)] = None,
+    to_s: Annotated[float | None, Query(ge=0.0)] = None,
+    px: Annotated[int, Query(ge=1, le=10_000, description="Width of the plot.")] = 1200,
+) -> Any:
+    """The exact least and greatest value per pixel; every sample once they fit."""
+    trace = services.rides.series(ride_id, channel_names(channels), from_s, to_s, px)
+    if BINARY_MEDIA_TYPE in request.headers.get("accept", ""):
+        return Response(trace.to_bytes(), media_type=BINARY_MEDIA_TYPE)
+    # Thousands of numbers that the view has just made: checking each again costs more than them.
+    return JSONResponse(trace.to_json())
+
+
+@router.get("/{ride_id}/figure", operation_id="get_ride_figure", response_model=Figure)
+def get_ride_figure(
+    ride_id: int,
+    services: Provided,
+    channels: Channels = None,
+    px: Annotated[int, Query(ge=1, le=10_000)] = 1200,
+) -> Any:
+    """The traces of a ride as a Plotly figure."""
+    return services.rides.figure(ride_id, channel_names(channels), px)
+
+
+@router.get(
+    "/{ride_id}/export",
+    operation_id="export_ride",
+    response_class=StreamingResponse,
+    responses={200: {"content": {"application/octet-stream": {}}}},
+)
+def export_ride(
+    ride_id: int,
+    services: Provided,
+    file_format: Annotated[ExportFormat, Query(alias="format")] = "csv",
+) -> StreamingResponse:
+    """The ride as a file; `original` is what was uploaded, byte for byte."""
+    export = services.rides.export(ride_id, file_format)
+    chunks: Iterator[bytes] = iter(export.chunks)
+    disposition = f'attachment; filename="{export.file_name}"'
+    return StreamingResponse(
+        chunks, media_type=export.media_type, headers={"content-disposition": disposition}
+    )
+
+
+@router.post("/{ride_id}/replay", operation_id="replay_ride", response_model=Replay)
+def replay_ride(ride_id: int, body: ReplayRequest, services: Provided) -> Any:
+    """Runs the ride's inputs through the unit's own law with another table or other modes."""
+    question = body.model_dump()
+    return services.rides.replay(ride_id, question["fuzzy_table"], question["assist_modes"])

@@ -1,0 +1,205 @@
+"""Files on their way to becoming rides: resumable (tus 1.0.0), or whole in one request.
+
+The tus specification gives the statuses: an offset that does not match is 409, a checksum that
+does not match 460, a version we do not speak 412, an upload that has gone 404.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import hashlib
+import hmac
+from collections.abc import AsyncIterator
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Header, Query, Request, Response
+from fastapi.concurrency import run_in_threadpool
+
+from backend.api.models.ride import Upload
+from backend.api.problem import problem_response, refusals
+from backend.api.services import Provided, Services
+from backend.errors import InvalidRequest
+
+TUS_VERSION = "1.0.0"
+TUS_EXTENSIONS = "creation,creation-with-upload,checksum,termination,expiration"
+TUS_CHUNK_MEDIA_TYPE = "application/offset+octet-stream"
+TUS_CHECKSUMS = ("sha256", "sha1")
+CHECKSUM_MISMATCH = 460
+# A chunk with a checksum is held in memory until it is checked; clients use 0.25 to 1 MiB.
+CHECKED_CHUNK_BYTES_MAX = 16 * 1024 * 1024
+
+router = APIRouter(tags=["uploads"], responses=refusals(404, 409, 412, 413, 415))
+FileName = Annotated[str, Query(min_length=1, max_length=255, description="The file's own name.")]
+
+
+@router.post("/rides/import", operation_id="import_ride", response_model=Upload)
+async def import_ride(name: FileName, request: Request, services: Provided) -> Any:
+    """A whole file as the request's body; answers when it has become a ride or been refused."""
+    length = _declared_length(request)
+    upload = await run_in_threadpool(services.uploads.create, name, length)
+    await _append_stream(services, upload.id, 0, request.stream())
+    return await run_in_threadpool(services.uploads.get, upload.id)
+
+
+@router.options("/uploads", operation_id="describe_uploads", status_code=204)
+async def describe_uploads(request: Request) -> Response:
+    """Which version and extensions of tus this server speaks, and how large a file may be."""
+    return _tus_response(
+        204,
+        tus_version=TUS_VERSION,
+        tus_extension=TUS_EXTENSIONS,
+        tus_checksum_algorithm=",".join(TUS_CHECKSUMS),
+        tus_max_size=str(request.app.state.upload_bytes_max),
+    )
+
+
+@router.post("/uploads", operation_id="create_upload", status_code=201)
+async def create_upload(
+    request: Request,
+    services: Provided,
+    upload_length: Annotated[int, Header(ge=0)],
+    upload_metadata: Annotated[str, Header(max_length=4000)] = "",
+    tus_resumable: Annotated[str, Header()] = "",
+) -> Response:
+    """Begins an upload; a body with the tus chunk type is its first part already."""
+    if refusal := _version_refusal(tus_resumable):
+        return refusal
+    if upload_length > request.app.state.upload_bytes_max:
+        limit = request.app.state.upload_bytes_max
+        return problem_response(413, "too_large", f"A file may have at most {limit} bytes.")
+    described = metadata(upload_metadata)
+    name = described.get("filename") or described.get("name") or "upload"
+    upload = await run_in_threadpool(services.uploads.create, name[:255], upload_length)
+    offset = 0
+    if request.headers.get("content-type") == TUS_CHUNK_MEDIA_TYPE:
+        offset = await _append_stream(services, upload.id, 0, request.stream())
+    location = str(request.url_for("get_upload", upload_id=upload.id).path)
+    return _tus_response(201, location=location, upload_offset=str(offset))
+
+
+@router.head("/uploads/{upload_id}", operation_id="get_upload_offset")
+async def get_upload_offset(upload_id: str, services: Provided) -> Response:
+    """How many bytes have arrived: where to go on after a break."""
+    upload = await run_in_threadpool(services.uploads.get, upload_id)
+    return _tus_response(200, upload_offset=str(upload.received), upload_length=str(upload.length))
+
+
+@router.patch("/uploads/{upload_id}", operation_id="append_upload", status_code=204)
+async def append_upload(
+    upload_id: str,
+    request: Request,
+    services: Provided,
+    upload_offset: Annotated[int, Header(ge=0)],
+    upload_checksum: Annotated[str | None, Header(max_length=200)] = None,
+    tus_resumable: Annotated[str, Header()] = "",
+) -> Response:
+    """The next part of a file. What arrived before a break is kept."""
+    if refusal := _version_refusal(tus_resumable):
+        return refusal
+    if request.headers.get("content-type") != TUS_CHUNK_MEDIA_TYPE:
+        return problem_response(
+            415, "unsupported_media_type", f"A part is sent as {TUS_CHUNK_MEDIA_TYPE}."
+        )
+    chunks: AsyncIterator[bytes] = request.stream()
+    if upload_checksum is not None:
+        algorithm, expected = checksum(upload_checksum)
+        chunk = await _collected(chunks)
+        digest = hashlib.new(algorithm, chunk, usedforsecurity=False).digest()
+        if not hmac.compare_digest(digest, expected):
+            return Response("Checksum Mismatch", CHECKSUM_MISMATCH, _tus_headers())
+        chunks = _one(chunk)
+    offset = await _append_stream(services, upload_id, upload_offset, chunks)
+    return _tus_response(204, upload_offset=str(offset))
+
+
+@router.get("/uploads/{upload_id}", operation_id="get_upload", response_model=Upload)
+async def get_upload(upload_id: str, services: Provided) -> Any:
+    """Where a file stands, and which rides it became."""
+    return await run_in_threadpool(services.uploads.get, upload_id)
+
+
+@router.delete("/uploads/{upload_id}", operation_id="delete_upload", status_code=204)
+async def delete_upload(upload_id: str, services: Provided) -> Response:
+    """Gives an unfinished upload up and frees its space; rides made of it stay."""
+    await run_in_threadpool(services.uploads.terminate, upload_id)
+    return _tus_response(204)
+
+
+def metadata(text: str) -> dict[str, str]:
+    """`Upload-Metadata`: comma-separated pairs of a key and a base64 value.
+
+    Raises: InvalidRequest, if a value is not base64 of UTF-8.
+    """
+    pairs: dict[str, str] = {}
+    for pair in filter(None, (part.strip() for part in text.split(","))):
+        key, _, value = pair.partition(" ")
+        try:
+            pairs[key] = base64.b64decode(value, validate=True).decode()
+        except (binascii.Error, UnicodeDecodeError):
+            raise InvalidRequest(
+                f"Upload-Metadata: the value of {key[:40]!r} is not base64 of UTF-8 text."
+            ) from None
+    return pairs
+
+
+def checksum(text: str) -> tuple[str, bytes]:
+    """`Upload-Checksum: sha256 BASE64` as algorithm and digest.
+
+    Raises: InvalidRequest, for an algorithm that is not offered or a value that is not base64.
+    """
+    algorithm, _, value = text.partition(" ")
+    if algorithm.lower() not in TUS_CHECKSUMS:
+        raise InvalidRequest(f"Upload-Checksum: use one of {', '.join(TUS_CHECKSUMS)}.")
+    try:
+        return algorithm.lower(), base64.b64decode(value, validate=True)
+    except binascii.Error:
+        raise InvalidRequest("Upload-Checksum: the value is not base64.") from None
+
+
+async def _append_stream(
+    services: Services, upload_id: str, offset: int, chunks: AsyncIterator[bytes]
+) -> int:
+    """Hands over what arrives piece by piece, so that a break loses nothing; the new offset."""
+    async for chunk in chunks:
+        if chunk:
+            offset = await run_in_threadpool(services.uploads.append, upload_id, offset, chunk)
+    return offset
+
+
+async def _collected(chunks: AsyncIterator[bytes]) -> bytes:
+    body = bytearray()
+    async for chunk in chunks:
+        body += chunk
+        if len(body) > CHECKED_CHUNK_BYTES_MAX:
+            raise InvalidRequest(
+                f"A part with a checksum may have at most {CHECKED_CHUNK_BYTES_MAX} bytes."
+            )
+    return bytes(body)
+
+
+async def _one(chunk: bytes) -> AsyncIterator[bytes]:
+    yield chunk
+
+
+def _declared_length(request: Request) -> int:
+    text = request.headers.get("content-length", "")
+    if not text.isdecimal():
+        raise InvalidRequest("Say the file's size with Content-Length, or use POST /uploads.")
+    return int(text)
+
+
+def _version_refusal(version: str) -> Response | None:
+    if version == TUS_VERSION:
+        return None
+    detail = f"This server speaks tus {TUS_VERSION}; send Tus-Resumable: {TUS_VERSION}."
+    return problem_response(412, "tus_version", detail, headers={"tus-version": TUS_VERSION})
+
+
+def _tus_headers(**more: str) -> dict[str, str]:
+    named = {name.replace("_", "-"): value for name, value in more.items()}
+    return {"tus-resumable": TUS_VERSION, "cache-control": "no-store", **named}
+
+
+def _tus_response(code: int, **headers: str) -> Response:
+    return Response(status_code=code, headers=_tus_headers(**headers))

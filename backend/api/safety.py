@@ -1,0 +1,172 @@
+"""What keeps other people's pages and oversized requests away from a server on a desk.
+
+A browser on this machine can reach loopback, and so can every page it shows. Two attacks follow:
+a page of another site sends us requests (its Origin gives it away), and a name of another site is
+made to resolve to 127.0.0.1 (its Host gives it away: DNS rebinding). Both are refused here, on
+WebSocket handshakes too, before any route sees them. An address given as numbers cannot be
+rebound, so numeric hosts pass as long as the server may be reached by them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from ipaddress import ip_address
+from urllib.parse import urlsplit
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.exceptions import HTTPException
+from starlette.responses import Response
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from backend.api.problem import problem_response
+
+CONTENT_SECURITY_POLICY = (
+    "default-src 'self'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self'; worker-src 'self'; "
+    "object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
+)
+SECURITY_HEADERS = {
+    "content-security-policy": CONTENT_SECURITY_POLICY,
+    "x-content-type-options": "nosniff",
+    "x-frame-options": "DENY",
+    "referrer-policy": "no-referrer",
+    "cross-origin-opener-policy": "same-origin",
+    "cross-origin-resource-policy": "same-origin",
+    "permissions-policy": "camera=(), microphone=(), geolocation=()",
+}
+
+
+def host_name(netloc: str) -> str:
+    """The name or address in `name:port`, lower case, without brackets; empty if malformed."""
+    try:
+        return (urlsplit(f"//{netloc}").hostname or "").rstrip(".")
+    except ValueError:
+        return ""
+
+
+@dataclass(frozen=True)
+class AllowedHosts:
+    """Which Host headers are ours.
+
+    names: besides `localhost`. any_address: numeric hosts other than loopback pass too, because
+    the server listens on more than loopback.
+    """
+
+    names: frozenset[str] = frozenset()
+    any_address: bool = False
+
+    def allows(self, netloc: str) -> bool:
+        """Whether a Host header (`name[:port]`) names this server."""
+        name = host_name(netloc)
+        if name == "localhost" or name in self.names:
+            return True
+        try:
+            address = ip_address(name)
+        except ValueError:
+            return False
+        return self.any_address or address.is_loopback
+
+
+class SameOriginOnly:
+    """Refuses foreign Host and Origin headers with 403, on HTTP and on WebSocket handshakes."""
+
+    def __init__(self, app: ASGIApp, hosts: AllowedHosts) -> None:
+        self.app = app
+        self.hosts = hosts
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] not in ("http", "websocket"):
+            await self.app(scope, receive, send)
+            return
+        refusal = self._refusal(Headers(scope=scope))
+        if refusal is None:
+            await self.app(scope, receive, send)
+        elif scope["type"] == "websocket" and "websocket.http.response" not in scope.get(
+            "extensions", {}
+        ):
+            await send({"type": "websocket.close", "code": 1008})
+        else:
+            await refusal(scope, receive, send)
+
+    def _refusal(self, headers: Headers) -> Response | None:
+        host = headers.get("host", "")
+        if not self.hosts.allows(host):
+            return problem_response(
+                403,
+                "foreign_host",
+                f"This server is not called {host!r}. Open it as localhost, by its address, or "
+                "name it in SPINDLE_ALLOWED_HOSTS.",
+            )
+        origin = headers.get("origin")
+        if origin is not None and urlsplit(origin).netloc.lower() != host.lower():
+            return problem_response(
+                403,
+                "foreign_origin",
+                f"A page of {origin!r} may not use this server; only its own pages may.",
+            )
+        return None
+
+
+class BodyTooLarge(HTTPException):
+    """Raised while a body is being read; FastAPI lets it through to the problem handler."""
+
+    def __init__(self, bytes_max: int) -> None:
+        super().__init__(413, f"The request body is larger than {bytes_max} bytes.")
+
+
+class BodyBound:
+    """Refuses bodies beyond a bound, by their declared length or while they arrive.
+
+    bytes_max: for every route but those under upload_paths, which have upload_bytes_max.
+    Protects the memory of the process.
+    """
+
+    def __init__(
+        self, app: ASGIApp, bytes_max: int, upload_bytes_max: int, upload_paths: tuple[str, ...]
+    ) -> None:
+        self.app = app
+        self.bytes_max = bytes_max
+        self.upload_bytes_max = upload_bytes_max
+        self.upload_paths = upload_paths
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] != "http":
+            await self.app(scope, receive, send)
+            return
+        is_upload = scope["path"].startswith(self.upload_paths)
+        bytes_max = self.upload_bytes_max if is_upload else self.bytes_max
+        declared = Headers(scope=scope).get("content-length", "0")
+        if not declared.isdecimal() or int(declared) > bytes_max:
+            detail = f"The request body may have at most {bytes_max} bytes, not {declared[:30]}."
+            await problem_response(413, "too_large", detail, headers={"connection": "close"})(
+                scope, receive, send
+            )
+            return
+        received = 0
+
+        async def bounded_receive() -> Message:
+            nonlocal received
+            message = await receive()
+            received += len(message.get("body", b""))
+            if received > bytes_max:
+                raise BodyTooLarge(bytes_max)
+            return message
+
+        await self.app(scope, bounded_receive, send)
+
+
+class SecurityHeaders:
+    """Puts the fixed headers on every response."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        async def send_with_headers(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                headers = MutableHeaders(scope=message)
+                for name, value in SECURITY_HEADERS.items():
+                    headers.setdefault(name, value)
+            await send(message)
+
+        await self.app(scope, receive, send_with_headers if scope["type"] == "http" else send)

@@ -1,0 +1,34 @@
+"""What the routes may call, handed to them by main. The API builds none of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, cast
+
+from fastapi import Depends
+from starlette.requests import HTTPConnection
+
+if TYPE_CHECKING:
+    from backend.services.connect import Devices
+    from backend.services.review import Rides
+    from backend.services.tune import Tuning
+    from backend.services.upload import Uploads
+
+
+@dataclass(frozen=True)
+class Services:
+    """The use cases behind the API; each is safe to call from any thread."""
+
+    version: str
+    devices: Devices
+    tuning: Tuning
+    rides: Rides
+    uploads: Uploads
+
+
+def services_of(connection: HTTPConnection) -> Services:
+    """The container that main put on the application."""
+    return cast(Services, connection.app.state.services)
+
+
+Provided = Annotated[Services, Depends(services_of)]

@@ -1,0 +1,238 @@
+"""Watching a unit live: rows picked and encoded once for everybody who asks for the same.
+
+A feed belongs to one unit, one list of channels and one rate. It is fed by the unit's reader
+thread and fills the queues of its viewers. A viewer's queue is bounded: a slow viewer loses the
+oldest rows and is told how many. Nothing here waits, so a slow browser never delays the reader.
+
+Frames, as sent on the WebSocket:
+- text `{"type": "stream", "epoch", "rate_hz", "period_us", "channels": [{name, unit, scale}]}`
+  before the first rows and whenever one of these changes;
+- text `{"type": "state", "state", "reason"}` whenever the unit's state changes;
+- binary, little-endian: u32 sequence, u32 rows lost since the previous frame, u64 unit time of the
+  first row in us, u16 rows n, u16 channels c, then i16[n * c] counts; value = count * scale,
+  -32768 is missing.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+import threading
+from collections import deque
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from backend.device.stream import StreamBlock
+from backend.domain.channels import ChannelSpec
+from backend.errors import InvalidRequest
+
+HEADER = struct.Struct("<IIQHH")
+SEQUENCE_MODULUS = 2**32
+# Three seconds of frames at 20 a second: a browser that was asleep longer wants the present.
+QUEUE_FRAMES_MAX = 64
+# At most 50 frames a second, whatever the speed factor of a simulated unit.
+FRAME_SPACING_US = 20_000
+# What may gather between two frames; a unit that sends more than this in 20 ms is not ours.
+ROWS_PENDING_MAX = 4096
+
+
+@dataclass(frozen=True)
+class RowFrame:
+    """One binary frame; `payload` is shared by all viewers, the header is each viewer's."""
+
+    sequence: int
+    lost_rows: int
+    t0_us: int
+    rows: int
+    channel_count: int
+    payload: bytes
+
+    def encode(self) -> bytes:
+        """Header and payload."""
+        return (
+            HEADER.pack(
+                self.sequence % SEQUENCE_MODULUS,
+                min(self.lost_rows, SEQUENCE_MODULUS - 1),
+                self.t0_us,
+                self.rows,
+                self.channel_count,
+            )
+            + self.payload
+        )
+
+
+class Viewer:
+    """One client's queue. `wake` is called, from the reader's thread, when it stops being empty."""
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._wake = wake
+        self._lock = threading.Lock()
+        self._items: deque[str | RowFrame] = deque()
+        self._lost_rows = 0
+
+    def put(self, item: str | RowFrame) -> None:
+        """Adds a frame; the oldest rows go when the queue is full."""
+        with self._lock:
+            if len(self._items) >= QUEUE_FRAMES_MAX:
+                self._drop_oldest()
+            was_empty = not self._items
+            self._items.append(item)
+        if was_empty:
+            self._wake()
+
+    def take(self) -> list[str | bytes]:
+        """Everything that waits, in order."""
+        with self._lock:
+            waiting = list(self._items)
+            self._items.clear()
+            lost_rows, self._lost_rows = self._lost_rows, 0
+        taken: list[str | bytes] = []
+        for item in waiting:
+            if isinstance(item, RowFrame):
+                taken.append(replace(item, lost_rows=item.lost_rows + lost_rows).encode())
+                lost_rows = 0
+            else:
+                taken.append(item)
+        if lost_rows:
+            with self._lock:
+                self._lost_rows += lost_rows
+        return taken
+
+    def _drop_oldest(self) -> None:
+        """Drops the oldest rows. With texts only, the oldest text: a newer one says more."""
+        position = next(
+            (i for i, item in enumerate(self._items) if isinstance(item, RowFrame)), None
+        )
+        if position is None:
+            self._items.popleft()
+            return
+        dropped = self._items[position]
+        del self._items[position]
+        if isinstance(dropped, RowFrame):
+            # Loss is told before the rows that follow it, so it is added to the next frame.
+            self._lost_rows += dropped.rows + dropped.lost_rows
+
+
+class Feed:
+    """The rows of one unit for one choice of channels and rate.
+
+    names: in the order they are sent, None for all. rate_hz: rows per second, None for all; the
+    nearest whole fraction of the unit's rate is used. Not thread-safe: the owner locks.
+    """
+
+    def __init__(self, names: Sequence[str] | None, rate_hz: float | None) -> None:
+        self.viewers: list[Viewer] = []
+        self._names = names
+        self._rate_hz = rate_hz
+        self._description = ""
+        self._columns: npt.NDArray[np.intp] = np.empty(0, dtype=np.intp)
+        self._epoch: int | None = None
+        self._step = 1
+        self._next_index: int | None = None
+        self._sequence = 0
+        self._sent_wall_us = 0
+        self._pending: list[npt.NDArray[np.int16]] = []
+        self._pending_rows = 0
+        self._pending_t0_us = 0
+        self._pending_lost = 0
+
+    def admit(self, viewer: Viewer) -> None:
+        """A newcomer gets the description at once, so that the first rows can be read."""
+        self.viewers.append(viewer)
+        if self._description:
+            viewer.put(self._description)
+
+    def tell(self, text: str) -> None:
+        """A text frame to every viewer."""
+        for viewer in self.viewers:
+            viewer.put(text)
+
+    def take(self, block: StreamBlock) -> None:
+        """Picks the rows and sends them once 20 ms have gathered."""
+        if block.epoch != self._epoch:
+            self._begin(block)
+        # Rows are numbered through the subscription, so the same ones are picked after a loss.
+        offset = -block.first_index % self._step
+        rows = block.values[offset :: self._step, self._columns]
+        if len(rows):
+            self._gather(block, offset, rows)
+        waited_us = block.wall_us - self._sent_wall_us
+        if self._pending_rows and (
+            not 0 <= waited_us < FRAME_SPACING_US or self._pending_rows >= ROWS_PENDING_MAX
+        ):
+            self._send(block.wall_us)
+
+    def _begin(self, block: StreamBlock) -> None:
+        self._epoch = block.epoch
+        self._next_index = None
+        self._pending, self._pending_rows, self._pending_lost = [], 0, 0
+        positions = {channel.name: i for i, channel in enumerate(block.channels)}
+        names = [name for name in self._names or positions if name in positions]
+        self._columns = np.array([positions[name] for name in names], dtype=np.intp)
+        base_hz = 1e6 / block.period_us
+        self._step = max(1, round(base_hz / self._rate_hz)) if self._rate_hz else 1
+        chosen = [block.channels[positions[name]] for name in names]
+        self._description = description(block.epoch, block.period_us * self._step, chosen)
+        self.tell(self._description)
+
+    def _gather(self, block: StreamBlock, offset: int, rows: npt.NDArray[np.int16]) -> None:
+        first_index = (block.first_index + offset) // self._step
+        if self._next_index is not None and first_index > self._next_index:
+            # A frame's rows are evenly spaced, so what comes after a hole is another frame.
+            if self._pending_rows:
+                self._send(block.wall_us)
+            self._pending_lost = first_index - self._next_index
+        if not self._pending_rows:
+            self._pending_t0_us = block.t0_us + offset * block.period_us
+        self._pending.append(rows)
+        self._pending_rows += len(rows)
+        self._next_index = first_index + len(rows)
+
+    def _send(self, wall_us: int) -> None:
+        values = np.concatenate(self._pending)
+        frame = RowFrame(
+            sequence=self._sequence,
+            lost_rows=self._pending_lost,
+            t0_us=self._pending_t0_us,
+            rows=len(values),
+            channel_count=values.shape[1],
+            payload=values.astype("<i2", copy=False).tobytes(),
+        )
+        self._sequence += 1
+        self._sent_wall_us = wall_us
+        self._pending, self._pending_rows, self._pending_lost = [], 0, 0
+        for viewer in self.viewers:
+            viewer.put(frame)
+
+
+def description(epoch: int, period_us: int, channels: Sequence[ChannelSpec]) -> str:
+    """The text frame that tells how to read the rows after it."""
+    return json.dumps(
+        {
+            "type": "stream",
+            "epoch": epoch,
+            "rate_hz": 1e6 / period_us,
+            "period_us": period_us,
+            "channels": [
+                {"name": channel.name, "unit": channel.unit, "scale": channel.scale}
+                for channel in channels
+            ],
+        }
+    )
+
+
+def state_text(state: str, reason: str | None) -> str:
+    """The text frame that tells the unit's state."""
+    return json.dumps({"type": "state", "state": state, "reason": reason})
+
+
+def check_names(names: Sequence[str] | None, offered: Sequence[str]) -> None:
+    """Raises InvalidRequest if a channel does not exist."""
+    unknown = [name for name in names or () if name not in offered]
+    if unknown:
+        raise InvalidRequest(
+            f"There is no channel {', '.join(unknown)}. There is {', '.join(offered)}."
+        )
