@@ -22,6 +22,10 @@ SOURCE_FOLDERS = (
 
 # In order of dependence. A header that is not here cannot be called from Python.
 HEADERS: tuple[str, ...] = (
+    "firmware_protocol/c/ebl_bytes.h",
+    "firmware_protocol/c/ebl_registry.h",
+    "firmware_protocol/c/ebl_frame.h",
+    "firmware_protocol/c/ebl_values.h",
     "sim_device/firmware/control/fuzzy_table.h",
     "sim_device/firmware/control/assist.h",
     "sim_device/physics/road.h",
