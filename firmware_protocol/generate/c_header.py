@@ -1,7 +1,7 @@
 """ebl_registry.h: everything the firmware and the simulator include, in plain declarations."""
 
 from firmware_protocol.generate.c_names import (
-    NOTICE,
+    FIRST_LINE,
     config_member,
     enum_prefix,
     layouts,
@@ -81,7 +81,7 @@ void ebl_config_unpack(ebl_config *config, const uint8_t *image);
 def header(registry: Registry, schema_length: int) -> str:
     """The text of ebl_registry.h."""
     lines = [
-        NOTICE,
+        FIRST_LINE,
         "#ifndef SPINDLE_EBL_REGISTRY_H",
         "#define SPINDLE_EBL_REGISTRY_H",
         "",

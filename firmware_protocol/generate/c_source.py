@@ -1,6 +1,6 @@
 """ebl_registry.c, ebl_messages.c and ebl_schema.c: tables, and explicit little-endian copies."""
 
-from firmware_protocol.generate.c_names import NOTICE, float_literal, layouts, size
+from firmware_protocol.generate.c_names import FIRST_LINE, float_literal, layouts, size
 from firmware_protocol.generate.registry import Layout, Registry
 from firmware_protocol.layout import Field, Parameter
 
@@ -19,7 +19,7 @@ const {struct} *ebl_{row}_find({type} {key})
 
 def registry_source(registry: Registry) -> str:
     """The text of ebl_registry.c."""
-    lines = [NOTICE, '#include "ebl_registry.h"', "", "#include <string.h>", ""]
+    lines = [FIRST_LINE, '#include "ebl_registry.h"', "", "#include <string.h>", ""]
     lines += ['#include "ebl_bytes.h" // ebl_get_f32, ebl_put_f32', ""]
     lines += ["const ebl_message ebl_messages[EBL_MESSAGE_COUNT] = {"]
     lines += [
@@ -121,7 +121,7 @@ def _config_copies(registry: Registry) -> list[str]:
 
 def messages_source(registry: Registry) -> str:
     """The text of ebl_messages.c."""
-    lines = [NOTICE, '#include "ebl_registry.h"', "", "#include <string.h>", ""]
+    lines = [FIRST_LINE, '#include "ebl_registry.h"', "", "#include <string.h>", ""]
     lines += ['#include "ebl_bytes.h" // ebl_get_u16, ebl_put_u16, EBL_OK', ""]
     for name, layout in layouts(registry):
         lines += [*_get(name, layout), "", *_put(name, layout), ""]
@@ -193,7 +193,7 @@ def _copy(field: Field, call: str, target: str, source: str, bytes_at: str) -> l
 
 def schema_source(compressed: bytes, schema_hash: bytes) -> str:
     """The text of ebl_schema.c."""
-    lines = [NOTICE, '#include "ebl_registry.h"', ""]
+    lines = [FIRST_LINE, '#include "ebl_registry.h"', ""]
     for name, size_name, data in (
         ("ebl_schema_hash", "EBL_SCHEMA_HASH_LENGTH", schema_hash),
         ("ebl_schema", "EBL_SCHEMA_LENGTH", compressed),
