@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from backend.services.review import Rides
     from backend.services.tune import Tuning
     from backend.services.upload import Uploads
+    from backend.services.watch import Watch
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,7 @@ class Services:
 
     version: str
     devices: Devices
+    watch: Watch
     tuning: Tuning
     rides: Rides
     uploads: Uploads

@@ -25,9 +25,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from backend.device.stream import StreamBlock
+from backend.device.states import DeviceEvent, StateChanged
+from backend.device.stream import StreamBlock, StreamPlan, StreamStarted
 from backend.domain.channels import ChannelSpec
 from backend.errors import InvalidRequest
+from backend.services.connect import Devices
 
 HEADER = struct.Struct("<IIQHH")
 SEQUENCE_MODULUS = 2**32
@@ -37,6 +39,8 @@ QUEUE_FRAMES_MAX = 64
 FRAME_SPACING_US = 20_000
 # What may gather between two frames; a unit that sends more than this in 20 ms is not ours.
 ROWS_PENDING_MAX = 4096
+
+FeedKey = tuple[str, tuple[str, ...] | None, float | None]
 
 
 @dataclass(frozen=True)
@@ -120,14 +124,16 @@ class Feed:
     """The rows of one unit for one choice of channels and rate.
 
     names: in the order they are sent, None for all. rate_hz: rows per second, None for all; the
-    nearest whole fraction of the unit's rate is used. Not thread-safe: the owner locks.
+    nearest whole fraction of the unit's rate is used.
     """
 
     def __init__(self, names: Sequence[str] | None, rate_hz: float | None) -> None:
-        self.viewers: list[Viewer] = []
+        self._lock = threading.Lock()
+        self._viewers: list[Viewer] = []
         self._names = names
         self._rate_hz = rate_hz
         self._description = ""
+        self._state = ""
         self._columns: npt.NDArray[np.intp] = np.empty(0, dtype=np.intp)
         self._epoch: int | None = None
         self._step = 1
@@ -139,21 +145,39 @@ class Feed:
         self._pending_t0_us = 0
         self._pending_lost = 0
 
-    def admit(self, viewer: Viewer) -> None:
-        """A newcomer gets the description at once, so that the first rows can be read."""
-        self.viewers.append(viewer)
-        if self._description:
-            viewer.put(self._description)
+    def admit(self, viewer: Viewer, state: str) -> None:
+        """A newcomer gets state and description at once, so that the first rows can be read.
 
-    def tell(self, text: str) -> None:
-        """A text frame to every viewer."""
-        for viewer in self.viewers:
-            viewer.put(text)
+        state: the state's text, read after the feed was subscribed; what the feed has heard of
+        since is newer.
+        """
+        with self._lock:
+            self._viewers.append(viewer)
+            viewer.put(self._state or state)
+            if self._description:
+                viewer.put(self._description)
 
-    def take(self, block: StreamBlock) -> None:
+    def dismiss(self, viewer: Viewer) -> bool:
+        """Whether the viewer was the last one."""
+        with self._lock:
+            self._viewers.remove(viewer)
+            return not self._viewers
+
+    def take(self, event: DeviceEvent) -> None:
+        """What the unit's reader thread tells; everything but rows and states is ignored."""
+        with self._lock:
+            if isinstance(event, StreamBlock):
+                if event.epoch != self._epoch:
+                    self._begin(event.epoch, event.period_us, event.channels)
+                self._take_rows(event)
+            elif isinstance(event, StreamStarted):
+                self._begin(event.epoch, event.period_us, event.channels)
+            elif isinstance(event, StateChanged):
+                self._state = state_text(event.state.value, event.reason)
+                self._put(self._state)
+
+    def _take_rows(self, block: StreamBlock) -> None:
         """Picks the rows and sends them once 20 ms have gathered."""
-        if block.epoch != self._epoch:
-            self._begin(block)
         # Rows are numbered through the subscription, so the same ones are picked after a loss.
         offset = -block.first_index % self._step
         rows = block.values[offset :: self._step, self._columns]
@@ -165,18 +189,17 @@ class Feed:
         ):
             self._send(block.wall_us)
 
-    def _begin(self, block: StreamBlock) -> None:
-        self._epoch = block.epoch
+    def _begin(self, epoch: int, period_us: int, offered: Sequence[ChannelSpec]) -> None:
+        self._epoch = epoch
         self._next_index = None
         self._pending, self._pending_rows, self._pending_lost = [], 0, 0
-        positions = {channel.name: i for i, channel in enumerate(block.channels)}
+        positions = {channel.name: i for i, channel in enumerate(offered)}
         names = [name for name in self._names or positions if name in positions]
         self._columns = np.array([positions[name] for name in names], dtype=np.intp)
-        base_hz = 1e6 / block.period_us
-        self._step = max(1, round(base_hz / self._rate_hz)) if self._rate_hz else 1
-        chosen = [block.channels[positions[name]] for name in names]
-        self._description = description(block.epoch, block.period_us * self._step, chosen)
-        self.tell(self._description)
+        self._step = max(1, round(1e6 / period_us / self._rate_hz)) if self._rate_hz else 1
+        chosen = [offered[positions[name]] for name in names]
+        self._description = description(epoch, period_us * self._step, chosen)
+        self._put(self._description)
 
     def _gather(self, block: StreamBlock, offset: int, rows: npt.NDArray[np.int16]) -> None:
         first_index = (block.first_index + offset) // self._step
@@ -204,8 +227,47 @@ class Feed:
         self._sequence += 1
         self._sent_wall_us = wall_us
         self._pending, self._pending_rows, self._pending_lost = [], 0, 0
-        for viewer in self.viewers:
-            viewer.put(frame)
+        self._put(frame)
+
+    def _put(self, item: str | RowFrame) -> None:
+        for viewer in self._viewers:
+            viewer.put(item)
+
+
+class Watch:
+    """Who watches which unit; feeds begin with their first viewer and end with their last."""
+
+    def __init__(self, devices: Devices) -> None:
+        self._devices = devices
+        self._lock = threading.Lock()
+        self._feeds: dict[FeedKey, tuple[Feed, Callable[[], None]]] = {}
+        self._keys: dict[Viewer, FeedKey] = {}
+
+    def join(
+        self, device_id: str, names: Sequence[str] | None, rate_hz: float | None, viewer: Viewer
+    ) -> None:
+        """Begins to fill the viewer's queue with the unit's state and what follows.
+
+        Raises NotFound for an unknown unit, InvalidRequest for an unknown channel.
+        """
+        check_names(names, [channel.name for channel in StreamPlan().channels])
+        key = (device_id, tuple(names) if names else None, rate_hz)
+        with self._lock:
+            if key not in self._feeds:
+                feed = Feed(names, rate_hz)
+                self._feeds[key] = (feed, self._devices.subscribe(device_id, feed.take))
+            device = self._devices.get(device_id)
+            self._feeds[key][0].admit(viewer, state_text(device.state, device.reason))
+            self._keys[viewer] = key
+
+    def leave(self, viewer: Viewer) -> None:
+        """Stops filling the viewer's queue."""
+        with self._lock:
+            key = self._keys.pop(viewer)
+            feed, unsubscribe = self._feeds[key]
+            if feed.dismiss(viewer):
+                del self._feeds[key]
+                unsubscribe()
 
 
 def description(epoch: int, period_us: int, channels: Sequence[ChannelSpec]) -> str:

@@ -6,7 +6,7 @@ from pydantic import BaseModel, ConfigDict
 
 
 class Answer(BaseModel):
-    """Built from a service's dataclass by attribute; every field is always sent, missing is null."""
+    """Built from a service's dataclass by attribute; every field is sent, missing is null."""
 
     model_config = ConfigDict(
         from_attributes=True, json_schema_serialization_defaults_required=True

@@ -73,7 +73,7 @@ class Device(Answer):
     reason: str
     identity: Identity | None
     config: ConfigStamp | None
-    link: dict[str, int] = Field(description="Counters of the link since it was opened.")
+    link: dict[str, float | None] = Field(description="Counters of the link since it was added.")
     faults_active: list[str]
 
 
