@@ -1,0 +1,161 @@
+"""Goal: the law gives the same bits however it is reached (ADR 1).
+
+Method: one rough ride of random readings, with every mode, brake, back-pedalling and broken
+readings in it, goes through the batch, through single steps with a second instance in between, and
+through a program of its own that the C compiler builds here with the extension's flags.
+"""
+
+import shlex
+import subprocess
+import sysconfig
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from firmware_protocol._generated import FallingTorque, Inference, Label, Law
+from firmware_protocol.parameters import default_config
+from sim_device.firmware.python import build
+from sim_device.firmware.python.law import (
+    INPUT_DTYPE,
+    OUTPUT_DTYPE,
+    STEP_S,
+    AssistLaw,
+    pack_inputs,
+)
+
+ROOT = Path(__file__).resolve().parents[2]
+STEPS = 3000
+
+
+def rough_ride(seed: int) -> npt.NDArray[np.void]:
+    random = np.random.default_rng(seed)
+    torque = np.abs(random.normal(0, 2500, STEPS)) * (random.random(STEPS) > 0.02)
+    torque[random.integers(0, STEPS, 20)] = [np.nan, np.inf, -np.inf, 1e9] * 5
+    return pack_inputs(
+        {
+            "torque_raw_counts": torque,
+            "speed_kmh": np.clip(np.cumsum(random.normal(0, 0.3, STEPS)) + 15, 0, 30),
+            "cadence_rpm": np.where(random.random(STEPS) < 0.02, -5, random.uniform(0, 90, STEPS)),
+            "motor_speed_rpm": random.uniform(0, 3200, STEPS),
+            "battery_voltage_v": random.uniform(29, 42, STEPS),
+            "mode": np.repeat(random.integers(0, 6, STEPS // 100), 100),
+            "brake": np.repeat(random.random(STEPS // 50) < 0.1, 50),
+        }
+    )
+
+
+def config_of(inference: str, falling: str) -> dict[str, Any]:
+    return {
+        **default_config(),
+        "mode_laws": ["OFF", "FIXED", "FIXED", "FUZZY", "FUZZY"],
+        "fuzzy_inference": inference,
+        "fuzzy_falling_torque": falling,
+        "fuzzy_gain_points": [0.05, 0.11, 0.27, 0.33, 0.48],
+        "assist_cutoff_band_kmh": 2.0,
+        "sensor_offset_counts": 12.5,
+    }
+
+
+def config_record(c: dict[str, Any]) -> bytes:
+    """The configuration in the order that main_law.c reads."""
+    values: list[Any] = [
+        STEP_S,
+        c["sensor_offset_counts"],
+        c["sensor_gain_nm_per_count"],
+        c["torque_filter_s"],
+        c["torque_rate_interval_ms"] / 1000,
+        c["torque_rate_floor_nm"],
+        *(Law[name] for name in c["mode_laws"]),
+        *c["mode_ratios"],
+        c["fixed_taper_start_kmh"],
+        c["fixed_taper_end_kmh"],
+        c["assist_ramp_up_nm_per_s"],
+        c["assist_ramp_down_nm_per_s"],
+        c["pedal_torque_nm_min"],
+        Inference[c["fuzzy_inference"]],
+        *c["fuzzy_speed_points_kmh"],
+        *c["fuzzy_torque_rate_points"],
+        *c["fuzzy_gain_points"],
+        *(Label[label] for row in c["fuzzy_rules"] for label in row),
+        FallingTorque[c["fuzzy_falling_torque"]],
+        c["assist_cutoff_kmh"],
+        c["assist_cutoff_band_kmh"],
+        c["motor_torque_nm_max"],
+        c["battery_current_a_max"],
+        c["battery_voltage_v_min"],
+        c["motor_speed_rpm_max"],
+        c["pedal_stop_ms"] / 1000,
+        c["gear_ratio"],
+        c["motor_torque_constant_nm_per_a"],
+        c["motor_resistance_ohm"],
+    ]
+    return np.array(values, np.float32).tobytes()
+
+
+def as_floats(rows: npt.NDArray[np.void]) -> npt.NDArray[np.float32]:
+    names = rows.dtype.names or ()
+    return np.stack([rows[name].astype(np.float32) for name in names], axis=1)
+
+
+def bits(rows: npt.NDArray[np.void]) -> npt.NDArray[np.uint32]:
+    return as_floats(rows).view(np.uint32)
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    target = tmp_path_factory.mktemp("law") / "law"
+    compiler = shlex.split(sysconfig.get_config_var("CC") or "cc")
+    control = ROOT / "sim_device/firmware/control"
+    subprocess.run(
+        [
+            *compiler,
+            *build.COMPILE_ARGUMENTS,
+            f"-I{control}",
+            str(ROOT / "sim_device/firmware/boards/host/main_law.c"),
+            *map(str, sorted(control.glob("*.c"))),
+            "-o",
+            str(target),
+        ],
+        check=True,
+    )
+    return target
+
+
+@pytest.mark.parametrize("inference", ["MAMDANI_CENTROID", "WEIGHTED_AVERAGE"])
+@pytest.mark.parametrize("falling", ["HOLD_ZERO_RATE", "NO_GAIN"])
+def test_batch_steps_and_program_agree_to_the_bit(
+    program: Path, inference: str, falling: str
+) -> None:
+    config = config_of(inference, falling)
+    ride, other_ride = rough_ride(1), rough_ride(2)
+
+    batch = AssistLaw(config).run(ride)
+    law, neighbour = AssistLaw(config), AssistLaw(config_of("WEIGHTED_AVERAGE", "NO_GAIN"))
+    stepwise = np.empty(STEPS, OUTPUT_DTYPE)
+    for index in range(STEPS):
+        stepwise[index : index + 1] = law.run(ride[index : index + 1])
+        neighbour.run(other_ride[index : index + 1])
+    answer = subprocess.run(
+        [program],
+        input=config_record(config) + as_floats(ride).tobytes(),
+        capture_output=True,
+        check=True,
+    ).stdout
+    program_bits = np.frombuffer(answer, np.uint32).reshape(STEPS, -1)
+
+    np.testing.assert_array_equal(bits(stepwise), bits(batch))
+    np.testing.assert_array_equal(program_bits, bits(batch))
+    assert np.count_nonzero(batch["motor_torque_nm"]) > STEPS / 10
+
+
+def test_the_program_refuses_a_broken_record_and_a_bad_configuration(program: Path) -> None:
+    good = config_record(config_of("MAMDANI_CENTROID", "NO_GAIN"))
+    bad = config_record({**config_of("MAMDANI_CENTROID", "NO_GAIN"), "gear_ratio": 0.0})
+
+    half_a_record = good + bytes(len(INPUT_DTYPE.names or ()) * 4 - 1)
+
+    assert subprocess.run([program], input=half_a_record, capture_output=True).returncode == 1
+    assert subprocess.run([program], input=bad, capture_output=True).returncode == 2
