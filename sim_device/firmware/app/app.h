@@ -1,0 +1,72 @@
+/* The product around the assist law: what a drive unit is, seen from its serial line.
+ *
+ * A board owns one `app`, calls app_control_step every control period and app_poll as often as it
+ * can, both from one context. No heap, no libm, no globals; the struct must stay where it was
+ * initialised. */
+#ifndef SPINDLE_APP_H
+#define SPINDLE_APP_H
+
+#include <stdint.h>
+
+#include "assist.h"             // assist_config, assist_state, assist_output
+#include "config_store.h"       // config_store
+#include "config_transaction.h" // config_transaction
+#include "ebl_registry.h"       // ebl_config
+#include "events.h"             // event_log
+#include "faults.h"             // fault_list
+#include "hal.h"                // hal
+#include "link.h"               // unit_link
+#include "telemetry.h"          // telemetry
+
+/* A response the host may ask for again because it was lost: executing twice is not an option. */
+typedef struct {
+    uint8_t tid; /* 0: nothing here */
+    uint32_t request_crc32;
+    uint16_t length;
+    uint8_t frame[EBL_MTU];
+} answered_request;
+
+typedef struct {
+    const hal *hal;
+    unit_link link;
+    event_log events;
+
+    uint32_t session_id; /* one more with every HELLO */
+    uint16_t tx_mtu;
+    answered_request answered[EBL_MAX_OUTSTANDING];
+    uint8_t answered_next;
+
+    config_store store;
+    config_transaction transaction;
+    ebl_config config; /* the active one */
+
+    assist_config assist_config_next;
+    uint8_t assist_config_pending;
+    assist_config assist_config; /* what the law runs on */
+    assist_state assist_state;
+    assist_output output;
+
+    telemetry telemetry;
+    fault_list faults;
+} app;
+
+/* Boots: configuration from flash, BOOT on the line. `hal` must outlive `app`. */
+void app_init(app *app, const hal *hal);
+
+/* Serves the serial line and ends leases that ran out. */
+void app_poll(app *app);
+
+/* One control period: inputs, law, motor, faults, a row of telemetry. */
+void app_control_step(app *app);
+
+/* What the law gave in the latest control step. */
+const assist_output *app_output(const app *app);
+
+/* The factory's last step, before the first app_init: gives a flash that was never written its
+ * first configuration. Any other flash is left alone. 0, or a negative CONFIG_STORE_ result. */
+int app_provision(const hal *hal, const ebl_config *config);
+
+/* For the rooms of this folder: the store's image becomes the law's at the next control step. */
+void app_config_apply(app *app);
+
+#endif

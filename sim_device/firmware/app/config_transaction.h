@@ -1,0 +1,50 @@
+/* How a host changes the configuration: begin on what it believes is active, set, validate,
+ * commit. Until the commit only a shadow in RAM changes, and it is lost when the lease ends. */
+#ifndef SPINDLE_CONFIG_TRANSACTION_H
+#define SPINDLE_CONFIG_TRANSACTION_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "config_store.h" // config_store
+#include "ebl_registry.h" // ebl_status
+#include "ebl_values.h"   // ebl_refusal
+#include "hal.h"          // hal
+
+#define TRANSACTION_LEASE_MS 30000
+
+typedef struct {
+    uint8_t state;         /* ebl_config_state */
+    uint16_t id;           /* of the open transaction; the latest one while idle */
+    uint8_t expired;       /* the latest one ended by its lease */
+    uint64_t lease_end_us;
+    uint8_t image[EBL_IMAGE_LENGTH];
+} config_transaction;
+
+/* All but `poll` and `drop` return an ebl_status and, where it is not OK, fill `detail`. What
+ * succeeds renews the lease. */
+uint8_t transaction_begin(config_transaction *transaction, const config_store *store,
+                          const ebl_cfg_begin_request *request, uint64_t now_us,
+                          uint16_t *detail);
+uint8_t transaction_set(config_transaction *transaction, const ebl_cfg_set_request *request,
+                        uint8_t access, uint64_t now_us, uint16_t *detail);
+
+/* INVALID_CONFIG: the first `capacity` refusals in `found`, the number of all in `detail`. */
+uint8_t transaction_validate(config_transaction *transaction, uint16_t id, uint64_t now_us,
+                             ebl_refusal *found, size_t capacity, uint16_t *detail);
+uint8_t transaction_staged_crc(config_transaction *transaction, uint16_t id, uint64_t now_us,
+                               uint32_t *crc32, uint16_t *detail);
+
+/* OK: the store holds the new image and the transaction is over. Else both are as they were. */
+uint8_t transaction_commit(config_transaction *transaction, config_store *store, const hal *hal,
+                           const ebl_cfg_commit_request *request, uint64_t now_us,
+                           uint16_t *detail);
+uint8_t transaction_abort(config_transaction *transaction, uint16_t id, uint16_t *detail);
+
+/* Ends the transaction when its lease is over. */
+void transaction_poll(config_transaction *transaction, uint64_t now_us);
+
+/* The host left. */
+void transaction_drop(config_transaction *transaction);
+
+#endif

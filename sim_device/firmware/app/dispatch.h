@@ -1,0 +1,39 @@
+/* One frame in, one response out: whatever the host asks, it is told something true. */
+#ifndef SPINDLE_DISPATCH_H
+#define SPINDLE_DISPATCH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "app.h"       // app
+#include "ebl_frame.h" // ebl_header
+
+/* Where a handler puts its answer: the status byte, then the detail or the fields. */
+typedef struct {
+    uint8_t *bytes;
+    size_t capacity;
+    size_t length;
+} reply;
+
+typedef void (*request_handler)(app *app, const ebl_header *request, reply *reply);
+
+/* Handlers answer exactly once, with one of these. */
+void reply_ok(reply *reply);
+void reply_refuse(reply *reply, uint8_t status, uint16_t detail);
+void reply_status(reply *reply, uint8_t status, uint16_t detail); /* OK has no detail */
+
+/* OK with fields of `length` bytes that the handler has put at reply_fields, where `put` is the
+ * ebl_result of putting them. */
+void reply_with(reply *reply, int put, size_t length);
+uint8_t *reply_fields(const reply *reply);
+size_t reply_capacity(const reply *reply);
+
+/* Answers a frame that the line brought. What is not a request is ignored. */
+void dispatch_frame(app *app, const uint8_t *frame, size_t length);
+
+/* NULL where the message is not one of the folder's. */
+request_handler requests_system(uint16_t message_id);
+request_handler requests_config(uint16_t message_id);
+request_handler requests_stream(uint16_t message_id);
+
+#endif

@@ -1,0 +1,80 @@
+#include "events.h"
+
+#include <string.h>
+
+#include "ebl_bytes.h"    // ebl_put_u16, ebl_put_u32
+#include "ebl_frame.h"    // EBL_HEADER_LENGTH, ebl_header_put
+#include "ebl_registry.h" // ebl_boot_event_put
+
+#define EVENT_CHANNEL 0
+#define RESET_CAUSE_POWER_ON 0
+#define EVENT_HEAD_LENGTH 5 /* code u8, time u32 */
+#define EVENT_FIELDS_LENGTH_MAX 16
+
+/* The number is used up even if the line has no room, so the host sees the gap. */
+static void event_send(event_log *events, unit_link *link, uint64_t now_us, uint8_t code,
+                       const uint8_t *fields, size_t length)
+{
+    uint8_t frame[EBL_HEADER_LENGTH + EVENT_HEAD_LENGTH + EVENT_FIELDS_LENGTH_MAX];
+    uint8_t *payload = frame + EBL_HEADER_LENGTH;
+
+    ebl_header_put(frame, EBL_KIND_ASYNC, 0, EVENT_CHANNEL, events->seq);
+    events->seq++;
+    payload[0] = code;
+    ebl_put_u32(payload + 1, (uint32_t)now_us);
+    memcpy(payload + EVENT_HEAD_LENGTH, fields, length);
+    (void)link_send(link, LINK_EVENT, frame, EBL_HEADER_LENGTH + EVENT_HEAD_LENGTH + length);
+}
+
+void event_boot(event_log *events, unit_link *link, uint64_t now_us, uint32_t boot_id)
+{
+    ebl_boot_event event = {boot_id, RESET_CAUSE_POWER_ON};
+    uint8_t fields[EBL_BOOT_EVENT_LENGTH];
+    size_t length;
+
+    if (ebl_boot_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
+    event_send(events, link, now_us, EBL_EVENT_BOOT, fields, length);
+}
+
+void event_faults_set(event_log *events, unit_link *link, uint64_t now_us, uint16_t fault_flags)
+{
+    ebl_fault_set_event event = {fault_flags};
+    uint8_t fields[EBL_FAULT_SET_EVENT_LENGTH];
+    size_t length;
+
+    if (ebl_fault_set_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
+    event_send(events, link, now_us, EBL_EVENT_FAULT_SET, fields, length);
+}
+
+void event_faults_cleared(event_log *events, unit_link *link, uint64_t now_us,
+                          uint16_t fault_flags)
+{
+    ebl_fault_cleared_event event = {fault_flags};
+    uint8_t fields[EBL_FAULT_CLEARED_EVENT_LENGTH];
+    size_t length;
+
+    if (ebl_fault_cleared_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
+    event_send(events, link, now_us, EBL_EVENT_FAULT_CLEARED, fields, length);
+}
+
+void event_config(event_log *events, unit_link *link, uint64_t now_us, uint8_t code,
+                  uint32_t generation, uint32_t crc32)
+{
+    ebl_config_committed_event event = {generation, crc32};
+    uint8_t fields[EBL_CONFIG_COMMITTED_EVENT_LENGTH];
+    size_t length;
+
+    if (ebl_config_committed_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
+    event_send(events, link, now_us, code, fields, length);
+}
+
+void event_stream_stats(event_log *events, unit_link *link, uint64_t now_us, uint8_t stream_id,
+                        uint32_t built, uint32_t dropped_tx)
+{
+    ebl_stream_stats_event event = {stream_id, built, dropped_tx};
+    uint8_t fields[EBL_STREAM_STATS_EVENT_LENGTH];
+    size_t length;
+
+    if (ebl_stream_stats_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
+    event_send(events, link, now_us, EBL_EVENT_STREAM_STATS, fields, length);
+}

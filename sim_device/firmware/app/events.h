@@ -1,0 +1,28 @@
+/* What the unit tells without being asked. */
+#ifndef SPINDLE_EVENTS_H
+#define SPINDLE_EVENTS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "link.h" // unit_link
+
+typedef struct {
+    uint16_t seq; /* of the next event; counts also those the line had no room for */
+} event_log;
+
+void event_boot(event_log *events, unit_link *link, uint64_t now_us, uint32_t boot_id);
+
+/* `fault_flags`: only the bits that changed. */
+void event_faults_set(event_log *events, unit_link *link, uint64_t now_us, uint16_t fault_flags);
+void event_faults_cleared(event_log *events, unit_link *link, uint64_t now_us,
+                          uint16_t fault_flags);
+
+/* `code`: EBL_EVENT_CONFIG_COMMITTED or EBL_EVENT_CONFIG_DEFAULTED. */
+void event_config(event_log *events, unit_link *link, uint64_t now_us, uint8_t code,
+                  uint32_t generation, uint32_t crc32);
+
+void event_stream_stats(event_log *events, unit_link *link, uint64_t now_us, uint8_t stream_id,
+                        uint32_t built, uint32_t dropped_tx);
+
+#endif

@@ -1,0 +1,53 @@
+/* The unit's end of the serial line: bytes to frames, and three bounded queues of frames to bytes.
+ *
+ * A response overtakes an event, an event overtakes a stream; a frame once begun is finished. */
+#ifndef SPINDLE_LINK_H
+#define SPINDLE_LINK_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "ebl_frame.h"    // ebl_decoder
+#include "ebl_registry.h" // EBL_MTU
+#include "hal.h"          // hal
+
+typedef enum { LINK_RESPONSE = 0, LINK_EVENT = 1, LINK_STREAM = 2, LINK_PRIORITIES = 3 } link_priority;
+
+/* Bytes of the largest frame on the wire: stuffed and delimited. */
+#define LINK_WIRE_BYTES_MAX 552
+
+/* As many answers as the host may have questions outstanding. */
+#define LINK_RESPONSE_QUEUE_BYTES 2240
+#define LINK_EVENT_QUEUE_BYTES 512
+#define LINK_STREAM_QUEUE_BYTES 2240
+
+typedef struct {
+    uint8_t *bytes;
+    uint16_t capacity;
+    uint16_t head; /* the oldest byte */
+    uint16_t used;
+} link_queue;
+
+typedef struct {
+    ebl_decoder decoder;
+    uint8_t received[EBL_MTU]; /* the frame being decoded */
+    link_queue queues[LINK_PRIORITIES];
+    uint8_t response_bytes[LINK_RESPONSE_QUEUE_BYTES];
+    uint8_t event_bytes[LINK_EVENT_QUEUE_BYTES];
+    uint8_t stream_bytes[LINK_STREAM_QUEUE_BYTES];
+    uint8_t frame[EBL_MTU];             /* the frame being encoded */
+    uint8_t wire[LINK_WIRE_BYTES_MAX]; /* the frame being sent */
+    uint16_t wire_length;
+    uint16_t wire_sent;
+    uint32_t dropped_tx;
+} unit_link;
+
+void link_init(unit_link *link);
+
+/* Queues a frame (header and payload, without CRC). False, and counted, where the queue is full. */
+int link_send(unit_link *link, link_priority priority, const uint8_t *frame, size_t length);
+
+/* Gives the line what it takes now. */
+void link_transmit(unit_link *link, const hal *hal);
+
+#endif

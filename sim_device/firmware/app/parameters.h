@@ -1,0 +1,23 @@
+/* The configuration as the host writes it (items into an image) and as the law wants it. */
+#ifndef SPINDLE_PARAMETERS_H
+#define SPINDLE_PARAMETERS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "assist.h"       // assist_config
+#include "ebl_registry.h" // ebl_config, ebl_status
+
+/* The law's view of a configuration; `step_s` is the control period. */
+void parameters_to_assist(const ebl_config *config, assist_config *assist);
+
+/* True if every value is within its range and the law accepts the whole. */
+int parameters_image_is_valid(const uint8_t *image);
+
+/* Writes the items of CFG_SET (id u16, first index u8, count u8, values) into the image: all, or
+ * none. Returns an ebl_status; `detail` then is the parameter's id, or for ACCESS the level that
+ * is needed. */
+uint8_t parameters_set(uint8_t *image, const uint8_t *items, size_t length, uint8_t access,
+                       uint16_t *detail);
+
+#endif

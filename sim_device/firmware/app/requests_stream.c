@@ -1,0 +1,95 @@
+/* What the host asks about telemetry. */
+#include "dispatch.h"     // reply_ok, reply_with
+#include "ebl_bytes.h"    // EBL_OK
+#include "ebl_registry.h" // ebl_str_subscribe_request_get
+
+static void subscribe(app *app, const ebl_header *request, reply *reply)
+{
+    ebl_str_subscribe_request asked;
+    ebl_str_subscribe_response response;
+    uint16_t detail = 0;
+    uint8_t status;
+    size_t length = 0;
+    int put;
+
+    if (ebl_str_subscribe_request_get(&asked, request->payload, request->payload_length) !=
+        EBL_OK) {
+        reply_refuse(reply, EBL_STATUS_LENGTH, EBL_STR_SUBSCRIBE_REQUEST_LENGTH);
+        return;
+    }
+    status = telemetry_subscribe(&app->telemetry, &asked, app->tx_mtu,
+                                 app->hal->now_us(app->hal->context), &response, &detail);
+    if (status != EBL_STATUS_OK) {
+        reply_refuse(reply, status, detail);
+        return;
+    }
+    put = ebl_str_subscribe_response_put(&response, reply_fields(reply), reply_capacity(reply),
+                                         &length);
+    reply_with(reply, put, length);
+}
+
+static void unsubscribe(app *app, const ebl_header *request, reply *reply)
+{
+    ebl_str_unsubscribe_request asked;
+
+    if (ebl_str_unsubscribe_request_get(&asked, request->payload, request->payload_length) !=
+        EBL_OK) {
+        reply_refuse(reply, EBL_STATUS_LENGTH, EBL_STR_UNSUBSCRIBE_REQUEST_LENGTH);
+        return;
+    }
+    reply_status(reply, telemetry_unsubscribe(&app->telemetry, asked.stream_id), asked.stream_id);
+}
+
+static void renew(app *app, const ebl_header *request, reply *reply)
+{
+    ebl_str_renew_request asked;
+    uint8_t status;
+
+    if (ebl_str_renew_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(reply, EBL_STATUS_LENGTH, EBL_STR_RENEW_REQUEST_LENGTH);
+        return;
+    }
+    status = telemetry_renew(&app->telemetry, asked.stream_id, asked.lease_s,
+                             app->hal->now_us(app->hal->context));
+    reply_status(reply, status, asked.stream_id);
+}
+
+static void snapshot(app *app, const ebl_header *request, reply *reply)
+{
+    uint8_t values[2 * EBL_CHANNEL_COUNT];
+    ebl_str_snapshot_request asked;
+    ebl_str_snapshot_response response;
+    uint16_t detail = 0;
+    uint8_t status;
+    size_t length = 0;
+    int put;
+
+    if (ebl_str_snapshot_request_get(&asked, request->payload, request->payload_length) !=
+        EBL_OK) {
+        reply_refuse(reply, EBL_STATUS_LENGTH, EBL_STR_SNAPSHOT_REQUEST_LENGTH);
+        return;
+    }
+    status = telemetry_snapshot(&app->telemetry, asked.channel_ids, asked.channel_ids_length,
+                                values, &detail);
+    if (status != EBL_STATUS_OK) {
+        reply_refuse(reply, status, detail);
+        return;
+    }
+    response.t_us = app->telemetry.row_us;
+    response.values = values;
+    response.values_length = 2 * asked.channel_ids_length;
+    put = ebl_str_snapshot_response_put(&response, reply_fields(reply), reply_capacity(reply),
+                                        &length);
+    reply_with(reply, put, length);
+}
+
+request_handler requests_stream(uint16_t message_id)
+{
+    switch (message_id) {
+    case EBL_MSG_STR_SUBSCRIBE: return subscribe;
+    case EBL_MSG_STR_UNSUBSCRIBE: return unsubscribe;
+    case EBL_MSG_STR_RENEW: return renew;
+    case EBL_MSG_STR_SNAPSHOT: return snapshot;
+    default: return NULL;
+    }
+}

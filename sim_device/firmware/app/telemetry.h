@@ -1,0 +1,74 @@
+/* Rows of channels, taken at every control step, to subscribed streams of counted frames. */
+#ifndef SPINDLE_TELEMETRY_H
+#define SPINDLE_TELEMETRY_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "assist.h"       // assist_output
+#include "ebl_registry.h" // EBL_CHANNEL_COUNT
+#include "events.h"       // event_log
+#include "hal.h"          // hal_inputs
+#include "link.h"         // unit_link
+
+#define TELEMETRY_STREAMS 4
+
+/* What a row is made of. */
+typedef struct {
+    const hal_inputs *inputs;
+    const assist_output *output;
+    uint8_t mode;
+    uint16_t fault_flags;
+} telemetry_sources;
+
+typedef struct {
+    uint8_t active;
+    uint8_t stream_id;
+    uint8_t batch;
+    uint8_t epoch;
+    uint16_t divider;
+    uint16_t steps_left;  /* until the next row */
+    uint64_t lease_end_us;
+    uint64_t stats_due_us;
+    uint16_t seq;         /* of the frame being built */
+    uint32_t built;       /* since the subscription, like dropped_tx */
+    uint32_t dropped_tx;
+    uint8_t rows;         /* in the frame being built */
+    uint8_t flags;        /* of the frame being built, without the epoch */
+    uint8_t overrun;      /* the frame before this one was dropped */
+    uint8_t channel_count;
+    uint8_t channels[EBL_CHANNEL_COUNT]; /* places in the row */
+    uint8_t frame[EBL_MTU];
+} telemetry_stream;
+
+typedef struct {
+    int16_t row[EBL_CHANNEL_COUNT]; /* the latest, in the order of ebl_channels */
+    uint32_t clipped;               /* a bit for each place in the row */
+    uint64_t row_us;
+    uint8_t epoch;                  /* of the latest subscription, 0 to 7 */
+    telemetry_stream streams[TELEMETRY_STREAMS];
+} telemetry;
+
+void telemetry_init(telemetry *telemetry);
+
+/* Takes a row and gives it to every stream whose turn it is. */
+void telemetry_step(telemetry *telemetry, const telemetry_sources *sources, uint64_t now_us,
+                    unit_link *link);
+
+/* Ends streams whose lease is over, and reports each stream once a second. */
+void telemetry_poll(telemetry *telemetry, event_log *events, unit_link *link, uint64_t now_us);
+
+/* Starts or changes a stream. Returns an ebl_status. */
+uint8_t telemetry_subscribe(telemetry *telemetry, const ebl_str_subscribe_request *request,
+                            uint16_t tx_mtu, uint64_t now_us,
+                            ebl_str_subscribe_response *response, uint16_t *detail);
+
+uint8_t telemetry_unsubscribe(telemetry *telemetry, uint8_t stream_id);
+uint8_t telemetry_renew(telemetry *telemetry, uint8_t stream_id, uint8_t lease_s, uint64_t now_us);
+void telemetry_end_all(telemetry *telemetry);
+
+/* The latest row of the channels as i16 counts. Returns an ebl_status. */
+uint8_t telemetry_snapshot(const telemetry *telemetry, const uint8_t *channel_ids, size_t count,
+                           uint8_t *values, uint16_t *detail);
+
+#endif

@@ -1,0 +1,313 @@
+#include "bench_board.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "app.h" // app
+
+#define BENCH_POLL_US 1000u
+#define BENCH_CONTROL_US 10000u
+#define FLASH_NEVER UINT32_MAX
+
+typedef struct {
+    uint8_t bytes[BENCH_LINE_BYTES];
+    size_t length;
+    size_t capacity;
+} line;
+
+struct bench_board {
+    app app;
+    hal hal;
+    uint64_t now_us;
+    line to_unit;
+    line to_host;
+    hal_inputs inputs;
+    float motor_torque_nm;
+    uint8_t *flash;
+    uint32_t flash_steps;
+    uint32_t flash_steps_left;
+    uint32_t flash_weak_bit_countdown;
+    uint8_t uid[12];
+    uint8_t powered;
+};
+
+static size_t line_write(line *queue, const uint8_t *bytes, size_t length)
+{
+    size_t space = queue->length < queue->capacity ? queue->capacity - queue->length : 0;
+    size_t taken = length < space ? length : space;
+
+    memcpy(queue->bytes + queue->length, bytes, taken);
+    queue->length += taken;
+    return taken;
+}
+
+static size_t line_read(line *queue, uint8_t *bytes, size_t capacity)
+{
+    size_t taken = queue->length < capacity ? queue->length : capacity;
+
+    memcpy(bytes, queue->bytes, taken);
+    memmove(queue->bytes, queue->bytes + taken, queue->length - taken);
+    queue->length -= taken;
+    return taken;
+}
+
+static uint64_t now_us(void *context)
+{
+    return ((const bench_board *)context)->now_us;
+}
+
+static size_t serial_read(void *context, uint8_t *bytes, size_t capacity)
+{
+    return line_read(&((bench_board *)context)->to_unit, bytes, capacity);
+}
+
+static size_t serial_write(void *context, const uint8_t *bytes, size_t length)
+{
+    return line_write(&((bench_board *)context)->to_host, bytes, length);
+}
+
+static size_t serial_writable(void *context)
+{
+    const line *queue = &((const bench_board *)context)->to_host;
+
+    return queue->length < queue->capacity ? queue->capacity - queue->length : 0;
+}
+
+static void inputs_read(void *context, hal_inputs *inputs)
+{
+    *inputs = ((const bench_board *)context)->inputs;
+}
+
+static void motor_torque_set(void *context, float motor_torque_nm)
+{
+    ((bench_board *)context)->motor_torque_nm = motor_torque_nm;
+}
+
+/* One byte of wear. False once the power is gone. */
+static int flash_step(bench_board *board)
+{
+    if (board->flash_steps_left == 0) return 0;
+    if (board->flash_steps_left != FLASH_NEVER) board->flash_steps_left--;
+    board->flash_steps++;
+    return 1;
+}
+
+static int flash_read(void *context, size_t address, uint8_t *bytes, size_t length)
+{
+    const bench_board *board = context;
+
+    if (address > board->hal.flash_size || length > board->hal.flash_size - address) return -1;
+    memcpy(bytes, board->flash + address, length);
+    return 0;
+}
+
+static int flash_erase(void *context, size_t address)
+{
+    bench_board *board = context;
+
+    if (address >= board->hal.flash_size || address % board->hal.flash_block_size != 0) return -1;
+    for (size_t i = 0; i < board->hal.flash_block_size; i++) {
+        if (!flash_step(board)) return -1;
+        board->flash[address + i] = 0xFF;
+    }
+    return 0;
+}
+
+static int flash_program(void *context, size_t address, const uint8_t *bytes, size_t length)
+{
+    bench_board *board = context;
+
+    if (address > board->hal.flash_size || length > board->hal.flash_size - address) return -1;
+    for (size_t i = 0; i < length; i++) {
+        uint8_t before = board->flash[address + i];
+
+        if (!flash_step(board)) return -1;
+        board->flash[address + i] = before & bytes[i];
+        if (board->flash_weak_bit_countdown == 0 && before != bytes[i]) {
+            board->flash[address + i] = before;
+            board->flash_weak_bit_countdown = FLASH_NEVER;
+        }
+    }
+    if (board->flash_weak_bit_countdown != FLASH_NEVER && board->flash_weak_bit_countdown > 0) {
+        board->flash_weak_bit_countdown--;
+    }
+    return 0;
+}
+
+static int board_request(void *context, uint16_t message_id, const uint8_t *request, size_t length,
+                         uint8_t *response, size_t capacity, size_t *response_length)
+{
+    (void)context;
+    (void)message_id;
+    *response_length = length < capacity ? length : capacity;
+    memcpy(response, request, *response_length);
+    return 0;
+}
+
+static void hal_fill(bench_board *board, size_t flash_block_size, size_t flash_size)
+{
+    hal *hal = &board->hal;
+
+    hal->context = board;
+    hal->now_us = now_us;
+    hal->serial_read = serial_read;
+    hal->serial_write = serial_write;
+    hal->serial_writable = serial_writable;
+    hal->inputs_read = inputs_read;
+    hal->motor_torque_set = motor_torque_set;
+    hal->flash_block_size = flash_block_size;
+    hal->flash_size = flash_size;
+    hal->flash_read = flash_read;
+    hal->flash_erase = flash_erase;
+    hal->flash_program = flash_program;
+    hal->uid = board->uid;
+    hal->device_class = 129;
+    hal->hardware_revision = 1;
+}
+
+bench_board *bench_create(size_t flash_block_size, size_t flash_size)
+{
+    bench_board *board = calloc(1, sizeof *board);
+
+    if (board == NULL) return NULL;
+    board->flash = malloc(flash_size > 0 ? flash_size : 1);
+    if (board->flash == NULL) {
+        free(board);
+        return NULL;
+    }
+    memset(board->flash, 0xFF, flash_size);
+    memcpy(board->uid, "bench-unit-1", sizeof board->uid);
+    hal_fill(board, flash_block_size, flash_size);
+    board->to_unit.capacity = BENCH_LINE_BYTES;
+    board->to_host.capacity = BENCH_LINE_BYTES;
+    board->inputs.battery_voltage_v = 36.0f;
+    board->inputs.battery_soc_pct = 80.0f;
+    board->inputs.sensor_temperature_degc = 25.0f;
+    board->inputs.motor_temperature_degc = 25.0f;
+    board->inputs.mode_selected = HAL_MODE_NOT_SELECTED;
+    board->flash_steps_left = FLASH_NEVER;
+    board->flash_weak_bit_countdown = FLASH_NEVER;
+    return board;
+}
+
+void bench_destroy(bench_board *board)
+{
+    if (board == NULL) return;
+    free(board->flash);
+    free(board);
+}
+
+int bench_provision(bench_board *board)
+{
+    ebl_config config;
+
+    ebl_config_default(&config);
+    return app_provision(&board->hal, &config);
+}
+
+void bench_boot(bench_board *board, uint32_t boot_id)
+{
+    board->now_us = 0;
+    board->to_unit.length = 0;
+    board->to_host.length = 0;
+    board->motor_torque_nm = 0.0f;
+    board->flash_steps = 0;
+    board->flash_steps_left = FLASH_NEVER;
+    board->flash_weak_bit_countdown = FLASH_NEVER;
+    board->hal.boot_id = boot_id;
+    app_init(&board->app, &board->hal);
+    board->powered = 1;
+}
+
+void bench_poll(bench_board *board)
+{
+    if (board->powered) app_poll(&board->app);
+}
+
+void bench_advance_us(bench_board *board, uint32_t duration_us)
+{
+    uint64_t end_us = board->now_us + duration_us;
+
+    while (board->powered && board->now_us < end_us) {
+        uint64_t next_us = board->now_us - board->now_us % BENCH_POLL_US + BENCH_POLL_US;
+
+        board->now_us = next_us < end_us ? next_us : end_us;
+        if (board->now_us % BENCH_CONTROL_US == 0) app_control_step(&board->app);
+        app_poll(&board->app);
+    }
+}
+
+size_t bench_send(bench_board *board, const uint8_t *bytes, size_t length)
+{
+    return line_write(&board->to_unit, bytes, length);
+}
+
+size_t bench_receive(bench_board *board, uint8_t *bytes, size_t capacity)
+{
+    return line_read(&board->to_host, bytes, capacity);
+}
+
+void bench_line_capacity(bench_board *board, size_t bytes)
+{
+    board->to_host.capacity = bytes < BENCH_LINE_BYTES ? bytes : BENCH_LINE_BYTES;
+}
+
+void bench_inputs_get(const bench_board *board, hal_inputs *inputs)
+{
+    *inputs = board->inputs;
+}
+
+void bench_inputs_set(bench_board *board, const hal_inputs *inputs)
+{
+    board->inputs = *inputs;
+}
+
+void bench_board_requests(bench_board *board, int present)
+{
+    board->hal.board_request = present ? board_request : NULL;
+}
+
+float bench_motor_torque_nm(const bench_board *board)
+{
+    return board->motor_torque_nm;
+}
+
+uint64_t bench_now_us(const bench_board *board)
+{
+    return board->now_us;
+}
+
+void bench_output(const bench_board *board, assist_output *output)
+{
+    *output = *app_output(&board->app);
+}
+
+uint32_t bench_flash_steps(const bench_board *board)
+{
+    return board->flash_steps;
+}
+
+void bench_flash_cut_after(bench_board *board, uint32_t steps)
+{
+    board->flash_steps_left = steps;
+}
+
+void bench_flash_weak_bit_after(bench_board *board, uint32_t count)
+{
+    board->flash_weak_bit_countdown = count;
+}
+
+uint8_t *bench_flash(bench_board *board)
+{
+    return board->flash;
+}
+
+size_t bench_flash_size(const bench_board *board)
+{
+    return board->hal.flash_size;
+}
+
+size_t bench_app_bytes(void)
+{
+    return sizeof(app);
+}

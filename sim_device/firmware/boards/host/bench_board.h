@@ -1,0 +1,68 @@
+/* A board that is all memory: the whole application on a test bench, with a hand on every input.
+ *
+ * Time stands still until it is advanced; the serial line is two byte queues; the flash counts
+ * every byte it erases or programs and can lose power after any of them. */
+#ifndef SPINDLE_BENCH_BOARD_H
+#define SPINDLE_BENCH_BOARD_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "assist.h" // assist_output
+#include "hal.h"    // hal_inputs
+
+#define BENCH_LINE_BYTES 65536
+
+typedef struct bench_board bench_board;
+
+/* A board with erased flash, not yet powered. NULL without memory. */
+bench_board *bench_create(size_t flash_block_size, size_t flash_size);
+void bench_destroy(bench_board *board);
+
+/* The factory's last step: the default configuration in the first slot. 0 or negative. */
+int bench_provision(bench_board *board);
+
+/* Power on: RAM starts anew, flash keeps what it holds, the flash works again. */
+void bench_boot(bench_board *board, uint32_t boot_id);
+
+/* Lets time pass: the line is served every millisecond, the control step runs every ten. */
+void bench_advance_us(bench_board *board, uint32_t duration_us);
+
+/* Serves the line once without letting time pass. */
+void bench_poll(bench_board *board);
+
+/* Host to unit; returns how many bytes the line took. */
+size_t bench_send(bench_board *board, const uint8_t *bytes, size_t length);
+
+/* Unit to host; returns how many bytes were waiting, at most `capacity`. */
+size_t bench_receive(bench_board *board, uint8_t *bytes, size_t capacity);
+
+/* Bytes the unit may write before the host reads: a full line takes nothing. */
+void bench_line_capacity(bench_board *board, size_t bytes);
+
+void bench_inputs_get(const bench_board *board, hal_inputs *inputs);
+void bench_inputs_set(bench_board *board, const hal_inputs *inputs);
+
+/* 1: requests from 0x7000 on are echoed by the board; 0: the board has none. From the next boot. */
+void bench_board_requests(bench_board *board, int present);
+
+float bench_motor_torque_nm(const bench_board *board);
+uint64_t bench_now_us(const bench_board *board);
+void bench_output(const bench_board *board, assist_output *output);
+
+/* Bytes erased or programmed since the last boot, one step each. */
+uint32_t bench_flash_steps(const bench_board *board);
+
+/* Power for the flash ends after `steps` more steps, in the middle of an operation if need be. */
+void bench_flash_cut_after(bench_board *board, uint32_t steps);
+
+/* Programming succeeds `count` more times, then one bit of a byte stays as it was, unreported. */
+void bench_flash_weak_bit_after(bench_board *board, uint32_t count);
+
+uint8_t *bench_flash(bench_board *board);
+size_t bench_flash_size(const bench_board *board);
+
+/* RAM that one application takes. */
+size_t bench_app_bytes(void);
+
+#endif
