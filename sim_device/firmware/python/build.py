@@ -28,6 +28,8 @@ HEADERS: tuple[str, ...] = (
     "firmware_protocol/c/ebl_values.h",
     "sim_device/firmware/control/fuzzy_table.h",
     "sim_device/firmware/control/assist.h",
+    "sim_device/firmware/hal/hal.h",
+    "sim_device/firmware/boards/host/bench_board.h",
     "sim_device/physics/road.h",
     "sim_device/physics/rider.h",
     "sim_device/physics/motor.h",
