@@ -23,10 +23,11 @@ from backend.domain.channels import ChannelSpec, Values
 RADIANS_PER_S_PER_RPM = 2.0 * math.pi / 60.0
 SECONDS_PER_HOUR = 3600.0
 
-RIDER_POWER = ChannelSpec("rider_power_w", "W", 0.01, wide=True)
-MOTOR_POWER = ChannelSpec("motor_power_w", "W", 0.01, wide=True)
-BATTERY_POWER = ChannelSpec("battery_power_w", "W", 0.01, wide=True)
-MOTOR_TORQUE_CRANK = ChannelSpec("motor_torque_crank_nm", "Nm", 0.001, wide=True)
+# Wide where the product of two 16 bit factors may not fit: no extreme is ever clipped.
+RIDER_POWER = ChannelSpec("rider_power_w", "W", 0.1, wide=True)
+MOTOR_POWER = ChannelSpec("motor_power_w", "W", 0.1)
+BATTERY_POWER = ChannelSpec("battery_power_w", "W", 0.1)
+MOTOR_TORQUE_CRANK = ChannelSpec("motor_torque_crank_nm", "Nm", 0.01)
 
 # Derived channel -> the recorded channels it is made of.
 FACTORS: Mapping[str, tuple[str, ...]] = {

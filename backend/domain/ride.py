@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 
 import numpy as np
@@ -121,7 +121,6 @@ class Ride:
     object_key: str | None = None
     object_bytes: int | None = None
     summary: RideSummary | None = None
-    software: str | None = field(default=None)
 
     @property
     def offered(self) -> tuple[ChannelSpec, ...]:
@@ -166,33 +165,23 @@ def pause_us(times_us: TimesUs, period_us: int | None) -> int:
     return max(PAUSE_MIN_US, int(PAUSE_SPACINGS * usual))
 
 
-def find_gaps(rows: RideRows, period_us: int | None) -> tuple[Gap, ...]:
-    """Where samples are missing: pauses in the time, and runs of rows without any sample."""
-    times = rows.times_us
-    if len(times) == 0:
+def find_gaps(
+    times_us: TimesUs, empty: npt.NDArray[np.bool_], period_us: int | None
+) -> tuple[Gap, ...]:
+    """Where samples are missing: pauses in the time, and runs of rows without any sample.
+
+    times_us: int64 (n,). empty: bool (n,), rows in which every channel is missing.
+    """
+    if len(times_us) == 0:
         return ()
-    spacing = np.diff(times)
-    before = np.flatnonzero(spacing > pause_us(times, period_us))
-    gaps = [Gap(times[i] / 1e6, times[i + 1] / 1e6) for i in before]
-    return tuple(sorted(gaps + empty_runs(rows), key=lambda gap: gap.from_s))
-
-
-def empty_runs(rows: RideRows) -> list[Gap]:
-    """Runs of rows in which every channel is missing."""
-    empty = np.ones(len(rows.times_us), dtype=bool)
-    for channel in rows.channels:
-        empty &= rows.counts[channel.name] == channel.missing
+    paused = np.flatnonzero(np.diff(times_us) > pause_us(times_us, period_us))
+    gaps = [Gap(float(times_us[i]) / 1e6, float(times_us[i + 1]) / 1e6) for i in paused]
     edges = np.flatnonzero(np.diff(np.concatenate(([False], empty, [False])).astype(np.int8)))
-    runs = edges.reshape(-1, 2)
-    last = len(rows.times_us) - 1
-    return [
-        Gap(
-            rows.times_us[start] / 1e6,
-            rows.times_us[min(stop, last)] / 1e6,
-            rows_lost=int(stop - start),
-        )
-        for start, stop in runs
-    ]
+    for start, stop in edges.reshape(-1, 2):
+        ends_us = times_us[min(stop, len(times_us) - 1)]
+        lost = int(stop - start)
+        gaps.append(Gap(float(times_us[start]) / 1e6, float(ends_us) / 1e6, rows_lost=lost))
+    return tuple(sorted(gaps, key=lambda gap: gap.from_s))
 
 
 def summarise(

@@ -1,0 +1,144 @@
+"""The database: opened, brought to today's schema, and written by one thread on SQLite.
+
+SQLite allows one writer. With one writing thread nobody ever meets a locked database, a commit is
+one fsync in a row of them, and a slow disk shows as a queue that we can see and bound.
+PostgreSQL has its own writers: there the same calls run on the caller's thread.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from pathlib import Path
+from typing import Any, TypeVar
+
+from sqlalchemy import Connection, Engine, create_engine, event, inspect, text
+from sqlalchemy.exc import SQLAlchemyError
+
+from backend.errors import StoreError
+
+Result = TypeVar("Result")
+
+# The newest migration; a test holds it against the files in migrations/versions.
+HEAD_REVISION = "0001"
+# Bounds the memory of writes that wait for a slow disk: about 256 one-second tails.
+WRITES_WAITING_MAX = 256
+BUSY_TIMEOUT_MS = 10_000
+
+
+class Database:
+    """One database by URL (`sqlite:///path`, `postgresql+psycopg://...`)."""
+
+    def __init__(self, url: str) -> None:
+        self.engine = open_engine(url)
+        self.one_writer = self.engine.dialect.name == "sqlite"
+        self._writer = ThreadPoolExecutor(1, thread_name_prefix="store-writer")
+        self._waiting = threading.BoundedSemaphore(WRITES_WAITING_MAX)
+        try:
+            migrate(self.engine, url)
+        except (SQLAlchemyError, OSError) as error:
+            self.close()
+            raise StoreError(f"The database {url} cannot be opened: {error}") from error
+
+    def submit(self, work: Callable[[Connection], Result]) -> Future[Result]:
+        """Run `work` in one transaction on the writing thread; blocks while too many wait."""
+        if not self.one_writer:
+            return done(lambda: self._transaction(work))
+        self._waiting.acquire()
+        try:
+            future = self._writer.submit(self._transaction, work)
+        except RuntimeError as error:
+            self._waiting.release()
+            raise StoreError("The store is closed: nothing was saved.") from error
+        future.add_done_callback(lambda _: self._waiting.release())
+        return future
+
+    def write(self, work: Callable[[Connection], Result]) -> Result:
+        """Run `work` in one transaction and wait for its commit."""
+        return self.submit(work).result()
+
+    def read(self, work: Callable[[Connection], Result]) -> Result:
+        """Run `work` on a reading connection, on the caller's thread."""
+        try:
+            with self.engine.connect() as connection:
+                return work(connection)
+        except SQLAlchemyError as error:
+            raise StoreError(f"The database could not be read: {error}") from error
+
+    def close(self) -> None:
+        """Finish what waits, then close every connection."""
+        self._writer.shutdown(wait=True)
+        self.engine.dispose()
+
+    def _transaction(self, work: Callable[[Connection], Result]) -> Result:
+        try:
+            with self.engine.begin() as connection:
+                return work(connection)
+        except SQLAlchemyError as error:
+            raise StoreError(f"The database did not save the change: {error}") from error
+
+
+def done(work: Callable[[], Result]) -> Future[Result]:
+    """A future that has already run."""
+    future: Future[Result] = Future()
+    try:
+        future.set_result(work())
+    except StoreError as error:
+        future.set_exception(error)
+    return future
+
+
+def open_engine(url: str) -> Engine:
+    """An engine with SQLite's durable settings, or PostgreSQL's own."""
+    if not url.startswith("sqlite"):
+        return create_engine(url)
+    path = Path(url.split("///", 1)[-1])
+    path.parent.mkdir(parents=True, exist_ok=True)
+    engine = create_engine(url, pool_size=8, max_overflow=32)
+    event.listen(engine, "connect", prepare_sqlite)
+    event.listen(engine, "begin", begin_sqlite)
+    return engine
+
+
+def prepare_sqlite(connection: Any, _record: object) -> None:
+    """WAL with FULL: a commit that returned survives kill -9 and a power cut.
+
+    Auto-commit off in the driver: SQLAlchemy sends BEGIN itself, so DDL is transactional too.
+    """
+    connection.isolation_level = None
+    for pragma in (
+        "journal_mode=WAL",
+        "synchronous=FULL",
+        "foreign_keys=ON",
+        f"busy_timeout={BUSY_TIMEOUT_MS}",
+        "auto_vacuum=INCREMENTAL",
+    ):
+        connection.execute(f"PRAGMA {pragma}")
+
+
+def begin_sqlite(connection: Connection) -> None:
+    connection.exec_driver_sql("BEGIN")
+
+
+def migrate(engine: Engine, url: str) -> None:
+    """Bring the schema to `HEAD_REVISION`; alembic is loaded only when there is work to do."""
+    if current_revision(engine) == HEAD_REVISION:
+        return
+    from alembic import command
+    from alembic.config import Config
+
+    config = Config()
+    config.set_main_option("script_location", str(Path(__file__).parent / "migrations"))
+    config.set_main_option("sqlalchemy.url", url.replace("%", "%%"))
+    with engine.begin() as connection:
+        config.attributes["connection"] = connection
+        command.upgrade(config, "head")
+
+
+def current_revision(engine: Engine) -> str | None:
+    """The revision the database is at, None for an empty one."""
+    with engine.connect() as connection:
+        if not inspect(connection).has_table("alembic_version"):
+            return None
+        return connection.execute(text("SELECT version_num FROM alembic_version")).scalar()

@@ -1,0 +1,134 @@
+"""From rows to a finished ride: write the object, read it back, draw its overview and figures.
+
+Reading back is on purpose: what the ride shows from now on was really on the disk, with every
+page's checksum verified. One column is in memory at a time, so a day's ride needs no more than
+an hour's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from backend.domain.channels import ChannelSpec, Counts, Values
+from backend.domain.energy import FACTORS, derivable, derive
+from backend.domain.pyramid import STEPS, Level, first_level, reduce_groups
+from backend.domain.ride import Gap, Ride, RideRows, RideSummary, find_gaps, summarise
+from backend.store.objects import Objects, content_key, file_sha256
+from backend.store.parquet import RideFile, write_rows
+
+
+@dataclass(frozen=True)
+class WrittenObject:
+    """A ride's object, safely on the disk."""
+
+    key: str
+    sha256: str
+    size_bytes: int
+    row_count: int
+
+
+@dataclass(frozen=True)
+class Digest:
+    """What is computed once from the finished object and kept in SQL."""
+
+    levels: tuple[Level, ...]
+    summary: RideSummary
+    gaps: tuple[Gap, ...]
+    rows_empty: int
+
+
+def write_object(objects: Objects, ride: Ride, chunks: Iterable[RideRows]) -> WrittenObject:
+    """Write a ride's rows as an object under its content's hash. Safe to repeat."""
+    staged = objects.stage()
+    try:
+        facts = {
+            "started_us": ride.started_us,
+            "period_us": ride.period_us,
+            "gear_ratio": ride.context.gear_ratio,
+            "device_serial": ride.context.device_serial,
+        }
+        rows = write_rows(staged, ride.channels, chunks, facts)
+        sha256, size = file_sha256(staged), staged.stat().st_size
+        key = content_key("rides", sha256, ".parquet")
+        objects.publish(staged, key)
+    finally:
+        staged.unlink(missing_ok=True)
+    return WrittenObject(key, sha256, size, rows)
+
+
+def digest(path: Path, ride: Ride) -> Digest:
+    """Overview, figures and gaps of a ride from its object."""
+    file = RideFile(path, ride.channels)
+    columns = FileColumns(file, ride.channels, ride.context.gear_ratio)
+    times = file.times_us(0, file.row_count)
+    empty = np.ones(file.row_count, dtype=bool)
+    pairs: dict[str, list[tuple[Counts, Counts]]] = {}
+    for channel in ride.channels:
+        counts = columns.counts(channel)
+        empty &= counts == channel.missing
+        pairs[channel.name] = pyramid(counts)
+    for channel in columns.derived:
+        pairs[channel.name] = pyramid(columns.counts(channel))
+    offered = ride.channels + columns.derived
+    return Digest(
+        levels=tuple(
+            Level(
+                step,
+                offered,
+                {name: levels[depth][0] for name, levels in pairs.items()},
+                {name: levels[depth][1] for name, levels in pairs.items()},
+            )
+            for depth, step in enumerate(STEPS)
+        ),
+        summary=summarise(columns, times, ride.period_us),
+        gaps=find_gaps(times, empty, ride.period_us),
+        rows_empty=int(np.sum(empty)),
+    )
+
+
+def pyramid(counts: Counts) -> list[tuple[Counts, Counts]]:
+    """Minimum and maximum of every level of `STEPS`, the finer feeding the coarser."""
+    levels = [first_level(counts, STEPS[0])]
+    for finer, step in pairwise(STEPS):
+        low, high = levels[-1]
+        levels.append(reduce_groups(low, high, np.arange(0, len(low), step // finer)))
+    return levels
+
+
+class FileColumns(Mapping[str, Values]):
+    """A ride's channels by name as physical values (n,), read or derived when asked for."""
+
+    def __init__(
+        self, file: RideFile, channels: tuple[ChannelSpec, ...], gear_ratio: float | None
+    ) -> None:
+        self._file = file
+        self._recorded = {channel.name: channel for channel in channels}
+        self._gear_ratio = gear_ratio
+        self.derived = derivable(self._recorded.keys(), gear_ratio)
+
+    def __getitem__(self, name: str) -> Values:
+        if name in self._recorded:
+            counts = self._file.counts([name], 0, self._file.row_count)[name]
+            return self._recorded[name].to_values(counts)
+        if any(channel.name == name for channel in self.derived):
+            factors = {factor: self[factor] for factor in FACTORS[name]}
+            return derive(name, factors, self._gear_ratio)
+        raise KeyError(name)
+
+    def __iter__(self) -> Iterator[str]:
+        yield from self._recorded
+        yield from (channel.name for channel in self.derived)
+
+    def __len__(self) -> int:
+        return len(self._recorded) + len(self.derived)
+
+    def counts(self, channel: ChannelSpec) -> Counts:
+        """Counts (n,) of a recorded or derived channel."""
+        if channel.name in self._recorded:
+            return self._file.counts([channel.name], 0, self._file.row_count)[channel.name]
+        return channel.to_counts(self[channel.name])

@@ -1,0 +1,151 @@
+"""Rows of the table `ride` and what hangs on them: how a ride is written to SQL and read back."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import asdict, fields
+from typing import Any
+
+from sqlalchemy import Connection, Row, Select, delete, insert, select, update
+
+from backend.domain.channels import ChannelSpec, channel_to_json
+from backend.domain.energy import derivable
+from backend.domain.ride import Gap, Ride, RideContext, RideSummary
+from backend.errors import InvalidRequest
+from backend.store import tables as t
+from backend.store.blobs import channel_list, encode_level
+from backend.store.finish import Digest, WrittenObject
+
+NAME_LENGTH_MAX = 200
+
+
+def whole_ride(ride_id: int | None = None) -> Select[Any]:
+    """Rides with their figures and the upload they came with."""
+    query = (
+        select(
+            t.ride,
+            t.upload.c.token.label("upload_token"),
+            t.upload.c.sha256.label("source_sha256"),
+            *(column for column in t.ride_summary.c if column.name != "ride_id"),
+        )
+        .outerjoin(t.ride_summary, t.ride_summary.c.ride_id == t.ride.c.id)
+        .outerjoin(t.upload, t.upload.c.id == t.ride.c.upload_id)
+    )
+    return query if ride_id is None else query.where(t.ride.c.id == ride_id)
+
+
+def ride_from_row(row: Row[Any]) -> Ride:
+    """A row of `whole_ride` -> ride."""
+    body = row._mapping
+    channels = channel_list(body["channels"])
+    context = RideContext(**body["context"])
+    figures = {field.name: body[field.name] for field in fields(RideSummary)}
+    return Ride(
+        id=body["id"],
+        state=body["state"],
+        origin=body["origin"],
+        name=body["name"],
+        notes=body["notes"],
+        started_us=body["started_us"],
+        row_count=body["row_count"],
+        period_us=body["period_us"],
+        channels=channels,
+        derived=derivable([channel.name for channel in channels], context.gear_ratio),
+        context=context,
+        gaps=tuple(Gap(**gap) for gap in body["gaps"]),
+        completeness=body["completeness"],
+        upload_id=body["upload_token"],
+        source_sha256=body["source_sha256"],
+        object_key=body["object_key"],
+        object_bytes=body["object_bytes"],
+        summary=RideSummary(**figures) if figures["duration_s"] is not None else None,
+    )
+
+
+def cursor_parts(cursor: str) -> tuple[int, int]:
+    """A cursor -> start and id of the last ride of the page before. Raises InvalidRequest."""
+    started, _, ride_id = cursor.partition(".")
+    try:
+        return int(started), int(ride_id)
+    except ValueError as error:
+        raise InvalidRequest("cursor must be the `next` of an earlier page.") from error
+
+
+def ride_row(
+    state: str,
+    origin: str,
+    channels: Sequence[ChannelSpec],
+    period_us: int | None,
+    started_us: int,
+    context: RideContext,
+    name: str,
+) -> dict[str, object]:
+    """A new row of the table `ride`."""
+    return {
+        "state": state,
+        "origin": origin,
+        "name": name[:NAME_LENGTH_MAX],
+        "notes": "",
+        "device_id": context.device_id,
+        "started_us": started_us,
+        "row_count": 0,
+        "period_us": period_us,
+        "channels": [channel_to_json(channel) for channel in channels],
+        "context": asdict(context),
+        "gaps": [],
+        "created_us": time.time_ns() // 1000,
+    }
+
+
+def inserted(connection: Connection, body: dict[str, object]) -> int:
+    """Insert a ride and return its id."""
+    result = connection.execute(insert(t.ride).values(body).returning(t.ride.c.id))
+    return int(result.scalar_one())
+
+
+def upload_key(connection: Connection, token: str | None) -> int | None:
+    """The row id of an upload by its public token."""
+    if token is None:
+        return None
+    return connection.execute(select(t.upload.c.id).where(t.upload.c.token == token)).scalar()
+
+
+def finish_row(
+    connection: Connection,
+    ride_id: int,
+    written: WrittenObject,
+    found: Digest,
+    completeness: float | None,
+) -> None:
+    """Make a ride `done`, with everything that belongs to a finished one."""
+    connection.execute(
+        update(t.ride)
+        .where(t.ride.c.id == ride_id)
+        .values(
+            state="done",
+            row_count=written.row_count,
+            object_key=written.key,
+            object_sha256=written.sha256,
+            object_bytes=written.size_bytes,
+            gaps=[asdict(gap) for gap in found.gaps],
+            completeness=completeness,
+        )
+    )
+    connection.execute(delete(t.ride_summary).where(t.ride_summary.c.ride_id == ride_id))
+    connection.execute(insert(t.ride_summary).values(ride_id=ride_id, **asdict(found.summary)))
+    connection.execute(delete(t.ride_lod).where(t.ride_lod.c.ride_id == ride_id))
+    connection.execute(
+        insert(t.ride_lod),
+        [
+            {"ride_id": ride_id, "step": level.step, "payload": encode_level(level)}
+            for level in found.levels
+        ],
+    )
+
+
+def remove_ride(connection: Connection, ride_id: int) -> None:
+    """Delete a ride and all that hangs on it."""
+    for table in (t.ride_tail, t.ride_lod, t.ride_summary):
+        connection.execute(delete(table).where(table.c.ride_id == ride_id))
+    connection.execute(delete(t.ride).where(t.ride.c.id == ride_id))

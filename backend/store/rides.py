@@ -1,0 +1,301 @@
+"""Rides in the store: a live one grows by tails, a finished one is an object with its digest.
+
+    start_live -> append_tail ... -> finish        recording; a tail is safe when its future is done
+    add                                            a whole ride from a file
+    live_ids                                       at open: what a crash left to be finished
+finish(): object first, then ONE transaction that makes the ride `done`, stores overview and
+figures and deletes the tail. A crash before the transaction leaves a live ride with its whole
+tail, and at worst an object nobody knows; finishing again gives the same bytes and so the same key.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from concurrent.futures import Future
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from sqlalchemy import Connection, Select, delete, func, insert, select, update
+
+from backend.domain.channels import MISSING_INT16, ChannelSpec
+from backend.domain.pyramid import Level
+from backend.domain.ride import Ride, RideContext, RideRows
+from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
+from backend.store import tables as t
+from backend.store.blobs import Rows16, decode_level, decode_tail, encode_tail
+from backend.store.database import Database
+from backend.store.finish import WrittenObject, digest, write_object
+from backend.store.objects import Objects
+from backend.store.parquet import RideFile
+from backend.store.reader import LiveRows, ReaderCache, RideReader
+from backend.store.ride_table import (
+    NAME_LENGTH_MAX,
+    cursor_parts,
+    finish_row,
+    inserted,
+    remove_ride,
+    ride_from_row,
+    ride_row,
+    upload_key,
+    whole_ride,
+)
+
+PAGE_MAX = 500
+NOTES_LENGTH_MAX = 20_000
+TAILS_AT_ONCE = 64
+
+
+@dataclass(frozen=True)
+class RidePage:
+    """One page of a list; next: the cursor of the following page, None at the end."""
+
+    items: tuple[Ride, ...]
+    next: str | None
+
+
+class RideStore:
+    """Every ride there is."""
+
+    def __init__(self, database: Database, objects: Objects) -> None:
+        self._database = database
+        self._objects = objects
+        self._readers = ReaderCache()
+
+    def start_live(
+        self,
+        channels: Sequence[ChannelSpec],
+        period_us: int,
+        started_us: int,
+        context: RideContext,
+        name: str = "",
+    ) -> int:
+        """Begin a ride whose rows come with `append_tail`; returns its id.
+
+        channels: 16 bit ones only. started_us: wall time of row 0. Raises StoreError.
+        """
+        if any(channel.wide for channel in channels) or period_us <= 0:
+            raise InvalidRequest("A live ride needs 16 bit channels and a period above 0.")
+        body = ride_row("live", "recorded", channels, period_us, started_us, context, name)
+        return self._database.write(lambda c: inserted(c, body))
+
+    def append_tail(self, ride_id: int, row_start: int, rows: Rows16) -> Future[None]:
+        """Add rows [row_start, row_start + n) of a live ride, int16 (n, channels).
+
+        They are safe once the future is done; its exception is a StoreError. Blocks while too
+        many writes wait for the disk.
+        """
+        body = {
+            "ride_id": ride_id,
+            "row_start": row_start,
+            "row_count": len(rows),
+            "payload": encode_tail(rows),
+        }
+
+        def work(connection: Connection) -> None:
+            grown = connection.execute(
+                update(t.ride)
+                .where(t.ride.c.id == ride_id, t.ride.c.state == "live")
+                .values(row_count=row_start + len(rows))
+            )
+            if grown.rowcount != 1:
+                raise StoreError(f"Ride {ride_id} is not being recorded: rows were not saved.")
+            connection.execute(insert(t.ride_tail).values(body))
+
+        return self._database.submit(work)
+
+    def finish(self, ride_id: int) -> Ride | None:
+        """Make a live ride an immutable object. Safe to repeat after any failure.
+
+        Returns the ride; None when it had no rows and was removed. Raises StoreError, and then
+        the ride is still live and whole.
+        """
+        ride = self.get(ride_id)
+        if ride.state == "done":
+            return ride
+        if ride.row_count == 0:
+            self._database.write(lambda c: remove_ride(c, ride_id))
+            return None
+        written = write_object(self._objects, ride, self._tail_chunks(ride))
+        return self._publish(ride, written)
+
+    def add(self, ride: Ride, rows: RideRows, upload_id: str | None = None) -> Ride:
+        """Store a whole ride from a file. ride.id is ignored; the ride with its id is returned.
+
+        The object is written before the ride is known, so a failure leaves no half ride.
+        """
+        written = write_object(self._objects, ride, [rows])
+        body = ride_row(
+            "live",
+            ride.origin,
+            ride.channels,
+            ride.period_us,
+            ride.started_us,
+            ride.context,
+            ride.name,
+        )
+        body |= {"notes": ride.notes, "completeness": ride.completeness}
+        found = digest(self._objects.local_path(written.key), ride)
+
+        def work(connection: Connection) -> int:
+            key = upload_key(connection, upload_id)
+            ride_id = inserted(connection, body | {"upload_id": key})
+            finish_row(connection, ride_id, written, found, ride.completeness)
+            return ride_id
+
+        return self.get(self._database.write(work))
+
+    def live_ids(self) -> list[int]:
+        """Rides that are being recorded, or were when the process died."""
+        query = select(t.ride.c.id).where(t.ride.c.state == "live").order_by(t.ride.c.id)
+        return list(self._database.read(lambda c: c.execute(query).scalars().all()))
+
+    def get(self, ride_id: int) -> Ride:
+        """One ride. Raises NotFound."""
+        row = self._database.read(lambda c: c.execute(whole_ride(ride_id)).first())
+        if row is None:
+            raise NotFound(f"There is no ride {ride_id}.")
+        return ride_from_row(row)
+
+    def list(
+        self,
+        from_us: int | None = None,
+        to_us: int | None = None,
+        device: str | None = None,
+        limit: int = 50,
+        cursor: str | None = None,
+    ) -> RidePage:
+        """Rides by start, newest first; `cursor` is the `next` of the page before."""
+        if not 1 <= limit <= PAGE_MAX:
+            raise InvalidRequest(f"limit is {limit}: it must be from 1 to {PAGE_MAX}.")
+        query = whole_ride().order_by(t.ride.c.started_us.desc(), t.ride.c.id.desc())
+        if from_us is not None:
+            query = query.where(t.ride.c.started_us >= from_us)
+        if to_us is not None:
+            query = query.where(t.ride.c.started_us < to_us)
+        if device is not None:
+            query = query.where(t.ride.c.device_id == device)
+        if cursor is not None:
+            started_us, ride_id = cursor_parts(cursor)
+            query = query.where(
+                (t.ride.c.started_us < started_us)
+                | ((t.ride.c.started_us == started_us) & (t.ride.c.id < ride_id))
+            )
+        rows = self._database.read(lambda c: c.execute(query.limit(limit + 1)).all())
+        items = tuple(ride_from_row(row) for row in rows[:limit])
+        more = len(rows) > limit
+        return RidePage(items, f"{items[-1].started_us}.{items[-1].id}" if more else None)
+
+    def patch(self, ride_id: int, name: str | None = None, notes: str | None = None) -> Ride:
+        """Change what people wrote about a ride. Raises NotFound, InvalidRequest."""
+        changes = {
+            key: value for key, value in (("name", name), ("notes", notes)) if value is not None
+        }
+        if len(name or "") > NAME_LENGTH_MAX or len(notes or "") > NOTES_LENGTH_MAX:
+            raise InvalidRequest(
+                f"A ride's name has at most {NAME_LENGTH_MAX} characters, "
+                f"its notes {NOTES_LENGTH_MAX}."
+            )
+        self.get(ride_id)
+        if changes:
+            self._database.write(
+                lambda c: c.execute(update(t.ride).where(t.ride.c.id == ride_id).values(changes))
+            )
+        self._readers.forget(ride_id)
+        return self.get(ride_id)
+
+    def delete(self, ride_id: int) -> None:
+        """Remove a finished ride and its object. Raises NotFound, Conflict while it is live."""
+        ride = self.get(ride_id)
+        if ride.state == "live":
+            raise Conflict(f"Ride {ride_id} is being recorded: it can be deleted when it is over.")
+
+        def work(connection: Connection) -> bool:
+            remove_ride(connection, ride_id)
+            left = select(func.count()).where(t.ride.c.object_key == ride.object_key)
+            return connection.execute(left).scalar_one() == 0
+
+        unused = self._database.write(work)
+        self._readers.forget(ride_id)
+        if unused and ride.object_key:
+            self._objects.remove(ride.object_key)
+
+    def reader(self, ride_id: int) -> RideReader:
+        """Rows and overview of a ride. Raises NotFound, StoreError when the object is damaged."""
+        return self._readers.get(ride_id, lambda: self._open_reader(self.get(ride_id)))
+
+    def object_keys(self) -> set[str]:
+        """Keys of every object a ride needs."""
+        query = select(t.ride.c.object_key).where(t.ride.c.object_key.is_not(None))
+        return set(self._database.read(lambda c: c.execute(query).scalars().all()))
+
+    def _open_reader(self, ride: Ride) -> RideReader:
+        if ride.object_key is not None:
+            path = self._objects.local_path(ride.object_key)
+            return RideReader(ride, RideFile(path, ride.channels), self._level)
+        blocks = [np.empty((0, len(ride.channels)), np.int16), *self._tail_blocks(ride)]
+        return RideReader(ride, LiveRows(ride, np.concatenate(blocks)), self._level)
+
+    def _level(self, ride_id: int, step: int) -> Level | None:
+        query = select(t.ride_lod.c.payload).where(
+            t.ride_lod.c.ride_id == ride_id, t.ride_lod.c.step == step
+        )
+        payload = self._database.read(lambda c: c.execute(query).scalar())
+        return None if payload is None else decode_level(payload)
+
+    def _tail_blocks(self, ride: Ride) -> Iterator[Rows16]:
+        """The tail's rows in order and without holes: what is lost or damaged is missing rows."""
+        missing = np.int16(MISSING_INT16)
+        width = len(ride.channels)
+        at = 0
+        for row_start, row_count, payload in self._tails(ride.id):
+            if row_start > at:
+                yield np.full((row_start - at, width), missing)
+            try:
+                block = decode_tail(payload, width)
+            except StoreError:
+                block = np.full((row_count, width), missing)
+            yield block[max(0, at - row_start) :]
+            at = max(at, row_start + len(block))
+
+    def _tails(self, ride_id: int) -> Iterator[tuple[int, int, bytes]]:
+        """Row start, row count and payload of every tail in order, a minute or so from SQL."""
+        columns = (t.ride_tail.c.row_start, t.ride_tail.c.row_count, t.ride_tail.c.payload)
+        mine = select(*columns).where(t.ride_tail.c.ride_id == ride_id)
+        ordered = mine.order_by(t.ride_tail.c.row_start).limit(TAILS_AT_ONCE)
+        next_start = 0
+        while True:
+            query = ordered.where(t.ride_tail.c.row_start >= next_start)
+            found = self._database.read(partial(fetched, query))
+            yield from found
+            if len(found) < TAILS_AT_ONCE:
+                return
+            next_start = found[-1][0] + 1
+
+    def _tail_chunks(self, ride: Ride) -> Iterable[RideRows]:
+        start = 0
+        for block in self._tail_blocks(ride):
+            times_us = np.arange(start, start + len(block), dtype=np.int64) * (ride.period_us or 1)
+            counts = {
+                channel.name: np.ascontiguousarray(block[:, index])
+                for index, channel in enumerate(ride.channels)
+            }
+            yield RideRows(ride.channels, times_us, counts)
+            start += len(block)
+
+    def _publish(self, ride: Ride, written: WrittenObject) -> Ride:
+        found = digest(self._objects.local_path(written.key), ride)
+        completeness = 1.0 - found.rows_empty / written.row_count
+
+        def work(connection: Connection) -> None:
+            finish_row(connection, ride.id, written, found, completeness)
+            connection.execute(delete(t.ride_tail).where(t.ride_tail.c.ride_id == ride.id))
+
+        self._database.write(work)
+        return self.get(ride.id)
+
+
+def fetched(query: Select[Any], connection: Connection) -> list[tuple[int, int, bytes]]:
+    """Rows of a query as plain tuples."""
+    return [(row[0], row[1], row[2]) for row in connection.execute(query)]

@@ -1,0 +1,233 @@
+"""Uploads in the store: bytes that arrive in pieces, and what became of them.
+
+The offset a client may rely on is written to SQL only after the bytes are flushed to the disk, and
+the file is cut back to that offset before anything is added: so a crash or a cut line in the
+middle of a piece never leaves bytes that nobody counted.
+"""
+
+from __future__ import annotations
+
+import os
+import secrets
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from sqlalchemy import Connection, Row, delete, insert, select, update
+
+from backend.errors import Conflict, NotFound, StoreError
+from backend.store import tables as t
+from backend.store.database import Database
+from backend.store.objects import Objects, content_key, file_sha256
+
+RECEIVING = "receiving"
+
+
+@dataclass(frozen=True)
+class Upload:
+    """One upload. state: `receiving`, `queued`, `complete`, `partial` or `rejected`."""
+
+    id: str
+    name: str
+    bytes: int
+    received: int
+    state: str
+    declared_sha256: str | None
+    sha256: str | None
+    code: str | None
+    detail: str | None
+    completeness: float | None
+    duplicate_of: str | None
+    object_key: str | None
+    created_us: int
+    expires_us: int | None
+    ride_ids: tuple[int, ...]
+
+
+class UploadStore:
+    """Every upload there is, and the spool folder of those that still arrive."""
+
+    def __init__(self, database: Database, objects: Objects, spool: Path) -> None:
+        self._database = database
+        self._objects = objects
+        self._spool = spool
+        spool.mkdir(parents=True, exist_ok=True)
+
+    def create(
+        self, name: str, size: int, declared_sha256: str | None, expires_us: int | None
+    ) -> Upload:
+        """Begin an upload of `size` bytes; nothing has arrived yet."""
+        token = secrets.token_hex(16)
+        with self._path(token).open("wb") as file:
+            os.fsync(file.fileno())
+        values = {
+            "token": token,
+            "name": name,
+            "bytes": size,
+            "received": 0,
+            "declared_sha256": declared_sha256,
+            "state": RECEIVING,
+            "created_us": time.time_ns() // 1000,
+            "expires_us": expires_us,
+        }
+        self._database.write(lambda c: c.execute(insert(t.upload).values(values)))
+        return self.get(token)
+
+    def append(self, token: str, offset: int, data: bytes) -> Upload:
+        """Add bytes at `offset`; they are on the disk when this returns.
+
+        Raises Conflict when the offset is not where the upload stands or the bytes are too many,
+        StoreError when the disk refuses; then the upload stands where it stood.
+        """
+        upload = self.get(token)
+        if upload.state != RECEIVING or offset != upload.received:
+            raise Conflict(
+                f"Upload {token} stands at byte {upload.received}, not at {offset}.",
+                code="offset_mismatch",
+            )
+        if offset + len(data) > upload.bytes:
+            raise Conflict(
+                f"Upload {token} has {upload.bytes} bytes: {len(data)} more from {offset} on "
+                "are too many.",
+                code="too_long",
+            )
+        try:
+            with self._path(token).open("r+b") as file:
+                file.truncate(offset)
+                file.seek(offset)
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())
+        except OSError as error:
+            raise StoreError(f"Upload {token} was not saved: {error}") from error
+        received = offset + len(data)
+        self._set(token, received=received)
+        return self.get(token)
+
+    def keep_original(self, token: str) -> Upload:
+        """Move the whole file among the objects, where it stays, and note its hash."""
+        upload = self.get(token)
+        if upload.object_key is not None:
+            return upload
+        staged = self._path(token)
+        with staged.open("r+b") as file:
+            file.truncate(upload.received)
+        sha256 = file_sha256(staged)
+        key = content_key("originals", sha256)
+        self._objects.publish(staged, key)
+        self._set(token, sha256=sha256, object_key=key, state="queued")
+        return self.get(token)
+
+    def conclude(
+        self,
+        token: str,
+        state: str,
+        code: str | None = None,
+        detail: str | None = None,
+        completeness: float | None = None,
+        duplicate_of: str | None = None,
+    ) -> Upload:
+        """Say what became of an upload."""
+        self._set(
+            token,
+            state=state,
+            code=code,
+            detail=detail,
+            completeness=completeness,
+            duplicate_of=duplicate_of,
+        )
+        return self.get(token)
+
+    def get(self, token: str) -> Upload:
+        """One upload by its id. Raises NotFound."""
+
+        def work(connection: Connection) -> tuple[Row[Any] | None, tuple[int, ...]]:
+            row = connection.execute(select(t.upload).where(t.upload.c.token == token)).first()
+            if row is None:
+                return None, ()
+            rides = select(t.ride.c.id).where(t.ride.c.upload_id == row.id).order_by(t.ride.c.id)
+            return row, tuple(connection.execute(rides).scalars())
+
+        row, ride_ids = self._database.read(work)
+        if row is None:
+            raise NotFound(f"There is no upload {token}.")
+        return upload_from_row(row, ride_ids)
+
+    def first_with(self, sha256: str) -> Upload | None:
+        """The first upload of the same bytes that became rides, None when there is none."""
+        query = (
+            select(t.upload.c.token)
+            .join(t.ride, t.ride.c.upload_id == t.upload.c.id)
+            .where(t.upload.c.sha256 == sha256)
+            .order_by(t.upload.c.id)
+            .limit(1)
+        )
+        token = self._database.read(lambda c: c.execute(query).scalar())
+        return None if token is None else self.get(token)
+
+    def waiting(self) -> tuple[Upload, ...]:
+        """Uploads that have arrived and whose contents nobody has looked at yet."""
+        query = select(t.upload.c.token).where(t.upload.c.state == "queued").order_by(t.upload.c.id)
+        tokens = self._database.read(lambda c: c.execute(query).scalars().all())
+        return tuple(self.get(token) for token in tokens)
+
+    def remove(self, token: str) -> None:
+        """Forget an upload that has not arrived. Raises NotFound, Conflict once it has."""
+        upload = self.get(token)
+        if upload.state != RECEIVING:
+            raise Conflict(f"Upload {token} has arrived: delete its rides instead.")
+        self._database.write(lambda c: c.execute(delete(t.upload).where(t.upload.c.token == token)))
+        self._path(token).unlink(missing_ok=True)
+
+    def remove_expired(self, now_us: int) -> int:
+        """Forget uploads whose time is over; returns how many."""
+        query = select(t.upload.c.token).where(
+            t.upload.c.state == RECEIVING, t.upload.c.expires_us < now_us
+        )
+        tokens = self._database.read(lambda c: c.execute(query).scalars().all())
+        for token in tokens:
+            self.remove(token)
+        return len(tokens)
+
+    def clear_spool(self) -> None:
+        """Remove spooled files that no upload knows."""
+        query = select(t.upload.c.token).where(t.upload.c.object_key.is_(None))
+        known = set(self._database.read(lambda c: c.execute(query).scalars().all()))
+        for path in self._spool.iterdir():
+            if path.name not in known:
+                path.unlink(missing_ok=True)
+
+    def object_keys(self) -> set[str]:
+        """Keys of every original."""
+        query = select(t.upload.c.object_key).where(t.upload.c.object_key.is_not(None))
+        return set(self._database.read(lambda c: c.execute(query).scalars().all()))
+
+    def _path(self, token: str) -> Path:
+        return self._spool / token
+
+    def _set(self, token: str, **values: object) -> None:
+        self._database.write(
+            lambda c: c.execute(update(t.upload).where(t.upload.c.token == token).values(values))
+        )
+
+
+def upload_from_row(row: Row[Any], ride_ids: tuple[int, ...]) -> Upload:
+    """A row of the table and its rides -> upload."""
+    return Upload(
+        id=row.token,
+        name=row.name,
+        bytes=row.bytes,
+        received=row.received,
+        state=row.state,
+        declared_sha256=row.declared_sha256,
+        sha256=row.sha256,
+        code=row.code,
+        detail=row.detail,
+        completeness=row.completeness,
+        duplicate_of=row.duplicate_of,
+        object_key=row.object_key,
+        created_us=row.created_us,
+        expires_us=row.expires_us,
+        ride_ids=ride_ids,
+    )
