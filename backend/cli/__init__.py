@@ -1,0 +1,35 @@
+"""The `spindle` command: starts a server, or asks one. Exit 0 done, 1 refused, 2 wrong usage."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from backend.cli.parser import build_parser
+from backend.errors import InvalidRequest, SpindleError
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs one command line; what it returns is the process's exit code."""
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    if given[:1] in (["sim"], ["scenario"]):
+        # The simulator has its own command line; this one only saves people from knowing its name.
+        from backend.cli.simulator import run_simulator
+
+        return run_simulator(given)
+    options = build_parser().parse_args(given)
+    try:
+        code: int = options.run(options)
+    except SpindleError as error:
+        sys.stderr.write(f"{error.message}\n")
+        for field in error.fields:
+            sys.stderr.write(f"  {field.field}: {field.message}\n")
+        # A server's refusal is a plain RequestRefused: this one is about the arguments themselves.
+        return 2 if isinstance(error, InvalidRequest) else 1
+    except KeyboardInterrupt:
+        return 1
+    except BrokenPipeError:
+        # `spindle ride list | head`: the reader has enough.
+        sys.stderr.close()
+        return 0
+    return code

@@ -1,0 +1,109 @@
+"""Asking a server, and telling people what it said."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Mapping
+from typing import Any
+
+import httpx
+
+from backend.errors import FieldError, InvalidRequest, LinkError, RequestRefused
+
+# A unit that is slow to answer is given up by the server after a few seconds; a large file takes
+# its time to be read and stored.
+TIMEOUT = httpx.Timeout(10.0, read=300.0, write=300.0)
+
+
+def default_server(environment: Mapping[str, str] | None = None) -> str:
+    """Where a server of this machine listens unless told otherwise."""
+    env = os.environ if environment is None else environment
+    host = env.get("SPINDLE_HOST") or "127.0.0.1"
+    return f"http://{'127.0.0.1' if host == '0.0.0.0' else host}:{env.get('SPINDLE_PORT') or 8750}"
+
+
+class Server:
+    """One server's API. transport: stands in for the network in tests."""
+
+    def __init__(self, url: str, transport: httpx.BaseTransport | None = None) -> None:
+        self.url = url.rstrip("/")
+        self._client = httpx.Client(
+            base_url=f"{self.url}/api/v1", timeout=TIMEOUT, transport=transport, trust_env=False
+        )
+
+    def ask(self, method: str, path: str, **request: Any) -> Any:
+        """The answer's JSON, None where there is none. Raises as `response`."""
+        response = self.response(method, path, **request)
+        return response.json() if response.content else None
+
+    def response(self, method: str, path: str, **request: Any) -> httpx.Response:
+        """The whole response.
+
+        Raises LinkError when no server answers, RequestRefused with every field when it refuses.
+        """
+        try:
+            response = self._client.request(method, path, **request)
+        except httpx.InvalidURL as error:
+            raise InvalidRequest(f"{self.url} is no address of a server: {error}.") from None
+        except httpx.HTTPError as error:
+            raise LinkError(
+                f"No server answers at {self.url} ({error}). Start one with `spindle serve`, or "
+                "name another with --server."
+            ) from None
+        if response.is_error:
+            raise refusal(response)
+        return response
+
+    def device_id(self, name: str | None) -> str:
+        """The id of the unit of this id or serial number; of the only unit if None.
+
+        Raises RequestRefused when there is none, or several to choose from.
+        """
+        devices = self.ask("GET", "/devices")["items"]
+        for device in devices:
+            serial = (device["identity"] or {}).get("serial_number")
+            if name is not None and name in (device["id"], serial):
+                return str(device["id"])
+        if name is None and len(devices) == 1:
+            return str(devices[0]["id"])
+        known = ", ".join(device["id"] for device in devices) or "none"
+        asked = f"There is no unit {name}" if name else "Say which unit"
+        raise RequestRefused(f"{asked}. The server has: {known}.")
+
+
+def refusal(response: httpx.Response) -> RequestRefused:
+    """What a problem+json response says, as an error."""
+    try:
+        problem = response.json()
+        fields = [FieldError(**item) for item in problem.get("errors", [])]
+        return RequestRefused(problem["detail"], problem.get("code"), fields)
+    except (ValueError, KeyError, TypeError, AttributeError):
+        return RequestRefused(f"The server answered {response.status_code}: {response.text[:200]}")
+
+
+def print_json(value: Any) -> None:
+    """One JSON object on standard output."""
+    json.dump(value, sys.stdout, indent=2, ensure_ascii=False)
+    sys.stdout.write("\n")
+
+
+def print_table(rows: list[list[Any]], headings: list[str]) -> None:
+    """Columns as wide as their widest cell; missing is a dash."""
+    cells = [headings, *([text_of(value) for value in row] for row in rows)]
+    widths = [max(len(row[column]) for row in cells) for column in range(len(headings))]
+    for row in cells:
+        line = "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+        print(line.rstrip())
+
+
+def text_of(value: Any) -> str:
+    """A value as a person reads it."""
+    if value is None:
+        return "-"
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, dict | list):
+        return json.dumps(value, ensure_ascii=False)
+    return str(value)

@@ -1,0 +1,197 @@
+"""`spindle device ...`"""
+
+from __future__ import annotations
+
+import json
+from argparse import Namespace
+from pathlib import Path
+from typing import Any
+
+from backend.cli.client import Server, default_server, print_json, print_table, text_of
+from backend.errors import InvalidRequest, RequestRefused
+
+
+def server_of(options: Namespace) -> Server:
+    """The server the command line names."""
+    return Server(options.server or default_server())
+
+
+def list_devices(options: Namespace) -> int:
+    """Every unit and its state."""
+    answer = server_of(options).ask("GET", "/devices")
+    if options.json:
+        print_json(answer)
+        return 0
+    rows = [
+        [device["id"], device["kind"], device["state"], device["url"], device["reason"]]
+        for device in answer["items"]
+    ]
+    print_table(rows, ["unit", "kind", "state", "url", "why"])
+    return 0
+
+
+def add(options: Namespace) -> int:
+    """Opens a unit."""
+    device = server_of(options).ask("POST", "/devices", json={"url": options.url})
+    print_json(device) if options.json else print(device["id"])
+    return 0
+
+
+def remove(options: Namespace) -> int:
+    """Lets a unit go."""
+    server = server_of(options)
+    server.ask("DELETE", f"/devices/{server.device_id(options.unit)}")
+    return 0
+
+
+def show(options: Namespace) -> int:
+    """Identity, link and newest values of a unit."""
+    server = server_of(options)
+    path = f"/devices/{server.device_id(options.unit)}"
+    device = server.ask("GET", path)
+    if device["state"] in ("ready", "read_only"):
+        device["snapshot"] = server.ask("GET", f"{path}/snapshot")
+    if options.json:
+        print_json(device)
+        return 0
+    print(f"{device['id']}  {device['state']}: {device['reason']}")
+    for part in ("identity", "config"):
+        for name, value in (device[part] or {}).items():
+            print(f"  {name:24} {text_of(value)}")
+    for name, value in device.get("snapshot", {}).get("channels", {}).items():
+        print(f"  {name:24} {text_of(value)}")
+    return 0
+
+
+def get(options: Namespace) -> int:
+    """Parameters of a unit, all or the named ones."""
+    server = server_of(options)
+    unit, names = unit_and_words(server, options.words)
+    config = server.ask("GET", f"/devices/{unit}/config")
+    known = config["parameters"]
+    if unknown := [name for name in names if name not in known]:
+        raise RequestRefused(f"The unit has no parameter {', '.join(unknown)}.")
+    values = {name: known[name] for name in names or known}
+    if options.json:
+        print_json({**config, "parameters": values})
+    else:
+        print_table([[name, value] for name, value in values.items()], ["parameter", "value"])
+    return 0
+
+
+def set_parameters(options: Namespace) -> int:
+    """Changes the named parameters, all of them or none."""
+    server = server_of(options)
+    unit, words = unit_and_words(server, options.words)
+    changes = dict(assignment(word) for word in words)
+    return write(server, unit, changes, options)
+
+
+def backup(options: Namespace) -> int:
+    """The configuration of a unit as a JSON file that `restore` and `diff` read."""
+    server = server_of(options)
+    unit = server.device_id(options.unit)
+    device = server.ask("GET", f"/devices/{unit}")
+    saved = {"identity": device["identity"], **server.ask("GET", f"/devices/{unit}/config")}
+    if options.output is None:
+        print_json(saved)
+        return 0
+    options.output.write_text(json.dumps(saved, indent=2, ensure_ascii=False) + "\n")
+    if options.json:
+        print_json({"file": str(options.output)})
+    return 0
+
+
+def restore(options: Namespace) -> int:
+    """Writes the values of a backup that differ from the unit's and that we may change."""
+    server = server_of(options)
+    unit = server.device_id(options.unit)
+    saved = parameters_of(options.file)
+    items = server.ask("GET", f"/devices/{unit}/parameters")["items"]
+    differing = [p for p in items if p["name"] in saved and saved[p["name"]] != p["value"]]
+    kept = [p["name"] for p in differing if p["access"] == "FACTORY"]
+    changes = {p["name"]: saved[p["name"]] for p in differing if p["access"] != "FACTORY"}
+    if kept and not options.json:
+        print(f"Left as they are, because only the factory may change them: {', '.join(kept)}.")
+    if not changes:
+        print_json({"changed": []}) if options.json else print("Nothing to restore.")
+        return 0
+    options.reason = options.reason or f"restored from {options.file.name}"
+    return write(server, unit, changes, options)
+
+
+def diff(options: Namespace) -> int:
+    """What differs between a backup and the unit, or between two backups."""
+    one = parameters_of(options.file)
+    if options.other is not None and Path(options.other).is_file():
+        other = parameters_of(Path(options.other))
+    else:
+        server = server_of(options)
+        unit = server.device_id(options.other)
+        other = server.ask("GET", f"/devices/{unit}/config")["parameters"]
+    changed = [
+        {"name": name, "old": one.get(name), "new": other.get(name)}
+        for name in dict.fromkeys([*one, *other])
+        if one.get(name) != other.get(name)
+    ]
+    print_changes({"changed": changed}, options)
+    return 0
+
+
+def write(server: Server, unit: str, changes: dict[str, Any], options: Namespace) -> int:
+    """One transaction, made for the configuration as it is now."""
+    path = f"/devices/{unit}/config"
+    etag = server.response("GET", path).headers["etag"]
+    body = {"parameters": changes, "reason": options.reason}
+    answer = server.ask("PATCH", path, json=body, headers={"if-match": etag})
+    print_changes(answer, options)
+    return 0
+
+
+def print_changes(answer: dict[str, Any], options: Namespace) -> None:
+    """Old and new value of everything that changed."""
+    if options.json:
+        print_json(answer)
+        return
+    rows = [[change["name"], change["old"], change["new"]] for change in answer["changed"]]
+    print_table(rows, ["parameter", "old", "new"])
+
+
+def unit_and_words(server: Server, words: list[str]) -> tuple[str, list[str]]:
+    """The unit's id, and the words without it: the first word may name the unit."""
+    if words and "=" not in words[0]:
+        try:
+            return server.device_id(words[0]), words[1:]
+        except RequestRefused:
+            pass
+    return server.device_id(None), words
+
+
+def assignment(word: str) -> tuple[str, Any]:
+    """`name=value`; the value is JSON, or else a text as it stands."""
+    name, equals, text = word.partition("=")
+    if not equals or not name:
+        raise InvalidRequest(f"{word!r}: write NAME=VALUE.")
+    try:
+        return name, json.loads(text)
+    except ValueError:
+        return name, text
+
+
+def parameters_of(file: Path) -> dict[str, Any]:
+    """The parameters in a backup. Raises InvalidRequest if it is none."""
+    saved = read_json(file)
+    if not isinstance(saved, dict) or not isinstance(saved.get("parameters"), dict):
+        raise InvalidRequest(f"{file} is not a backup: it has no `parameters`.")
+    parameters: dict[str, Any] = saved["parameters"]
+    return parameters
+
+
+def read_json(file: Path) -> Any:
+    """A JSON file. Raises InvalidRequest with the reason if it cannot be read."""
+    try:
+        return json.loads(file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InvalidRequest(f"{file} cannot be read: {error.strerror}.") from None
+    except ValueError as error:
+        raise InvalidRequest(f"{file} is not JSON: {error}.") from None

@@ -1,0 +1,79 @@
+"""`spindle surface`, `spindle lint` and `spindle calibrate evaluate`."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from typing import Any
+
+from backend.cli.client import Server, print_json, print_table, text_of
+from backend.cli.device import read_json, server_of
+from backend.errors import InvalidRequest
+
+POINTS_MAX = 512
+
+
+def surface(options: Namespace) -> int:
+    """The gain over a grid, by the unit's own law."""
+    server = server_of(options)
+    speeds_kmh, torque_rates = axis(options.speeds, "--speeds"), axis(options.rates, "--rates")
+    question = {
+        "fuzzy_table": table_of(server, options),
+        "speeds_kmh": speeds_kmh,
+        "torque_rates": torque_rates,
+    }
+    answer = server.ask("POST", "/surface", json=question)
+    if options.json:
+        print_json({**question, **answer})
+        return 0
+    rows = [
+        [f"{speed:.1f}", *(f"{gain:.4f}" for gain in row)]
+        for speed, row in zip(speeds_kmh, answer["gain"], strict=True)
+    ]
+    print_table(rows, ["km/h", *(f"{rate:.3f}" for rate in torque_rates)])
+    return 0
+
+
+def lint(options: Namespace) -> int:
+    """Findings about a table; 1 if one of them forbids writing it."""
+    server = server_of(options)
+    answer = server.ask("POST", "/lint", json={"fuzzy_table": table_of(server, options)})
+    if options.json:
+        print_json(answer)
+    else:
+        for level in ("errors", "warnings", "notes"):
+            for finding in answer[level]:
+                print(f"{level[:-1]} {finding['code']} {text_of(finding['where'])}")
+                print(f"  {finding['message']}")
+    return 1 if answer["errors"] else 0
+
+
+def evaluate(options: Namespace) -> int:
+    """The sensor's figures from a file of readings."""
+    answer = server_of(options).ask("POST", "/calibration/evaluate", json=read_json(options.file))
+    if options.json:
+        print_json(answer)
+        return 0
+    for name, value in answer.items():
+        print(f"{name:20} {text_of(value)}")
+    return 0
+
+
+def table_of(server: Server, options: Namespace) -> Any:
+    """The table of the file named, or the unit's own."""
+    if options.table is not None:
+        table = read_json(options.table)
+        return table.get("fuzzy_table", table) if isinstance(table, dict) else table
+    return server.ask("GET", f"/devices/{server.device_id(options.unit)}/fuzzy-table")
+
+
+def axis(text: str, flag: str) -> list[float]:
+    """`from:to:count` as evenly spaced values. Raises InvalidRequest if it is not that."""
+    try:
+        low, high, count = text.split(":")
+        number = int(count)
+        first, last = float(low), float(high)
+    except ValueError:
+        raise InvalidRequest(f"{flag} {text}: write from:to:count, such as 0:25:11.") from None
+    if not 2 <= number <= POINTS_MAX:
+        raise InvalidRequest(f"{flag} {text}: the count must be from 2 to {POINTS_MAX}.")
+    return [first + (last - first) * i / (number - 1) for i in range(number)]

@@ -1,0 +1,113 @@
+"""The command line: every verb, its arguments, and the function that runs it."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from backend import __version__
+from backend.cli import device, law, ride, serve
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """The whole command line of `spindle`."""
+    parser = argparse.ArgumentParser(
+        prog="spindle",
+        description="Configure, calibrate, watch and understand mid-drive e-bikes.",
+    )
+    parser.add_argument("--version", action="version", version=f"spindle {__version__}")
+    verbs = parser.add_subparsers(metavar="COMMAND", required=True)
+    _add_serve(verbs)
+    # These two go to the simulator before this parser sees them; they are here to be listed.
+    verbs.add_parser("sim", help="a simulated unit on its own", add_help=False)
+    verbs.add_parser("scenario", help="list or run scenarios in virtual time", add_help=False)
+    _add_device(verbs)
+    _add_ride(verbs)
+    _add_law(verbs)
+    return parser
+
+
+def _add_serve(verbs: Any) -> None:
+    command = verbs.add_parser("serve", help="the server; prints its address when it is ready")
+    command.add_argument("--host", help="address to listen on (127.0.0.1)")
+    command.add_argument("--port", help="port to listen on (8750); 0 takes a free one")
+    command.add_argument("--data", type=Path, help="folder for everything that is kept")
+    command.add_argument(
+        "--device",
+        action="append",
+        metavar="URL",
+        help="sim, /dev/ttyUSB0, COM3 or socket://host:port; repeat for several, `none` for none",
+    )
+    command.set_defaults(run=serve.run_server)
+
+
+def _asking(verbs: Any, name: str, run: Any, **words: Any) -> argparse.ArgumentParser:
+    """A verb that asks a server."""
+    command: argparse.ArgumentParser = verbs.add_parser(name, **words)
+    command.add_argument("--server", metavar="URL", help="default: this machine's, port 8750")
+    command.add_argument("--json", action="store_true", help="the server's answer as it is")
+    command.set_defaults(run=run)
+    return command
+
+
+def _group(verbs: Any, name: str, words: str) -> Any:
+    return verbs.add_parser(name, help=words).add_subparsers(metavar="VERB", required=True)
+
+
+def _add_device(verbs: Any) -> None:
+    group = _group(verbs, "device", "units: list, show, get, set, backup, restore, diff")
+    unit = "id or serial number; may be left out when there is only one unit"
+    _asking(group, "list", device.list_devices, help="every unit and its state")
+    _asking(group, "add", device.add, help="open a unit").add_argument("url")
+    _asking(group, "remove", device.remove, help="let a unit go").add_argument("unit", help=unit)
+    command = _asking(group, "show", device.show, help="identity, link and newest values")
+    command.add_argument("unit", nargs="?", help=unit)
+    command = _asking(group, "get", device.get, help="parameters, all or the named ones")
+    command.add_argument("words", nargs="*", metavar="[UNIT] NAME", help=unit)
+    command = _asking(group, "set", device.set_parameters, help="change parameters, all or none")
+    command.add_argument("words", nargs="+", metavar="[UNIT] NAME=VALUE", help=unit)
+    command.add_argument("--reason", default="", help="why; kept with the revision")
+    command = _asking(group, "backup", device.backup, help="the configuration as a JSON file")
+    command.add_argument("unit", nargs="?", help=unit)
+    command.add_argument("--output", "-o", type=Path, help="a file; standard output if absent")
+    command = _asking(group, "restore", device.restore, help="write a backup's values back")
+    command.add_argument("file", type=Path)
+    command.add_argument("unit", nargs="?", help=unit)
+    command.add_argument("--reason", default="", help="why; kept with the revision")
+    command = _asking(group, "diff", device.diff, help="a backup against the unit, or another")
+    command.add_argument("file", type=Path)
+    command.add_argument("other", nargs="?", help="another backup's file, or a unit")
+
+
+def _add_ride(verbs: Any) -> None:
+    group = _group(verbs, "ride", "rides: import, list, show, export, replay, delete")
+    command = _asking(group, "import", ride.import_files, help="FIT files and other logs")
+    command.add_argument("files", nargs="+", type=Path)
+    command = _asking(group, "list", ride.list_rides, help="newest first")
+    command.add_argument("--limit", type=int, default=50)
+    _asking(group, "show", ride.show, help="one ride's figures").add_argument("ride", type=int)
+    command = _asking(group, "export", ride.export, help="a ride as a file")
+    command.add_argument("ride", type=int)
+    formats = ["csv", "parquet", "fit", "gpx", "original"]
+    command.add_argument("--format", choices=formats, default="csv")
+    command.add_argument("--output", "-o", type=Path, help="a file; standard output if absent")
+    command = _asking(group, "replay", ride.replay, help="the ride with another table")
+    command.add_argument("ride", type=int)
+    command.add_argument("--table", type=Path, help="a fuzzy_table as JSON")
+    command.add_argument("--modes", type=Path, help="assist_modes as JSON")
+    _asking(group, "delete", ride.delete, help="delete a ride").add_argument("ride", type=int)
+
+
+def _add_law(verbs: Any) -> None:
+    command = _asking(verbs, "surface", law.surface, help="the gain over speed and torque rate")
+    command.add_argument("--table", type=Path, help="a fuzzy_table as JSON; the unit's if absent")
+    command.add_argument("--unit", help="whose table; may be left out when there is only one unit")
+    command.add_argument("--speeds", default="0:25:11", help="from:to:count in km/h (0:25:11)")
+    command.add_argument("--rates", default="0:0.9:10", help="from:to:count (0:0.9:10)")
+    command = _asking(verbs, "lint", law.lint, help="what is doubtful about a table")
+    command.add_argument("--table", type=Path, help="a fuzzy_table as JSON; the unit's if absent")
+    command.add_argument("--unit", help="whose table; may be left out when there is only one unit")
+    group = _group(verbs, "calibrate", "the torque sensor's figures")
+    command = _asking(group, "evaluate", law.evaluate, help="linearity, hysteresis, repeatability")
+    command.add_argument("file", type=Path, help="JSON: full_scale_nm, load_nm, forward, reverse")

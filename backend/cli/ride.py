@@ -1,0 +1,131 @@
+"""`spindle ride ...`"""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from argparse import Namespace
+from pathlib import Path
+from typing import Any
+
+from backend.cli.client import print_json, print_table, text_of
+from backend.cli.device import read_json, server_of
+from backend.errors import RequestRefused
+
+
+def import_files(options: Namespace) -> int:
+    """Sends files to become rides; 1 if any of them was refused."""
+    server = server_of(options)
+    answers = []
+    for file in options.files:
+        answer = {"file": str(file), **import_file(server, file)}
+        answers.append(answer)
+        if not options.json:
+            print_upload(answer)
+    if options.json:
+        print_json(answers[0] if len(answers) == 1 else {"items": answers, "next": None})
+    return 1 if any(answer["state"] == "rejected" for answer in answers) else 0
+
+
+def import_file(server: Any, file: Path) -> dict[str, Any]:
+    """The server's verdict on one file; a file it refuses outright is a verdict too."""
+    try:
+        body = file.read_bytes()
+    except OSError as error:
+        return {"state": "rejected", "code": "unreadable", "detail": error.strerror, "ride_ids": []}
+    try:
+        answer: dict[str, Any] = server.ask(
+            "POST",
+            "/rides/import",
+            params={"name": file.name},
+            content=body,
+            headers={"content-type": "application/octet-stream"},
+        )
+    except RequestRefused as error:
+        return {"state": "rejected", "code": error.code, "detail": error.message, "ride_ids": []}
+    return answer
+
+
+def print_upload(answer: dict[str, Any]) -> None:
+    """One line: the file, what became of it, and why."""
+    rides = ", ".join(str(ride) for ride in answer["ride_ids"])
+    became = f"ride {rides}" if rides else answer["state"]
+    if answer.get("duplicate_of") is not None:
+        became = f"already here as ride {rides or answer['duplicate_of']}"
+    detail = f": {answer['detail']}" if answer.get("detail") else ""
+    stream = sys.stderr if answer["state"] == "rejected" else sys.stdout
+    stream.write(f"{answer['file']}: {became}{detail}\n")
+
+
+def list_rides(options: Namespace) -> int:
+    """Rides, newest first."""
+    answer = server_of(options).ask("GET", "/rides", params={"limit": options.limit})
+    if options.json:
+        print_json(answer)
+        return 0
+    rows = []
+    for ride in answer["items"]:
+        figures = ride["summary"] or {}
+        rows.append(
+            [ride["id"], ride["started_at"], ride["state"], ride["name"]]
+            + [figures.get(key) for key in ("distance_km", "moving_s", "rider_wh", "motor_wh")]
+        )
+    headings = ["ride", "started", "state", "name", "km", "moving s", "rider Wh", "motor Wh"]
+    print_table(rows, headings)
+    return 0
+
+
+def show(options: Namespace) -> int:
+    """One ride's figures."""
+    ride = server_of(options).ask("GET", f"/rides/{options.ride}")
+    if options.json:
+        print_json(ride)
+        return 0
+    summary = ride.pop("summary") or {}
+    channels = [channel["name"] for channel in ride.pop("channels")]
+    for name, value in {**ride, **summary, "channels": ", ".join(channels)}.items():
+        print(f"{name:28} {text_of(value)}")
+    return 0
+
+
+def export(options: Namespace) -> int:
+    """A ride as a file."""
+    response = server_of(options).response(
+        "GET", f"/rides/{options.ride}/export", params={"format": options.format}
+    )
+    if options.output is None:
+        sys.stdout.buffer.write(response.content)
+        return 0
+    partial = options.output.with_name(options.output.name + ".part")
+    partial.write_bytes(response.content)
+    shutil.move(partial, options.output)
+    if options.json:
+        print_json({"file": str(options.output), "bytes": len(response.content)})
+    return 0
+
+
+def replay(options: Namespace) -> int:
+    """What the motor would have done with another table or other modes."""
+    body = {
+        name: read_json(file)
+        for name, file in (("fuzzy_table", options.table), ("assist_modes", options.modes))
+        if file is not None
+    }
+    answer = server_of(options).ask("POST", f"/rides/{options.ride}/replay", json=body)
+    if options.json:
+        print_json(answer)
+        return 0
+    for name, value in answer.items():
+        if not isinstance(value, dict | list):
+            print(f"{name:32} {text_of(value)}")
+    for name, value in answer.get("difference", {}).items():
+        print(f"difference {name:21} {text_of(value)}")
+    return 0
+
+
+def delete(options: Namespace) -> int:
+    """Deletes a ride, its samples and its original file."""
+    server_of(options).ask("DELETE", f"/rides/{options.ride}")
+    if options.json:
+        print_json({"deleted": options.ride})
+    return 0

@@ -1,0 +1,167 @@
+"""Settings: flags win over the environment, the environment over spindle.toml, that over defaults.
+
+`spindle.toml` holds the same names in lower case without the prefix (`port = 8750`,
+`device = ["sim"]`). Everything is read once, here, and frozen.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from ipaddress import ip_address
+from pathlib import Path
+from typing import Any
+
+from backend.errors import FieldError, InvalidRequest
+
+PREFIX = "SPINDLE_"
+FILE_NAME = "spindle.toml"
+CHECKOUT = Path(__file__).resolve().parent.parent
+BUSES = ("memory",)
+JOBS = ("inline",)
+AUTHS = ("auto", "off")
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How one server runs.
+
+    host, port: where it listens; port 0 takes a free one. data: folder of everything it keeps.
+    device: units opened at the start. db, objects: URLs of the database and the object store.
+    bus, jobs: how events and work travel. auth: `auto` refuses to listen beyond loopback, because
+    there are no accounts yet; `off` says somebody else guards the door. allowed_hosts: names by
+    which browsers may call the server besides localhost. upload_bytes_max: largest file taken.
+    """
+
+    host: str
+    port: int
+    data: Path
+    device: tuple[str, ...]
+    db: str
+    objects: str
+    bus: str
+    jobs: str
+    auth: str
+    allowed_hosts: tuple[str, ...]
+    upload_bytes_max: int
+
+    @property
+    def is_loopback(self) -> bool:
+        """Whether only this machine can reach the server."""
+        if self.host == "localhost":
+            return True
+        try:
+            return ip_address(self.host).is_loopback
+        except ValueError:
+            return False
+
+
+def load(flags: Mapping[str, Any], environment: Mapping[str, str] | None = None) -> Settings:
+    """The settings of this process.
+
+    flags: by field name, None where a flag was not given. environment: `os.environ` if None.
+    Raises InvalidRequest that names every setting at fault.
+    """
+    env = os.environ if environment is None else environment
+    data = Path(flags.get("data") or env.get(f"{PREFIX}DATA") or default_data_folder(env))
+    return combine(flags, env, read_file(Path(FILE_NAME), data / FILE_NAME))
+
+
+def combine(
+    flags: Mapping[str, Any], environment: Mapping[str, str], file: Mapping[str, Any]
+) -> Settings:
+    """Settings from the three sources; pure but for the path of the default folder.
+
+    Raises InvalidRequest that names every setting at fault.
+    """
+    names = [field.name for field in fields(Settings)]
+    errors = [
+        FieldError(name, "unknown", f"{FILE_NAME}: there is no setting {name!r}.")
+        for name in file
+        if name not in names
+    ]
+    chosen: dict[str, Any] = {}
+    for name in names:
+        for source in (flags.get(name), environment.get(PREFIX + name.upper()), file.get(name)):
+            if source is not None and source != "":
+                chosen[name] = source
+                break
+    data = Path(chosen.get("data") or default_data_folder(environment)).expanduser().resolve()
+    values = {
+        "host": str(chosen.get("host", "127.0.0.1")),
+        "port": _whole(chosen.get("port", 8750), "port", 0, 65535, errors),
+        "data": data,
+        "device": _names(chosen.get("device", "sim")),
+        "db": str(chosen.get("db", f"sqlite:///{(data / 'spindle.db').as_posix()}")),
+        "objects": str(chosen.get("objects", (data / "objects").as_uri())),
+        "bus": _one_of(chosen.get("bus", "memory"), "bus", BUSES, errors),
+        "jobs": _one_of(chosen.get("jobs", "inline"), "jobs", JOBS, errors),
+        "auth": _one_of(chosen.get("auth", "auto"), "auth", AUTHS, errors),
+        "allowed_hosts": _names(chosen.get("allowed_hosts", "")),
+        "upload_bytes_max": _whole(
+            chosen.get("upload_bytes_max", 256 * 1024 * 1024),
+            "upload_bytes_max",
+            1024,
+            8 * 1024**3,
+            errors,
+        ),
+    }
+    if errors:
+        raise InvalidRequest("; ".join(error.message for error in errors), fields=errors)
+    settings = Settings(**values)
+    if not settings.is_loopback and settings.auth == "auto":
+        raise InvalidRequest(
+            f"Listening on {settings.host} would let the whole network change your bike, and there "
+            "are no accounts yet. Listen on 127.0.0.1, or set SPINDLE_AUTH=off if something else "
+            "guards the way to this machine."
+        )
+    return settings
+
+
+def read_file(*candidates: Path) -> dict[str, Any]:
+    """The first of the files that exists, as a table. Raises InvalidRequest if it is not TOML."""
+    for path in candidates:
+        if path.is_file():
+            try:
+                return tomllib.loads(path.read_text(encoding="utf-8"))
+            except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+                raise InvalidRequest(f"{path}: {error}") from None
+    return {}
+
+
+def default_data_folder(environment: Mapping[str, str]) -> Path:
+    """`data/` in a checkout, the system's place for a program's data where installed."""
+    if (CHECKOUT / "pyproject.toml").is_file():
+        return CHECKOUT / "data"
+    home = Path.home()
+    if sys.platform == "win32":
+        return Path(environment.get("LOCALAPPDATA", home)) / "Spindle"
+    if sys.platform == "darwin":
+        return home / "Library" / "Application Support" / "Spindle"
+    return Path(environment.get("XDG_DATA_HOME") or home / ".local" / "share") / "spindle"
+
+
+def _names(value: Any) -> tuple[str, ...]:
+    parts = value.split(",") if isinstance(value, str) else value
+    return tuple(str(part).strip() for part in parts if str(part).strip())
+
+
+def _whole(value: Any, name: str, low: int, high: int, errors: list[FieldError]) -> int:
+    try:
+        number = int(str(value))
+    except ValueError:
+        number = low - 1
+    if not low <= number <= high:
+        message = f"{name} is {value!r}: it must be a whole number from {low} to {high}."
+        errors.append(FieldError(name, "out_of_range", message))
+    return number
+
+
+def _one_of(value: Any, name: str, choices: tuple[str, ...], errors: list[FieldError]) -> str:
+    if value not in choices:
+        message = f"{name} is {value!r}: it must be one of {', '.join(choices)}."
+        errors.append(FieldError(name, "not_a_choice", message))
+    return str(value)
