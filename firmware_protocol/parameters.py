@@ -118,11 +118,10 @@ def violations(config: Mapping[str, Value]) -> list[ParameterViolation]:
             found.append(ParameterViolation(row.name, 0, "MISSING_PARAMETER", text))
         else:
             found += _violations_of(row, config[row.name])
-    named = {violation.field for violation in found}
     for order in ORDERS:
-        if named & {order.low, order.high}:
+        low, high = config.get(order.low), config.get(order.high)
+        if not isinstance(low, int | float) or not isinstance(high, int | float):
             continue
-        low, high = config[order.low], config[order.high]
         if _float32(low) >= _float32(high):
             text = f"{order.high} ({high}) must be greater than {order.low} ({low})."
             found.append(ParameterViolation(order.high, 0, order.violation, text))

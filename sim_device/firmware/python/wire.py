@@ -96,6 +96,27 @@ def copy_message(struct_name: str, payload: bytes) -> bytes:
     return bytes(ffi.buffer(target, length[0]))
 
 
+def read_message(struct_name: str, payload: bytes) -> dict[str, Any]:
+    """The fields the C struct holds after reading `payload`; byte arrays and tails as hex.
+
+    Raises WireRefused if the payload is too short.
+    """
+    source = ffi.from_buffer("uint8_t[]", payload)
+    message: Any = ffi.new(f"{struct_name} *")
+    _must(getattr(lib, f"{struct_name}_get")(message, source, len(payload)))
+    fields: dict[str, Any] = {}
+    for name, column in ffi.typeof(struct_name).fields:
+        value = getattr(message, name)
+        if column.type.kind == "pointer":
+            fields[name] = bytes(ffi.buffer(value, getattr(message, f"{name}_length"))).hex()
+        elif column.type.kind == "array":
+            bytewise = column.type.item.cname == "uint8_t"
+            fields[name] = bytes(ffi.buffer(value)).hex() if bytewise else list(value)
+        elif not name.endswith("_length") or name.removesuffix("_length") not in fields:
+            fields[name] = value
+    return fields
+
+
 def default_image() -> bytes:
     """The image of the unit's factory configuration."""
     config = ffi.new("ebl_config *")

@@ -1,0 +1,63 @@
+"""messages.json: every request, response and event with the least, usual and largest values."""
+
+import struct
+from typing import Any
+
+from firmware_protocol.generate.registry import Layout, Registry
+from firmware_protocol.layout import STRUCT_CODES, Field
+
+SIZES = {"least": 0, "usual": 1, "largest": 2}
+
+
+def cases(registry: Registry) -> list[dict[str, Any]]:
+    """One case for each message, direction and size: the fields and the frame they must give."""
+    found = []
+    room = int(registry.protocol["mtu"]) - 8
+    for size in SIZES:
+        for row in registry.messages:
+            header = struct.pack("<BH", 7, row.id)
+            for kind, layout, head in (
+                ("request", row.request, b"\x20" + header),
+                ("response", row.response, b"\x28" + header + b"\0"),
+            ):
+                found.append(_case(row.name, kind, layout, head, size, room))
+        for name, layout in registry.events:
+            code = registry.enum("event").members[name]
+            head = b"\x38\x00" + struct.pack("<HBI", 513, code, 1_000_000)
+            found.append(_case(name, "event", layout, head, size, room))
+    return found
+
+
+def _case(
+    name: str, kind: str, layout: Layout, head: bytes, size: str, room: int
+) -> dict[str, Any]:
+    fields: dict[str, Any] = {}
+    payload = b""
+    for position, field in enumerate(layout.fields):
+        if field.type == "bytes":
+            length = (0, 5, room - (len(head) - 4) - layout.length)[SIZES[size]]
+            data = bytes((index * 7 + 1) % 256 for index in range(length))
+            fields[field.name] = data.hex()
+            payload += data
+            continue
+        values = [_number(field, size, position + index) for index in range(field.count)]
+        data = struct.pack(f"<{field.count}{STRUCT_CODES[field.type]}", *values)
+        payload += data
+        if field.count == 1:
+            fields[field.name] = values[0]
+        else:
+            fields[field.name] = data.hex() if field.type == "u8" else values
+    return {
+        "name": f"{name} {kind}, {size} values",
+        "kind": kind,
+        "message": name,
+        "fields": fields,
+        "frame": (head + payload).hex(),
+    }
+
+
+def _number(field: Field, size: str, position: int) -> int:
+    """Zero, a number whose every byte differs from its neighbours, or all bits set."""
+    width = struct.calcsize("<" + STRUCT_CODES[field.type])
+    usual = int.from_bytes(bytes((16 * position + at + 1) % 256 for at in range(width)), "little")
+    return (0, usual, (1 << 8 * width) - 1)[SIZES[size]]

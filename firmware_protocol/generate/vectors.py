@@ -1,0 +1,37 @@
+"""`python -m firmware_protocol.generate.vectors`: writes the golden vectors, all but seed.json.
+
+They are written when the registry grows and then stay: a difference in an old vector is a change
+of the wire. `make gen` therefore never touches them.
+"""
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+from firmware_protocol.generate import vector_frames, vector_images, vector_messages
+from firmware_protocol.generate.registry import load
+
+FOLDER = Path(__file__).resolve().parents[1]
+
+
+def files() -> dict[str, str]:
+    """The text of every vector file by its name, one case to a line."""
+    registry = load(FOLDER / "registry.toml")
+    sets: dict[str, list[Any]] = {
+        "messages.json": vector_messages.cases(registry),
+        "framing.json": vector_frames.framing_cases(),
+        "damage.json": vector_frames.damage_cases(int(registry.protocol["mtu"])),
+        "verdicts.json": vector_frames.verdict_cases(registry),
+        "images.json": vector_images.cases(registry),
+    }
+    return {
+        name: '{"cases": [\n' + ",\n".join(json.dumps(case) for case in cases) + "\n]}\n"
+        for name, cases in sets.items()
+    }
+
+
+if __name__ == "__main__":
+    for name, text in files().items():
+        (FOLDER / "vectors" / name).write_text(text, encoding="utf-8", newline="\n")
+        sys.stdout.write(f"wrote {name}\n")
