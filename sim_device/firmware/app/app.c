@@ -1,9 +1,9 @@
 #include "app.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "dispatch.h"   // dispatch_frame
+#include "float32.h"    // float32_missing
 #include "parameters.h" // parameters_to_assist
 
 #define RECEIVE_BLOCK_BYTES 64
@@ -12,51 +12,51 @@
  * keep the unit from its other work. */
 #define RECEIVE_BLOCKS_MAX 32
 
-void app_config_apply(app *app)
+void app_config_apply(app *unit)
 {
-    ebl_config_unpack(&app->config, app->store.image);
-    parameters_to_assist(&app->config, &app->assist_config_next);
-    app->assist_config_pending = 1;
+    ebl_config_unpack(&unit->config, unit->store.image);
+    parameters_to_assist(&unit->config, &unit->assist_config_next);
+    unit->assist_config_pending = 1;
 }
 
-static void config_defaulted(app *app)
+static void config_defaulted(app *unit)
 {
-    uint64_t now_us = app->hal->now_us(app->hal->context);
+    uint64_t now_us = unit->board->now_us(unit->board->context);
 
-    event_config(&app->events, &app->link, now_us, EBL_EVENT_CONFIG_DEFAULTED,
-                 app->store.generation, app->store.crc32);
-    if (!faults_latch(&app->faults, EBL_FAULT_CONFIG_DEFAULTED)) return;
-    event_faults_set(&app->events, &app->link, now_us, EBL_FAULT_CONFIG_DEFAULTED);
+    event_config(&unit->events, &unit->link, now_us, EBL_EVENT_CONFIG_DEFAULTED,
+                 unit->store.generation, unit->store.crc32);
+    if (!faults_latch(&unit->faults, EBL_FAULT_CONFIG_DEFAULTED)) return;
+    event_faults_set(&unit->events, &unit->link, now_us, EBL_FAULT_CONFIG_DEFAULTED);
 }
 
-void app_init(app *app, const hal *hal)
+void app_init(app *unit, const hal *board)
 {
-    memset(app, 0, sizeof *app);
-    app->hal = hal;
-    app->tx_mtu = EBL_MTU_BEFORE_HELLO;
-    app->output.fuzzy_gain = NAN;
-    link_init(&app->link);
-    telemetry_init(&app->telemetry);
-    config_store_boot(&app->store, hal);
-    app_config_apply(app);
-    event_boot(&app->events, &app->link, hal->now_us(hal->context), hal->boot_id);
-    if (app->store.slot == CONFIG_STORE_NO_SLOT) config_defaulted(app);
+    memset(unit, 0, sizeof *unit);
+    unit->board = board;
+    unit->tx_mtu = EBL_MTU_BEFORE_HELLO;
+    unit->output.fuzzy_gain = float32_missing();
+    link_init(&unit->link);
+    telemetry_init(&unit->telemetry);
+    config_store_boot(&unit->store, board);
+    app_config_apply(unit);
+    event_boot(&unit->events, &unit->link, board->now_us(board->context), board->boot_id);
+    if (unit->store.slot == CONFIG_STORE_NO_SLOT) config_defaulted(unit);
 }
 
-int app_provision(const hal *hal, const ebl_config *config)
+int app_provision(const hal *board, const ebl_config *config)
 {
     uint8_t image[EBL_IMAGE_LENGTH];
 
     ebl_config_pack(config, image);
-    return config_store_provision(hal, image);
+    return config_store_provision(board, image);
 }
 
-static void receive(app *app)
+static void receive(app *unit)
 {
     uint8_t block[RECEIVE_BLOCK_BYTES];
 
     for (int i = 0; i < RECEIVE_BLOCKS_MAX; i++) {
-        size_t length = app->hal->serial_read(app->hal->context, block, sizeof block);
+        size_t length = unit->board->serial_read(unit->board->context, block, sizeof block);
         size_t at = 0;
 
         if (length == 0) return;
@@ -64,34 +64,35 @@ static void receive(app *app)
             const uint8_t *frame = NULL;
             size_t frame_length = 0;
 
-            at += ebl_decoder_feed(&app->link.decoder, block + at, length - at, &frame,
+            at += ebl_decoder_feed(&unit->link.decoder, block + at, length - at, &frame,
                                    &frame_length);
-            if (frame != NULL) dispatch_frame(app, frame, frame_length);
+            if (frame != NULL) dispatch_frame(unit, frame, frame_length);
         }
     }
 }
 
-void app_poll(app *app)
+void app_poll(app *unit)
 {
-    uint64_t now_us = app->hal->now_us(app->hal->context);
+    uint64_t now_us = unit->board->now_us(unit->board->context);
 
-    transaction_poll(&app->transaction, now_us);
-    telemetry_poll(&app->telemetry, &app->events, &app->link, now_us);
-    receive(app);
-    link_transmit(&app->link, app->hal);
+    transaction_poll(&unit->transaction, now_us);
+    telemetry_poll(&unit->telemetry, &unit->events, &unit->link, now_us);
+    receive(unit);
+    link_transmit(&unit->link, unit->board);
 }
 
-static uint8_t mode_select(const app *app, const hal_inputs *inputs)
+static uint8_t mode_select(const app *unit, const hal_inputs *inputs)
 {
     if (inputs->mode_selected < ASSIST_MODE_SLOTS) return inputs->mode_selected;
-    return app->config.assist_mode_at_start;
+    return unit->config.assist_mode_at_start;
 }
 
 /* The law refuses what is not a number, so that is what a broken sensor becomes. */
 static void assist_input_from(const hal_inputs *inputs, uint8_t mode, assist_input *input)
 {
     input->torque_raw_counts =
-        faults_torque_is_plausible(inputs->torque_raw_counts) ? inputs->torque_raw_counts : NAN;
+        faults_torque_is_plausible(inputs->torque_raw_counts) ? inputs->torque_raw_counts
+                                                              : float32_missing();
     input->speed_kmh = inputs->speed_kmh;
     input->cadence_rpm = inputs->cadence_rpm;
     input->motor_speed_rpm = inputs->motor_speed_rpm;
@@ -100,39 +101,39 @@ static void assist_input_from(const hal_inputs *inputs, uint8_t mode, assist_inp
     input->brake = inputs->brake;
 }
 
-static void faults_report(app *app, const hal_inputs *inputs, uint64_t now_us)
+static void faults_report(app *unit, const hal_inputs *inputs, uint64_t now_us)
 {
     uint16_t set;
     uint16_t cleared;
 
-    faults_step(&app->faults, inputs, app->config.battery_voltage_v_min, &set, &cleared);
-    if (set != 0) event_faults_set(&app->events, &app->link, now_us, set);
-    if (cleared != 0) event_faults_cleared(&app->events, &app->link, now_us, cleared);
+    faults_step(&unit->faults, inputs, unit->config.battery_voltage_v_min, &set, &cleared);
+    if (set != 0) event_faults_set(&unit->events, &unit->link, now_us, set);
+    if (cleared != 0) event_faults_cleared(&unit->events, &unit->link, now_us, cleared);
 }
 
-void app_control_step(app *app)
+void app_control_step(app *unit)
 {
-    uint64_t now_us = app->hal->now_us(app->hal->context);
+    uint64_t now_us = unit->board->now_us(unit->board->context);
     hal_inputs inputs;
     assist_input input;
-    telemetry_sources sources = {&inputs, &app->output, 0, 0};
+    telemetry_sources sources = {&inputs, &unit->output, 0, 0};
 
-    if (app->assist_config_pending) {
-        app->assist_config = app->assist_config_next;
-        app->assist_config_pending = 0;
+    if (unit->assist_config_pending) {
+        unit->assist_config = unit->assist_config_next;
+        unit->assist_config_pending = 0;
     }
-    app->hal->inputs_read(app->hal->context, &inputs);
-    sources.mode = mode_select(app, &inputs);
+    unit->board->inputs_read(unit->board->context, &inputs);
+    sources.mode = mode_select(unit, &inputs);
     assist_input_from(&inputs, sources.mode, &input);
-    (void)assist_step(&app->assist_config, &app->assist_state, &input, &app->output);
-    app->hal->motor_torque_set(app->hal->context, app->output.motor_torque_nm);
+    (void)assist_step(&unit->assist_config, &unit->assist_state, &input, &unit->output);
+    unit->board->motor_torque_set(unit->board->context, unit->output.motor_torque_nm);
 
-    faults_report(app, &inputs, now_us);
-    sources.fault_flags = app->faults.active;
-    telemetry_step(&app->telemetry, &sources, now_us, &app->link);
+    faults_report(unit, &inputs, now_us);
+    sources.fault_flags = unit->faults.active;
+    telemetry_step(&unit->telemetry, &sources, now_us, &unit->link);
 }
 
-const assist_output *app_output(const app *app)
+const assist_output *app_output(const app *unit)
 {
-    return &app->output;
+    return &unit->output;
 }

@@ -27,7 +27,7 @@ typedef struct {
 } answered_request;
 
 typedef struct {
-    const hal *hal;
+    const hal *board;
     unit_link link;
     event_log events;
 
@@ -51,22 +51,22 @@ typedef struct {
 } app;
 
 /* Boots: configuration from flash, BOOT on the line. `hal` must outlive `app`. */
-void app_init(app *app, const hal *hal);
+void app_init(app *unit, const hal *board);
 
 /* Serves the serial line and ends leases that ran out. */
-void app_poll(app *app);
+void app_poll(app *unit);
 
 /* One control period: inputs, law, motor, faults, a row of telemetry. */
-void app_control_step(app *app);
+void app_control_step(app *unit);
 
 /* What the law gave in the latest control step. */
-const assist_output *app_output(const app *app);
+const assist_output *app_output(const app *unit);
 
 /* The factory's last step, before the first app_init: gives a flash that was never written its
  * first configuration. Any other flash is left alone. 0, or a negative CONFIG_STORE_ result. */
-int app_provision(const hal *hal, const ebl_config *config);
+int app_provision(const hal *board, const ebl_config *config);
 
 /* For the rooms of this folder: the store's image becomes the law's at the next control step. */
-void app_config_apply(app *app);
+void app_config_apply(app *unit);
 
 #endif

@@ -25,14 +25,14 @@ enum {
 #define WORD_WRITTEN 0u
 
 /* Bytes from one slot to the next: whole blocks. 0 where the flash cannot hold two slots. */
-static size_t slot_stride(const hal *hal)
+static size_t slot_stride(const hal *board)
 {
     size_t blocks;
 
-    if (hal->flash_block_size == 0) return 0;
-    blocks = (SLOT_LENGTH + hal->flash_block_size - 1) / hal->flash_block_size;
-    if (hal->flash_size / hal->flash_block_size < CONFIG_STORE_SLOTS * blocks) return 0;
-    return blocks * hal->flash_block_size;
+    if (board->flash_block_size == 0) return 0;
+    blocks = (SLOT_LENGTH + board->flash_block_size - 1) / board->flash_block_size;
+    if (board->flash_size / board->flash_block_size < CONFIG_STORE_SLOTS * blocks) return 0;
+    return blocks * board->flash_block_size;
 }
 
 static uint32_t slot_crc(const uint8_t *slot)
@@ -54,20 +54,20 @@ static int slot_is_good(const uint8_t *slot)
 }
 
 /* True with the image and generation of a good slot. */
-static int slot_read(const hal *hal, uint8_t slot_index, uint8_t *image, uint32_t *generation)
+static int slot_read(const hal *board, uint8_t slot_index, uint8_t *image, uint32_t *generation)
 {
     uint8_t slot[SLOT_LENGTH];
-    size_t stride = slot_stride(hal);
+    size_t stride = slot_stride(board);
 
     if (stride == 0) return 0;
-    if (hal->flash_read(hal->context, slot_index * stride, slot, SLOT_LENGTH) < 0) return 0;
+    if (board->flash_read(board->context, slot_index * stride, slot, SLOT_LENGTH) < 0) return 0;
     if (!slot_is_good(slot)) return 0;
     memcpy(image, slot + AT_IMAGE, EBL_IMAGE_LENGTH);
     *generation = ebl_get_u32(slot + AT_GENERATION);
     return 1;
 }
 
-void config_store_boot(config_store *store, const hal *hal)
+void config_store_boot(config_store *store, const hal *board)
 {
     ebl_config config;
 
@@ -79,7 +79,7 @@ void config_store_boot(config_store *store, const hal *hal)
         uint8_t image[EBL_IMAGE_LENGTH];
         uint32_t generation;
 
-        if (!slot_read(hal, slot, image, &generation)) continue;
+        if (!slot_read(board, slot, image, &generation)) continue;
         if (store->slot != CONFIG_STORE_NO_SLOT && generation <= store->generation) continue;
         memcpy(store->image, image, EBL_IMAGE_LENGTH);
         store->generation = generation;
@@ -89,17 +89,17 @@ void config_store_boot(config_store *store, const hal *hal)
 }
 
 /* Programs and reads back, a piece at a time so that the stack stays small. */
-static int program_and_verify(const hal *hal, size_t address, const uint8_t *bytes, size_t length)
+static int program_and_verify(const hal *board, size_t address, const uint8_t *bytes, size_t length)
 {
     uint8_t piece[32];
 
-    if (hal->flash_program(hal->context, address, bytes, length) < 0) {
+    if (board->flash_program(board->context, address, bytes, length) < 0) {
         return CONFIG_STORE_FLASH_FAIL;
     }
     for (size_t at = 0; at < length; at += sizeof piece) {
         size_t count = length - at < sizeof piece ? length - at : sizeof piece;
 
-        if (hal->flash_read(hal->context, address + at, piece, count) < 0) {
+        if (board->flash_read(board->context, address + at, piece, count) < 0) {
             return CONFIG_STORE_FLASH_FAIL;
         }
         if (memcmp(piece, bytes + at, count) != 0) return CONFIG_STORE_VERIFY_FAIL;
@@ -107,40 +107,40 @@ static int program_and_verify(const hal *hal, size_t address, const uint8_t *byt
     return CONFIG_STORE_OK;
 }
 
-static int slot_erase(const hal *hal, size_t address, size_t stride)
+static int slot_erase(const hal *board, size_t address, size_t stride)
 {
-    for (size_t at = 0; at < stride; at += hal->flash_block_size) {
-        if (hal->flash_erase(hal->context, address + at) < 0) return CONFIG_STORE_FLASH_FAIL;
+    for (size_t at = 0; at < stride; at += board->flash_block_size) {
+        if (board->flash_erase(board->context, address + at) < 0) return CONFIG_STORE_FLASH_FAIL;
     }
     return CONFIG_STORE_OK;
 }
 
 /* Image, then header, then the one word that makes the slot count. */
-static int slot_write(const hal *hal, size_t address, const uint8_t *header, const uint8_t *image)
+static int slot_write(const hal *board, size_t address, const uint8_t *header, const uint8_t *image)
 {
     uint8_t word[4];
-    int result = program_and_verify(hal, address + AT_IMAGE, image, EBL_IMAGE_LENGTH);
+    int result = program_and_verify(board, address + AT_IMAGE, image, EBL_IMAGE_LENGTH);
 
     if (result == CONFIG_STORE_OK) {
-        result = program_and_verify(hal, address, header, HEADER_LENGTH);
+        result = program_and_verify(board, address, header, HEADER_LENGTH);
     }
     ebl_put_u32(word, WORD_WRITTEN);
     if (result == CONFIG_STORE_OK) {
-        result = program_and_verify(hal, address + AT_CONFIRMED, word, sizeof word);
+        result = program_and_verify(board, address + AT_CONFIRMED, word, sizeof word);
     }
     if (result != CONFIG_STORE_OK) {
         /* The host is told that nothing changed, so a half-confirmed slot must not boot later. */
-        (void)hal->flash_program(hal->context, address + AT_VOID, word, sizeof word);
+        (void)board->flash_program(board->context, address + AT_VOID, word, sizeof word);
     }
     return result;
 }
 
-int config_store_write(config_store *store, const hal *hal, const uint8_t *image)
+int config_store_write(config_store *store, const hal *board, const uint8_t *image)
 {
     uint8_t header[HEADER_LENGTH];
     uint8_t target = store->slot == 0 ? 1 : 0;
     uint32_t crc;
-    size_t stride = slot_stride(hal);
+    size_t stride = slot_stride(board);
     int result;
 
     if (stride == 0) return CONFIG_STORE_NO_SPACE;
@@ -152,8 +152,8 @@ int config_store_write(config_store *store, const hal *hal, const uint8_t *image
     crc = ebl_crc32(0, header + AT_SCHEMA_HASH, HEADER_LENGTH - AT_SCHEMA_HASH);
     ebl_put_u32(header + AT_CRC, ebl_crc32(crc, image, EBL_IMAGE_LENGTH));
 
-    result = slot_erase(hal, target * stride, stride);
-    if (result == CONFIG_STORE_OK) result = slot_write(hal, target * stride, header, image);
+    result = slot_erase(board, target * stride, stride);
+    if (result == CONFIG_STORE_OK) result = slot_write(board, target * stride, header, image);
     if (result != CONFIG_STORE_OK) return result;
 
     memcpy(store->image, image, EBL_IMAGE_LENGTH);
@@ -163,14 +163,14 @@ int config_store_write(config_store *store, const hal *hal, const uint8_t *image
     return CONFIG_STORE_OK;
 }
 
-static int flash_is_blank(const hal *hal, size_t length)
+static int flash_is_blank(const hal *board, size_t length)
 {
     uint8_t piece[32];
 
     for (size_t at = 0; at < length; at += sizeof piece) {
         size_t count = length - at < sizeof piece ? length - at : sizeof piece;
 
-        if (hal->flash_read(hal->context, at, piece, count) < 0) return 0;
+        if (board->flash_read(board->context, at, piece, count) < 0) return 0;
         for (size_t i = 0; i < count; i++) {
             if (piece[i] != 0xFF) return 0;
         }
@@ -178,19 +178,19 @@ static int flash_is_blank(const hal *hal, size_t length)
     return 1;
 }
 
-int config_store_provision(const hal *hal, const uint8_t *image)
+int config_store_provision(const hal *board, const uint8_t *image)
 {
     config_store store;
 
-    if (!flash_is_blank(hal, CONFIG_STORE_SLOTS * slot_stride(hal))) return CONFIG_STORE_OK;
-    config_store_boot(&store, hal);
-    return config_store_write(&store, hal, image);
+    if (!flash_is_blank(board, CONFIG_STORE_SLOTS * slot_stride(board))) return CONFIG_STORE_OK;
+    config_store_boot(&store, board);
+    return config_store_write(&store, board, image);
 }
 
-int config_store_previous(const config_store *store, const hal *hal, uint8_t *image,
+int config_store_previous(const config_store *store, const hal *board, uint8_t *image,
                           uint32_t *generation)
 {
     if (store->slot == CONFIG_STORE_NO_SLOT) return 0;
-    return slot_read(hal, store->slot == 0 ? 1 : 0, image, generation) &&
+    return slot_read(board, store->slot == 0 ? 1 : 0, image, generation) &&
            *generation < store->generation;
 }

@@ -30,18 +30,18 @@ typedef struct {
 
 /* Picks the highest generation that is whole, confirmed, of this schema and within its ranges;
  * else the factory default. */
-void config_store_boot(config_store *store, const hal *hal);
+void config_store_boot(config_store *store, const hal *board);
 
 /* Writes the image to the slot that is not active, reads it back, and only then makes it count
  * and active. On failure the active image is what it was, in RAM and in flash. */
-int config_store_write(config_store *store, const hal *hal, const uint8_t *image);
+int config_store_write(config_store *store, const hal *board, const uint8_t *image);
 
 /* The factory's last step: writes the image as generation 1 if the flash was never written.
  * A flash that holds anything, even damage, is left as it is. */
-int config_store_provision(const hal *hal, const uint8_t *image);
+int config_store_provision(const hal *board, const uint8_t *image);
 
 /* The image before the active one. False where there is none. */
-int config_store_previous(const config_store *store, const hal *hal, uint8_t *image,
+int config_store_previous(const config_store *store, const hal *board, uint8_t *image,
                           uint32_t *generation);
 
 #endif

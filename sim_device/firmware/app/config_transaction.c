@@ -104,11 +104,11 @@ static int magnitude_is_below(float value, float limit)
 }
 
 /* A speed that is not known is not a standstill; an unknown voltage the second slot covers. */
-static uint8_t flash_may_be_written(const hal *hal)
+static uint8_t flash_may_be_written(const hal *board)
 {
     hal_inputs inputs;
 
-    hal->inputs_read(hal->context, &inputs);
+    board->inputs_read(board->context, &inputs);
     if (!magnitude_is_below(inputs.speed_kmh, STANDSTILL_SPEED_KMH_MAX) ||
         !magnitude_is_below(inputs.motor_speed_rpm, STANDSTILL_MOTOR_SPEED_RPM_MAX)) {
         return EBL_STATUS_NOT_STOPPED;
@@ -117,7 +117,7 @@ static uint8_t flash_may_be_written(const hal *hal)
     return EBL_STATUS_OK;
 }
 
-static uint8_t commit_check(const config_transaction *transaction, const hal *hal,
+static uint8_t commit_check(const config_transaction *transaction, const hal *board,
                             const ebl_cfg_commit_request *request, uint16_t *detail)
 {
     uint8_t status = transaction_check(transaction, request->transaction, detail);
@@ -131,7 +131,7 @@ static uint8_t commit_check(const config_transaction *transaction, const hal *ha
         *detail = (uint16_t)crc32;
         return EBL_STATUS_CRC_MISMATCH;
     }
-    return flash_may_be_written(hal);
+    return flash_may_be_written(board);
 }
 
 static uint8_t store_status(int result)
@@ -144,15 +144,15 @@ static uint8_t store_status(int result)
     }
 }
 
-uint8_t transaction_commit(config_transaction *transaction, config_store *store, const hal *hal,
+uint8_t transaction_commit(config_transaction *transaction, config_store *store, const hal *board,
                            const ebl_cfg_commit_request *request, uint64_t now_us,
                            uint16_t *detail)
 {
-    uint8_t status = commit_check(transaction, hal, request, detail);
+    uint8_t status = commit_check(transaction, board, request, detail);
 
     if (status != EBL_STATUS_OK) return status;
     if (memcmp(transaction->image, store->image, EBL_IMAGE_LENGTH) != 0) {
-        status = store_status(config_store_write(store, hal, transaction->image));
+        status = store_status(config_store_write(store, board, transaction->image));
     }
     if (status != EBL_STATUS_OK) {
         lease_renew(transaction, now_us);

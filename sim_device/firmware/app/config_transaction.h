@@ -36,7 +36,7 @@ uint8_t transaction_staged_crc(config_transaction *transaction, uint16_t id, uin
                                uint32_t *crc32, uint16_t *detail);
 
 /* OK: the store holds the new image and the transaction is over. Else both are as they were. */
-uint8_t transaction_commit(config_transaction *transaction, config_store *store, const hal *hal,
+uint8_t transaction_commit(config_transaction *transaction, config_store *store, const hal *board,
                            const ebl_cfg_commit_request *request, uint64_t now_us,
                            uint16_t *detail);
 uint8_t transaction_abort(config_transaction *transaction, uint16_t id, uint16_t *detail);

@@ -8,83 +8,83 @@
 #define REFUSAL_LENGTH 3 /* status u8, detail u16 */
 #define BOARD_MESSAGE_FIRST 0x7000
 
-void reply_ok(reply *reply)
+void reply_ok(reply *answer)
 {
-    reply->bytes[0] = EBL_STATUS_OK;
-    reply->length = STATUS_LENGTH;
+    answer->bytes[0] = EBL_STATUS_OK;
+    answer->length = STATUS_LENGTH;
 }
 
-void reply_refuse(reply *reply, uint8_t status, uint16_t detail)
+void reply_refuse(reply *answer, uint8_t status, uint16_t detail)
 {
-    reply->bytes[0] = status;
-    ebl_put_u16(reply->bytes + STATUS_LENGTH, detail);
-    reply->length = REFUSAL_LENGTH;
+    answer->bytes[0] = status;
+    ebl_put_u16(answer->bytes + STATUS_LENGTH, detail);
+    answer->length = REFUSAL_LENGTH;
 }
 
-void reply_status(reply *reply, uint8_t status, uint16_t detail)
+void reply_status(reply *answer, uint8_t status, uint16_t detail)
 {
     if (status == EBL_STATUS_OK) {
-        reply_ok(reply);
+        reply_ok(answer);
     } else {
-        reply_refuse(reply, status, detail);
+        reply_refuse(answer, status, detail);
     }
 }
 
-void reply_with(reply *reply, int put, size_t length)
+void reply_with(reply *answer, int put, size_t length)
 {
     if (put != EBL_OK) {
-        reply_refuse(reply, EBL_STATUS_INTERNAL, 0);
+        reply_refuse(answer, EBL_STATUS_INTERNAL, 0);
         return;
     }
-    reply->bytes[0] = EBL_STATUS_OK;
-    reply->length = STATUS_LENGTH + length;
+    answer->bytes[0] = EBL_STATUS_OK;
+    answer->length = STATUS_LENGTH + length;
 }
 
-uint8_t *reply_fields(const reply *reply)
+uint8_t *reply_fields(const reply *answer)
 {
-    return reply->bytes + STATUS_LENGTH;
+    return answer->bytes + STATUS_LENGTH;
 }
 
-size_t reply_capacity(const reply *reply)
+size_t reply_capacity(const reply *answer)
 {
-    return reply->capacity - STATUS_LENGTH;
+    return answer->capacity - STATUS_LENGTH;
 }
 
 /* What the board says, as it says it; a board that writes more than it may is not believed. */
-static void board_reply(app *app, const ebl_header *request, reply *reply)
+static void board_reply(app *unit, const ebl_header *request, reply *answer)
 {
-    const hal *hal = app->hal;
+    const hal *board = unit->board;
     size_t length = 0;
     int status;
 
-    if (hal->board_request == NULL) {
-        reply_refuse(reply, EBL_STATUS_UNKNOWN_MSG, request->word);
+    if (board->board_request == NULL) {
+        reply_refuse(answer, EBL_STATUS_UNKNOWN_MSG, request->word);
         return;
     }
-    status = hal->board_request(hal->context, request->word, request->payload,
-                                request->payload_length, reply_fields(reply),
-                                reply_capacity(reply), &length);
+    status = board->board_request(board->context, request->word, request->payload,
+                                  request->payload_length, reply_fields(answer),
+                                  reply_capacity(answer), &length);
     if (status < 0 || status > UINT8_MAX) {
-        reply_refuse(reply, EBL_STATUS_INTERNAL, 0);
+        reply_refuse(answer, EBL_STATUS_INTERNAL, 0);
     } else if (status != EBL_STATUS_OK) {
-        reply_refuse(reply, (uint8_t)status, 0);
+        reply_refuse(answer, (uint8_t)status, 0);
     } else {
-        reply_with(reply, length <= reply_capacity(reply) ? EBL_OK : EBL_ERROR_SPACE, length);
+        reply_with(answer, length <= reply_capacity(answer) ? EBL_OK : EBL_ERROR_SPACE, length);
     }
 }
 
-static void request_execute(app *app, const ebl_header *request, reply *reply)
+static void request_execute(app *unit, const ebl_header *request, reply *answer)
 {
     request_handler handler = requests_system(request->word);
 
     if (handler == NULL) handler = requests_config(request->word);
     if (handler == NULL) handler = requests_stream(request->word);
     if (handler != NULL) {
-        handler(app, request, reply);
+        handler(unit, request, answer);
     } else if (request->word >= BOARD_MESSAGE_FIRST) {
-        board_reply(app, request, reply);
+        board_reply(unit, request, answer);
     } else {
-        reply_refuse(reply, EBL_STATUS_UNKNOWN_MSG, request->word);
+        reply_refuse(answer, EBL_STATUS_UNKNOWN_MSG, request->word);
     }
 }
 
@@ -96,48 +96,48 @@ static uint32_t request_crc(const uint8_t *frame, size_t length)
     return ebl_crc32(ebl_crc32(0, &first, 1), frame + 1, length - 1);
 }
 
-static const answered_request *answered_find(const app *app, uint8_t tid, uint32_t crc32)
+static const answered_request *answered_find(const app *unit, uint8_t tid, uint32_t crc32)
 {
     for (size_t i = 0; i < EBL_MAX_OUTSTANDING; i++) {
-        const answered_request *answered = &app->answered[i];
+        const answered_request *answered = &unit->answered[i];
 
         if (answered->tid == tid && answered->request_crc32 == crc32) return answered;
     }
     return NULL;
 }
 
-static answered_request *answered_take_oldest(app *app)
+static answered_request *answered_take_oldest(app *unit)
 {
-    answered_request *answered = &app->answered[app->answered_next];
+    answered_request *answered = &unit->answered[unit->answered_next];
 
-    app->answered_next = (uint8_t)((app->answered_next + 1) % EBL_MAX_OUTSTANDING);
+    unit->answered_next = (uint8_t)((unit->answered_next + 1) % EBL_MAX_OUTSTANDING);
     answered->tid = 0;
     return answered;
 }
 
 /* Executes a request once and remembers the response. */
-static const answered_request *request_answer(app *app, const ebl_header *request, int readable,
+static const answered_request *request_answer(app *unit, const ebl_header *request, int readable,
                                               uint32_t crc32)
 {
-    answered_request *answered = answered_take_oldest(app);
-    reply reply = {answered->frame + EBL_HEADER_LENGTH, 0, 0};
+    answered_request *answered = answered_take_oldest(unit);
+    reply answer = {answered->frame + EBL_HEADER_LENGTH, 0, 0};
 
-    reply.capacity = (size_t)(app->tx_mtu - EBL_HEADER_LENGTH - EBL_CHECK_LENGTH);
+    answer.capacity = (size_t)(unit->tx_mtu - EBL_HEADER_LENGTH - EBL_CHECK_LENGTH);
     if (readable == EBL_ERROR_VERSION) {
-        reply_refuse(&reply, EBL_STATUS_VERSION, EBL_MAJOR);
+        reply_refuse(&answer, EBL_STATUS_VERSION, EBL_MAJOR);
     } else if (request->flags & EBL_FLAG_MORE) {
-        reply_refuse(&reply, EBL_STATUS_UNSUPPORTED, 0);
+        reply_refuse(&answer, EBL_STATUS_UNSUPPORTED, 0);
     } else {
-        request_execute(app, request, &reply);
+        request_execute(unit, request, &answer);
     }
     ebl_header_put(answered->frame, EBL_KIND_RESPONSE, 0, request->tag, request->word);
     answered->tid = request->tag;
     answered->request_crc32 = crc32;
-    answered->length = (uint16_t)(EBL_HEADER_LENGTH + reply.length);
+    answered->length = (uint16_t)(EBL_HEADER_LENGTH + answer.length);
     return answered;
 }
 
-void dispatch_frame(app *app, const uint8_t *frame, size_t length)
+void dispatch_frame(app *unit, const uint8_t *frame, size_t length)
 {
     ebl_header request;
     int readable = ebl_header_get(&request, frame, length);
@@ -148,7 +148,7 @@ void dispatch_frame(app *app, const uint8_t *frame, size_t length)
     /* tid 0 belongs to no request, so an answer to it could not be matched. */
     if (request.kind != EBL_KIND_REQUEST || request.tag == 0) return;
     crc32 = request_crc(frame, length);
-    answered = answered_find(app, request.tag, crc32);
-    if (answered == NULL) answered = request_answer(app, &request, readable, crc32);
-    (void)link_send(&app->link, LINK_RESPONSE, answered->frame, answered->length);
+    answered = answered_find(unit, request.tag, crc32);
+    if (answered == NULL) answered = request_answer(unit, &request, readable, crc32);
+    (void)link_send(&unit->link, LINK_RESPONSE, answered->frame, answered->length);
 }

@@ -15,21 +15,21 @@ typedef struct {
     size_t length;
 } reply;
 
-typedef void (*request_handler)(app *app, const ebl_header *request, reply *reply);
+typedef void (*request_handler)(app *unit, const ebl_header *request, reply *answer);
 
 /* Handlers answer exactly once, with one of these. */
-void reply_ok(reply *reply);
-void reply_refuse(reply *reply, uint8_t status, uint16_t detail);
-void reply_status(reply *reply, uint8_t status, uint16_t detail); /* OK has no detail */
+void reply_ok(reply *answer);
+void reply_refuse(reply *answer, uint8_t status, uint16_t detail);
+void reply_status(reply *answer, uint8_t status, uint16_t detail); /* OK has no detail */
 
 /* OK with fields of `length` bytes that the handler has put at reply_fields, where `put` is the
  * ebl_result of putting them. */
-void reply_with(reply *reply, int put, size_t length);
-uint8_t *reply_fields(const reply *reply);
-size_t reply_capacity(const reply *reply);
+void reply_with(reply *answer, int put, size_t length);
+uint8_t *reply_fields(const reply *answer);
+size_t reply_capacity(const reply *answer);
 
 /* Answers a frame that the line brought. What is not a request is ignored. */
-void dispatch_frame(app *app, const uint8_t *frame, size_t length);
+void dispatch_frame(app *unit, const uint8_t *frame, size_t length);
 
 /* NULL where the message is not one of the folder's. */
 request_handler requests_system(uint16_t message_id);

@@ -1,6 +1,6 @@
 #include "faults.h"
 
-/* The converter's word has 16 bits: at its ends a shorted or broken arm looks like a strong rider. */
+/* The converter's word has 16 bits: at its ends a broken bridge arm looks like a strong rider. */
 #define TORQUE_RAW_COUNTS_MAX 32767.0f
 
 /* No e-bike goes faster; what does is a disturbed speed sensor. */

@@ -81,7 +81,7 @@ static int next_frame(unit_link *link)
     return 0;
 }
 
-void link_transmit(unit_link *link, const hal *hal)
+void link_transmit(unit_link *link, const hal *board)
 {
     for (;;) {
         size_t left = (size_t)(link->wire_length - link->wire_sent);
@@ -91,7 +91,7 @@ void link_transmit(unit_link *link, const hal *hal)
             if (!next_frame(link)) return;
             continue;
         }
-        taken = hal->serial_write(hal->context, link->wire + link->wire_sent, left);
+        taken = board->serial_write(board->context, link->wire + link->wire_sent, left);
         if (taken > left) taken = left;
         link->wire_sent = (uint16_t)(link->wire_sent + taken);
         if (taken < left) return;

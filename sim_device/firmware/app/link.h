@@ -11,7 +11,12 @@
 #include "ebl_registry.h" // EBL_MTU
 #include "hal.h"          // hal
 
-typedef enum { LINK_RESPONSE = 0, LINK_EVENT = 1, LINK_STREAM = 2, LINK_PRIORITIES = 3 } link_priority;
+typedef enum {
+    LINK_RESPONSE = 0,
+    LINK_EVENT = 1,
+    LINK_STREAM = 2,
+    LINK_PRIORITIES = 3
+} link_priority;
 
 /* Bytes of the largest frame on the wire: stuffed and delimited. */
 #define LINK_WIRE_BYTES_MAX 552
@@ -48,6 +53,6 @@ void link_init(unit_link *link);
 int link_send(unit_link *link, link_priority priority, const uint8_t *frame, size_t length);
 
 /* Gives the line what it takes now. */
-void link_transmit(unit_link *link, const hal *hal);
+void link_transmit(unit_link *link, const hal *board);
 
 #endif

@@ -9,38 +9,38 @@
 #define REFUSALS_MAX 96
 #define REFUSAL_BYTES 4
 
-static uint64_t now(const app *app)
+static uint64_t now(const app *unit)
 {
-    return app->hal->now_us(app->hal->context);
+    return unit->board->now_us(unit->board->context);
 }
 
-static void info(app *app, const ebl_header *request, reply *reply)
+static void info(app *unit, const ebl_header *request, reply *answer)
 {
-    ebl_cfg_info_response response = {app->store.generation, app->store.crc32, EBL_IMAGE_LENGTH,
-                                      app->transaction.state};
+    ebl_cfg_info_response response = {unit->store.generation, unit->store.crc32, EBL_IMAGE_LENGTH,
+                                      unit->transaction.state};
     size_t length = 0;
     int put;
 
     (void)request;
-    put = ebl_cfg_info_response_put(&response, reply_fields(reply), reply_capacity(reply),
+    put = ebl_cfg_info_response_put(&response, reply_fields(answer), reply_capacity(answer),
                                     &length);
-    reply_with(reply, put, length);
+    reply_with(answer, put, length);
 }
 
 /* A staged image has the generation it is built on, the default has none. */
-static uint8_t bank_read(const app *app, uint8_t bank, uint8_t *image, uint32_t *generation)
+static uint8_t bank_read(const app *unit, uint8_t bank, uint8_t *image, uint32_t *generation)
 {
     ebl_config config;
 
-    *generation = app->store.generation;
+    *generation = unit->store.generation;
     switch (bank) {
-    case EBL_BANK_ACTIVE: memcpy(image, app->store.image, EBL_IMAGE_LENGTH); return EBL_STATUS_OK;
+    case EBL_BANK_ACTIVE: memcpy(image, unit->store.image, EBL_IMAGE_LENGTH); return EBL_STATUS_OK;
     case EBL_BANK_STAGED:
-        if (app->transaction.state == EBL_CONFIG_STATE_IDLE) return EBL_STATUS_NOT_FOUND;
-        memcpy(image, app->transaction.image, EBL_IMAGE_LENGTH);
+        if (unit->transaction.state == EBL_CONFIG_STATE_IDLE) return EBL_STATUS_NOT_FOUND;
+        memcpy(image, unit->transaction.image, EBL_IMAGE_LENGTH);
         return EBL_STATUS_OK;
     case EBL_BANK_PREVIOUS:
-        return config_store_previous(&app->store, app->hal, image, generation)
+        return config_store_previous(&unit->store, unit->board, image, generation)
                    ? EBL_STATUS_OK
                    : EBL_STATUS_NOT_FOUND;
     case EBL_BANK_DEFAULT:
@@ -52,24 +52,24 @@ static uint8_t bank_read(const app *app, uint8_t bank, uint8_t *image, uint32_t 
     }
 }
 
-static void read_bank(app *app, const ebl_header *request, reply *reply)
+static void read_bank(app *unit, const ebl_header *request, reply *answer)
 {
     uint8_t image[EBL_IMAGE_LENGTH];
     ebl_cfg_read_request asked;
     ebl_cfg_read_response response;
-    size_t room = reply_capacity(reply) - EBL_CFG_READ_RESPONSE_LENGTH;
+    size_t room = reply_capacity(answer) - EBL_CFG_READ_RESPONSE_LENGTH;
     uint8_t status;
     size_t length = 0;
     int put;
 
     if (ebl_cfg_read_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(reply, EBL_STATUS_LENGTH, EBL_CFG_READ_REQUEST_LENGTH);
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_READ_REQUEST_LENGTH);
         return;
     }
-    status = bank_read(app, asked.bank, image, &response.generation);
+    status = bank_read(unit, asked.bank, image, &response.generation);
     if (status == EBL_STATUS_OK && asked.offset > EBL_IMAGE_LENGTH) status = EBL_STATUS_RANGE;
     if (status != EBL_STATUS_OK) {
-        reply_refuse(reply, status, asked.bank);
+        reply_refuse(answer, status, asked.bank);
         return;
     }
     response.total_length = EBL_IMAGE_LENGTH;
@@ -77,12 +77,12 @@ static void read_bank(app *app, const ebl_header *request, reply *reply)
     response.data_length = (size_t)(EBL_IMAGE_LENGTH - asked.offset);
     if (response.data_length > asked.length) response.data_length = asked.length;
     if (response.data_length > room) response.data_length = room;
-    put = ebl_cfg_read_response_put(&response, reply_fields(reply), reply_capacity(reply),
+    put = ebl_cfg_read_response_put(&response, reply_fields(answer), reply_capacity(answer),
                                     &length);
-    reply_with(reply, put, length);
+    reply_with(answer, put, length);
 }
 
-static void begin(app *app, const ebl_header *request, reply *reply)
+static void begin(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_cfg_begin_request asked;
     ebl_cfg_begin_response response;
@@ -92,49 +92,49 @@ static void begin(app *app, const ebl_header *request, reply *reply)
     int put;
 
     if (ebl_cfg_begin_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(reply, EBL_STATUS_LENGTH, EBL_CFG_BEGIN_REQUEST_LENGTH);
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_BEGIN_REQUEST_LENGTH);
         return;
     }
-    status = transaction_begin(&app->transaction, &app->store, &asked, now(app), &detail);
+    status = transaction_begin(&unit->transaction, &unit->store, &asked, now(unit), &detail);
     if (status != EBL_STATUS_OK) {
-        reply_refuse(reply, status, detail);
+        reply_refuse(answer, status, detail);
         return;
     }
-    response.transaction = app->transaction.id;
+    response.transaction = unit->transaction.id;
     response.lease_ms = TRANSACTION_LEASE_MS;
-    put = ebl_cfg_begin_response_put(&response, reply_fields(reply), reply_capacity(reply),
+    put = ebl_cfg_begin_response_put(&response, reply_fields(answer), reply_capacity(answer),
                                      &length);
-    reply_with(reply, put, length);
+    reply_with(answer, put, length);
 }
 
-static void set(app *app, const ebl_header *request, reply *reply)
+static void set(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_cfg_set_request asked;
     uint16_t detail = 0;
     uint8_t status;
 
     if (ebl_cfg_set_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(reply, EBL_STATUS_LENGTH, EBL_CFG_SET_REQUEST_LENGTH);
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_SET_REQUEST_LENGTH);
         return;
     }
-    status = transaction_set(&app->transaction, &asked, EBL_ACCESS_DEALER, now(app), &detail);
-    reply_status(reply, status, detail);
+    status = transaction_set(&unit->transaction, &asked, EBL_ACCESS_DEALER, now(unit), &detail);
+    reply_status(answer, status, detail);
 }
 
 /* The list goes behind the detail, as much of it as the MTU carries. */
-static void refusals_append(reply *reply, const ebl_refusal *found, size_t count)
+static void refusals_append(reply *answer, const ebl_refusal *found, size_t count)
 {
-    for (size_t i = 0; i < count && reply->length + REFUSAL_BYTES <= reply->capacity; i++) {
-        uint8_t *bytes = reply->bytes + reply->length;
+    for (size_t i = 0; i < count && answer->length + REFUSAL_BYTES <= answer->capacity; i++) {
+        uint8_t *bytes = answer->bytes + answer->length;
 
         ebl_put_u16(bytes, found[i].id);
         bytes[2] = found[i].index;
         bytes[3] = found[i].code;
-        reply->length += REFUSAL_BYTES;
+        answer->length += REFUSAL_BYTES;
     }
 }
 
-static void validate(app *app, const ebl_header *request, reply *reply)
+static void validate(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_cfg_validate_request asked;
     ebl_refusal found[REFUSALS_MAX];
@@ -143,18 +143,18 @@ static void validate(app *app, const ebl_header *request, reply *reply)
 
     if (ebl_cfg_validate_request_get(&asked, request->payload, request->payload_length) !=
         EBL_OK) {
-        reply_refuse(reply, EBL_STATUS_LENGTH, EBL_CFG_VALIDATE_REQUEST_LENGTH);
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_VALIDATE_REQUEST_LENGTH);
         return;
     }
-    status = transaction_validate(&app->transaction, asked.transaction, now(app), found,
+    status = transaction_validate(&unit->transaction, asked.transaction, now(unit), found,
                                   REFUSALS_MAX, &detail);
-    reply_status(reply, status, detail);
+    reply_status(answer, status, detail);
     if (status == EBL_STATUS_INVALID_CONFIG) {
-        refusals_append(reply, found, detail < REFUSALS_MAX ? detail : REFUSALS_MAX);
+        refusals_append(answer, found, detail < REFUSALS_MAX ? detail : REFUSALS_MAX);
     }
 }
 
-static void staged_crc(app *app, const ebl_header *request, reply *reply)
+static void staged_crc(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_cfg_staged_crc_request asked;
     ebl_cfg_staged_crc_response response;
@@ -165,71 +165,71 @@ static void staged_crc(app *app, const ebl_header *request, reply *reply)
 
     if (ebl_cfg_staged_crc_request_get(&asked, request->payload, request->payload_length) !=
         EBL_OK) {
-        reply_refuse(reply, EBL_STATUS_LENGTH, EBL_CFG_STAGED_CRC_REQUEST_LENGTH);
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_STAGED_CRC_REQUEST_LENGTH);
         return;
     }
-    status = transaction_staged_crc(&app->transaction, asked.transaction, now(app),
+    status = transaction_staged_crc(&unit->transaction, asked.transaction, now(unit),
                                     &response.crc32, &detail);
     if (status != EBL_STATUS_OK) {
-        reply_refuse(reply, status, detail);
+        reply_refuse(answer, status, detail);
         return;
     }
-    put = ebl_cfg_staged_crc_response_put(&response, reply_fields(reply), reply_capacity(reply),
+    put = ebl_cfg_staged_crc_response_put(&response, reply_fields(answer), reply_capacity(answer),
                                           &length);
-    reply_with(reply, put, length);
+    reply_with(answer, put, length);
 }
 
 /* A new generation is active: the law gets it, the host is told, a defaulted unit is well again. */
-static void committed(app *app)
+static void committed(app *unit)
 {
-    app_config_apply(app);
-    event_config(&app->events, &app->link, now(app), EBL_EVENT_CONFIG_COMMITTED,
-                 app->store.generation, app->store.crc32);
-    if (!faults_clear(&app->faults, EBL_FAULT_CONFIG_DEFAULTED)) return;
-    event_faults_cleared(&app->events, &app->link, now(app), EBL_FAULT_CONFIG_DEFAULTED);
+    app_config_apply(unit);
+    event_config(&unit->events, &unit->link, now(unit), EBL_EVENT_CONFIG_COMMITTED,
+                 unit->store.generation, unit->store.crc32);
+    if (!faults_clear(&unit->faults, EBL_FAULT_CONFIG_DEFAULTED)) return;
+    event_faults_cleared(&unit->events, &unit->link, now(unit), EBL_FAULT_CONFIG_DEFAULTED);
 }
 
-static void commit(app *app, const ebl_header *request, reply *reply)
+static void commit(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_cfg_commit_request asked;
     ebl_cfg_commit_response response;
-    uint32_t generation_before = app->store.generation;
+    uint32_t generation_before = unit->store.generation;
     uint16_t detail = 0;
     uint8_t status;
     size_t length = 0;
     int put;
 
     if (ebl_cfg_commit_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(reply, EBL_STATUS_LENGTH, EBL_CFG_COMMIT_REQUEST_LENGTH);
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_COMMIT_REQUEST_LENGTH);
         return;
     }
-    status = transaction_commit(&app->transaction, &app->store, app->hal, &asked, now(app),
+    status = transaction_commit(&unit->transaction, &unit->store, unit->board, &asked, now(unit),
                                 &detail);
     if (status != EBL_STATUS_OK) {
-        reply_refuse(reply, status, detail);
+        reply_refuse(answer, status, detail);
         return;
     }
-    if (app->store.generation != generation_before) committed(app);
-    response.generation = app->store.generation;
-    response.crc32 = app->store.crc32;
-    response.state = app->transaction.state;
-    put = ebl_cfg_commit_response_put(&response, reply_fields(reply), reply_capacity(reply),
+    if (unit->store.generation != generation_before) committed(unit);
+    response.generation = unit->store.generation;
+    response.crc32 = unit->store.crc32;
+    response.state = unit->transaction.state;
+    put = ebl_cfg_commit_response_put(&response, reply_fields(answer), reply_capacity(answer),
                                       &length);
-    reply_with(reply, put, length);
+    reply_with(answer, put, length);
 }
 
-static void abort_transaction(app *app, const ebl_header *request, reply *reply)
+static void abort_transaction(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_cfg_abort_request asked;
     uint16_t detail = 0;
     uint8_t status;
 
     if (ebl_cfg_abort_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(reply, EBL_STATUS_LENGTH, EBL_CFG_ABORT_REQUEST_LENGTH);
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_ABORT_REQUEST_LENGTH);
         return;
     }
-    status = transaction_abort(&app->transaction, asked.transaction, &detail);
-    reply_status(reply, status, detail);
+    status = transaction_abort(&unit->transaction, asked.transaction, &detail);
+    reply_status(answer, status, detail);
 }
 
 request_handler requests_config(uint16_t message_id)

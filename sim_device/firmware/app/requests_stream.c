@@ -3,7 +3,7 @@
 #include "ebl_bytes.h"    // EBL_OK
 #include "ebl_registry.h" // ebl_str_subscribe_request_get
 
-static void subscribe(app *app, const ebl_header *request, reply *reply)
+static void subscribe(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_str_subscribe_request asked;
     ebl_str_subscribe_response response;
@@ -14,47 +14,47 @@ static void subscribe(app *app, const ebl_header *request, reply *reply)
 
     if (ebl_str_subscribe_request_get(&asked, request->payload, request->payload_length) !=
         EBL_OK) {
-        reply_refuse(reply, EBL_STATUS_LENGTH, EBL_STR_SUBSCRIBE_REQUEST_LENGTH);
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_STR_SUBSCRIBE_REQUEST_LENGTH);
         return;
     }
-    status = telemetry_subscribe(&app->telemetry, &asked, app->tx_mtu,
-                                 app->hal->now_us(app->hal->context), &response, &detail);
+    status = telemetry_subscribe(&unit->telemetry, &asked, unit->tx_mtu,
+                                 unit->board->now_us(unit->board->context), &response, &detail);
     if (status != EBL_STATUS_OK) {
-        reply_refuse(reply, status, detail);
+        reply_refuse(answer, status, detail);
         return;
     }
-    put = ebl_str_subscribe_response_put(&response, reply_fields(reply), reply_capacity(reply),
+    put = ebl_str_subscribe_response_put(&response, reply_fields(answer), reply_capacity(answer),
                                          &length);
-    reply_with(reply, put, length);
+    reply_with(answer, put, length);
 }
 
-static void unsubscribe(app *app, const ebl_header *request, reply *reply)
+static void unsubscribe(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_str_unsubscribe_request asked;
 
     if (ebl_str_unsubscribe_request_get(&asked, request->payload, request->payload_length) !=
         EBL_OK) {
-        reply_refuse(reply, EBL_STATUS_LENGTH, EBL_STR_UNSUBSCRIBE_REQUEST_LENGTH);
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_STR_UNSUBSCRIBE_REQUEST_LENGTH);
         return;
     }
-    reply_status(reply, telemetry_unsubscribe(&app->telemetry, asked.stream_id), asked.stream_id);
+    reply_status(answer, telemetry_unsubscribe(&unit->telemetry, asked.stream_id), asked.stream_id);
 }
 
-static void renew(app *app, const ebl_header *request, reply *reply)
+static void renew(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_str_renew_request asked;
     uint8_t status;
 
     if (ebl_str_renew_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(reply, EBL_STATUS_LENGTH, EBL_STR_RENEW_REQUEST_LENGTH);
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_STR_RENEW_REQUEST_LENGTH);
         return;
     }
-    status = telemetry_renew(&app->telemetry, asked.stream_id, asked.lease_s,
-                             app->hal->now_us(app->hal->context));
-    reply_status(reply, status, asked.stream_id);
+    status = telemetry_renew(&unit->telemetry, asked.stream_id, asked.lease_s,
+                             unit->board->now_us(unit->board->context));
+    reply_status(answer, status, asked.stream_id);
 }
 
-static void snapshot(app *app, const ebl_header *request, reply *reply)
+static void snapshot(app *unit, const ebl_header *request, reply *answer)
 {
     uint8_t values[2 * EBL_CHANNEL_COUNT];
     ebl_str_snapshot_request asked;
@@ -66,21 +66,21 @@ static void snapshot(app *app, const ebl_header *request, reply *reply)
 
     if (ebl_str_snapshot_request_get(&asked, request->payload, request->payload_length) !=
         EBL_OK) {
-        reply_refuse(reply, EBL_STATUS_LENGTH, EBL_STR_SNAPSHOT_REQUEST_LENGTH);
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_STR_SNAPSHOT_REQUEST_LENGTH);
         return;
     }
-    status = telemetry_snapshot(&app->telemetry, asked.channel_ids, asked.channel_ids_length,
+    status = telemetry_snapshot(&unit->telemetry, asked.channel_ids, asked.channel_ids_length,
                                 values, &detail);
     if (status != EBL_STATUS_OK) {
-        reply_refuse(reply, status, detail);
+        reply_refuse(answer, status, detail);
         return;
     }
-    response.t_us = app->telemetry.row_us;
+    response.t_us = unit->telemetry.row_us;
     response.values = values;
     response.values_length = 2 * asked.channel_ids_length;
-    put = ebl_str_snapshot_response_put(&response, reply_fields(reply), reply_capacity(reply),
+    put = ebl_str_snapshot_response_put(&response, reply_fields(answer), reply_capacity(answer),
                                         &length);
-    reply_with(reply, put, length);
+    reply_with(answer, put, length);
 }
 
 request_handler requests_stream(uint16_t message_id)

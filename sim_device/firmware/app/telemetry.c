@@ -1,11 +1,11 @@
 #include "telemetry.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "ebl_bytes.h"  // ebl_put_i16, ebl_put_u32
 #include "ebl_frame.h"  // EBL_HEADER_LENGTH, ebl_header_put
 #include "ebl_values.h" // ebl_channel_counts
+#include "float32.h"    // float32_missing
 
 #define COUNT_MAX 32767 /* what a value beyond the range of its channel becomes */
 #define STREAM_HEAD_LENGTH 6 /* t0_us u32, rows u8, flags u8 */
@@ -43,14 +43,14 @@ static float channel_value(uint8_t channel_id, const telemetry_sources *sources)
     case EBL_CHANNEL_MOTOR_TEMPERATURE_DEGC: return inputs->motor_temperature_degc;
     case EBL_CHANNEL_SENSOR_TEMPERATURE_DEGC: return inputs->sensor_temperature_degc;
     case EBL_CHANNEL_FAULT_FLAGS: return (float)sources->fault_flags;
-    default: return NAN;
+    default: return float32_missing();
     }
 }
 
-void telemetry_init(telemetry *telemetry)
+void telemetry_init(telemetry *state)
 {
-    memset(telemetry, 0, sizeof *telemetry);
-    for (size_t i = 0; i < EBL_CHANNEL_COUNT; i++) telemetry->row[i] = EBL_MISSING;
+    memset(state, 0, sizeof *state);
+    for (size_t i = 0; i < EBL_CHANNEL_COUNT; i++) state->row[i] = EBL_MISSING;
 }
 
 static size_t row_bytes(const telemetry_stream *stream)
@@ -77,48 +77,48 @@ static void frame_send(telemetry_stream *stream, unit_link *link)
     stream->flags = 0;
 }
 
-static void row_add(telemetry_stream *stream, const telemetry *telemetry, unit_link *link)
+static void row_add(telemetry_stream *stream, const telemetry *state, unit_link *link)
 {
     uint8_t *bytes = stream->frame + STREAM_OVERHEAD + stream->rows * row_bytes(stream);
 
     if (stream->rows == 0) {
-        ebl_put_u32(stream->frame + EBL_HEADER_LENGTH, (uint32_t)telemetry->row_us);
+        ebl_put_u32(stream->frame + EBL_HEADER_LENGTH, (uint32_t)state->row_us);
     }
     for (size_t i = 0; i < stream->channel_count; i++) {
         uint8_t place = stream->channels[i];
 
-        ebl_put_i16(bytes + 2 * i, telemetry->row[place]);
-        if (telemetry->clipped >> place & 1u) stream->flags |= FLAG_CLIPPED;
+        ebl_put_i16(bytes + 2 * i, state->row[place]);
+        if (state->clipped >> place & 1u) stream->flags |= FLAG_CLIPPED;
     }
     stream->rows++;
     if (stream->rows == stream->batch) frame_send(stream, link);
 }
 
-void telemetry_step(telemetry *telemetry, const telemetry_sources *sources, uint64_t now_us,
+void telemetry_step(telemetry *state, const telemetry_sources *sources, uint64_t now_us,
                     unit_link *link)
 {
-    telemetry->row_us = now_us;
-    telemetry->clipped = 0;
+    state->row_us = now_us;
+    state->clipped = 0;
     for (size_t i = 0; i < EBL_CHANNEL_COUNT; i++) {
         float value = channel_value(ebl_channels[i].id, sources);
         int16_t count = ebl_channel_counts(ebl_channels[i].scale, value);
 
-        telemetry->row[i] = count;
-        if (count == COUNT_MAX || count == -COUNT_MAX) telemetry->clipped |= 1u << i;
+        state->row[i] = count;
+        if (count == COUNT_MAX || count == -COUNT_MAX) state->clipped |= 1u << i;
     }
     for (size_t i = 0; i < TELEMETRY_STREAMS; i++) {
-        telemetry_stream *stream = &telemetry->streams[i];
+        telemetry_stream *stream = &state->streams[i];
 
         if (!stream->active || --stream->steps_left > 0) continue;
         stream->steps_left = stream->divider;
-        row_add(stream, telemetry, link);
+        row_add(stream, state, link);
     }
 }
 
-void telemetry_poll(telemetry *telemetry, event_log *events, unit_link *link, uint64_t now_us)
+void telemetry_poll(telemetry *state, event_log *events, unit_link *link, uint64_t now_us)
 {
     for (size_t i = 0; i < TELEMETRY_STREAMS; i++) {
-        telemetry_stream *stream = &telemetry->streams[i];
+        telemetry_stream *stream = &state->streams[i];
 
         if (!stream->active) continue;
         if (now_us >= stream->lease_end_us) {
@@ -131,20 +131,20 @@ void telemetry_poll(telemetry *telemetry, event_log *events, unit_link *link, ui
     }
 }
 
-static telemetry_stream *stream_find(telemetry *telemetry, uint8_t stream_id)
+static telemetry_stream *stream_find(telemetry *state, uint8_t stream_id)
 {
     for (size_t i = 0; i < TELEMETRY_STREAMS; i++) {
-        telemetry_stream *stream = &telemetry->streams[i];
+        telemetry_stream *stream = &state->streams[i];
 
         if (stream->active && stream->stream_id == stream_id) return stream;
     }
     return NULL;
 }
 
-static telemetry_stream *stream_free(telemetry *telemetry)
+static telemetry_stream *stream_free(telemetry *state)
 {
     for (size_t i = 0; i < TELEMETRY_STREAMS; i++) {
-        if (!telemetry->streams[i].active) return &telemetry->streams[i];
+        if (!state->streams[i].active) return &state->streams[i];
     }
     return NULL;
 }
@@ -200,26 +200,26 @@ static uint8_t subscription_check(const ebl_str_subscribe_request *request, uint
     return EBL_STATUS_OK;
 }
 
-uint8_t telemetry_subscribe(telemetry *telemetry, const ebl_str_subscribe_request *request,
+uint8_t telemetry_subscribe(telemetry *state, const ebl_str_subscribe_request *request,
                             uint16_t tx_mtu, uint64_t now_us,
                             ebl_str_subscribe_response *response, uint16_t *detail)
 {
     uint8_t places[EBL_CHANNEL_COUNT];
-    telemetry_stream *stream = stream_find(telemetry, request->stream_id);
+    telemetry_stream *stream = stream_find(state, request->stream_id);
     uint8_t status = subscription_check(request, tx_mtu, detail);
 
     if (status != EBL_STATUS_OK) return status;
     status = places_find(request->channel_ids, request->channel_ids_length, places, detail);
     if (status != EBL_STATUS_OK) return status;
-    if (stream == NULL) stream = stream_free(telemetry);
+    if (stream == NULL) stream = stream_free(state);
     if (stream == NULL) return EBL_STATUS_NO_SPACE;
 
-    telemetry->epoch = (uint8_t)((telemetry->epoch + 1) & EPOCH_MASK);
+    state->epoch = (uint8_t)((state->epoch + 1) & EPOCH_MASK);
     memset(stream, 0, sizeof *stream);
     stream->active = 1;
     stream->stream_id = request->stream_id;
     stream->batch = request->batch;
-    stream->epoch = telemetry->epoch;
+    stream->epoch = state->epoch;
     stream->divider = request->divider;
     stream->steps_left = 1;
     stream->lease_end_us = now_us + (uint64_t)request->lease_s * US_PER_S;
@@ -235,18 +235,18 @@ uint8_t telemetry_subscribe(telemetry *telemetry, const ebl_str_subscribe_reques
     return EBL_STATUS_OK;
 }
 
-uint8_t telemetry_unsubscribe(telemetry *telemetry, uint8_t stream_id)
+uint8_t telemetry_unsubscribe(telemetry *state, uint8_t stream_id)
 {
-    telemetry_stream *stream = stream_find(telemetry, stream_id);
+    telemetry_stream *stream = stream_find(state, stream_id);
 
     if (stream == NULL) return EBL_STATUS_NOT_FOUND;
     stream->active = 0;
     return EBL_STATUS_OK;
 }
 
-uint8_t telemetry_renew(telemetry *telemetry, uint8_t stream_id, uint8_t lease_s, uint64_t now_us)
+uint8_t telemetry_renew(telemetry *state, uint8_t stream_id, uint8_t lease_s, uint64_t now_us)
 {
-    telemetry_stream *stream = stream_find(telemetry, stream_id);
+    telemetry_stream *stream = stream_find(state, stream_id);
 
     if (stream == NULL) return EBL_STATUS_NOT_FOUND;
     if (lease_s == 0) return EBL_STATUS_RANGE;
@@ -254,18 +254,18 @@ uint8_t telemetry_renew(telemetry *telemetry, uint8_t stream_id, uint8_t lease_s
     return EBL_STATUS_OK;
 }
 
-void telemetry_end_all(telemetry *telemetry)
+void telemetry_end_all(telemetry *state)
 {
-    for (size_t i = 0; i < TELEMETRY_STREAMS; i++) telemetry->streams[i].active = 0;
+    for (size_t i = 0; i < TELEMETRY_STREAMS; i++) state->streams[i].active = 0;
 }
 
-uint8_t telemetry_snapshot(const telemetry *telemetry, const uint8_t *channel_ids, size_t count,
+uint8_t telemetry_snapshot(const telemetry *state, const uint8_t *channel_ids, size_t count,
                            uint8_t *values, uint16_t *detail)
 {
     uint8_t places[EBL_CHANNEL_COUNT];
     uint8_t status = places_find(channel_ids, count, places, detail);
 
     if (status != EBL_STATUS_OK) return status;
-    for (size_t i = 0; i < count; i++) ebl_put_i16(values + 2 * i, telemetry->row[places[i]]);
+    for (size_t i = 0; i < count; i++) ebl_put_i16(values + 2 * i, state->row[places[i]]);
     return EBL_STATUS_OK;
 }

@@ -49,26 +49,26 @@ typedef struct {
     telemetry_stream streams[TELEMETRY_STREAMS];
 } telemetry;
 
-void telemetry_init(telemetry *telemetry);
+void telemetry_init(telemetry *state);
 
 /* Takes a row and gives it to every stream whose turn it is. */
-void telemetry_step(telemetry *telemetry, const telemetry_sources *sources, uint64_t now_us,
+void telemetry_step(telemetry *state, const telemetry_sources *sources, uint64_t now_us,
                     unit_link *link);
 
 /* Ends streams whose lease is over, and reports each stream once a second. */
-void telemetry_poll(telemetry *telemetry, event_log *events, unit_link *link, uint64_t now_us);
+void telemetry_poll(telemetry *state, event_log *events, unit_link *link, uint64_t now_us);
 
 /* Starts or changes a stream. Returns an ebl_status. */
-uint8_t telemetry_subscribe(telemetry *telemetry, const ebl_str_subscribe_request *request,
+uint8_t telemetry_subscribe(telemetry *state, const ebl_str_subscribe_request *request,
                             uint16_t tx_mtu, uint64_t now_us,
                             ebl_str_subscribe_response *response, uint16_t *detail);
 
-uint8_t telemetry_unsubscribe(telemetry *telemetry, uint8_t stream_id);
-uint8_t telemetry_renew(telemetry *telemetry, uint8_t stream_id, uint8_t lease_s, uint64_t now_us);
-void telemetry_end_all(telemetry *telemetry);
+uint8_t telemetry_unsubscribe(telemetry *state, uint8_t stream_id);
+uint8_t telemetry_renew(telemetry *state, uint8_t stream_id, uint8_t lease_s, uint64_t now_us);
+void telemetry_end_all(telemetry *state);
 
 /* The latest row of the channels as i16 counts. Returns an ebl_status. */
-uint8_t telemetry_snapshot(const telemetry *telemetry, const uint8_t *channel_ids, size_t count,
+uint8_t telemetry_snapshot(const telemetry *state, const uint8_t *channel_ids, size_t count,
                            uint8_t *values, uint16_t *detail);
 
 #endif

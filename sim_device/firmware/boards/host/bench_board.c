@@ -146,23 +146,23 @@ static int board_request(void *context, uint16_t message_id, const uint8_t *requ
 
 static void hal_fill(bench_board *board, size_t flash_block_size, size_t flash_size)
 {
-    hal *hal = &board->hal;
+    hal *door = &board->hal;
 
-    hal->context = board;
-    hal->now_us = now_us;
-    hal->serial_read = serial_read;
-    hal->serial_write = serial_write;
-    hal->serial_writable = serial_writable;
-    hal->inputs_read = inputs_read;
-    hal->motor_torque_set = motor_torque_set;
-    hal->flash_block_size = flash_block_size;
-    hal->flash_size = flash_size;
-    hal->flash_read = flash_read;
-    hal->flash_erase = flash_erase;
-    hal->flash_program = flash_program;
-    hal->uid = board->uid;
-    hal->device_class = 129;
-    hal->hardware_revision = 1;
+    door->context = board;
+    door->now_us = now_us;
+    door->serial_read = serial_read;
+    door->serial_write = serial_write;
+    door->serial_writable = serial_writable;
+    door->inputs_read = inputs_read;
+    door->motor_torque_set = motor_torque_set;
+    door->flash_block_size = flash_block_size;
+    door->flash_size = flash_size;
+    door->flash_read = flash_read;
+    door->flash_erase = flash_erase;
+    door->flash_program = flash_program;
+    door->uid = board->uid;
+    door->device_class = 129;
+    door->hardware_revision = 1;
 }
 
 bench_board *bench_create(size_t flash_block_size, size_t flash_size)
