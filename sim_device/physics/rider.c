@@ -4,6 +4,7 @@
 
 #define RPM_PER_RAD_S (30.0 / 3.14159265358979323846)
 #define CADENCE_FADE_RPM 10.0
+#define STROKE_CADENCE_RPM 20.0
 
 double rider_torque_nm(const rider_config *config, const rider_command *command,
                        double crank_angle_rad, double crank_speed_rad_s) {
@@ -17,7 +18,10 @@ double rider_torque_nm(const rider_config *config, const rider_command *command,
     if (command->kind == RIDER_CONSTANT) {
         return torque_nm;
     }
-    return torque_nm * (1.0 - config->stroke_ripple * cos(2.0 * crank_angle_rad));
+    /* A rider brings a pedal level before pushing off, so a start never meets a dead spot. */
+    const double share = fmin(fmax(cadence_rpm, 0.0) / STROKE_CADENCE_RPM, 1.0);
+    const double ripple = config->stroke_ripple * share;
+    return torque_nm * (1.0 - ripple * cos(2.0 * crank_angle_rad));
 }
 
 double rider_drag_nm(const rider_config *config, const rider_command *command) {

@@ -37,7 +37,14 @@ HEADERS: tuple[str, ...] = (
     "sim_device/physics/drivetrain.h",
     "sim_device/physics/torque_sensor.h",
     "sim_device/physics/physics.h",
+    "sim_device/firmware/boards/host/unit.h",
 )
+
+# What C calls in Python: the answer to a board request (see unit.py).
+CALLBACKS = """
+extern "Python" int unit_request_python(void *, uint16_t, const uint8_t *, size_t, uint8_t *,
+                                        size_t, size_t *);
+"""
 
 # Without contraction and fast-math the host and a Cortex-M4F agree to the bit (ADR 1). -O3 lets the
 # compiler work on four points of a batch at once: 10 instead of 34 ns per fuzzy evaluation.
@@ -69,6 +76,7 @@ def sources() -> list[str]:
 
 ffibuilder = FFI()
 ffibuilder.cdef("\n".join(declarations(header) for header in HEADERS))
+ffibuilder.cdef(CALLBACKS)
 ffibuilder.set_source(
     "sim_device.firmware.python._native",
     "\n".join(f'#include "{Path(header).name}"' for header in HEADERS),

@@ -1,0 +1,123 @@
+"""What can be seen and changed of a simulated unit: the JSON of SIM_GET and SIM_SET.
+
+Pure: a text becomes checked changes, or a ScenarioError that names what is wrong; applying them is
+the unit's business (sim_device.lockstep).
+"""
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from sim_device.scenario_file import ScenarioError, Setting, load, read_phase_value
+
+SPEED_FACTOR_MAX = 100.0
+LOAD_SOURCES = {"road": 0, "dyno": 1}
+
+# A host may send back what it was given: these say something, and change nothing.
+_READ_ONLY = {"t_s", "energy_balance_error_pct", "energy_consistent"}
+
+
+@dataclass
+class Changes:
+    """Checked changes; None or an empty dict means as it was."""
+
+    phase: dict[str, Any] = field(default_factory=dict)
+    bike: dict[str, float] = field(default_factory=dict)
+    dyno_nm: float | None = None
+    scenario: str | None = None
+    stop_scenario: bool = False
+    running: bool | None = None
+    speed_factor: float | None = None
+    seed: int | None = None
+
+
+def parse_changes(text: str) -> Changes:
+    """Reads the JSON object of SIM_SET. Raises ScenarioError and leaves nothing half read."""
+    try:
+        document = json.loads(text or "{}")
+    except ValueError as error:
+        raise ScenarioError(f"simulation: not JSON: {error}") from error
+    changes = Changes()
+    for name, given in _members("simulation", document, {*_READERS, *_READ_ONLY}).items():
+        if name in _READERS:
+            _READERS[name](changes, name, given)
+    return changes
+
+
+def _members(where: str, value: object, known: set[str]) -> dict[str, Any]:
+    if not isinstance(value, dict):
+        raise ScenarioError(f"{where} is {value!r}, not an object")
+    unknown = sorted(set(value) - known)
+    if unknown:
+        allowed = ", ".join(sorted(known))
+        raise ScenarioError(f"{where} has no {', '.join(unknown)}; there are: {allowed}")
+    return value
+
+
+def _phase_value(changes: Changes, name: str, given: object) -> None:
+    changes.phase[name] = read_phase_value(name, name, given)
+
+
+def _rider(changes: Changes, name: str, given: object) -> None:
+    rider = _members(name, given, {"kind", "torque_nm", "cadence_rpm_max"})
+    for key, value in rider.items():
+        target = "rider" if key == "kind" else key
+        changes.phase[target] = read_phase_value(f"rider.{key}", target, value)
+
+
+def _road(changes: Changes, name: str, given: object) -> None:
+    for key, value in _members(name, given, {"grade_deg", "wind_ms"}).items():
+        changes.phase[key] = read_phase_value(f"road.{key}", key, value)
+
+
+def _load_source(changes: Changes, name: str, given: object) -> None:
+    Setting("road", choices=tuple(LOAD_SOURCES)).read(name, given)
+    changes.bike["road.source"] = LOAD_SOURCES[str(given)]
+
+
+def _dyno_nm(changes: Changes, name: str, given: object) -> None:
+    changes.dyno_nm = float(Setting(0.0, min=0.0, max=200.0).read(name, given))
+
+
+def _mass_kg(changes: Changes, name: str, given: object) -> None:
+    changes.bike["road.mass_kg"] = float(Setting(100.0, min=40.0, max=300.0).read(name, given))
+
+
+def _scenario(changes: Changes, name: str, given: object) -> None:
+    if given is None:
+        changes.stop_scenario = True
+        return
+    if not isinstance(given, str) or not load(given).live:
+        raise ScenarioError(f"{name} {given!r} is measured, not ridden: use `scenario run`")
+    changes.scenario = given
+
+
+def _running(changes: Changes, name: str, given: object) -> None:
+    if not isinstance(given, bool):
+        raise ScenarioError(f"{name} is {given!r}, not true or false")
+    changes.running = given
+
+
+def _speed_factor(changes: Changes, name: str, given: object) -> None:
+    setting = Setting(1.0, min=0.01, max=SPEED_FACTOR_MAX)
+    changes.speed_factor = float(setting.read(name, given))
+
+
+def _seed(changes: Changes, name: str, given: object) -> None:
+    changes.seed = int(Setting(0, min=0, max=2**63 - 1).read(name, given))
+
+
+_READERS: dict[str, Callable[[Changes, str, object], None]] = {
+    "rider": _rider,
+    "road": _road,
+    "brake": _phase_value,
+    "assist_mode": _phase_value,
+    "load_source": _load_source,
+    "dyno_nm": _dyno_nm,
+    "mass_kg": _mass_kg,
+    "scenario": _scenario,
+    "running": _running,
+    "speed_factor": _speed_factor,
+    "seed": _seed,
+}

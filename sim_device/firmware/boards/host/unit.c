@@ -1,0 +1,247 @@
+#include "unit.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "app.h" // app_poll
+#include "byte_queue.h" // byte_queue_put
+#include "ebl_registry.h" // EBL_DEVICE_CLASS_MID_DRIVE_SIMULATED
+#include "hal.h" // hal
+
+#define PHYSICS_PERIOD_US 1000u
+#define CONTROL_PERIOD_US 10000u
+#define HARDWARE_REVISION 1u
+
+#define DEG_PER_RAD (180.0 / 3.14159265358979323846)
+#define RPM_PER_RAD_S (30.0 / 3.14159265358979323846)
+#define KMH_PER_MS 3.6
+
+struct unit {
+    app app;
+    hal hal;
+    physics_config bike;
+    physics_state state;
+    physics_command stimulus;
+    uint64_t now_us;
+    uint64_t target_us;
+    uint8_t mode_selected;
+    byte_queue from_host;
+    byte_queue to_host;
+    uint8_t flash[UNIT_FLASH_SIZE];
+    uint8_t uid[UNIT_UID_LENGTH];
+    unit_request request;
+    void *request_context;
+};
+
+static uint64_t board_now_us(void *context) {
+    return ((const unit *)context)->now_us;
+}
+
+static size_t board_serial_read(void *context, uint8_t *bytes, size_t capacity) {
+    return byte_queue_take(&((unit *)context)->from_host, bytes, capacity);
+}
+
+static size_t board_serial_write(void *context, const uint8_t *bytes, size_t length) {
+    return byte_queue_put(&((unit *)context)->to_host, bytes, length);
+}
+
+static size_t board_serial_writable(void *context) {
+    return byte_queue_free(&((const unit *)context)->to_host);
+}
+
+static void board_inputs_read(void *context, hal_inputs *inputs) {
+    const unit *self = context;
+    const physics_state *state = &self->state;
+    inputs->torque_raw_counts = (float)state->torque_counts;
+    inputs->sensor_temperature_degc = (float)self->bike.sensor.temperature_degc;
+    inputs->speed_kmh = (float)(state->speed_ms * KMH_PER_MS);
+    inputs->crank_angle_deg = (float)(state->crank_angle_rad * DEG_PER_RAD);
+    inputs->cadence_rpm = (float)(state->crank_speed_rad_s * RPM_PER_RAD_S);
+    inputs->motor_speed_rpm = (float)(state->motor_speed_rad_s * RPM_PER_RAD_S);
+    inputs->motor_current_a = (float)state->motor_current_a;
+    inputs->motor_temperature_degc = (float)state->motor_temperature_degc;
+    inputs->battery_voltage_v = (float)state->battery.voltage_v;
+    inputs->battery_current_a = (float)state->battery.current_a;
+    inputs->battery_soc_pct = (float)state->battery.soc_pct;
+    inputs->mode_selected = self->mode_selected;
+    inputs->brake = self->stimulus.road.brake ? 1 : 0;
+}
+
+static void board_motor_torque_set(void *context, float motor_torque_nm) {
+    ((unit *)context)->stimulus.motor_torque_nm = (double)motor_torque_nm;
+}
+
+static int flash_holds(size_t address, size_t length) {
+    return address <= UNIT_FLASH_SIZE && length <= UNIT_FLASH_SIZE - address;
+}
+
+static int board_flash_read(void *context, size_t address, uint8_t *bytes, size_t length) {
+    if (!flash_holds(address, length)) {
+        return -1;
+    }
+    memcpy(bytes, ((const unit *)context)->flash + address, length);
+    return 0;
+}
+
+static int board_flash_erase(void *context, size_t address) {
+    if (address % UNIT_FLASH_BLOCK_SIZE != 0 || !flash_holds(address, UNIT_FLASH_BLOCK_SIZE)) {
+        return -1;
+    }
+    memset(((unit *)context)->flash + address, 0xFF, UNIT_FLASH_BLOCK_SIZE);
+    return 0;
+}
+
+static int board_flash_program(void *context, size_t address, const uint8_t *bytes,
+                               size_t length) {
+    if (!flash_holds(address, length)) {
+        return -1;
+    }
+    uint8_t *flash = ((unit *)context)->flash + address;
+    for (size_t k = 0; k < length; k++) {
+        flash[k] = (uint8_t)(flash[k] & bytes[k]);
+    }
+    return 0;
+}
+
+static int board_request(void *context, uint16_t message_id, const uint8_t *request, size_t length,
+                         uint8_t *response, size_t capacity, size_t *response_length) {
+    const unit *self = context;
+    return self->request(self->request_context, message_id, request, length, response, capacity,
+                         response_length);
+}
+
+static void connect_board(unit *self, const unit_setup *setup) {
+    const hal board = {
+        .context = self,
+        .now_us = board_now_us,
+        .serial_read = board_serial_read,
+        .serial_write = board_serial_write,
+        .serial_writable = board_serial_writable,
+        .inputs_read = board_inputs_read,
+        .motor_torque_set = board_motor_torque_set,
+        .flash_block_size = UNIT_FLASH_BLOCK_SIZE,
+        .flash_size = UNIT_FLASH_SIZE,
+        .flash_read = board_flash_read,
+        .flash_erase = board_flash_erase,
+        .flash_program = board_flash_program,
+        .board_request = setup->request != NULL ? board_request : NULL,
+        .uid = self->uid,
+        .device_class = EBL_DEVICE_CLASS_MID_DRIVE_SIMULATED,
+        .hardware_revision = HARDWARE_REVISION,
+        .boot_id = setup->boot_id,
+    };
+    self->hal = board;
+}
+
+unit *unit_create(const unit_setup *setup) {
+    unit *self = calloc(1, sizeof *self);
+    if (self == NULL) {
+        return NULL;
+    }
+    memset(self->flash, 0xFF, sizeof self->flash);
+    if (setup->flash != NULL) {
+        memcpy(self->flash, setup->flash, sizeof self->flash);
+    }
+    memcpy(self->uid, setup->uid, sizeof self->uid);
+    self->request = setup->request;
+    self->request_context = setup->request_context;
+    self->bike = setup->physics;
+    self->mode_selected = UNIT_MODE_NOT_SELECTED;
+    unit_place(self, setup->speed_kmh, setup->seed);
+    connect_board(self, setup);
+    ebl_config factory;
+    ebl_config_default(&factory);
+    if (app_provision(&self->hal, &factory) < 0) {
+        free(self);
+        return NULL;
+    }
+    app_init(&self->app, &self->hal);
+    return self;
+}
+
+void unit_destroy(unit *self) {
+    free(self);
+}
+
+void unit_advance_us(unit *self, uint64_t duration_us) {
+    self->target_us += duration_us;
+    while (self->now_us + PHYSICS_PERIOD_US <= self->target_us) {
+        if (self->now_us % CONTROL_PERIOD_US == 0) {
+            app_control_step(&self->app);
+        }
+        app_poll(&self->app);
+        physics_step(&self->bike, &self->state, &self->stimulus, PHYSICS_PERIOD_US * 1e-6);
+        self->now_us += PHYSICS_PERIOD_US;
+    }
+}
+
+size_t unit_receive(unit *self, const uint8_t *bytes, size_t length) {
+    return byte_queue_put(&self->from_host, bytes, length);
+}
+
+size_t unit_transmit(unit *self, uint8_t *bytes, size_t capacity) {
+    return byte_queue_take(&self->to_host, bytes, capacity);
+}
+
+void unit_observe(const unit *self, unit_observation *seen) {
+    const physics_state *state = &self->state;
+    const assist_output *law = app_output(&self->app);
+    const unit_observation now = {
+        .t_s = (double)self->now_us * 1e-6,
+        .speed_kmh = state->speed_ms * KMH_PER_MS,
+        .distance_m = state->distance_m,
+        .height_m = state->height_m,
+        .cadence_rpm = state->crank_speed_rad_s * RPM_PER_RAD_S,
+        .crank_angle_deg = state->crank_angle_rad * DEG_PER_RAD,
+        .spindle_torque_nm = state->spindle_torque_nm,
+        .torque_raw_counts = state->torque_counts,
+        .motor_demand_nm = self->stimulus.motor_torque_nm,
+        .motor_torque_nm = state->motor_shaft_nm,
+        .motor_speed_rpm = state->motor_speed_rad_s * RPM_PER_RAD_S,
+        .motor_current_a = state->motor_current_a,
+        .motor_temperature_degc = state->motor_temperature_degc,
+        .battery_voltage_v = state->battery.voltage_v,
+        .battery_current_a = state->battery.current_a,
+        .battery_soc_pct = state->battery.soc_pct,
+        .assist_ratio = (double)law->assist_ratio,
+        .fuzzy_gain = (double)law->fuzzy_gain,
+        .rider_work_j = state->ledger.rider_work_j,
+        .motor_electric_j = state->ledger.motor_electric_j,
+        .energy_balance_error_pct = physics_energy_balance_error_pct(&self->bike, state),
+        .assist_mode = self->mode_selected < ASSIST_MODE_SLOTS
+                           ? self->mode_selected
+                           : self->app.config.assist_mode_at_start,
+        .limit_flags = law->limit_flags,
+        .crank_engaged = state->crank_engaged,
+        .motor_engaged = state->motor_engaged,
+    };
+    *seen = now;
+}
+
+physics_config *unit_bike(unit *self) {
+    return &self->bike;
+}
+
+physics_command *unit_stimulus(unit *self) {
+    return &self->stimulus;
+}
+
+void unit_begin_ledger(unit *self) {
+    physics_begin_ledger(&self->bike, &self->state);
+}
+
+void unit_place(unit *self, double speed_kmh, uint64_t seed) {
+    physics_reset(&self->bike, &self->state, speed_kmh, seed);
+}
+
+void unit_seed_noise(unit *self, uint64_t seed) {
+    self->state.sensor.random = seed;
+}
+
+void unit_select_mode(unit *self, uint8_t mode) {
+    self->mode_selected = mode;
+}
+
+const uint8_t *unit_flash(const unit *self) {
+    return self->flash;
+}

@@ -1,0 +1,93 @@
+/* A simulated drive unit: the firmware and the physics on one virtual clock.
+ *
+ * Time passes only in unit_advance_us: physics every millisecond, the control law every ten. The
+ * serial line and the flash are memory, so the unit can live in a test, a scenario or a process. */
+#ifndef SPINDLE_UNIT_H
+#define SPINDLE_UNIT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "physics.h" // physics_config
+
+#define UNIT_UID_LENGTH 12
+#define UNIT_FLASH_BLOCK_SIZE 1024
+#define UNIT_FLASH_SIZE 8192 /* the data flash of the RX24T in eight blocks */
+#define UNIT_MODE_NOT_SELECTED 255
+
+/* Answers board requests (SIM_GET, SIM_SET). Same meaning as hal.board_request. */
+typedef int (*unit_request)(void *context, uint16_t message_id, const uint8_t *request,
+                            size_t length, uint8_t *response, size_t capacity,
+                            size_t *response_length);
+
+typedef struct {
+    physics_config physics;
+    double speed_kmh; /* the bike starts rolling at this speed */
+    uint64_t seed;
+    uint8_t uid[UNIT_UID_LENGTH];
+    uint32_t boot_id;
+    const uint8_t *flash; /* UNIT_FLASH_SIZE bytes, or NULL for an erased one */
+    unit_request request; /* NULL: the unit knows no board requests */
+    void *request_context;
+} unit_setup;
+
+/* What an observer beside the bike sees, and what the law last decided. */
+typedef struct {
+    double t_s;
+    double speed_kmh;
+    double distance_m;
+    double height_m;
+    double cadence_rpm;
+    double crank_angle_deg;
+    double spindle_torque_nm;
+    double torque_raw_counts;
+    double motor_demand_nm;
+    double motor_torque_nm;
+    double motor_speed_rpm;
+    double motor_current_a;
+    double motor_temperature_degc;
+    double battery_voltage_v;
+    double battery_current_a;
+    double battery_soc_pct;
+    double assist_ratio;
+    double fuzzy_gain; /* NaN where the mode does not use it */
+    double rider_work_j;
+    double motor_electric_j;
+    double energy_balance_error_pct; /* NaN before any work was done */
+    int assist_mode;
+    int limit_flags;
+    int crank_engaged;
+    int motor_engaged;
+} unit_observation;
+
+typedef struct unit unit;
+
+/* NULL if there is no memory. */
+unit *unit_create(const unit_setup *setup);
+void unit_destroy(unit *self);
+
+/* Lets time pass; what is left below a millisecond counts towards the next call. */
+void unit_advance_us(unit *self, uint64_t duration_us);
+
+/* Bytes from the host to the unit, and back. Return how many were taken. */
+size_t unit_receive(unit *self, const uint8_t *bytes, size_t length);
+size_t unit_transmit(unit *self, uint8_t *bytes, size_t capacity);
+
+void unit_observe(const unit *self, unit_observation *seen);
+
+/* The bike and what happens to it, to be changed between two advances. A change of masses needs
+ * unit_begin_ledger, because energy would appear from nowhere. */
+physics_config *unit_bike(unit *self);
+physics_command *unit_stimulus(unit *self);
+void unit_begin_ledger(unit *self);
+
+/* Puts the bike on the road at this speed, its energy ledger and noise started afresh. */
+void unit_place(unit *self, double speed_kmh, uint64_t seed);
+void unit_seed_noise(unit *self, uint64_t seed);
+
+/* Presses the handlebar's mode button; UNIT_MODE_NOT_SELECTED leaves the choice to the unit. */
+void unit_select_mode(unit *self, uint8_t mode);
+
+const uint8_t *unit_flash(const unit *self);
+
+#endif

@@ -1,0 +1,197 @@
+"""The simulated drive unit through cffi: firmware and physics on one virtual clock.
+
+`Unit` owns one C unit and frees it with itself. Time passes only in `advance_us`; nothing here
+reads a clock, so the same calls give the same bytes.
+"""
+
+import math
+from collections.abc import Callable
+from typing import Any, Final
+
+from sim_device.firmware.python._native import ffi, lib
+
+FLASH_LENGTH: Final[int] = lib.UNIT_FLASH_SIZE
+UID_LENGTH: Final[int] = lib.UNIT_UID_LENGTH
+MODE_NOT_SELECTED: Final[int] = lib.UNIT_MODE_NOT_SELECTED
+
+# One read takes what a line of 8 KiB can hold.
+_TRANSMIT_CAPACITY = 8192
+
+BoardRequest = Callable[[int, bytes], tuple[int, bytes]]
+
+
+def _fields(struct_type: str) -> tuple[str, ...]:
+    return tuple(name for name, _ in ffi.typeof(struct_type).fields)
+
+
+_OBSERVED: Final[tuple[str, ...]] = _fields("unit_observation")
+_BIKE_PARTS: Final[tuple[str, ...]] = _fields("physics_config")
+
+
+# An exception in `answer` is printed by cffi; the host is told EBL_STATUS_INTERNAL.
+@ffi.def_extern(name="unit_request_python", error=lib.EBL_STATUS_INTERNAL)  # type: ignore[untyped-decorator]
+def _answer(
+    context: Any,
+    message_id: int,
+    request: Any,
+    length: int,
+    response: Any,
+    capacity: int,
+    response_length: Any,
+) -> int:
+    answer: BoardRequest = ffi.from_handle(context)
+    status, body = answer(message_id, bytes(ffi.buffer(request, length)) if length else b"")
+    taken = body[:capacity]
+    ffi.memmove(response, taken, len(taken))
+    response_length[0] = len(taken)
+    return status
+
+
+def default_bike() -> dict[str, float]:
+    """The pinned bike W1 (thesis_checks 4.7) as `part.name` -> value, e.g. `road.mass_kg`."""
+    config = ffi.new("physics_config *")
+    lib.physics_default(config)
+    return {
+        f"{part}.{name}": float(getattr(getattr(config, part), name))
+        for part in _BIKE_PARTS
+        for name, _ in ffi.typeof(getattr(config, part)).fields
+    }
+
+
+def kinematics(bike: dict[str, float], speed_kmh: float) -> dict[str, float]:
+    """Wheel, crank and motor speed in rpm at `speed_kmh` (thesis eq. 2.7 to 2.9)."""
+    config = ffi.new("physics_config *")
+    lib.physics_default(config)
+    _change(config, bike)
+    turning = lib.physics_kinematics_at(config, speed_kmh)
+    return {name: getattr(turning, name) for name in _fields("physics_kinematics")}
+
+
+def _change(config: Any, values: dict[str, float]) -> None:
+    """Writes `part.name` values into a physics_config; KeyError names one that does not exist."""
+    known = default_bike()
+    for path in values:
+        if path not in known:
+            raise KeyError(f"the bike has no value {path!r}; it has: {', '.join(sorted(known))}")
+    for path, value in values.items():
+        part, name = path.split(".")
+        struct = getattr(config, part)
+        whole = isinstance(getattr(struct, name), int)
+        setattr(struct, name, int(value) if whole else float(value))
+
+
+class Unit:
+    """One simulated unit on its bike.
+
+    Args:
+        uid: the 12 bytes that make up its serial number.
+        boot_id: what HELLO reports; another one tells the host that the unit was restarted.
+        seed: of the sensor's noise.
+        bike: `part.name` -> value, over `default_bike()`.
+        speed_kmh: the bike starts rolling at this speed.
+        flash: `FLASH_LENGTH` bytes of an earlier life, or None for an erased flash.
+        request: answers SIM_GET and SIM_SET: (message id, request) -> (status, response).
+
+    Raises:
+        KeyError: a value of `bike` does not exist.
+        ValueError: `uid` or `flash` has another length.
+        MemoryError: the unit could not be allocated.
+    """
+
+    def __init__(
+        self,
+        *,
+        uid: bytes,
+        boot_id: int,
+        seed: int = 0,
+        bike: dict[str, float] | None = None,
+        speed_kmh: float = 0.0,
+        flash: bytes | None = None,
+        request: BoardRequest | None = None,
+    ) -> None:
+        if len(uid) != UID_LENGTH:
+            raise ValueError(f"uid has {len(uid)} bytes, not {UID_LENGTH}")
+        if flash is not None and len(flash) != FLASH_LENGTH:
+            raise ValueError(f"the flash image has {len(flash)} bytes, not {FLASH_LENGTH}")
+        setup = ffi.new("unit_setup *")
+        lib.physics_default(ffi.addressof(setup, "physics"))
+        _change(setup.physics, bike or {})
+        setup.speed_kmh = speed_kmh
+        setup.seed = seed
+        setup.uid = uid
+        setup.boot_id = boot_id
+        setup.flash = ffi.NULL if flash is None else ffi.from_buffer("uint8_t[]", flash)
+        self._request = None if request is None else ffi.new_handle(request)
+        if self._request is not None:
+            setup.request = lib.unit_request_python
+            setup.request_context = self._request
+        created = lib.unit_create(setup)
+        if created == ffi.NULL:
+            raise MemoryError("no memory for a simulated unit")
+        self._unit = ffi.gc(created, lib.unit_destroy)
+        self._observation = ffi.new("unit_observation *")
+        self._transmitted = bytearray(_TRANSMIT_CAPACITY)
+        self._transmit_buffer = ffi.from_buffer("uint8_t[]", self._transmitted)
+
+    def advance_us(self, duration_us: int) -> None:
+        """Lets `duration_us` of the unit's time pass."""
+        lib.unit_advance_us(self._unit, duration_us)
+
+    def receive(self, data: bytes) -> int:
+        """Bytes from the host; returns how many the line took."""
+        return int(lib.unit_receive(self._unit, data, len(data)))
+
+    def transmit(self) -> bytes:
+        """Takes everything the unit wants to send to the host."""
+        length = lib.unit_transmit(self._unit, self._transmit_buffer, _TRANSMIT_CAPACITY)
+        return bytes(self._transmitted[:length])
+
+    def observe(self) -> dict[str, Any]:
+        """Speeds, torques, energies and the law's last decision, by name; missing is NaN."""
+        lib.unit_observe(self._unit, self._observation)
+        return {name: getattr(self._observation, name) for name in _OBSERVED}
+
+    @property
+    def speed_kmh(self) -> float:
+        return float(self.observe()["speed_kmh"])
+
+    def set_rider(self, kind: int, torque_nm: float, cadence_rpm_max: float) -> None:
+        """`kind`: RIDER_OFF, RIDER_CONSTANT or RIDER_LEGS of rider.h."""
+        rider = lib.unit_stimulus(self._unit).rider
+        rider.kind = kind
+        rider.torque_nm = torque_nm
+        rider.cadence_rpm_max = cadence_rpm_max
+
+    def set_road(self, *, grade_deg: float, wind_ms: float, dyno_nm: float, brake: bool) -> None:
+        """Wind counts against the direction of travel; `dyno_nm` acts only with the dyno load."""
+        road = lib.unit_stimulus(self._unit).road
+        road.grade_deg = grade_deg
+        road.wind_ms = wind_ms
+        road.dyno_nm = dyno_nm
+        road.brake = int(brake)
+
+    def change_bike(self, values: dict[str, float]) -> None:
+        """Changes `part.name` values of the bike and starts its energy ledger afresh."""
+        _change(lib.unit_bike(self._unit), values)
+        lib.unit_begin_ledger(self._unit)
+
+    def place(self, speed_kmh: float, seed: int) -> None:
+        """Puts the bike on the road at this speed; ledger, distance and noise start afresh."""
+        lib.unit_place(self._unit, speed_kmh, seed)
+
+    def seed_noise(self, seed: int) -> None:
+        """Starts the sensor's noise afresh."""
+        lib.unit_seed_noise(self._unit, seed)
+
+    def select_mode(self, mode: int) -> None:
+        """Selects a mode slot; MODE_NOT_SELECTED leaves the choice to the configuration."""
+        lib.unit_select_mode(self._unit, mode)
+
+    def flash(self) -> bytes:
+        """The flash as it is now, to be given to the unit's next life."""
+        return bytes(ffi.buffer(lib.unit_flash(self._unit), FLASH_LENGTH))
+
+
+def finite_or_none(value: float) -> float | None:
+    """Missing in JSON is null, in C it is NaN."""
+    return value if math.isfinite(value) else None

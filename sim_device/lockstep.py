@@ -1,0 +1,237 @@
+"""A simulated unit in virtual time: time passes when `advance` is called, and only then.
+
+Two units with the same arguments and the same calls give the same bytes. The unit as a process on
+a serial port (sim_device.simulator) is this one with a clock attached.
+"""
+
+import hashlib
+import json
+from dataclasses import replace
+from typing import Any, Final
+
+from firmware_protocol._generated import MessageId, Status
+from sim_device.configure import write_config
+from sim_device.controls import Changes, parse_changes
+from sim_device.firmware.python.unit import UID_LENGTH, Unit, finite_or_none
+from sim_device.scenario_file import RIDER_KINDS, Phase, ScenarioError, ScenarioFile, load
+
+US_PER_S: Final[int] = 1_000_000
+
+
+def uid_of(name: str, seed: int) -> bytes:
+    """The 12 bytes that tell this simulated unit from every other."""
+    return hashlib.sha256(f"spindle simulated unit {name} {seed}".encode()).digest()[:UID_LENGTH]
+
+
+class LockstepUnit:
+    """One simulated unit with its rider and road.
+
+    Args:
+        seed: of the noise; with `name` it also makes the serial number.
+        config_overrides: parameters by registry name, written over the wire before anything moves.
+        name: tells units with equal seeds apart.
+        scenario: a live scenario to ride from the start.
+        bike: `part.name` -> value, over the pinned bike W1.
+        flash: the flash of an earlier life.
+        boot_id: another one tells the host that the unit was restarted.
+        speed_factor: kept for the process that paces the unit; virtual time does not need it.
+
+    Raises:
+        ScenarioError: there is no such live scenario.
+        ConfigureError: an override was refused.
+    """
+
+    def __init__(
+        self,
+        seed: int = 0,
+        config_overrides: dict[str, Any] | None = None,
+        *,
+        name: str = "lockstep",
+        scenario: str | None = None,
+        bike: dict[str, float] | None = None,
+        flash: bytes | None = None,
+        boot_id: int = 1,
+        speed_factor: float = 1.0,
+    ) -> None:
+        self.seed = seed
+        self.speed_factor = speed_factor
+        self._bike: dict[str, float] = {"road.source": 0.0, "road.mass_kg": 100.0} | (bike or {})
+        self._dyno_nm = 0.0
+        self._phase = Phase(seconds=1.0)
+        self._scenario: ScenarioFile | None = None
+        self._running = False
+        self._script_us = 0
+        self.unit = Unit(
+            uid=uid_of(name, seed),
+            boot_id=boot_id,
+            seed=seed,
+            bike=self._bike,
+            flash=flash,
+            request=self._answer,
+        )
+        if config_overrides:
+            write_config(self.unit, config_overrides)
+        if scenario is not None:
+            self.simulation_set({"scenario": scenario})
+
+    def advance(self, seconds: float) -> None:
+        """Lets `seconds` of the unit's time pass, through the phases of a running scenario."""
+        left_us = round(seconds * US_PER_S)
+        while left_us > 0:
+            step_us = min(left_us, self._until_next_phase_us(left_us))
+            self.unit.advance_us(step_us)
+            left_us -= step_us
+            if self._running:
+                self._script_us += step_us
+                self._follow_script()
+
+    def send(self, data: bytes) -> int:
+        """Bytes from the host to the unit; returns how many its line took."""
+        return self.unit.receive(data)
+
+    def receive(self) -> bytes:
+        """Bytes the unit has sent to the host since the last call."""
+        return self.unit.transmit()
+
+    def observe(self) -> dict[str, Any]:
+        """What an observer beside the bike sees (unit_observation in unit.h); missing is NaN."""
+        return self.unit.observe()
+
+    def rider(self, kind: str, torque_nm: float = 0.0, cadence_rpm_max: float = 100.0) -> None:
+        """`kind`: off, constant (a servo) or legs (two strokes a turn)."""
+        rider = {"kind": kind, "torque_nm": torque_nm, "cadence_rpm_max": cadence_rpm_max}
+        self.simulation_set({"rider": rider})
+
+    def road(self, grade_deg: float = 0.0, wind_ms: float = 0.0) -> None:
+        """The slope, and the wind against the direction of travel."""
+        self.simulation_set({"road": {"grade_deg": grade_deg, "wind_ms": wind_ms}})
+
+    def brake(self, pulled: bool) -> None:
+        """Pulls or releases the brake lever."""
+        self.simulation_set({"brake": pulled})
+
+    def select_mode(self, mode: int) -> None:
+        """Selects an assist-mode slot, 0 to 4, on the handlebar."""
+        self.simulation_set({"assist_mode": mode})
+
+    def place(self, speed_kmh: float) -> None:
+        """Puts the bike on the road at this speed, its energy ledger and noise started afresh."""
+        self.unit.place(speed_kmh, self.seed)
+
+    def simulation_get(self) -> dict[str, Any]:
+        """The JSON object of SIM_GET."""
+        seen = self.observe()
+        phase = self._phase
+        return {
+            "scenario": self._scenario.name if self._scenario else None,
+            "running": self._running,
+            "speed_factor": self.speed_factor,
+            "t_s": seen["t_s"],
+            "seed": self.seed,
+            "rider": {
+                "kind": phase.rider,
+                "torque_nm": phase.torque_nm,
+                "cadence_rpm_max": phase.cadence_rpm_max,
+            },
+            "road": {"grade_deg": phase.grade_deg, "wind_ms": phase.wind_ms},
+            "load_source": "dyno" if self._bike["road.source"] else "road",
+            "dyno_nm": self._dyno_nm,
+            "mass_kg": self._bike["road.mass_kg"],
+            "assist_mode": seen["assist_mode"],
+            "brake": phase.brake,
+            "energy_balance_error_pct": finite_or_none(seen["energy_balance_error_pct"]),
+            "energy_consistent": True,
+        }
+
+    def simulation_set(self, changes: dict[str, Any]) -> None:
+        """Changes what is named, as SIM_SET does. Raises ScenarioError and changes nothing.
+
+        Taking rider, road or brake into one's own hands stops a running scenario.
+        """
+        self._apply(parse_changes(json.dumps(changes)))
+
+    def _answer(self, message_id: int, request: bytes) -> tuple[int, bytes]:
+        if message_id not in (MessageId.SIM_GET, MessageId.SIM_SET):
+            return Status.UNKNOWN_MSG, b""
+        if message_id == MessageId.SIM_SET:
+            try:
+                self._apply(parse_changes(request.decode("utf-8", errors="replace")))
+            except ScenarioError as error:
+                return Status.RANGE, str(error).encode()
+        return Status.OK, json.dumps(self.simulation_get(), separators=(",", ":")).encode()
+
+    def _apply(self, changes: Changes) -> None:
+        if changes.seed is not None:
+            self.seed = changes.seed
+            self.unit.seed_noise(changes.seed)
+        if changes.speed_factor is not None:
+            self.speed_factor = changes.speed_factor
+        if changes.dyno_nm is not None:
+            self._dyno_nm = changes.dyno_nm
+        if changes.bike:
+            self._change_bike(changes.bike)
+        if changes.stop_scenario:
+            self._scenario, self._running = None, False
+        if changes.scenario is not None:
+            self._start(load(changes.scenario))
+        if changes.phase:
+            self._running = self._running and set(changes.phase) == {"assist_mode"}
+        if changes.running is not None:
+            self._running = changes.running and self._scenario is not None
+        self._perform(replace(self._phase, **changes.phase))
+
+    def _change_bike(self, values: dict[str, float]) -> None:
+        self._bike.update(values)
+        self.unit.change_bike(values)
+
+    def _start(self, scenario: ScenarioFile) -> None:
+        self._scenario, self._running, self._script_us = scenario, True, 0
+        if scenario.bike:
+            self._change_bike(scenario.bike)
+        if scenario.speed_kmh is not None:
+            self.unit.place(scenario.speed_kmh, self.seed)
+        self._follow_script()
+
+    def _follow_script(self) -> None:
+        if self._scenario is None:
+            return
+        now_us = self._script_us
+        duration_us = round(self._scenario.duration_s * US_PER_S)
+        if now_us >= duration_us and not self._scenario.repeat:
+            self._running = False
+            return
+        phase = _phase_at(self._scenario, now_us % duration_us)
+        if phase is not self._phase:
+            self._perform(phase)
+
+    def _until_next_phase_us(self, otherwise_us: int) -> int:
+        if not self._running or self._scenario is None:
+            return otherwise_us
+        into_us = self._script_us % round(self._scenario.duration_s * US_PER_S)
+        end_us = 0
+        for phase in self._scenario.phases:
+            end_us += round(phase.seconds * US_PER_S)
+            if end_us > into_us:
+                break
+        return end_us - into_us
+
+    def _perform(self, phase: Phase) -> None:
+        self._phase = phase
+        self.unit.set_rider(RIDER_KINDS[phase.rider], phase.torque_nm, phase.cadence_rpm_max)
+        self.unit.set_road(
+            grade_deg=phase.grade_deg,
+            wind_ms=phase.wind_ms,
+            dyno_nm=self._dyno_nm,
+            brake=phase.brake,
+        )
+        if phase.assist_mode is not None:
+            self.unit.select_mode(phase.assist_mode)
+
+
+def _phase_at(scenario: ScenarioFile, into_us: int) -> Phase:
+    end_us = 0
+    for phase in scenario.phases:
+        end_us += round(phase.seconds * US_PER_S)
+        if into_us < end_us:
+            return phase
+    return scenario.phases[-1]
