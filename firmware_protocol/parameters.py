@@ -217,7 +217,7 @@ def _float32(value: Value) -> float:
     """The nearest float32, which is what travels; too large for one becomes infinite."""
     assert isinstance(value, int | float)
     try:
-        number: float = struct.unpack("<f", struct.pack("<f", value))[0]
+        number: float = struct.unpack("<f", struct.pack("<f", float(value)))[0]
     except OverflowError:
         return math.inf if value > 0 else -math.inf
     return number

@@ -154,7 +154,8 @@ def _parameters(rows: list[dict[str, Any]], enums: tuple[Table, ...]) -> tuple[P
             image_offset=offset,
             doc=row["doc"],
         )
-        if (parameter.type == "text" or enum is not None) != (parameter.min is None):
+        limits = [limit is not None for limit in (parameter.min, parameter.max)]
+        if limits != [parameter.type != "text" and enum is None] * 2:
             raise BadRegistry(f"{parameter.name}: numbers need min and max, others have none")
         offset += parameter.size
         parameters.append(parameter)

@@ -1,0 +1,68 @@
+"""Goal: the registry is the one source, and a broken registry is caught before it is generated.
+
+Method: generate again and compare with what is committed; then break one rule at a time.
+"""
+
+import re
+import zlib
+from pathlib import Path
+
+import pytest
+
+from firmware_protocol.generate.__main__ import ROOT, stale
+from firmware_protocol.generate.registry import BadRegistry, load
+from firmware_protocol.generate.schema import compress, schema_hash
+
+REGISTRY = ROOT / "firmware_protocol" / "registry.toml"
+
+
+def test_every_generated_file_is_what_the_registry_says() -> None:
+    assert stale(ROOT) == []
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('id = 0x0101\nname = "sensor_gain', 'id = 0x0100\nname = "sensor_gain', "share an id"),
+        ('["offset", "u32"]', '["offset", "u24"]', "unknown type u24"),
+        ('[["text", "bytes"]]', '[["text", "bytes"], ["late", "u8"]]', "must be the last field"),
+        ('enum = "label"', 'enum = "labels"', "enum labels must exist"),
+        ('low = "fixed_taper_start_kmh"', 'low = "taper"', "order of unknown parameters taper"),
+        ("max = 100.0\n", "", "numbers need min and max"),
+    ],
+)
+def test_a_registry_that_breaks_its_own_rules_is_refused(
+    tmp_path: Path, old: str, new: str, words: str
+) -> None:
+    text = REGISTRY.read_text(encoding="utf-8")
+    broken = tmp_path / "registry.toml"
+    assert old in text
+    broken.write_text(text.replace(old, new, 1), encoding="utf-8")
+
+    with pytest.raises((BadRegistry, KeyError), match=words):
+        load(broken)
+
+
+def test_better_words_do_not_make_a_unit_look_foreign(tmp_path: Path) -> None:
+    text = REGISTRY.read_text(encoding="utf-8")
+    reworded = tmp_path / "registry.toml"
+    reworded.write_text(re.sub(r'(?m)^doc = ".*"$', 'doc = "Other words."', text))
+
+    assert schema_hash(load(reworded).schema) == schema_hash(load(REGISTRY).schema)
+
+
+def test_a_changed_unit_does(tmp_path: Path) -> None:
+    text = REGISTRY.read_text(encoding="utf-8")
+    changed = tmp_path / "registry.toml"
+    changed.write_text(text.replace('unit = "km/h"', 'unit = "m/s"', 1), encoding="utf-8")
+
+    assert schema_hash(load(changed).schema) != schema_hash(load(REGISTRY).schema)
+
+
+def test_another_zlib_keeps_the_bytes_that_are_committed() -> None:
+    schema = load(REGISTRY).schema
+    other = zlib.compress(schema.encode(), 1)
+    committed = f"ebl_schema[N] = {{ {', '.join(f'0x{byte:02x}' for byte in other)} }}"
+
+    assert compress(schema, committed) == other
+    assert zlib.decompress(compress(schema + " ", committed)) == (schema + " ").encode()
