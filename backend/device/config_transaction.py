@@ -1,0 +1,226 @@
+"""Reading a unit's configuration whole, and changing it all or not at all.
+
+A change is a transaction on a named base: if anybody moved the configuration meanwhile, the unit
+refuses. The host computes the checksum of the image it means, the unit commits only that image,
+and what counts in the end is the image read back and compared field by field.
+"""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from backend.device.operation import Operation, ask, ask_all, attempt, expect
+from backend.device.refusals import refused
+from backend.device.violations import unit_violations
+from backend.errors import (
+    AccessDenied,
+    ConfigConflict,
+    DeviceRefused,
+    FieldError,
+    LimitViolation,
+    NoAnswer,
+    NotStandingStill,
+    PeerProtocolError,
+    SpindleError,
+)
+from firmware_protocol._generated import (
+    IMAGE_LENGTH,
+    MTU,
+    PARAMETERS,
+    Bank,
+    CfgAbortRequest,
+    CfgBeginRequest,
+    CfgBeginResponse,
+    CfgCommitRequest,
+    CfgCommitResponse,
+    CfgInfoRequest,
+    CfgInfoResponse,
+    CfgReadRequest,
+    CfgReadResponse,
+    CfgSetRequest,
+    CfgSetResponse,
+    CfgValidateRequest,
+    Status,
+)
+from firmware_protocol.layout import Value
+from firmware_protocol.parameters import pack_image, set_items, unpack_image
+
+# Bytes of a CFG_READ answer or CFG_SET request that are not data: header, CRC, fields, rounded up.
+MESSAGE_OVERHEAD_BYTES = 24
+# Somebody else may commit between our reading of generation and image; thrice is no accident.
+READ_ATTEMPTS = 3
+
+
+class CommitUnanswered(NoAnswer):
+    """The commit was sent and nobody said what became of it; only reading again can tell."""
+
+    default_code = "commit_unanswered"
+
+
+@dataclass(frozen=True)
+class ConfigImage:
+    """A unit's whole configuration as it was at one generation; parameters by registry name."""
+
+    generation: int
+    crc32: int
+    parameters: dict[str, Value]
+
+
+def read_config(mtu: int = MTU) -> Operation[ConfigImage]:
+    """Read the active configuration whole. Raises PeerProtocolError when it contradicts itself."""
+    for _ in range(READ_ATTEMPTS):
+        info = yield from ask(CfgInfoRequest(), CfgInfoResponse)
+        if info.image_length != IMAGE_LENGTH:
+            raise PeerProtocolError(
+                f"The unit's configuration has {info.image_length} bytes where its description "
+                f"says {IMAGE_LENGTH}; its firmware is damaged."
+            )
+        piece = mtu - MESSAGE_OVERHEAD_BYTES
+        requests = [
+            CfgReadRequest(Bank.ACTIVE, at, min(piece, IMAGE_LENGTH - at))
+            for at in range(0, IMAGE_LENGTH, piece)
+        ]
+        parts = yield from ask_all(requests, CfgReadResponse)
+        image = b"".join(part.data for part in parts)
+        same = all(part.generation == info.generation for part in parts)
+        if same and len(image) == IMAGE_LENGTH and zlib.crc32(image) == info.crc32:
+            return ConfigImage(info.generation, info.crc32, unpack_image(image))
+    raise PeerProtocolError(
+        "The configuration the unit sends does not have the checksum it names, "
+        f"{READ_ATTEMPTS} times over. Read it again; if it stays so, the unit is defective."
+    )
+
+
+def write_config(
+    base: ConfigImage, changes: Mapping[str, Value], mtu: int = MTU
+) -> Operation[ConfigImage]:
+    """Change parameters on top of `base`, read everything back, compare, return what is active.
+
+    changes: checked values by registry name. Raises ConfigConflict, LimitViolation, AccessDenied,
+    NotStandingStill, DeviceRefused, NoAnswer with the unit unchanged; CommitUnanswered when that is
+    unknown; PeerProtocolError naming each field that reads back different.
+    """
+    image = pack_image({**base.parameters, **changes})
+    yield from _commit(base, changes, image, mtu)
+    found = yield from read_config(mtu)
+    compare(unpack_image(image), found.parameters)
+    return found
+
+
+def compare(intended: Mapping[str, Value], found: Mapping[str, Value]) -> None:
+    """Raise PeerProtocolError naming every parameter whose value is not the intended one."""
+    wrong = [
+        FieldError(
+            row.name,
+            "read_back_differs",
+            f"{row.name} should be {intended[row.name]} and reads back {found[row.name]}.",
+        )
+        for row in PARAMETERS
+        if intended[row.name] != found[row.name]
+    ]
+    if wrong:
+        raise PeerProtocolError(
+            "The unit confirmed the change, but what it holds is something else: "
+            + " ".join(error.message for error in wrong)
+            + " Do not ride; write again or restore a backup.",
+            code="read_back_differs",
+            fields=wrong,
+        )
+
+
+def _commit(
+    base: ConfigImage, changes: Mapping[str, Value], image: bytes, mtu: int
+) -> Operation[None]:
+    begin = yield from _begin(base)
+    try:
+        for items in set_items(changes, mtu - MESSAGE_OVERHEAD_BYTES):
+            yield from ask(CfgSetRequest(begin.transaction, items), CfgSetResponse)
+        yield from _validate(begin.transaction)
+        yield from _finish(begin.transaction, zlib.crc32(image))
+    except CommitUnanswered:
+        raise
+    except SpindleError as error:
+        yield from _abort(begin.transaction)
+        raise _explained(error) from error
+
+
+def _begin(base: ConfigImage) -> Operation[CfgBeginResponse]:
+    request = CfgBeginRequest(base.generation, base.crc32)
+    try:
+        response = yield from attempt(request)
+    except NoAnswer as error:
+        raise _explained(error) from error
+    if response.status == Status.STALE_BASE:
+        raise ConfigConflict(
+            f"The unit's configuration is no longer generation {base.generation}: somebody else "
+            "changed it. Read it again, look at the difference, and write once more."
+        )
+    return expect(request, response, CfgBeginResponse)
+
+
+def _validate(transaction: int) -> Operation[None]:
+    request = CfgValidateRequest(transaction)
+    response = yield from attempt(request)
+    if response.status == Status.INVALID_CONFIG:
+        fields = unit_violations(response.payload)
+        raise LimitViolation(
+            "The unit refuses these values: " + " ".join(error.message for error in fields),
+            fields=fields,
+        )
+    if response.status != Status.OK:
+        raise refused(request, response)
+
+
+def _finish(transaction: int, crc32: int) -> Operation[None]:
+    request = CfgCommitRequest(transaction, crc32, flags=0, confirm_s=0)
+    try:
+        response = yield from attempt(request)
+    except NoAnswer as error:
+        raise CommitUnanswered(
+            f"{error.message} Whether the change was made is not known until it answers."
+        ) from error
+    done = expect(request, response, CfgCommitResponse)
+    if done.crc32 != crc32:
+        raise PeerProtocolError(
+            f"The unit committed a configuration with checksum {done.crc32:08x} where "
+            f"{crc32:08x} was meant. Read it again before riding."
+        )
+
+
+def _abort(transaction: int) -> Operation[None]:
+    """Drop what is staged; if the unit does not hear it, its lease ends it in 30 s."""
+    try:
+        yield from attempt(CfgAbortRequest(transaction), attempts=1)
+    except SpindleError:
+        return
+
+
+def _explained(error: SpindleError) -> SpindleError:
+    """The error as people meet it; in every case here the active configuration is untouched."""
+    if isinstance(error, NoAnswer):
+        return NoAnswer(f"{error.message} The unit's configuration is unchanged.", error.code)
+    if not isinstance(error, DeviceRefused):
+        return error
+    if error.status == Status.NOT_STOPPED.name:
+        return NotStandingStill(
+            "The unit refuses to change its configuration while wheel or motor turn. Stop the "
+            "bike and write again; nothing was changed."
+        )
+    if error.status == Status.ACCESS.name:
+        return AccessDenied(
+            "The unit refuses: this parameter needs a higher access level than a dealer's. "
+            "Nothing was changed."
+        )
+    if error.status in (Status.RANGE.name, Status.TYPE.name, Status.UNKNOWN_ID.name):
+        fields = [_named_by_id(error.detail, error.status)]
+        return LimitViolation(f"The unit refuses: {fields[0].message}", fields=fields)
+    return error
+
+
+def _named_by_id(parameter_id: int, status: str) -> FieldError:
+    """The field a unit's status names by the id in its detail."""
+    names = {row.id: row.name for row in PARAMETERS}
+    name = names.get(parameter_id, f"parameter {parameter_id:#06x}")
+    return FieldError(name, status.lower(), f"{name} was refused by the unit ({status}).")

@@ -1,0 +1,72 @@
+"""Operations: what is asked of a unit, written from top to bottom.
+
+An operation is a generator. It yields requests and gets their responses; the session sends, waits,
+repeats. So a transaction of six round trips reads like six calls, without a thread or a clock:
+
+    def clock() -> Operation[int]:
+        snapshot = yield from ask(StrSnapshotRequest(b""), StrSnapshotResponse)
+        return snapshot.t_us
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias, TypeVar
+
+from backend.device.refusals import refused
+from backend.errors import PeerProtocolError
+from firmware_protocol._generated import Status
+from firmware_protocol.codec import Response
+from firmware_protocol.layout import Message
+
+# The first sending and three repetitions (protocol page, 4.3).
+ATTEMPTS = 4
+
+Result = TypeVar("Result")
+Answer = TypeVar("Answer", bound=Message)
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """One request of an operation. attempts: sendings before NoAnswer."""
+
+    message: Message
+    attempts: int = ATTEMPTS
+
+
+# Yields questions that may be on the way together, gets the responses in the same order.
+Operation: TypeAlias = Generator[Sequence[Question], Sequence[Response], Result]
+
+
+def attempt(message: Message, attempts: int = ATTEMPTS) -> Operation[Response]:
+    """Ask and return the response whatever its status. Raises NoAnswer."""
+    responses = yield (Question(message, attempts),)
+    return responses[0]
+
+
+def ask(message: Message, answer: type[Answer], attempts: int = ATTEMPTS) -> Operation[Answer]:
+    """Ask and return the answer's fields. Raises DeviceRefused for any status but OK, NoAnswer."""
+    response = yield from attempt(message, attempts)
+    return expect(message, response, answer)
+
+
+def ask_all(messages: Sequence[Message], answer: type[Answer]) -> Operation[list[Answer]]:
+    """Ask several at once, so that the line never idles between them; answers in their order."""
+    responses = yield tuple(Question(message) for message in messages)
+    return [
+        expect(message, response, answer)
+        for message, response in zip(messages, responses, strict=True)
+    ]
+
+
+def expect(message: Message, response: Response, answer: type[Answer]) -> Answer:
+    """The response's fields. Raises DeviceRefused, or PeerProtocolError for another answer."""
+    if response.status != Status.OK:
+        raise refused(message, response)
+    if not isinstance(response.message, answer):
+        raise PeerProtocolError(
+            f"The unit answered {type(message).__name__} with something else "
+            f"({response.payload[:16].hex()}). Its firmware does not keep the protocol."
+        )
+    return response.message

@@ -1,0 +1,169 @@
+"""Requests under way: bounded in number, repeated with the same tid, timed by the line itself.
+
+A repetition is the same frame to the byte, so the unit recognises it and answers from its cache
+without doing the work twice (protocol page, 4.3).
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from backend.device.operation import Question
+from backend.device.statistics import LinkStatistics
+from backend.errors import LinkError, NoAnswer, SpindleError
+from firmware_protocol._generated import Status
+from firmware_protocol.codec import Request, Response, encode
+from firmware_protocol.framing import encode_frame
+
+TIMEOUT_S_MIN = 0.150
+# A unit that says PENDING again and again must not hold a caller for ever.
+PENDING_S_MAX = 10.0
+# Waiting requests of all operations together; more means somebody asks without reading.
+WAITING_MAX = 64
+# Bits on the line for a byte: start, eight, stop.
+BITS_PER_BYTE = 10
+
+OnAnswer = Callable[[Response | SpindleError], None]
+
+
+@dataclass
+class _UnderWay:
+    question: Question
+    on_answer: OnAnswer
+    tid: int = 0
+    wire: bytes = b""
+    attempts_left: int = 0
+    sent_s: float = 0.0
+    due_s: float = 0.0
+    pending_since_s: float | None = None
+    repeated: bool = False
+
+
+class RequestTable:
+    """The requests that wait for their turn or their answer.
+
+    outstanding_max: how many the unit takes at once. bits_per_second: None where frames take no
+    time. longest_answer: bytes of the longest answer, for its time on the line.
+    """
+
+    def __init__(self, statistics: LinkStatistics) -> None:
+        self.outstanding_max = 1
+        self.bits_per_second: float | None = None
+        self.longest_answer = 128
+        self._statistics = statistics
+        self._next_tid = 1
+        self._smoothed_s: float | None = None
+        self._shut: SpindleError | None = None
+        self._waiting: deque[_UnderWay] = deque()
+        self._under_way: dict[int, _UnderWay] = {}
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether nothing waits and nothing is under way."""
+        return not self._waiting and not self._under_way
+
+    def submit(self, question: Question, on_answer: OnAnswer) -> None:
+        """Queue a question; `on_answer` gets the response or the error, exactly once."""
+        if self._shut is not None:
+            raise self._shut
+        if len(self._waiting) >= WAITING_MAX:
+            raise LinkError("The unit has too many requests waiting; try again in a moment.")
+        self._waiting.append(_UnderWay(question, on_answer))
+
+    def frames_due(self, now_s: float) -> bytes:
+        """Bytes to send now: new requests while there is room, repetitions whose time has come.
+
+        Requests out of attempts get NoAnswer.
+        """
+        out = bytearray()
+        for entry in [entry for entry in self._under_way.values() if entry.due_s <= now_s]:
+            if entry.attempts_left > 0:
+                entry.repeated = True
+                self._statistics.requests_repeated += 1
+                out += self._send(entry, now_s)
+            else:
+                del self._under_way[entry.tid]
+                self._statistics.requests_unanswered += 1
+                entry.on_answer(_no_answer(entry))
+        while self._waiting and len(self._under_way) < self.outstanding_max:
+            entry = self._waiting.popleft()
+            self._start(entry)
+            out += self._send(entry, now_s)
+        return bytes(out)
+
+    def answered(self, response: Response, now_s: float) -> None:
+        """Match a response to its request; one that fits nothing is counted and dropped."""
+        entry = self._under_way.get(response.tid)
+        if entry is None or response.message_id != entry.question.message.MESSAGE_ID:
+            self._statistics.responses_unexpected += 1
+            return
+        if response.status == Status.PENDING:
+            self._keep_waiting(entry, response.detail / 1000.0, now_s)
+            return
+        del self._under_way[entry.tid]
+        if not entry.repeated:
+            # Karn: a repeated request does not tell which sending was answered.
+            self._measure(now_s - entry.sent_s)
+        entry.on_answer(response)
+
+    def start_from(self, tid: int) -> None:
+        """Number requests from `tid`, so that a unit's cache does not take us for our past."""
+        self._next_tid = tid % 256 or 1
+
+    def open(self, outstanding_max: int) -> None:
+        """Take requests (again)."""
+        self._shut = None
+        self.outstanding_max = outstanding_max
+
+    def shut(self, error: SpindleError) -> None:
+        """Give every request this error, later ones too until `open`: the unit is gone."""
+        self._shut = error
+        entries = [*self._under_way.values(), *self._waiting]
+        self._under_way.clear()
+        self._waiting.clear()
+        for entry in entries:
+            entry.on_answer(error)
+
+    def timeout_s(self, request_bytes: int) -> float:
+        """How long an answer may take: max(150 ms, 4 SRTT + time on the line)."""
+        line_s = 0.0
+        if self.bits_per_second:
+            line_s = (request_bytes + self.longest_answer) * BITS_PER_BYTE / self.bits_per_second
+        return max(TIMEOUT_S_MIN, 4.0 * (self._smoothed_s or 0.0) + line_s)
+
+    def _start(self, entry: _UnderWay) -> None:
+        while self._next_tid in self._under_way:
+            self._next_tid = self._next_tid % 255 + 1
+        entry.tid = self._next_tid
+        self._next_tid = self._next_tid % 255 + 1
+        entry.wire = encode_frame(encode(Request(entry.tid, entry.question.message)))
+        entry.attempts_left = entry.question.attempts
+        self._under_way[entry.tid] = entry
+        self._statistics.requests_sent += 1
+
+    def _send(self, entry: _UnderWay, now_s: float) -> bytes:
+        entry.attempts_left -= 1
+        entry.sent_s = now_s
+        entry.due_s = now_s + self.timeout_s(len(entry.wire))
+        return entry.wire
+
+    def _keep_waiting(self, entry: _UnderWay, hint_s: float, now_s: float) -> None:
+        if entry.pending_since_s is None:
+            entry.pending_since_s = now_s
+        if now_s - entry.pending_since_s < PENDING_S_MAX:
+            entry.due_s = now_s + hint_s + self.timeout_s(len(entry.wire))
+
+    def _measure(self, round_trip_s: float) -> None:
+        before = self._smoothed_s
+        self._smoothed_s = round_trip_s if before is None else before + (round_trip_s - before) / 8
+        self._statistics.round_trip_ms = self._smoothed_s * 1000.0
+
+
+def _no_answer(entry: _UnderWay) -> NoAnswer:
+    asked = type(entry.question.message).__name__.removesuffix("Request")
+    return NoAnswer(
+        f"The unit did not answer {asked} ({entry.question.attempts} attempts). "
+        "Check that it is switched on and the cable holds."
+    )

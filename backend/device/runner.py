@@ -1,0 +1,103 @@
+"""Runs operations over the request table: several side by side, each from top to bottom."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any, TypeVar
+
+from backend.device.operation import Operation, Question
+from backend.device.requests import RequestTable
+from backend.errors import LinkError, SpindleError
+from firmware_protocol.codec import Response
+
+Result = TypeVar("Result")
+OnResult = Callable[[Result], None]
+OnError = Callable[[BaseException], None]
+
+# Operations at the same time; a person and a page's refreshes need three or four.
+RUNNING_MAX = 32
+
+
+class OperationRunner:
+    """Feeds each operation's questions to the request table and the responses back to it."""
+
+    def __init__(self, requests: RequestTable) -> None:
+        self._requests = requests
+        self._running: set[Operation[Any]] = set()
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether no operation runs."""
+        return not self._running
+
+    def start(
+        self, operation: Operation[Result], on_result: OnResult[Result], on_error: OnError
+    ) -> None:
+        """Start an operation; exactly one of the two callbacks is called, perhaps at once."""
+        if len(self._running) >= RUNNING_MAX:
+            operation.close()
+            on_error(LinkError("The unit has too much to do already; try again in a moment."))
+            return
+        self._running.add(operation)
+        self._resume(operation, lambda: next(operation), on_result, on_error)
+
+    def _resume(
+        self,
+        operation: Operation[Result],
+        step: Callable[[], Sequence[Question]],
+        on_result: OnResult[Result],
+        on_error: OnError,
+    ) -> None:
+        """Run the operation to its next questions and submit them."""
+        try:
+            questions = step()
+        except StopIteration as end:
+            self._running.discard(operation)
+            on_result(end.value)
+            return
+        except Exception as error:
+            # An operation's error, a bug included, belongs to whoever asked for it.
+            self._running.discard(operation)
+            on_error(error)
+            return
+        answers = _Answers(len(questions))
+
+        def on_answer(index: int, answer: Response | SpindleError) -> None:
+            if isinstance(answer, SpindleError):
+                if answers.fail():
+                    self._resume(operation, lambda: operation.throw(answer), on_result, on_error)
+            elif answers.fill(index, answer):
+                self._resume(
+                    operation, lambda: operation.send(answers.responses), on_result, on_error
+                )
+
+        for index, question in enumerate(questions):
+            try:
+                self._requests.submit(question, partial(on_answer, index))
+            except SpindleError as error:
+                on_answer(index, error)
+
+
+class _Answers:
+    """The responses of questions that are on the way together."""
+
+    def __init__(self, count: int) -> None:
+        self._found: dict[int, Response] = {}
+        self._count = count
+        self._failed = False
+
+    @property
+    def responses(self) -> list[Response]:
+        return [self._found[index] for index in range(self._count)]
+
+    def fill(self, index: int, response: Response) -> bool:
+        """Keep a response; True when it was the last and none failed."""
+        self._found[index] = response
+        return len(self._found) == self._count and not self._failed
+
+    def fail(self) -> bool:
+        """Note a failure; True for the first."""
+        first = not self._failed
+        self._failed = True
+        return first

@@ -1,0 +1,321 @@
+"""The conversation with one unit, without a port, a thread or a clock.
+
+Rules of this file:
+- Bytes and `now_s` come in; bytes, events and operations' results go out.
+- Nothing waits, and nothing raises on what the unit sends: damage is counted and skipped.
+- A state always has a reason a person can act on.
+
+    OPENING --port_opened--> FLUSHING --50 ms--> GREETING --HELLO, schema--> UP
+    UP --silent 1.5 s, unit restarted--> GREETING
+    GREETING --no answer, refused--> PAUSING --> GREETING
+    any --port_failed--> OPENING         any --close--> ENDED
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import replace
+from enum import Enum, auto
+from typing import TypeVar
+
+from backend.device.handshake import Acquaintance, VersionRefused, become_acquainted
+from backend.device.operation import Operation, attempt
+from backend.device.reasons import (
+    greeting_reason,
+    newer_version,
+    ready_reason,
+    restarted_reason,
+    silent_reason,
+)
+from backend.device.requests import RequestTable
+from backend.device.runner import OnError, OnResult, OperationRunner
+from backend.device.states import DeviceEvent, LinkState, StateChanged
+from backend.device.statistics import LinkStatistics
+from backend.device.stream import StreamBlock, StreamPlan, StreamStarted
+from backend.device.subscription import Subscription
+from backend.device.unit_notes import UnitNotes
+from backend.errors import LinkError, NoAnswer, SpindleError
+from firmware_protocol._generated import MTU, ByeRequest, PingRequest, Status
+from firmware_protocol.codec import (
+    Event,
+    Malformed,
+    Reason,
+    Request,
+    Response,
+    Stream,
+    decode,
+    encode,
+)
+from firmware_protocol.framing import FrameDecoder, encode_frame
+
+Result = TypeVar("Result")
+
+FLUSH = b"\x00\x00"
+FLUSH_S = 0.050
+PING_S = 0.500
+SILENCE_S = 1.5
+PAUSE_S = 0.5
+REFUSED_PAUSE_S = 5.0
+# A caller that stops reading must not make the session grow: 1000 blocks are 50 s at 100 Hz.
+EVENTS_MAX = 1000
+BYE_TID = 255
+
+
+class _Phase(Enum):
+    OPENING = auto()
+    FLUSHING = auto()
+    GREETING = auto()
+    PAUSING = auto()
+    UP = auto()
+    ENDED = auto()
+
+
+class Session:
+    """One unit as the host sees it.
+
+    plan: what to stream as soon as the unit is acquainted, None for nothing.
+    """
+
+    def __init__(self, now_s: float, plan: StreamPlan | None = None) -> None:
+        self.state = LinkState.CONNECTING
+        self.reason = "The port is being opened."
+        self.acquaintance: Acquaintance | None = None
+        self.notes = UnitNotes()
+        self.last_block: StreamBlock | None = None
+        # HELLOs in a row that led nowhere; the driver reopens a port that stays deaf.
+        self.failed_greetings = 0
+        # Unix time minus the caller's clock, so that blocks carry a wall time without a clock here.
+        self.wall_offset_us = 0
+        self._plan = plan
+        self._statistics = LinkStatistics()
+        self._subscription = Subscription(self._statistics)
+        self._requests = RequestTable(self._statistics)
+        self._runner = OperationRunner(self._requests)
+        self._decoder = FrameDecoder(MTU)
+        self._bad_before = 0
+        self._events: deque[DeviceEvent] = deque()
+        self._out = bytearray()
+        self._phase = _Phase.OPENING
+        self._until_s = now_s
+        self._heard_s = now_s
+        self._now_s = now_s
+        self._port_name = ""
+        self._nonce = bytes(8)
+        self._requests.shut(LinkError(self.reason))
+
+    # ------------------------------------------------------------------ bytes and time
+
+    def receive(self, data: bytes, now_s: float) -> None:
+        """Take what arrived, in any split. Never raises."""
+        self._now_s = now_s
+        self._statistics.bytes_received += len(data)
+        if self._phase in (_Phase.OPENING, _Phase.FLUSHING, _Phase.ENDED):
+            return
+        for frame in self._decoder.feed(data):
+            self._heard_s = now_s
+            self._statistics.frames_received += 1
+            self._frame(frame)
+        stats = self._decoder.stats
+        bad = stats.crc_errors + stats.cobs_errors + stats.overflows
+        self._statistics.frames_bad = self._bad_before + bad
+        self._out += self._requests.frames_due(now_s)
+
+    def tick(self, now_s: float) -> None:
+        """Let time pass: repetitions, pings, leases, silence."""
+        self._now_s = now_s
+        if self._phase in (_Phase.FLUSHING, _Phase.PAUSING) and now_s >= self._until_s:
+            self._greet()
+        elif self._phase is _Phase.UP:
+            self._keep_up()
+        self._out += self._requests.frames_due(now_s)
+
+    def bytes_to_send(self) -> bytes:
+        """Take what is to be sent now, in order."""
+        data = bytes(self._out)
+        self._out.clear()
+        self._statistics.bytes_sent += len(data)
+        return data
+
+    def next_events(self) -> list[DeviceEvent]:
+        """Take what happened since the last call, oldest first."""
+        events = list(self._events)
+        self._events.clear()
+        return events
+
+    # ------------------------------------------------------------------ the port
+
+    def port_opened(
+        self, now_s: float, name: str, nonce: bytes, bits_per_second: float | None = None
+    ) -> None:
+        """A port is open. nonce: 8 random bytes, so that no unit mistakes us for our past."""
+        self._now_s = now_s
+        self._port_name = name
+        self._nonce = nonce
+        self._requests.bits_per_second = bits_per_second
+        self._requests.start_from(nonce[0])
+        self._bad_before = self._statistics.frames_bad
+        self._out = bytearray(FLUSH)
+        self._phase = _Phase.FLUSHING
+        self._until_s = now_s + FLUSH_S
+        if self.state is LinkState.CONNECTING:
+            self._stand(self.state, f"{name} is open; waiting for the unit to answer.")
+
+    def port_failed(self, now_s: float, error: LinkError) -> None:
+        """The port does not open or is gone; the message of `error` becomes the reason."""
+        self._now_s = now_s
+        self._phase = _Phase.OPENING
+        self._out.clear()
+        self._break_off(NoAnswer(error.message, error.code))
+        self._stand(self._absent(), error.message)
+
+    def close(self, now_s: float) -> None:
+        """Say goodbye; the bytes are still to be sent. The session is of no further use."""
+        self._now_s = now_s
+        if self._phase is _Phase.UP:
+            self._out += encode_frame(encode(Request(BYE_TID, ByeRequest())))
+        self._phase = _Phase.ENDED
+        self._break_off(LinkError("The device was removed."))
+        self._stand(LinkState.CLOSED, "The device was removed.")
+
+    # ------------------------------------------------------------------ work
+
+    def start(
+        self, operation: Operation[Result], on_result: OnResult[Result], on_error: OnError
+    ) -> None:
+        """Run an operation; exactly one callback is called, with LinkError when not connected."""
+        if self._phase is not _Phase.UP:
+            operation.close()
+            on_error(NoAnswer(self.reason, "not_connected"))
+            return
+        self._runner.start(operation, on_result, on_error)
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether answers are awaited, so that reading soon pays."""
+        return not self._requests.is_idle
+
+    @property
+    def streaming(self) -> StreamStarted | None:
+        """What is being streamed, None when nothing is."""
+        return self._subscription.started
+
+    def link_statistics(self) -> LinkStatistics:
+        """A copy of the counters."""
+        return replace(self._statistics)
+
+    # ------------------------------------------------------------------ inside
+
+    def _frame(self, frame: bytes) -> None:
+        message = decode(frame)
+        if isinstance(message, Stream):
+            block = self._subscription.take(message, self._wall_us())
+            if block is not None:
+                self.last_block = block
+                self._tell(block)
+        elif isinstance(message, Response):
+            self._requests.answered(message, self._now_s)
+            if message.status == Status.SESSION and self._phase is _Phase.UP:
+                self._greet_again(restarted_reason())
+        elif isinstance(message, Event):
+            self._unit_event(message)
+        else:
+            self._statistics.frames_malformed += 1
+            other_major = isinstance(message, Malformed) and message.reason is Reason.VERSION
+            if other_major and self._phase is _Phase.GREETING:
+                self._requests.shut(newer_version(frame[0] >> 5))
+
+    def _unit_event(self, event: Event) -> None:
+        self._statistics.unit_events += 1
+        told = self.notes.take(event, self._statistics)
+        if told is not None:
+            self._tell(told)
+        known = self.acquaintance.identity.boot_id if self.acquaintance else None
+        boot_id = self.notes.boot_id
+        if self._phase is _Phase.UP and boot_id is not None and boot_id != known:
+            self._greet_again(restarted_reason())
+
+    def _greet(self) -> None:
+        self._phase = _Phase.GREETING
+        self._bad_before = self._statistics.frames_bad
+        self._decoder = FrameDecoder(MTU)
+        self._requests.open(outstanding_max=1)
+        self._runner.start(become_acquainted(self._nonce), self._acquainted, self._not_acquainted)
+
+    def _acquainted(self, acquaintance: Acquaintance) -> None:
+        self.acquaintance = acquaintance
+        self.failed_greetings = 0
+        self.notes.begin(acquaintance)
+        self._phase = _Phase.UP
+        self._heard_s = self._now_s
+        self._statistics.connections += 1
+        hello = acquaintance.hello
+        self._requests.outstanding_max = max(1, hello.max_outstanding)
+        self._requests.longest_answer = min(MTU, hello.tx_mtu)
+        if acquaintance.read_only_reason is None:
+            self._stand(LinkState.READY, ready_reason(acquaintance.identity))
+        else:
+            self._stand(LinkState.READ_ONLY, acquaintance.read_only_reason)
+        if self._plan is not None and acquaintance.channels:
+            plan = replace(self._plan, channels=acquaintance.channels)
+            self._runner.start(self._subscription.begin(plan), self._tell, self._no_stream)
+
+    def _not_acquainted(self, error: BaseException) -> None:
+        if self._phase is not _Phase.GREETING:
+            return
+        self._phase = _Phase.PAUSING
+        refused = isinstance(error, VersionRefused)
+        self._until_s = self._now_s + (REFUSED_PAUSE_S if refused else PAUSE_S)
+        self.failed_greetings += 0 if refused else 1
+        if refused:
+            self._stand(LinkState.CLOSED, str(error))
+        else:
+            baud = self._requests.bits_per_second
+            self._stand(self._absent(), greeting_reason(self._port_name, baud, error))
+
+    def _no_stream(self, error: BaseException) -> None:
+        if self._phase is _Phase.UP and not isinstance(error, NoAnswer):
+            self._stand(self.state, f"{self.reason} Live values are not available: {error}")
+
+    def _keep_up(self) -> None:
+        silent_s = self._now_s - self._heard_s
+        if silent_s >= SILENCE_S:
+            self._break_off(NoAnswer(silent_reason(self._port_name)))
+            self._stand(LinkState.LOST, silent_reason(self._port_name))
+            self._out += FLUSH
+            self._greet()
+        elif self._subscription.renewal_due(self._now_s):
+            self._runner.start(self._subscription.renew(), self._renewed, lambda error: None)
+        elif silent_s >= PING_S and self._requests.is_idle:
+            self._runner.start(attempt(PingRequest()), lambda response: None, lambda error: None)
+
+    def _renewed(self, known: bool) -> None:
+        if not known and self._phase is _Phase.UP:
+            self._greet_again("The unit forgot the live stream; asking who it is again.")
+
+    def _greet_again(self, reason: str) -> None:
+        self._break_off(NoAnswer(reason))
+        self._stand(LinkState.CONNECTING, reason)
+        self._greet()
+
+    def _break_off(self, error: SpindleError) -> None:
+        """End the stream and fail everything that waits for the unit."""
+        self._subscription.end()
+        self.last_block = None
+        self._requests.shut(error)
+
+    def _absent(self) -> LinkState:
+        return LinkState.CONNECTING if self.acquaintance is None else LinkState.LOST
+
+    def _stand(self, state: LinkState, reason: str) -> None:
+        if (state, reason) != (self.state, self.reason):
+            self.state, self.reason = state, reason
+            self._tell(StateChanged(state, reason))
+
+    def _tell(self, event: DeviceEvent) -> None:
+        if len(self._events) >= EVENTS_MAX:
+            self._events.popleft()
+            self._statistics.events_dropped += 1
+        self._events.append(event)
+
+    def _wall_us(self) -> int:
+        return round(self._now_s * 1e6) + self.wall_offset_us

@@ -1,0 +1,48 @@
+"""Where a device stands, and why, for people."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import TypeAlias
+
+from backend.device.stream import StreamBlock, StreamStarted
+
+
+class LinkState(Enum):
+    """connecting: never acquainted yet or again. ready: may be read and written. read_only: may
+    be read, the reason says why not written. lost: was acquainted and is silent or unplugged.
+    closed: given up by us, or refused."""
+
+    CONNECTING = "connecting"
+    READY = "ready"
+    READ_ONLY = "read_only"
+    LOST = "lost"
+    CLOSED = "closed"
+
+
+ACQUAINTED = (LinkState.READY, LinkState.READ_ONLY)
+
+
+@dataclass(frozen=True)
+class StateChanged:
+    """The device stands elsewhere now; reason is a sentence for people."""
+
+    state: LinkState
+    reason: str
+
+
+@dataclass(frozen=True)
+class UnitEvent:
+    """Something the unit tells of itself.
+
+    name: of the registry (`FAULT_SET`), or `EVENT_n` of a newer firmware. t_us: unit time, 32 bit.
+    """
+
+    name: str
+    t_us: int
+    fields: Mapping[str, object] = field(default_factory=dict)
+
+
+DeviceEvent: TypeAlias = StateChanged | StreamStarted | StreamBlock | UnitEvent

@@ -1,0 +1,90 @@
+"""Keeping one stream alive: subscribe, renew the lease, hand frames to its receiver."""
+
+from __future__ import annotations
+
+from backend.device.operation import Operation, ask, attempt, expect
+from backend.device.statistics import LinkStatistics
+from backend.device.stream import (
+    LEASE_S,
+    RENEW_S,
+    STREAM_ID,
+    StreamBlock,
+    StreamPlan,
+    StreamReceiver,
+    StreamStarted,
+)
+from firmware_protocol._generated import (
+    Status,
+    StrRenewRequest,
+    StrSnapshotRequest,
+    StrSnapshotResponse,
+    StrSubscribeRequest,
+    StrSubscribeResponse,
+)
+from firmware_protocol.codec import Stream
+
+ENCODING_PLAIN = 0
+# Halving the rate five times reaches 3 Hz from 100 Hz; a line slower than that is not for us.
+SLOWER_ATTEMPTS = 6
+
+
+class Subscription:
+    """The stream of one unit over all its connections; epochs count up and never repeat."""
+
+    def __init__(self, statistics: LinkStatistics) -> None:
+        self._statistics = statistics
+        self._receiver: StreamReceiver | None = None
+        self._epoch = 0
+        self._renew_at_s: float | None = None
+
+    @property
+    def started(self) -> StreamStarted | None:
+        """What is being streamed, None when nothing is."""
+        return self._receiver.started if self._receiver else None
+
+    def begin(self, plan: StreamPlan) -> Operation[StreamStarted]:
+        """Subscribe, more slowly where the line is too slow. Raises DeviceRefused, NoAnswer."""
+        # The stream carries 32 bits of unit time; the snapshot gives the other 32.
+        first = bytes([plan.channels[0].id])
+        snapshot = yield from ask(StrSnapshotRequest(first), StrSnapshotResponse)
+        divider = plan.divider
+        for _ in range(SLOWER_ATTEMPTS):
+            request = StrSubscribeRequest(
+                STREAM_ID, divider, plan.batch, ENCODING_PLAIN, LEASE_S, plan.channel_ids
+            )
+            response = yield from attempt(request)
+            if response.status != Status.BANDWIDTH:
+                break
+            divider *= 2
+        reply = expect(request, response, StrSubscribeResponse)
+        self._epoch += 1
+        self._receiver = StreamReceiver(plan, reply, self._epoch, snapshot.t_us, self._statistics)
+        return self._receiver.started
+
+    def renewal_due(self, now_s: float) -> bool:
+        """Whether the lease should be renewed now; asks again RENEW_S later."""
+        if self._receiver is None:
+            return False
+        if self._renew_at_s is None:
+            self._renew_at_s = now_s + RENEW_S
+        if now_s < self._renew_at_s:
+            return False
+        self._renew_at_s = now_s + RENEW_S
+        return True
+
+    def renew(self) -> Operation[bool]:
+        """Renew the lease; False when the unit knows no such stream (any more). Raises NoAnswer."""
+        response = yield from attempt(StrRenewRequest(STREAM_ID, LEASE_S))
+        return response.status == Status.OK
+
+    def take(self, frame: Stream, wall_us: int) -> StreamBlock | None:
+        """The frame's rows; None for a frame of another subscription, which is counted."""
+        if self._receiver is None:
+            self._statistics.stream_frames_foreign += 1
+            return None
+        return self._receiver.take(frame, wall_us)
+
+    def end(self) -> None:
+        """The unit or the port is gone; frames that still come are foreign."""
+        self._receiver = None
+        self._renew_at_s = None

@@ -1,0 +1,71 @@
+"""What the unit told of itself since the handshake: faults, configuration, restarts."""
+
+from __future__ import annotations
+
+from backend.device.handshake import Acquaintance
+from backend.device.states import UnitEvent
+from backend.device.statistics import LinkStatistics
+from firmware_protocol._generated import (
+    BootEvent,
+    ConfigCommittedEvent,
+    ConfigDefaultedEvent,
+    ConfigRolledBackEvent,
+    FaultClearedEvent,
+    FaultFlags,
+    FaultSetEvent,
+    StreamStatsEvent,
+)
+from firmware_protocol._generated import Event as EventCode
+from firmware_protocol.codec import Event
+
+
+class UnitNotes:
+    """The unit's own word on its configuration and faults, kept fresh by its events."""
+
+    def __init__(self) -> None:
+        self.config_generation: int | None = None
+        self.config_crc32: int | None = None
+        self.fault_flags = 0
+        self.boot_id: int | None = None
+
+    @property
+    def faults_active(self) -> tuple[str, ...]:
+        """Names of the active faults; one of a newer firmware is `FAULT_n`."""
+        return tuple(_fault_name(bit) for bit in range(16) if self.fault_flags >> bit & 1)
+
+    def begin(self, acquaintance: Acquaintance) -> None:
+        """Start from what the handshake found."""
+        self.config_generation = acquaintance.hello.config_generation
+        self.config_crc32 = acquaintance.hello.config_crc32
+        self.fault_flags = acquaintance.fault_flags
+        self.boot_id = acquaintance.identity.boot_id
+
+    def take(self, event: Event, statistics: LinkStatistics) -> UnitEvent | None:
+        """Note an event; what is worth telling people comes back."""
+        message = event.message
+        if isinstance(message, StreamStatsEvent):
+            statistics.unit_frames_built = message.built
+            statistics.unit_frames_dropped = message.dropped_tx
+            return None
+        if isinstance(message, FaultSetEvent | FaultClearedEvent):
+            self._fault(message)
+        elif isinstance(
+            message, ConfigCommittedEvent | ConfigRolledBackEvent | ConfigDefaultedEvent
+        ):
+            self.config_generation = message.generation
+            self.config_crc32 = message.crc32
+        elif isinstance(message, BootEvent):
+            self.boot_id = message.boot_id
+        name = event.code.name if isinstance(event.code, EventCode) else f"EVENT_{event.code}"
+        return UnitEvent(name, event.t_us, event.fields)
+
+    def _fault(self, message: FaultSetEvent | FaultClearedEvent) -> None:
+        if isinstance(message, FaultSetEvent):
+            self.fault_flags |= message.fault_flags
+        else:
+            self.fault_flags &= ~message.fault_flags
+
+
+def _fault_name(bit: int) -> str:
+    known = {flag.value: flag.name for flag in FaultFlags}
+    return known.get(1 << bit) or f"FAULT_{bit}"

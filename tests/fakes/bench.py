@@ -1,0 +1,99 @@
+"""A session and a unit on one bench in virtual time: bytes cross, time passes, no clock runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any, Protocol, TypeVar
+
+from backend.device.operation import Operation
+from backend.device.session import Session
+from backend.device.states import DeviceEvent, LinkState, StateChanged
+from backend.device.stream import StreamBlock, StreamPlan
+
+Result = TypeVar("Result")
+
+STEP_S = 0.010
+PATIENCE_S = 30.0
+
+
+class Unit(Protocol):
+    """What a unit under test can do: FakeUnit and the lockstep unit alike."""
+
+    def receive(self, data: bytes) -> None: ...
+
+    def transmit(self) -> bytes: ...
+
+    def advance(self, seconds: float) -> None: ...
+
+
+def whole(data: bytes) -> Iterable[bytes]:
+    """Everything in one piece."""
+    return [data] if data else []
+
+
+def bytewise(data: bytes) -> Iterable[bytes]:
+    """One byte at a time."""
+    return [data[at : at + 1] for at in range(len(data))]
+
+
+class Bench:
+    """Runs a session against a unit; `to_unit` and `to_host` may harm what passes."""
+
+    def __init__(self, unit: Unit, plan: StreamPlan | None = None) -> None:
+        self.unit = unit
+        self.now_s = 100.0
+        self.session = Session(self.now_s, plan)
+        self.events: list[DeviceEvent] = []
+        self.split: Callable[[bytes], Iterable[bytes]] = whole
+        self.to_unit: Callable[[bytes], bytes] = lambda data: data
+        self.to_host: Callable[[bytes], bytes] = lambda data: data
+
+    def open_port(self, nonce: bytes = b"12345678") -> Bench:
+        self.session.port_opened(self.now_s, "the bench", nonce)
+        return self
+
+    def connect(self) -> Bench:
+        """Open the port and run until the unit is acquainted."""
+        self.open_port()
+        self.run_until(lambda: self.session.state in (LinkState.READY, LinkState.READ_ONLY))
+        return self
+
+    def run(self, seconds: float) -> None:
+        for _ in range(round(seconds / STEP_S)):
+            self._step()
+
+    def run_until(self, done: Callable[[], bool], patience_s: float = PATIENCE_S) -> None:
+        for _ in range(round(patience_s / STEP_S)):
+            if done():
+                return
+            self._step()
+        raise AssertionError(f"not within {patience_s} s: {self.session.reason}")
+
+    def ask(self, operation: Operation[Result]) -> Result:
+        """Run an operation to its end; its error is raised here."""
+        results: list[Result] = []
+        errors: list[BaseException] = []
+        self.session.start(operation, results.append, errors.append)
+        self.run_until(lambda: bool(results or errors))
+        if errors:
+            raise errors[0]
+        return results[0]
+
+    def blocks(self) -> list[StreamBlock]:
+        return [event for event in self.events if isinstance(event, StreamBlock)]
+
+    def states(self) -> list[LinkState]:
+        return [event.state for event in self.events if isinstance(event, StateChanged)]
+
+    def of(self, kind: type[Any]) -> list[Any]:
+        return [event for event in self.events if isinstance(event, kind)]
+
+    def _step(self) -> None:
+        self.now_s += STEP_S
+        self.unit.advance(STEP_S)
+        for piece in self.split(self.to_host(self.unit.transmit())):
+            self.session.receive(piece, self.now_s)
+        self.session.tick(self.now_s)
+        for piece in self.split(self.to_unit(self.session.bytes_to_send())):
+            self.unit.receive(piece)
+        self.events += self.session.next_events()
