@@ -12,7 +12,7 @@ from fastapi import APIRouter, FastAPI
 from fastapi.openapi.utils import get_openapi
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 
-from backend.api import errors, live, pages
+from backend.api import docs, errors, live, pages
 from backend.api.problem import Problem
 from backend.api.routes import config, devices, health, law, rides, uploads
 from backend.api.safety import AllowedHosts, BodyBound, SameOriginOnly, SecurityHeaders
@@ -56,6 +56,7 @@ def create_app(settings: ApiSettings, lifespan: Lifespan | None = None) -> FastA
         api.include_router(module.router)
     app.include_router(api)
     errors.install(app)
+    docs.install(app)
     pages.install(app, settings.frontend)
     app.openapi = lambda: openapi_of(app)  # type: ignore[method-assign]
     _protect(app, settings)

@@ -81,14 +81,13 @@ class ConfigChange(Answer):
 class Revision(Answer):
     """Who changed what, when and why."""
 
-    id: int
-    device: str
-    at: datetime
-    author: str | None
+    seq: int = Field(description="Counts the configurations of one unit from 1.")
+    created_at: datetime
+    author: str
     reason: str
-    generation: int
-    crc32: int
     state: str
+    generation: int | None
+    crc32: int | None
     changed: list[Change]
 
 

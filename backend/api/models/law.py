@@ -134,12 +134,19 @@ class Fit(Answer):
     offset_nm: float
 
 
+class LinearityAgainstLines(Answer):
+    least_squares: float
+    through_zero: float
+    end_point: float
+
+
 class Evaluation(Answer):
     linearity_pct: float
     hysteresis_pct: float
     repeatability_pct: TwoDefinitions
     total_pct: TwoDefinitions
     fit: Fit
+    linearity_against_line_pct: LinearityAgainstLines
     worst: dict[str, float | str | None] = Field(
         description="Where each figure has its largest value."
     )

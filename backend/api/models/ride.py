@@ -154,9 +154,12 @@ class Upload(Answer):
     """Where a file stands. `code` and `detail` say why it is not a whole ride."""
 
     id: str
+    name: str
+    bytes: int
+    received: int
     state: Literal["receiving", "queued", "complete", "partial", "rejected"]
     code: str | None
     detail: str | None
     ride_ids: list[int]
     completeness: float | None
-    duplicate_of: int | None
+    duplicate_of: str | None = Field(description="The upload that brought the same bytes.")

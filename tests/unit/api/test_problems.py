@@ -1,0 +1,122 @@
+"""Goal: every refusal is one shape (RFC 9457), names what is at fault, and gives nothing away.
+
+The statuses are the contract's: 404, 409, 412, 403, 422, 504.
+"""
+
+from __future__ import annotations
+
+import pytest
+from fastapi import FastAPI
+from fastapi.testclient import TestClient
+from pydantic import BaseModel
+
+from backend import errors
+from backend.api import errors as api_errors
+
+
+class Body(BaseModel):
+    rules: list[list[int]]
+
+
+def app_that_raises(error: Exception) -> TestClient:
+    app = FastAPI()
+    api_errors.install(app)
+
+    @app.get("/raise")
+    async def raise_it() -> None:
+        raise error
+
+    @app.post("/body")
+    async def body(body: Body) -> None:
+        return None
+
+    return TestClient(app, raise_server_exceptions=False)
+
+
+@pytest.mark.parametrize(
+    ("error", "status"),
+    [
+        (errors.NotFound("There is no ride 7."), 404),
+        (errors.NotStandingStill("The wheel turns; stop the bike."), 409),
+        (errors.Conflict("Ride 7 is being recorded."), 409),
+        (errors.ConfigConflict("Somebody changed it."), 412),
+        (errors.AccessDenied("gear_ratio needs factory access."), 403),
+        (errors.LimitViolation("Too much."), 422),
+        (errors.InvalidRequest("No."), 422),
+        (errors.NoAnswer("The unit on /dev/ttyUSB0 is silent."), 504),
+        (errors.LinkError("/dev/ttyUSB0 is gone."), 503),
+        (errors.PeerProtocolError("The unit sent nonsense."), 502),
+        (errors.BadFile("ride.fit breaks off at byte 7."), 422),
+        (errors.StoreError("The disk is full."), 500),
+    ],
+)
+def test_each_error_has_the_status_of_the_contract(error: errors.SpindleError, status: int) -> None:
+    response = app_that_raises(error).get("/raise")
+
+    assert response.status_code == status
+    assert response.headers["content-type"] == "application/problem+json"
+    assert response.json()["status"] == status
+    assert response.json()["detail"] == error.message
+
+
+def test_every_class_of_the_tree_has_a_status() -> None:
+    tree = [value for value in vars(errors).values() if isinstance(value, type)]
+    ours = [kind for kind in tree if issubclass(kind, errors.SpindleError)]
+
+    assert set(ours) == set(api_errors.STATUS_OF)
+
+
+def test_every_field_at_fault_is_named() -> None:
+    fields = [
+        errors.FieldError("mode_ratios[4]", "above_max", "mode_ratios[4] is 9, at most 3."),
+        errors.FieldError("fuzzy_gain_points[0]", "not_increasing", "0.3 is not above 0.4."),
+    ]
+    problem = app_that_raises(errors.LimitViolation("Two values.", fields=fields)).get("/raise")
+
+    assert [item["field"] for item in problem.json()["errors"]] == [
+        "mode_ratios[4]",
+        "fuzzy_gain_points[0]",
+    ]
+
+
+def test_a_body_of_the_wrong_shape_names_the_cell_and_does_not_echo_it() -> None:
+    client = app_that_raises(errors.NotFound(""))
+
+    response = client.post("/body", json={"rules": [[1], ["<script>"]]})
+
+    assert response.status_code == 422
+    assert response.json()["errors"][0]["field"] == "rules[1][0]"
+    assert "script" not in response.text
+
+
+def test_a_thousand_wrong_fields_do_not_make_a_huge_answer() -> None:
+    client = app_that_raises(errors.NotFound(""))
+
+    response = client.post("/body", json={"rules": [["x"] * 1000]})
+
+    assert len(response.json()["errors"]) == api_errors.FIELD_ERRORS_MAX
+
+
+def test_an_unknown_route_and_a_wrong_method_are_problems_too() -> None:
+    client = app_that_raises(errors.NotFound(""))
+
+    assert client.get("/nowhere").json()["code"] == "not_found"
+    assert "/nowhere" in client.get("/nowhere").json()["detail"]
+    assert client.delete("/body").json()["code"] == "method_not_allowed"
+
+
+def test_text_that_is_not_json_is_a_problem() -> None:
+    client = app_that_raises(errors.NotFound(""))
+
+    response = client.post("/body", content=b"{", headers={"content-type": "application/json"})
+
+    assert response.status_code == 422
+    assert response.json()["errors"][0]["code"] == "json_invalid"
+
+
+def test_a_bug_of_ours_is_a_problem_without_its_insides() -> None:
+    response = app_that_raises(RuntimeError("secret path")).get("/raise")
+
+    assert response.status_code == 500
+    assert response.headers["content-type"] == "application/problem+json"
+    assert "secret" not in response.text

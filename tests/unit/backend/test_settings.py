@@ -1,0 +1,72 @@
+"""Goal: one order of precedence, every wrong setting named at once, no open door by accident."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from backend.errors import InvalidRequest
+from backend.settings import combine, load, read_file
+
+
+def test_flags_win_over_the_environment_over_the_file_over_the_default(tmp_path: Path) -> None:
+    environment = {"SPINDLE_PORT": "2", "SPINDLE_HOST": "::1", "SPINDLE_DATA": str(tmp_path)}
+    file = {"port": 3, "host": "localhost", "device": ["sim", "/dev/ttyUSB0"]}
+
+    settings = combine({"port": "1"}, environment, file)
+
+    assert settings.port == 1
+    assert settings.host == "::1"
+    assert settings.device == ("sim", "/dev/ttyUSB0")
+    assert settings.data == tmp_path
+
+
+def test_the_contracts_defaults(tmp_path: Path) -> None:
+    settings = combine({"data": tmp_path}, {}, {})
+
+    assert (settings.host, settings.port, settings.device) == ("127.0.0.1", 8750, ("sim",))
+    assert settings.db == f"sqlite:///{tmp_path.as_posix()}/spindle.db"
+    assert settings.objects == (tmp_path / "objects").as_uri()
+    assert (settings.bus, settings.jobs, settings.auth) == ("memory", "inline", "auto")
+
+
+def test_devices_in_the_environment_are_separated_by_commas() -> None:
+    assert combine({}, {"SPINDLE_DEVICE": "sim, sim:two"}, {}).device == ("sim", "sim:two")
+
+
+def test_an_empty_list_of_devices_opens_none() -> None:
+    assert combine({"device": []}, {}, {}).device == ()
+
+
+def test_every_wrong_setting_is_named() -> None:
+    with pytest.raises(InvalidRequest) as refusal:
+        combine({"port": "99999"}, {"SPINDLE_BUS": "pigeon"}, {"colour": "red"})
+
+    assert {field.field for field in refusal.value.fields} == {"port", "bus", "colour"}
+
+
+def test_a_server_without_accounts_does_not_listen_beyond_this_machine_by_accident() -> None:
+    with pytest.raises(InvalidRequest, match="SPINDLE_AUTH=off"):
+        combine({"host": "0.0.0.0"}, {}, {})
+
+    assert not combine({"host": "0.0.0.0"}, {"SPINDLE_AUTH": "off"}, {}).is_loopback
+
+
+def test_the_file_of_the_data_folder_is_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    folder = tmp_path / "kept"
+    folder.mkdir()
+    (folder / "spindle.toml").write_text("port = 9000\n")
+
+    assert load({"data": folder}, {}).port == 9000
+
+
+def test_a_file_that_is_no_toml_says_which_and_where(tmp_path: Path) -> None:
+    wrong = tmp_path / "spindle.toml"
+    wrong.write_text("port 9000")
+
+    with pytest.raises(InvalidRequest, match=r"spindle\.toml.*line 1"):
+        read_file(wrong)
