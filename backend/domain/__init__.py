@@ -1,1 +1,1 @@
-"""The vocabulary, pure: assist modes, fuzzy table, calibration metrics, ride, energy, quantities."""
+"""The vocabulary, pure: modes, fuzzy table, calibration figures, ride, energy, quantities."""

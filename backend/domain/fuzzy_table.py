@@ -1,0 +1,180 @@
+"""The fuzzy table: three rows of five points, 25 rules and how they are combined.
+
+Thesis 4.6 and table 4-2. A FuzzyTable that exists is one the unit can compute; whatever cannot be
+is refused when it is built, with every field at fault named.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from backend.errors import FieldError, InvalidRequest
+
+LABELS = ("NB", "NS", "ZO", "PS", "PB")
+"""The five sets of every variable, from least to most; `NB` is the least gain, not a negative."""
+
+INFERENCES = ("mamdani_centroid", "weighted_average")
+
+GAIN_MIN, GAIN_MAX = 0.0, 0.5
+"""The thesis' universe of the gain; protects the rider from a table that triples his torque."""
+
+NAME_BYTES_MAX = 24
+
+POINT_FIELDS = ("speed_points_kmh", "torque_rate_points", "gain_points")
+PARAMETER_NAMES = {
+    "name": "fuzzy_table_name",
+    "inference": "fuzzy_inference",
+    "speed_points_kmh": "fuzzy_speed_points_kmh",
+    "torque_rate_points": "fuzzy_torque_rate_points",
+    "gain_points": "fuzzy_gain_points",
+    "rules": "fuzzy_rules",
+}
+"""Field here -> parameter of the unit."""
+
+
+@dataclass(frozen=True, slots=True)
+class FuzzyTable:
+    """One table, checked. Raises InvalidRequest naming every field at fault.
+
+    name: at most 24 bytes. inference: one of INFERENCES. The points: five each, finite, increasing
+    as float32, gains within [0, 0.5]. rules: rules[speed][torque rate], labels of LABELS.
+    """
+
+    name: str
+    inference: str
+    speed_points_kmh: tuple[float, ...]
+    torque_rate_points: tuple[float, ...]
+    gain_points: tuple[float, ...]
+    rules: tuple[tuple[str, ...], ...]
+
+    def __post_init__(self) -> None:
+        faults = [
+            *_name_faults(self.name),
+            *_inference_faults(self.inference),
+            *(fault for name in POINT_FIELDS for fault in _point_faults(name, getattr(self, name))),
+            *_rule_faults(self.rules),
+        ]
+        if faults:
+            listed = "; ".join(fault.message for fault in faults)
+            raise InvalidRequest(f"fuzzy table: {listed}", "invalid_fuzzy_table", faults)
+
+    @classmethod
+    def from_json(cls, value: Mapping[str, Any]) -> FuzzyTable:
+        """From the contract's `fuzzy_table` object. Raises InvalidRequest."""
+        missing = [name for name in PARAMETER_NAMES if name not in value]
+        unknown = [name for name in value if name not in PARAMETER_NAMES]
+        if missing or unknown:
+            faults = [
+                *(FieldError(name, "missing", f"{name} is missing") for name in missing),
+                *(FieldError(name, "unknown", f"{name} is not part of it") for name in unknown),
+            ]
+            listed = "; ".join(fault.message for fault in faults)
+            raise InvalidRequest(f"fuzzy table: {listed}", "invalid_fuzzy_table", faults)
+        return cls(
+            name=value["name"],
+            inference=value["inference"],
+            speed_points_kmh=_frozen(value["speed_points_kmh"]),
+            torque_rate_points=_frozen(value["torque_rate_points"]),
+            gain_points=_frozen(value["gain_points"]),
+            rules=tuple(_frozen(row) for row in _frozen(value["rules"])),
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        """The contract's `fuzzy_table` object."""
+        return {
+            "name": self.name,
+            "inference": self.inference,
+            **{name: list(getattr(self, name)) for name in POINT_FIELDS},
+            "rules": [list(row) for row in self.rules],
+        }
+
+    @classmethod
+    def from_parameters(cls, parameters: Mapping[str, Any]) -> FuzzyTable:
+        """From a unit's configuration, by registry names. Raises InvalidRequest."""
+        value = {field: parameters[name] for field, name in PARAMETER_NAMES.items()}
+        return cls.from_json({**value, "inference": str(value["inference"]).lower()})
+
+    def to_parameters(self) -> dict[str, Any]:
+        """The six `fuzzy_*` parameters this table is in a unit's configuration."""
+        value = {**self.to_json(), "inference": self.inference.upper()}
+        return {PARAMETER_NAMES[field]: value[field] for field in PARAMETER_NAMES}
+
+    def label_indices(self) -> np.ndarray[Any, np.dtype[np.int64]]:
+        """The rules as int64 (5, 5), 0 for NB to 4 for PB."""
+        return np.array([[LABELS.index(label) for label in row] for row in self.rules])
+
+
+def _frozen(value: Any) -> tuple[Any, ...]:
+    """Lists become tuples; anything else stays one wrong element for the checks to name."""
+    return tuple(value) if isinstance(value, Sequence) and not isinstance(value, str) else (value,)
+
+
+def _name_faults(name: Any) -> Iterable[FieldError]:
+    if not isinstance(name, str):
+        yield FieldError("name", "not_text", "name must be text")
+    elif len(name.encode()) > NAME_BYTES_MAX:
+        yield FieldError("name", "too_long", f"name is longer than {NAME_BYTES_MAX} bytes")
+
+
+def _inference_faults(inference: Any) -> Iterable[FieldError]:
+    if inference not in INFERENCES:
+        choices = " or ".join(INFERENCES)
+        yield FieldError("inference", "not_a_choice", f"inference must be {choices}")
+
+
+def _point_faults(field: str, points: Sequence[Any]) -> Iterable[FieldError]:
+    if len(points) != len(LABELS):
+        yield FieldError(field, "wrong_shape", f"{field} needs five numbers, not {len(points)}")
+        return
+    previous = -np.inf
+    for index, point in enumerate(points):
+        where = f"{field}[{index}]"
+        if isinstance(point, bool) or not isinstance(point, int | float):
+            yield FieldError(where, "not_a_number", f"{where} is not a number")
+            continue
+        if not np.isfinite(point):
+            yield FieldError(where, "not_finite", f"{where} is not a finite number")
+            continue
+        if not np.float32(point) > np.float32(previous):
+            yield FieldError(
+                where, "not_increasing", f"{where} is {point:g} and not above {previous:g}"
+            )
+        if field == "gain_points" and not GAIN_MIN <= point <= GAIN_MAX:
+            yield FieldError(
+                where, "out_of_range", f"{where} is {point:g}, not within {GAIN_MIN} to {GAIN_MAX}"
+            )
+        previous = point
+
+
+def _rule_faults(rules: Sequence[Sequence[Any]]) -> Iterable[FieldError]:
+    if len(rules) != len(LABELS) or any(len(row) != len(LABELS) for row in rules):
+        yield FieldError("rules", "wrong_shape", "rules needs five rows of five labels")
+        return
+    for row_index, row in enumerate(rules):
+        for column_index, label in enumerate(row):
+            if label not in LABELS:
+                where = f"rules[{row_index}][{column_index}]"
+                yield FieldError(
+                    where, "not_a_choice", f"{where} is {label!r}, not one of {' '.join(LABELS)}"
+                )
+
+
+THESIS_TABLE = FuzzyTable(
+    name="thesis 4-2",
+    inference="mamdani_centroid",
+    speed_points_kmh=(5.0, 10.0, 15.0, 20.0, 25.0),
+    torque_rate_points=(0.0, 0.225, 0.45, 0.675, 0.9),
+    gain_points=(0.1, 0.2, 0.3, 0.4, 0.5),
+    rules=(
+        ("ZO", "ZO", "PS", "PB", "PB"),
+        ("ZO", "ZO", "PS", "PS", "PB"),
+        ("NS", "ZO", "ZO", "PS", "PS"),
+        ("NB", "NS", "NS", "ZO", "ZO"),
+        ("NB", "NB", "NS", "NS", "NS"),
+    ),
+)
+"""Table 4-2 with its lost cell restored (fuzzy_controller 0, thesis_checks I-12)."""

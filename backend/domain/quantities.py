@@ -1,0 +1,50 @@
+"""The closed list of unit suffixes: the same spelling in C, Python, TypeScript, SQL and TOML.
+
+A physical name ends in one of these, or in two around `_per_` (`assist_ramp_up_nm_per_s`). A bound
+follows the unit (`motor_torque_nm_max`). A name without a suffix has no dimension (`assist_ratio`).
+"""
+
+from __future__ import annotations
+
+UNITS: dict[str, str] = {
+    "nm": "Nm",
+    "rpm": "rpm",
+    "kmh": "km/h",
+    "v": "V",
+    "mv": "mV",
+    "a": "A",
+    "ma": "mA",
+    "w": "W",
+    "wh": "Wh",
+    "s": "s",
+    "ms": "ms",
+    "us": "µs",
+    "hz": "Hz",
+    "degc": "°C",
+    "deg": "deg",
+    "m": "m",
+    "kg": "kg",
+    "ohm": "Ω",
+    "pct": "%",
+    "counts": "counts",
+    "count": "count",
+}
+"""Suffix -> the unit as people read it."""
+
+BOUNDS = ("min", "max")
+"""What may follow the unit in a name."""
+
+
+def unit_of(name: str) -> str:
+    """The unit of a physical name as people read it; empty if the name has no dimension.
+
+    `unit_of("motor_torque_nm_max")` is `Nm`, `unit_of("assist_ramp_up_nm_per_s")` is `Nm/s`.
+    """
+    words = name.split("_")
+    if words[-1] in BOUNDS:
+        words = words[:-1]
+    if len(words) < 2 or words[-1] not in UNITS:
+        return ""
+    if len(words) >= 4 and words[-2] == "per" and words[-3] in UNITS:
+        return f"{UNITS[words[-3]]}/{UNITS[words[-1]]}"
+    return UNITS[words[-1]]

@@ -1,0 +1,35 @@
+"""Goal: a physical name tells its unit, and every parameter and channel of the wire agrees."""
+
+import pytest
+
+from backend.domain.quantities import unit_of
+from firmware_protocol._generated import CHANNELS, PARAMETERS
+
+REGISTRY_SPELLING = {"°C": "degC", "Ω": "ohm"}
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [
+        ("rider_torque_nm", "Nm"),
+        ("motor_torque_nm_max", "Nm"),
+        ("assist_ramp_up_nm_per_s", "Nm/s"),
+        ("sensor_gain_nm_per_count", "Nm/count"),
+        ("assist_ratio", ""),
+        ("s", ""),
+    ],
+)
+def test_a_name_tells_its_unit(name: str, unit: str) -> None:
+    assert unit_of(name) == unit
+
+
+def test_the_registry_names_its_quantities_from_the_closed_list() -> None:
+    rows = [*PARAMETERS, *CHANNELS]
+
+    wrong = {
+        row.name: row.unit
+        for row in rows
+        if (unit := unit_of(row.name)) and REGISTRY_SPELLING.get(unit, unit) != row.unit
+    }
+
+    assert wrong == {}
