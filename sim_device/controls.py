@@ -11,7 +11,8 @@ from typing import Any
 
 from sim_device.scenario_file import ScenarioError, Setting, load, read_phase_value
 
-SPEED_FACTOR_MAX = 100.0
+SPEED_FACTOR_MIN = 0.01
+SPEED_FACTOR_MAX = 1000.0
 LOAD_SOURCES = {"road": 0, "dyno": 1}
 
 # A host may send back what it was given: these say something, and change nothing.
@@ -100,7 +101,7 @@ def _running(changes: Changes, name: str, given: object) -> None:
 
 
 def _speed_factor(changes: Changes, name: str, given: object) -> None:
-    setting = Setting(1.0, min=0.01, max=SPEED_FACTOR_MAX)
+    setting = Setting(1.0, min=SPEED_FACTOR_MIN, max=SPEED_FACTOR_MAX)
     changes.speed_factor = float(setting.read(name, given))
 
 

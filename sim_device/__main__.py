@@ -1,0 +1,138 @@
+"""`python -m sim_device`: a simulated drive unit on a serial line, or a scenario in virtual time.
+
+`unit` serves until it is told to stop. `scenario list` and `scenario run` print and end: 0 done,
+1 refused with the reason, 2 wrong usage.
+"""
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from sim_device.controls import SPEED_FACTOR_MAX, SPEED_FACTOR_MIN
+from sim_device.lockstep import LockstepUnit
+from sim_device.scenario import list_scenarios, run
+from sim_device.scenario_file import ScenarioError, load, names
+from sim_device.serial_line import PtyLine, SerialLine, TcpLine
+from sim_device.simulator import FlashFile, Stop, new_boot_id, serve
+
+DEFAULT_SCENARIO = "commute"
+LOOPBACK = "127.0.0.1"
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="sim_device", description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
+    commands = parser.add_subparsers(dest="command", required=True)
+    _add_unit(commands.add_parser("unit", help="a simulated drive unit on a serial line"))
+    scenario = commands.add_parser("scenario", help="list or run scenarios in virtual time")
+    verbs = scenario.add_subparsers(dest="verb", required=True)
+    listing = verbs.add_parser("list", help="what there is, with its settings")
+    running = verbs.add_parser("run", help="run one and print its figures")
+    running.add_argument("name")
+    running.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
+    for verb in (listing, running):
+        verb.add_argument("--json", action="store_true", help="one JSON object on standard output")
+    return parser
+
+
+def _add_unit(unit: argparse.ArgumentParser) -> None:
+    line = unit.add_mutually_exclusive_group(required=True)
+    line.add_argument("--pty", type=Path, metavar="LINK", help="symbolic link to make")
+    line.add_argument("--tcp", type=_port, metavar="[HOST:]PORT", help="to listen on; 0: any free")
+    unit.add_argument(
+        "--scenario",
+        default=DEFAULT_SCENARIO,
+        choices=[*_live_names(), "none"],
+        help="what the rider does (default %(default)s)",
+    )
+    unit.add_argument("--speed", type=_speed, default=1.0, metavar="X", help="times real time")
+    unit.add_argument("--seed", type=int, default=0, help="makes noise and serial number")
+    unit.add_argument("--flash", type=Path, metavar="FILE", help="keeps the unit's configuration")
+
+
+def _port(text: str) -> tuple[str, int]:
+    host, _, port = text.rpartition(":")
+    if not port.isdecimal() or not int(port) <= 65535:
+        raise argparse.ArgumentTypeError(f"{text} is not [HOST:]PORT")
+    return host or LOOPBACK, int(port)
+
+
+def _speed(text: str) -> float:
+    try:
+        speed = float(text)
+    except ValueError:
+        speed = float("nan")
+    if not SPEED_FACTOR_MIN <= speed <= SPEED_FACTOR_MAX:
+        raise argparse.ArgumentTypeError(
+            f"{text} is not a number from {SPEED_FACTOR_MIN:g} to {SPEED_FACTOR_MAX:g}"
+        )
+    return speed
+
+
+def _live_names() -> list[str]:
+    return [name for name in names() if load(name).live]
+
+
+def _serve(arguments: argparse.Namespace) -> None:
+    stop = Stop()
+    flash = FlashFile(arguments.flash) if arguments.flash is not None else None
+    unit = LockstepUnit(
+        arguments.seed,
+        name="process",
+        scenario=None if arguments.scenario == "none" else arguments.scenario,
+        flash=flash.load() if flash is not None else None,
+        boot_id=new_boot_id(),
+        speed_factor=arguments.speed,
+    )
+    pty: Path | None = arguments.pty
+    line: SerialLine = PtyLine(pty) if pty is not None else TcpLine(*arguments.tcp)
+    try:
+        print(f"ready {line.address}", flush=True)
+        serve(unit, line, stop, flash)
+    finally:
+        line.close()
+
+
+def _scenario(arguments: argparse.Namespace) -> None:
+    if arguments.verb == "list":
+        found = list_scenarios()
+        by_name = {row["name"]: row["doc"] for row in found}
+        _print({"items": found} if arguments.json else by_name, arguments.json)
+        return
+    settings: dict[str, object] = {}
+    for pair in arguments.set:
+        key, equals, value = pair.partition("=")
+        if not equals:
+            raise ScenarioError(f"--set {pair}: write it as key=value")
+        settings[key] = value
+    _print(run(arguments.name, settings), arguments.json)
+
+
+def _print(result: dict[str, Any], as_json: bool) -> None:
+    if as_json:
+        print(json.dumps(result))
+        return
+    for name, value in result.items():
+        print(f"{name:28} {value}")
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Does what the words ask for. 0 done, 1 refused with the reason on standard error."""
+    arguments = _parser().parse_args(words)
+    try:
+        if arguments.command == "unit":
+            _serve(arguments)
+        else:
+            _scenario(arguments)
+    except (OSError, ValueError) as error:
+        print(f"sim_device: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

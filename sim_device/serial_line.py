@@ -1,0 +1,136 @@
+"""Where a host reaches the simulated unit: a pseudo-terminal or a TCP port.
+
+Both are read and written without waiting. A host may come and go; the unit stays.
+"""
+
+import contextlib
+import os
+import socket
+import tty
+from pathlib import Path
+from typing import Protocol
+
+READ_LENGTH = 4096
+
+
+class SerialLine(Protocol):
+    """The unit's end of the line."""
+
+    @property
+    def address(self) -> str:
+        """What a host opens."""
+
+    def read(self) -> bytes:
+        """Bytes from the host; b"" when there are none."""
+
+    def write(self, data: bytes) -> int:
+        """Bytes to the host; returns how many were taken."""
+
+    def close(self) -> None:
+        """Leaves nothing behind."""
+
+
+class PtyLine:
+    """A pseudo-terminal behind a symbolic link.
+
+    Raises FileExistsError if `link` is something other than a symbolic link.
+    """
+
+    def __init__(self, link: Path) -> None:
+        if link.exists() and not link.is_symlink():
+            raise FileExistsError(f"{link} exists and is not a symbolic link; choose another path")
+        # The far end stays open here too: otherwise the line would fail while no host has it open.
+        self._near, self._far = os.openpty()
+        tty.setraw(self._far)
+        os.set_blocking(self._near, False)
+        self._device = os.ttyname(self._far)
+        self._link = link
+        fresh = link.with_name(f"{link.name}.{os.getpid()}")
+        fresh.symlink_to(self._device)
+        fresh.replace(link)
+
+    @property
+    def address(self) -> str:
+        return str(self._link)
+
+    def read(self) -> bytes:
+        try:
+            return os.read(self._near, READ_LENGTH)
+        except BlockingIOError:
+            return b""
+
+    def write(self, data: bytes) -> int:
+        try:
+            return os.write(self._near, data)
+        except BlockingIOError:
+            return 0
+
+    def close(self) -> None:
+        with contextlib.suppress(OSError):
+            if str(self._link.readlink()) == self._device:
+                self._link.unlink()
+        os.close(self._near)
+        os.close(self._far)
+
+
+class TcpLine:
+    """A listening socket for one host at a time; a second one is turned away at once.
+
+    Raises OSError if the port is taken.
+    """
+
+    def __init__(self, host: str, port: int) -> None:
+        self._listener = socket.create_server((host, port))
+        self._listener.setblocking(False)
+        self._host: socket.socket | None = None
+
+    @property
+    def address(self) -> str:
+        """The port: asked for as 0, it is known only now."""
+        return str(self._listener.getsockname()[1])
+
+    def read(self) -> bytes:
+        self._accept()
+        if self._host is None:
+            return b""
+        try:
+            data = self._host.recv(READ_LENGTH)
+        except BlockingIOError:
+            return b""
+        except OSError:
+            data = b""
+        if not data:
+            self._drop()
+        return data
+
+    def write(self, data: bytes) -> int:
+        if self._host is None:
+            return 0
+        try:
+            return self._host.send(data)
+        except BlockingIOError:
+            return 0
+        except OSError:
+            self._drop()
+            return 0
+
+    def close(self) -> None:
+        self._drop()
+        self._listener.close()
+
+    def _accept(self) -> None:
+        try:
+            arrived, _ = self._listener.accept()
+        except OSError:
+            return
+        if self._host is not None:
+            arrived.close()
+            return
+        arrived.setblocking(False)
+        arrived.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._host = arrived
+
+    def _drop(self) -> None:
+        if self._host is not None:
+            self._host.close()
+            self._host = None

@@ -1,0 +1,126 @@
+"""The simulated unit as a process: a lockstep unit, a serial line and a clock.
+
+The unit's time follows the clock times the speed factor, measured from an anchor, so that rounding
+and late wake-ups do not add up. The process ends on SIGTERM or Ctrl-C and when its parent is gone.
+"""
+
+import os
+import secrets
+import signal
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType
+
+from sim_device.firmware.python.unit import FLASH_LENGTH
+from sim_device.lockstep import US_PER_S, LockstepUnit
+from sim_device.serial_line import SerialLine
+
+SLEEP_S = 0.005
+
+# A machine that slept, or cannot keep up, is not caught up with: the unit skips the missed time.
+BEHIND_S_MAX = 1.0
+
+HOUSEKEEPING_S = 0.25
+
+
+class Pace:
+    """How much of the unit's time is due: clock time since an anchor, times the speed factor."""
+
+    def __init__(self, now_s: float, speed_factor: float) -> None:
+        self._anchor(now_s, speed_factor)
+
+    def due_us(self, now_s: float, speed_factor: float) -> int:
+        """Whole microseconds of unit time to serve now; they count as served."""
+        if speed_factor != self._speed_factor:
+            self._anchor(now_s, speed_factor)
+        due_us = int((now_s - self._start_s) * speed_factor * US_PER_S) - self._served_us
+        if due_us > BEHIND_S_MAX * speed_factor * US_PER_S:
+            self._anchor(now_s, speed_factor)
+            return 0
+        self._served_us += due_us
+        return due_us
+
+    def _anchor(self, now_s: float, speed_factor: float) -> None:
+        self._start_s, self._speed_factor, self._served_us = now_s, speed_factor, 0
+
+
+@dataclass
+class FlashFile:
+    """The unit's flash on disk, so that a simulated unit keeps its configuration."""
+
+    path: Path
+    written: bytes = b""
+
+    def load(self) -> bytes | None:
+        """The image, or None for a unit that has none yet. Raises ValueError on another length."""
+        if not self.path.exists():
+            return None
+        image = self.path.read_bytes()
+        if len(image) != FLASH_LENGTH:
+            raise ValueError(
+                f"{self.path} has {len(image)} bytes, a flash image has {FLASH_LENGTH}; "
+                "move it away to start with an erased flash"
+            )
+        self.written = image
+        return image
+
+    def save(self, image: bytes) -> None:
+        """Writes the image if it changed; a crash leaves the old file or the new one."""
+        if image == self.written:
+            return
+        fresh = self.path.with_name(f"{self.path.name}.{os.getpid()}")
+        with fresh.open("wb") as file:
+            file.write(image)
+            file.flush()
+            os.fsync(file.fileno())
+        fresh.replace(self.path)
+        self.written = image
+
+
+class Stop:
+    """True once a signal asked for the end, or the parent process is gone."""
+
+    def __init__(self) -> None:
+        self._asked = False
+        self._parent = os.getppid()
+        for number in (signal.SIGTERM, signal.SIGINT):
+            signal.signal(number, self._ask)
+
+    def _ask(self, _signal: int, _frame: FrameType | None) -> None:
+        self._asked = True
+
+    def __call__(self) -> bool:
+        return self._asked or os.getppid() != self._parent
+
+
+def serve(
+    unit: LockstepUnit,
+    line: SerialLine,
+    stop: Callable[[], bool],
+    flash: FlashFile | None = None,
+) -> None:
+    """Runs the unit against the clock until `stop()`."""
+    pace = Pace(time.monotonic(), unit.speed_factor)
+    waiting = b""
+    save_due_s = 0.0
+    while not stop():
+        now_s = time.monotonic()
+        unit.send(line.read())
+        unit.advance(pace.due_us(now_s, unit.speed_factor) / US_PER_S)
+        # Only when the line took everything is more asked for: the unit itself notices a full line.
+        waiting = waiting or unit.receive()
+        if waiting:
+            waiting = waiting[line.write(waiting) :]
+        if flash is not None and now_s >= save_due_s:
+            flash.save(unit.unit.flash())
+            save_due_s = now_s + HOUSEKEEPING_S
+        time.sleep(SLEEP_S)
+    if flash is not None:
+        flash.save(unit.unit.flash())
+
+
+def new_boot_id() -> int:
+    """Different at every start, so that a host notices the restart."""
+    return secrets.randbelow(2**32 - 1) + 1
