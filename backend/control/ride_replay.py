@@ -1,0 +1,130 @@
+"""What the motor would have done: a recorded ride through the unit's own law."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from backend.errors import InvalidRequest
+from sim_device.firmware.python import law
+
+BATTERY_VOLTAGE_V = 36.0
+"""Nominal, for rides that did not record it."""
+STEPS_MAX = 24 * 3600 * 100
+"""A day at 100 Hz; bounds the memory of one replay."""
+RAD_PER_S_PER_RPM = 2.0 * np.pi / 60.0
+JOULE_PER_WH = 3600.0
+
+# Bits of limit_flags in the registry, as the law's header names them.
+LIMIT_NAMES = (
+    "taper",
+    "speed_cutoff",
+    "pedal_stop",
+    "brake",
+    "ramp_up",
+    "ramp_down",
+    "motor_torque",
+    "battery_current",
+    "motor_speed",
+    "battery_voltage",
+    "input_refused",
+    "mode_off",
+)
+
+Floats = npt.NDArray[np.float32]
+
+
+@dataclass(frozen=True, slots=True)
+class Replay:
+    """The law's answer, (n,) each, and its sums. NaN is missing.
+
+    assist_ratio: gain included, before limits. limit_shares: part of the steps, 0 to 1, in which
+    each limit held the motor back. motor_work_wh: at the motor's shaft.
+    """
+
+    rider_torque_filtered_nm: Floats
+    torque_rate: Floats
+    assist_ratio: Floats
+    fuzzy_gain: Floats
+    motor_torque_nm: Floats
+    limit_flags: npt.NDArray[np.uint16]
+    motor_torque_nm_max: float
+    motor_work_wh: float
+    limit_shares: dict[str, float]
+
+
+def replay(
+    config: Mapping[str, Any],
+    speed_kmh: npt.ArrayLike,
+    cadence_rpm: npt.ArrayLike,
+    torque_raw_counts: npt.ArrayLike,
+    mode: npt.ArrayLike,
+    *,
+    brake: npt.ArrayLike = 0,
+    motor_speed_rpm: npt.ArrayLike | None = None,
+    battery_voltage_v: npt.ArrayLike = BATTERY_VOLTAGE_V,
+    step_s: float = law.STEP_S,
+) -> Replay:
+    """A ride from rest through the law.
+
+    config: the unit's parameters by registry name. speed_kmh, cadence_rpm, torque_raw_counts: (n,).
+    mode: slot 0 to 4, (n,) or one. motor_speed_rpm: (n,); without it the motor follows the crank.
+    step_s: time between samples. A sample that is not finite gives no assist and is counted under
+    `input_refused`. Raises InvalidRequest for what the law refuses.
+    """
+    if np.size(speed_kmh) > STEPS_MAX:
+        raise InvalidRequest(f"a replay takes at most {STEPS_MAX} samples", "too_many_samples")
+    try:
+        cadence = np.asarray(cadence_rpm, np.float32)
+        if motor_speed_rpm is None:
+            motor_speed_rpm = np.maximum(cadence, 0.0) * np.float32(config["gear_ratio"])
+        motor_speed = np.asarray(motor_speed_rpm, np.float32)
+        inputs = {
+            "torque_raw_counts": torque_raw_counts,
+            "speed_kmh": speed_kmh,
+            "cadence_rpm": cadence,
+            "motor_speed_rpm": motor_speed,
+            "battery_voltage_v": battery_voltage_v,
+            "mode": mode,
+            "brake": brake,
+        }
+        outputs = law.assist_run(config, inputs, step_s)
+    except (law.LawRefused, KeyError, TypeError, ValueError) as refused:
+        raise InvalidRequest(f"replay: {refused}", "replay_refused") from refused
+    return _summed(outputs, motor_speed, step_s)
+
+
+def raw_counts_of(config: Mapping[str, Any], torque_nm: npt.ArrayLike) -> Floats:
+    """The raw counts that the unit's calibration turns into these torques, float32 (n,).
+
+    For rides that recorded newton metres only. torque_nm: (n,).
+    """
+    counts = np.asarray(torque_nm, np.float64) / config["sensor_gain_nm_per_count"]
+    return np.asarray(counts + config["sensor_offset_counts"], np.float32)
+
+
+def _summed(
+    outputs: Mapping[str, npt.NDArray[Any]], motor_speed_rpm: Floats, step_s: float
+) -> Replay:
+    flags = outputs["limit_flags"]
+    torque_nm = outputs["motor_torque_nm"]
+    power_w = torque_nm.astype(np.float64) * np.nan_to_num(motor_speed_rpm) * RAD_PER_S_PER_RPM
+    steps = max(flags.size, 1)
+    return Replay(
+        rider_torque_filtered_nm=outputs["rider_torque_filtered_nm"],
+        torque_rate=outputs["torque_rate"],
+        assist_ratio=outputs["assist_ratio"],
+        fuzzy_gain=outputs["fuzzy_gain"],
+        motor_torque_nm=torque_nm,
+        limit_flags=flags,
+        motor_torque_nm_max=float(torque_nm.max(initial=0.0)),
+        motor_work_wh=float(power_w.sum()) * step_s / JOULE_PER_WH,
+        limit_shares={
+            name: np.count_nonzero(flags & (1 << bit)) / steps
+            for bit, name in enumerate(LIMIT_NAMES)
+        },
+    )

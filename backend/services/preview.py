@@ -1,0 +1,103 @@
+"""Preview a law without a unit: surface, points, lint and replay, by the unit's own C."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from backend import control
+from backend.control import Finding, LintReport, Replay
+from backend.domain.assist_mode import AssistModes
+from backend.domain.fuzzy_table import FuzzyTable
+from backend.errors import InvalidRequest
+from backend.services.calibrate import evaluate_calibration
+
+
+class Preview:
+    """The use cases of the bench without a bike. Holds nothing; safe from any thread."""
+
+    def surface(
+        self,
+        fuzzy_table: Mapping[str, Any],
+        speeds_kmh: Sequence[float],
+        torque_rates: Sequence[float],
+    ) -> dict[str, Any]:
+        """`{gain: [n][m], engine}`, rows = speeds. Raises InvalidRequest."""
+        table = FuzzyTable.from_json(fuzzy_table)
+        gain = control.surface(table, speeds_kmh, torque_rates)
+        return {"gain": gain.tolist(), "engine": control.ENGINE}
+
+    def points(
+        self, fuzzy_table: Mapping[str, Any], points: Sequence[tuple[float, float]]
+    ) -> dict[str, Any]:
+        """`{gain: [k], engine}` at pairs of speed and torque rate. Raises InvalidRequest."""
+        table = FuzzyTable.from_json(fuzzy_table)
+        try:
+            pairs = np.asarray(points, np.float64).reshape(-1, 2)
+        except (TypeError, ValueError) as wrong:
+            message = "points must be pairs of speed_kmh and torque_rate"
+            raise InvalidRequest(message, "wrong_shape") from wrong
+        gain = control.points(table, pairs[:, 0], pairs[:, 1])
+        return {"gain": gain.tolist(), "engine": control.ENGINE}
+
+    def lint(
+        self,
+        fuzzy_table: Mapping[str, Any],
+        assist_modes: Mapping[str, Any] | None = None,
+        limits: Mapping[str, float] | None = None,
+    ) -> LintReport:
+        """Findings about a table; one that cannot exist is an answer too, with its faults."""
+        faults: list[Finding] = []
+        table = modes = None
+        try:
+            table = FuzzyTable.from_json(fuzzy_table)
+        except InvalidRequest as refused:
+            faults += _findings(refused)
+        try:
+            modes = AssistModes.from_json(assist_modes) if assist_modes is not None else None
+        except InvalidRequest as refused:
+            faults += _findings(refused)
+        if table is None:
+            return LintReport(tuple(faults), (), ())
+        report = control.lint(table, modes, limits)
+        return LintReport((*faults, *report.errors), report.warnings, report.notes)
+
+    def replay(
+        self,
+        config: Mapping[str, Any],
+        arrays: Mapping[str, npt.ArrayLike],
+        fuzzy_table: Mapping[str, Any] | None = None,
+        assist_modes: Mapping[str, Any] | None = None,
+        step_s: float = 0.01,
+    ) -> Replay:
+        """What the motor would have done on a recorded ride under another table or other modes.
+
+        config: the unit's parameters by registry name. arrays: `speed_kmh`, `cadence_rpm`, `mode`,
+        and `torque_raw_counts` or `rider_torque_nm`, (n,) each; `brake`, `motor_speed_rpm` and
+        `battery_voltage_v` if known. Raises InvalidRequest.
+        """
+        changed = dict(config)
+        if fuzzy_table is not None:
+            changed |= FuzzyTable.from_json(fuzzy_table).to_parameters()
+        if assist_modes is not None:
+            changed |= AssistModes.from_json(assist_modes).to_parameters()
+        readings = dict(arrays)
+        torque_nm = readings.pop("rider_torque_nm", None)
+        if torque_nm is not None:
+            readings.setdefault("torque_raw_counts", control.raw_counts_of(config, torque_nm))
+        missing = {"speed_kmh", "cadence_rpm", "torque_raw_counts", "mode"} - set(readings)
+        if missing:
+            listed = ", ".join(sorted(missing))
+            raise InvalidRequest(f"replay: the ride has no {listed}", "missing_channel")
+        return control.replay(changed, step_s=step_s, **readings)
+
+    evaluate_calibration = staticmethod(evaluate_calibration)
+
+
+def _findings(refused: InvalidRequest) -> list[Finding]:
+    return [Finding(fault.code, fault.message, fault.field) for fault in refused.fields] or [
+        Finding(refused.code, refused.message, None)
+    ]
