@@ -21,6 +21,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -29,7 +30,6 @@ from backend.device.states import DeviceEvent, StateChanged
 from backend.device.stream import StreamBlock, StreamPlan, StreamStarted
 from backend.domain.channels import ChannelSpec
 from backend.errors import InvalidRequest
-from backend.services.connect import Devices
 
 HEADER = struct.Struct("<IIQHH")
 SEQUENCE_MODULUS = 2**32
@@ -232,6 +232,24 @@ class Feed:
     def _put(self, item: str | RowFrame) -> None:
         for viewer in self._viewers:
             viewer.put(item)
+
+
+class Device(Protocol):
+    """What a viewer is told of a unit when it joins."""
+
+    @property
+    def state(self) -> str: ...
+    @property
+    def reason(self) -> str: ...
+
+
+class Devices(Protocol):
+    """What is needed of services.connect."""
+
+    def get(self, device_id: str) -> Device: ...
+    def subscribe(
+        self, device_id: str, listener: Callable[[DeviceEvent], None]
+    ) -> Callable[[], None]: ...
 
 
 class Watch:
