@@ -9,6 +9,7 @@ from types import TracebackType
 from backend.errors import StoreError
 from backend.store.database import Database
 from backend.store.objects import Disk, FileObjects, open_objects
+from backend.store.reader import RideReader
 from backend.store.revisions import Revision, RevisionLog
 from backend.store.rides import RidePage, RideStore
 from backend.store.uploads import Upload, UploadStore
@@ -17,6 +18,7 @@ __all__ = [
     "Revision",
     "RevisionLog",
     "RidePage",
+    "RideReader",
     "RideStore",
     "Store",
     "Upload",
@@ -60,6 +62,7 @@ class Store:
 
     def close(self) -> None:
         """Finish what is being written and let go of the folder."""
+        self.rides.close()
         self.database.close()
         self._lock.release()
 

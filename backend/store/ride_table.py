@@ -87,7 +87,7 @@ def ride_row(
         "origin": origin,
         "name": name[:NAME_LENGTH_MAX],
         "notes": "",
-        "device_id": context.device_id,
+        "device_serial": context.device_serial,
         "started_us": started_us,
         "row_count": 0,
         "period_us": period_us,

@@ -11,13 +11,13 @@ tail, and at worst an object nobody knows; finishing again gives the same bytes 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from concurrent.futures import Future
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 import numpy as np
-from sqlalchemy import Connection, Select, delete, func, insert, select, update
+from sqlalchemy import Connection, Select, case, delete, func, insert, select, update
 
 from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.pyramid import Level
@@ -62,6 +62,7 @@ class RideStore:
         self._database = database
         self._objects = objects
         self._readers = ReaderCache()
+        self._finisher = ThreadPoolExecutor(1, thread_name_prefix="store-finisher")
 
     def start_live(
         self,
@@ -94,10 +95,13 @@ class RideStore:
         }
 
         def work(connection: Connection) -> None:
+            # A second that failed may be tried again after later ones: the count never shrinks.
+            stop = row_start + len(rows)
+            count = case((t.ride.c.row_count < stop, stop), else_=t.ride.c.row_count)
             grown = connection.execute(
                 update(t.ride)
                 .where(t.ride.c.id == ride_id, t.ride.c.state == "live")
-                .values(row_count=row_start + len(rows))
+                .values(row_count=count)
             )
             if grown.rowcount != 1:
                 raise StoreError(f"Ride {ride_id} is not being recorded: rows were not saved.")
@@ -119,6 +123,19 @@ class RideStore:
             return None
         written = write_object(self._objects, ride, self._tail_chunks(ride))
         return self._publish(ride, written)
+
+    def finish_later(self, ride_id: int) -> Future[Ride | None]:
+        """`finish` on the store's own thread, after every tail handed over before this call."""
+
+        def work() -> Ride | None:
+            self._database.write(lambda _: None)
+            return self.finish(ride_id)
+
+        return self._finisher.submit(work)
+
+    def close(self) -> None:
+        """Wait for the rides that are being finished."""
+        self._finisher.shutdown(wait=True)
 
     def add(self, ride: Ride, rows: RideRows, upload_id: str | None = None) -> Ride:
         """Store a whole ride from a file. ride.id is ignored; the ride with its id is returned.
@@ -175,7 +192,7 @@ class RideStore:
         if to_us is not None:
             query = query.where(t.ride.c.started_us < to_us)
         if device is not None:
-            query = query.where(t.ride.c.device_id == device)
+            query = query.where(t.ride.c.device_serial == device)
         if cursor is not None:
             started_us, ride_id = cursor_parts(cursor)
             query = query.where(

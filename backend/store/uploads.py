@@ -30,7 +30,7 @@ class Upload:
 
     id: str
     name: str
-    bytes: int
+    length: int
     received: int
     state: str
     declared_sha256: str | None
@@ -38,7 +38,7 @@ class Upload:
     code: str | None
     detail: str | None
     completeness: float | None
-    duplicate_of: str | None
+    duplicate_of: int | None
     object_key: str | None
     created_us: int
     expires_us: int | None
@@ -64,7 +64,7 @@ class UploadStore:
         values = {
             "token": token,
             "name": name,
-            "bytes": size,
+            "length": size,
             "received": 0,
             "declared_sha256": declared_sha256,
             "state": RECEIVING,
@@ -86,9 +86,9 @@ class UploadStore:
                 f"Upload {token} stands at byte {upload.received}, not at {offset}.",
                 code="offset_mismatch",
             )
-        if offset + len(data) > upload.bytes:
+        if offset + len(data) > upload.length:
             raise Conflict(
-                f"Upload {token} has {upload.bytes} bytes: {len(data)} more from {offset} on "
+                f"Upload {token} has {upload.length} bytes: {len(data)} more from {offset} on "
                 "are too many.",
                 code="too_long",
             )
@@ -126,7 +126,7 @@ class UploadStore:
         code: str | None = None,
         detail: str | None = None,
         completeness: float | None = None,
-        duplicate_of: str | None = None,
+        duplicate_of: int | None = None,
     ) -> Upload:
         """Say what became of an upload."""
         self._set(
@@ -217,7 +217,7 @@ def upload_from_row(row: Row[Any], ride_ids: tuple[int, ...]) -> Upload:
     return Upload(
         id=row.token,
         name=row.name,
-        bytes=row.bytes,
+        length=row.length,
         received=row.received,
         state=row.state,
         declared_sha256=row.declared_sha256,

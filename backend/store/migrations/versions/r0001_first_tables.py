@@ -102,7 +102,7 @@ def create_uploads() -> None:
         sa.Column("id", KEY, autoincrement=True, nullable=False),
         sa.Column("token", sa.String(32), nullable=False),
         sa.Column("name", sa.Text(), nullable=False),
-        sa.Column("bytes", sa.BigInteger(), nullable=False),
+        sa.Column("length", sa.BigInteger(), nullable=False),
         sa.Column("received", sa.BigInteger(), nullable=False),
         sa.Column("declared_sha256", sa.String(64)),
         sa.Column("sha256", sa.String(64)),
@@ -110,7 +110,7 @@ def create_uploads() -> None:
         sa.Column("code", sa.String(40)),
         sa.Column("detail", sa.Text()),
         sa.Column("completeness", sa.Float()),
-        sa.Column("duplicate_of", sa.String(32)),
+        sa.Column("duplicate_of", KEY),
         sa.Column("object_key", sa.String(128)),
         sa.Column("created_us", sa.BigInteger(), nullable=False),
         sa.Column("expires_us", sa.BigInteger()),
@@ -128,7 +128,7 @@ def create_rides() -> None:
         sa.Column("origin", sa.String(16), nullable=False),
         sa.Column("name", sa.Text(), nullable=False),
         sa.Column("notes", sa.Text(), nullable=False),
-        sa.Column("device_id", sa.String(64)),
+        sa.Column("device_serial", sa.String(64)),
         sa.Column("started_us", sa.BigInteger(), nullable=False),
         sa.Column("row_count", sa.BigInteger(), nullable=False),
         sa.Column("period_us", sa.BigInteger()),
@@ -144,7 +144,7 @@ def create_rides() -> None:
         sa.ForeignKeyConstraint(["upload_id"], ["upload.id"], name="fk_ride_upload_id_upload"),
         sa.PrimaryKeyConstraint("id", name="pk_ride"),
     )
-    for column in ("device_id", "object_key", "started_us", "state", "upload_id"):
+    for column in ("device_serial", "object_key", "started_us", "state", "upload_id"):
         op.create_index(f"ix_ride_{column}", "ride", [column])
 
 

@@ -1,0 +1,174 @@
+"""Looking at rides: lists, figures, traces, notes, exports and replays."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from backend.domain.channels import ChannelSpec, Values
+from backend.domain.ride import Ride, iso_utc
+from backend.errors import InvalidRequest, NotFound
+from backend.store import RideReader, Store
+from backend.views.figure import figure
+from backend.views.trace import Trace, trace
+
+PIECE_BYTES = 1 << 16
+CSV_ROWS = 4096
+FORMATS = ("csv", "parquet", "original")
+
+# (columns of the ride by name, fuzzy_table, assist_modes, ride) -> the API's answer
+Replay = Callable[[RideReader, Mapping[str, Any] | None, Mapping[str, Any] | None], Any]
+
+
+@dataclass(frozen=True)
+class Export:
+    """A ride as a file; `chunks` is read once."""
+
+    file_name: str
+    media_type: str
+    chunks: Iterator[bytes]
+
+
+class Rides:
+    """The rides' use cases; safe to call from any thread."""
+
+    def __init__(self, store: Store, replay: Replay | None = None) -> None:
+        self._store = store
+        self._replay = replay
+
+    def list(
+        self,
+        begin: datetime | None = None,
+        end: datetime | None = None,
+        device: str | None = None,
+        limit: int = 50,
+        cursor: str | None = None,
+    ) -> dict[str, object]:
+        """One page, newest first: {items, next}. device: serial number."""
+        page = self._store.rides.list(microseconds(begin), microseconds(end), device, limit, cursor)
+        return {"items": [ride.as_json() for ride in page.items], "next": page.next}
+
+    def get(self, ride_id: int) -> dict[str, object]:
+        """One ride. Raises NotFound."""
+        return self._store.rides.get(ride_id).as_json()
+
+    def patch(
+        self, ride_id: int, name: str | None = None, notes: str | None = None
+    ) -> dict[str, object]:
+        """Change what people wrote about a ride. Raises NotFound, InvalidRequest."""
+        return self._store.rides.patch(ride_id, name, notes).as_json()
+
+    def delete(self, ride_id: int) -> None:
+        """Delete a ride; the original file it came from is kept. Raises NotFound, Conflict."""
+        self._store.rides.delete(ride_id)
+
+    def series(
+        self,
+        ride_id: int,
+        channels: Sequence[str] | None = None,
+        from_s: float | None = None,
+        to_s: float | None = None,
+        pixels: int = 1000,
+    ) -> Trace:
+        """Exact minimum and maximum for each pixel of a window; see `backend.views.trace`."""
+        return trace(self._store.rides.reader(ride_id), channels, from_s, to_s, pixels)
+
+    def figure(
+        self, ride_id: int, channels: Sequence[str] | None = None, pixels: int = 1000
+    ) -> dict[str, object]:
+        """The ride as a Plotly figure; see `backend.views.figure`."""
+        return figure(self._store.rides.reader(ride_id), channels, pixels)
+
+    def export(self, ride_id: int, file_format: str) -> Export:
+        """The ride as a file. Raises NotFound, InvalidRequest for what cannot be made of it."""
+        ride = self._store.rides.get(ride_id)
+        stem = f"spindle-ride-{ride.id}"
+        if file_format == "csv":
+            rows = csv_chunks(self._store.rides.reader(ride_id), ride)
+            return Export(f"{stem}.csv", "text/csv; charset=utf-8", rows)
+        if file_format == "parquet":
+            if ride.object_key is None:
+                raise InvalidRequest(f"Ride {ride_id} is being recorded: export it when it ended.")
+            path = self._store.objects.local_path(ride.object_key)
+            return Export(f"{stem}.parquet", "application/vnd.apache.parquet", file_chunks(path))
+        if file_format == "original":
+            return self._original(ride)
+        raise InvalidRequest(
+            f"A ride cannot be exported as {file_format}; it can as {', '.join(FORMATS)}.",
+            code="unsupported_format",
+        )
+
+    def replay(
+        self,
+        ride_id: int,
+        fuzzy_table: Mapping[str, Any] | None = None,
+        assist_modes: Mapping[str, Any] | None = None,
+    ) -> Any:
+        """What the motor would have done with another table or other modes."""
+        if self._replay is None:
+            raise InvalidRequest("This server cannot replay rides.", code="unsupported")
+        return self._replay(self._store.rides.reader(ride_id), fuzzy_table, assist_modes)
+
+    def _original(self, ride: Ride) -> Export:
+        if ride.upload_id is None:
+            raise NotFound(f"Ride {ride.id} was recorded here: there is no original file.")
+        upload = self._store.uploads.get(ride.upload_id)
+        if upload.object_key is None:
+            raise NotFound(f"The original file of ride {ride.id} is not here.")
+        path = self._store.objects.local_path(upload.object_key)
+        return Export(safe_name(upload.name), "application/octet-stream", file_chunks(path))
+
+
+def microseconds(moment: datetime | None) -> int | None:
+    """A time as microseconds since 1970; without a zone it is taken as UTC."""
+    if moment is None:
+        return None
+    aware = moment if moment.tzinfo else moment.replace(tzinfo=UTC)
+    return int(aware.timestamp() * 1e6)
+
+
+def safe_name(name: str) -> str:
+    """A file name without anything a header or a file system could take for more than a name."""
+    last = name.replace("\\", "/").rsplit("/", 1)[-1]
+    kept = "".join(c if c.isascii() and (c.isalnum() or c in "._- ") else "_" for c in last)
+    return kept.strip(". ")[:120] or "ride"
+
+
+def file_chunks(path: Path) -> Iterator[bytes]:
+    """A file in pieces."""
+    with path.open("rb") as file:
+        while piece := file.read(PIECE_BYTES):
+            yield piece
+
+
+def csv_chunks(reader: RideReader, ride: Ride) -> Iterator[bytes]:
+    """The ride as CSV: ISO time, seconds, then every recorded channel; missing is empty."""
+    names = [channel.name for channel in ride.channels]
+    yield (",".join(["time_utc", "t_s", *names]) + "\r\n").encode()
+    for rows in reader.chunks(names, CSV_ROWS):
+        seconds = (rows.times_us / 1e6).tolist()
+        columns = [texts(c, c.to_values(rows.counts[c.name])) for c in rows.channels]
+        lines = (
+            ",".join(
+                (
+                    iso_utc(ride.started_us + int(t * 1e6)),
+                    f"{t:.6f}".rstrip("0").rstrip("."),
+                    *cells,
+                )
+            )
+            for t, *cells in zip(seconds, *columns, strict=True)
+        )
+        yield ("\r\n".join(lines) + "\r\n").encode()
+
+
+def texts(channel: ChannelSpec, values: Values) -> list[str]:
+    """Values as decimal text, as many digits as the scale carries."""
+    digits = max(0, int(np.ceil(-np.log10(channel.scale))))
+    exact = np.isclose(channel.scale * 10**digits, round(channel.scale * 10**digits))
+    places = digits if exact else digits + 3
+    return ["" if np.isnan(v) else f"{v:.{places}f}" for v in values.tolist()]

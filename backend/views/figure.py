@@ -1,0 +1,121 @@
+"""The ride's figure: speed, torque, power and gain above one another on one time axis.
+
+Plain Plotly JSON, made without plotly: importing it costs more memory than the rest of the views.
+The colours keep one meaning everywhere: the rider is green, the motor orange.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from backend.domain.channels import ChannelSpec
+from backend.views.trace import RideReader, Trace, trace
+
+RIDER_COLOUR = "#2e9e6b"
+MOTOR_COLOUR = "#e07b2a"
+NEUTRAL_COLOUR = "#4a7ebb"
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One row of the figure. unit: title of its axis. channels: drawn together."""
+
+    title: str
+    unit: str
+    channels: tuple[str, ...]
+
+
+PANELS = (
+    Panel("Speed", "km/h", ("speed_kmh",)),
+    Panel("Torque at the crank", "Nm", ("rider_torque_nm", "motor_torque_crank_nm")),
+    Panel("Power", "W", ("rider_power_w", "motor_power_w")),
+    Panel("Gain", "", ("fuzzy_gain",)),
+)
+
+
+def figure(ride: RideReader, names: Sequence[str] | None, pixels: int) -> dict[str, object]:
+    """A Plotly figure of a ride: {"data": [...], "layout": {...}}.
+
+    names: channels to draw, one row for each unit; None for the usual rows, as far as the ride
+    has their channels. pixels: width of the plot. Raises InvalidRequest for unknown channels.
+    """
+    offered = {channel.name: channel for channel in ride.offered}
+    panels = usual_panels(offered) if names is None else panels_by_unit(names, offered)
+    wanted = [name for panel in panels for name in panel.channels]
+    shown = trace(ride, names if names is not None else wanted, pixels=pixels)
+    data: list[dict[str, object]] = []
+    for row, panel in enumerate(panels, start=1):
+        data += [curve(shown, offered[name], row) for name in panel.channels]
+    return {"data": data, "layout": layout(panels, shown)}
+
+
+def usual_panels(offered: dict[str, ChannelSpec]) -> list[Panel]:
+    """The usual rows, without what the ride does not have."""
+    kept = [
+        Panel(panel.title, panel.unit, tuple(n for n in panel.channels if n in offered))
+        for panel in PANELS
+    ]
+    return [panel for panel in kept if panel.channels]
+
+
+def panels_by_unit(names: Sequence[str], offered: dict[str, ChannelSpec]) -> list[Panel]:
+    """One row for each unit, in the order of the names."""
+    by_unit: dict[str, list[str]] = {}
+    for name in dict.fromkeys(names):
+        if name in offered:
+            by_unit.setdefault(offered[name].unit, []).append(name)
+    return [Panel("", unit, tuple(channels)) for unit, channels in by_unit.items()]
+
+
+def curve(shown: Trace, channel: ChannelSpec, row: int) -> dict[str, object]:
+    """One line: through every sample, or up and down between the extremes of each bin."""
+    low = channel.to_values(shown.minimum[channel.name])
+    if shown.kind == "rows":
+        times, values = shown.t_first_s, low
+    else:
+        times = np.column_stack((shown.t_first_s, shown.t_last_s)).reshape(-1)
+        high = channel.to_values(shown.maximum[channel.name])
+        values = np.column_stack((low, high)).reshape(-1)
+    return {
+        "type": "scatter",
+        "mode": "lines",
+        "name": channel.name,
+        "x": times.tolist(),
+        "y": [None if np.isnan(value) else round(float(value), 5) for value in values],
+        "xaxis": "x",
+        "yaxis": "y" if row == 1 else f"y{row}",
+        "connectgaps": False,
+        "line": {"width": 1, "color": colour(channel.name)},
+        "hovertemplate": f"%{{y}} {channel.unit}<extra>{channel.name}</extra>",
+    }
+
+
+def colour(name: str) -> str:
+    """Green for the rider, orange for the motor, blue for the rest."""
+    if name.startswith(("rider_", "cadence")):
+        return RIDER_COLOUR
+    return MOTOR_COLOUR if name.startswith("motor_") else NEUTRAL_COLOUR
+
+
+def layout(panels: Sequence[Panel], shown: Trace) -> dict[str, object]:
+    """Rows of equal height over one time axis; how many points stand for how many is told."""
+    count = max(len(panels), 1)
+    height, space = 1.0 / count, 0.06 / count
+    told = f"{len(shown.t_first_s)} points shown of {shown.rows}"
+    body: dict[str, object] = {
+        "xaxis": {"title": {"text": "s"}, "domain": [0, 1], "anchor": f"y{count}"},
+        "hovermode": "x unified",
+        "showlegend": True,
+        "meta": {"shown": told if shown.kind == "rows" else f"{told} (min/max)"},
+    }
+    for row, panel in enumerate(panels, start=1):
+        top = 1.0 - (row - 1) * height
+        title = f"{panel.title} ({panel.unit})" if panel.title and panel.unit else ""
+        body["yaxis" if row == 1 else f"yaxis{row}"] = {
+            "title": {"text": title or panel.title or panel.unit},
+            "domain": [max(top - height + space, 0.0), top],
+        }
+    return body
