@@ -17,7 +17,7 @@ from sim_device.firmware.python.unit import FLASH_LENGTH
 from sim_device.lockstep import US_PER_S, LockstepUnit
 from sim_device.serial_line import SerialLine
 
-SLEEP_S = 0.005
+SLEEP_S = 0.008
 
 # A machine that slept, or cannot keep up, is not caught up with: the unit skips the missed time.
 BEHIND_S_MAX = 1.0

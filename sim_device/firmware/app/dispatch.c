@@ -50,6 +50,18 @@ size_t reply_capacity(const reply *answer)
     return answer->capacity - STATUS_LENGTH;
 }
 
+/* What a board gives with a refusal are its words for it: they follow the detail, as far as they
+ * fit. */
+static void board_refuse(reply *answer, uint8_t status, size_t length)
+{
+    size_t room = answer->capacity - REFUSAL_LENGTH;
+
+    if (length > room) length = room;
+    memmove(answer->bytes + REFUSAL_LENGTH, reply_fields(answer), length);
+    reply_refuse(answer, status, 0);
+    answer->length += length;
+}
+
 /* What the board says, as it says it; a board that writes more than it may is not believed. */
 static void board_reply(app *unit, const ebl_header *request, reply *answer)
 {
@@ -67,7 +79,7 @@ static void board_reply(app *unit, const ebl_header *request, reply *answer)
     if (status < 0 || status > UINT8_MAX) {
         reply_refuse(answer, EBL_STATUS_INTERNAL, 0);
     } else if (status != EBL_STATUS_OK) {
-        reply_refuse(answer, (uint8_t)status, 0);
+        board_refuse(answer, (uint8_t)status, length);
     } else {
         reply_with(answer, length <= reply_capacity(answer) ? EBL_OK : EBL_ERROR_SPACE, length);
     }
