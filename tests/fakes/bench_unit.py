@@ -77,7 +77,7 @@ class BenchUnit:
     def hear(self) -> list[codec.Response]:
         """Everything the unit has said; the responses are returned."""
         responses = []
-        for frame in self._frames():
+        for frame in self.take_frames():
             decoded = codec.decode(frame)
             if isinstance(decoded, codec.Event):
                 self.events.append(decoded)
@@ -92,11 +92,19 @@ class BenchUnit:
                 responses.append(_unknown_response(frame))
         return responses
 
-    def _frames(self) -> list[bytes]:
+    def take_wire(self) -> bytes:
+        """The bytes that wait on the line, as they are."""
         capacity = lib.BENCH_LINE_BYTES
         buffer = ffi.new("uint8_t[]", capacity)
-        length = lib.bench_receive(self.board, buffer, capacity)
-        return self._decoder.feed(bytes(ffi.buffer(buffer, length)))
+        return bytes(ffi.buffer(buffer, lib.bench_receive(self.board, buffer, capacity)))
+
+    def take_frames(self) -> list[bytes]:
+        """The frames that wait on the line, in their order."""
+        return self._decoder.feed(self.take_wire())
+
+    def line_room(self, length: int) -> None:
+        """How many bytes the line takes until it is read; 0 is a host that does not listen."""
+        lib.bench_line_capacity(self.board, length)
 
     def ask_frame(self, frame: bytes) -> codec.Response:
         """One request frame, and its one response."""

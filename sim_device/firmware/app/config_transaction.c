@@ -16,21 +16,23 @@
 /* Below this the supply may fail in the middle of an erase. */
 #define FLASH_BATTERY_VOLTAGE_V_MIN 24.0f
 
-/* OK for the open transaction. */
-static uint8_t transaction_check(const config_transaction *transaction, uint16_t id,
-                                 uint16_t *detail)
-{
-    *detail = 0;
-    if (transaction->state != EBL_CONFIG_STATE_IDLE && id == transaction->id) {
-        return EBL_STATUS_OK;
-    }
-    if (transaction->expired && id == transaction->id) return EBL_STATUS_EXPIRED;
-    return EBL_STATUS_STATE;
-}
-
 static void lease_renew(config_transaction *transaction, uint64_t now_us)
 {
     transaction->lease_end_us = now_us + (uint64_t)TRANSACTION_LEASE_MS * US_PER_MS;
+}
+
+/* OK for the open transaction, which its host has just shown to be alive. */
+static uint8_t transaction_enter(config_transaction *transaction, uint16_t id, uint64_t now_us,
+                                 uint16_t *detail)
+{
+    *detail = 0;
+    if (transaction->state == EBL_CONFIG_STATE_IDLE || id != transaction->id) {
+        int late = transaction->expired && id == transaction->id;
+
+        return late ? EBL_STATUS_EXPIRED : EBL_STATUS_STATE;
+    }
+    lease_renew(transaction, now_us);
+    return EBL_STATUS_OK;
 }
 
 uint8_t transaction_begin(config_transaction *transaction, const config_store *store,
@@ -60,24 +62,22 @@ uint8_t transaction_begin(config_transaction *transaction, const config_store *s
 uint8_t transaction_set(config_transaction *transaction, const ebl_cfg_set_request *request,
                         uint8_t access, uint64_t now_us, uint16_t *detail)
 {
-    uint8_t status = transaction_check(transaction, request->transaction, detail);
+    uint8_t status = transaction_enter(transaction, request->transaction, now_us, detail);
 
     if (status != EBL_STATUS_OK) return status;
     status = parameters_set(transaction->image, request->items, request->items_length, access,
                             detail);
     if (status != EBL_STATUS_OK) return status;
     transaction->state = EBL_CONFIG_STATE_STAGING;
-    lease_renew(transaction, now_us);
     return EBL_STATUS_OK;
 }
 
 uint8_t transaction_validate(config_transaction *transaction, uint16_t id, uint64_t now_us,
                              ebl_refusal *found, size_t capacity, uint16_t *detail)
 {
-    uint8_t status = transaction_check(transaction, id, detail);
+    uint8_t status = transaction_enter(transaction, id, now_us, detail);
 
     if (status != EBL_STATUS_OK) return status;
-    lease_renew(transaction, now_us);
     *detail = (uint16_t)ebl_image_violations(transaction->image, found, capacity);
     if (*detail > 0 || !parameters_image_is_valid(transaction->image)) {
         transaction->state = EBL_CONFIG_STATE_STAGING;
@@ -90,10 +90,9 @@ uint8_t transaction_validate(config_transaction *transaction, uint16_t id, uint6
 uint8_t transaction_staged_crc(config_transaction *transaction, uint16_t id, uint64_t now_us,
                                uint32_t *crc32, uint16_t *detail)
 {
-    uint8_t status = transaction_check(transaction, id, detail);
+    uint8_t status = transaction_enter(transaction, id, now_us, detail);
 
     if (status != EBL_STATUS_OK) return status;
-    lease_renew(transaction, now_us);
     *crc32 = ebl_crc32(0, transaction->image, EBL_IMAGE_LENGTH);
     return EBL_STATUS_OK;
 }
@@ -117,10 +116,11 @@ static uint8_t flash_may_be_written(const hal *board)
     return EBL_STATUS_OK;
 }
 
-static uint8_t commit_check(const config_transaction *transaction, const hal *board,
-                            const ebl_cfg_commit_request *request, uint16_t *detail)
+static uint8_t commit_check(config_transaction *transaction, const hal *board,
+                            const ebl_cfg_commit_request *request, uint64_t now_us,
+                            uint16_t *detail)
 {
-    uint8_t status = transaction_check(transaction, request->transaction, detail);
+    uint8_t status = transaction_enter(transaction, request->transaction, now_us, detail);
     uint32_t crc32;
 
     if (status != EBL_STATUS_OK) return status;
@@ -148,23 +148,21 @@ uint8_t transaction_commit(config_transaction *transaction, config_store *store,
                            const ebl_cfg_commit_request *request, uint64_t now_us,
                            uint16_t *detail)
 {
-    uint8_t status = commit_check(transaction, board, request, detail);
+    uint8_t status = commit_check(transaction, board, request, now_us, detail);
 
     if (status != EBL_STATUS_OK) return status;
     if (memcmp(transaction->image, store->image, EBL_IMAGE_LENGTH) != 0) {
         status = store_status(config_store_write(store, board, transaction->image));
     }
-    if (status != EBL_STATUS_OK) {
-        lease_renew(transaction, now_us);
-        return status;
-    }
+    if (status != EBL_STATUS_OK) return status;
     transaction->state = EBL_CONFIG_STATE_IDLE;
     return EBL_STATUS_OK;
 }
 
-uint8_t transaction_abort(config_transaction *transaction, uint16_t id, uint16_t *detail)
+uint8_t transaction_abort(config_transaction *transaction, uint16_t id, uint64_t now_us,
+                          uint16_t *detail)
 {
-    uint8_t status = transaction_check(transaction, id, detail);
+    uint8_t status = transaction_enter(transaction, id, now_us, detail);
 
     if (status == EBL_STATUS_OK) transaction_drop(transaction);
     return status;

@@ -21,8 +21,8 @@ typedef struct {
     uint8_t image[EBL_IMAGE_LENGTH];
 } config_transaction;
 
-/* All but `poll` and `drop` return an ebl_status and, where it is not OK, fill `detail`. What
- * succeeds renews the lease. */
+/* All but `poll` and `drop` return an ebl_status and, where it is not OK, fill `detail`. Whatever
+ * names the open transaction renews its lease. */
 uint8_t transaction_begin(config_transaction *transaction, const config_store *store,
                           const ebl_cfg_begin_request *request, uint64_t now_us,
                           uint16_t *detail);
@@ -39,7 +39,8 @@ uint8_t transaction_staged_crc(config_transaction *transaction, uint16_t id, uin
 uint8_t transaction_commit(config_transaction *transaction, config_store *store, const hal *board,
                            const ebl_cfg_commit_request *request, uint64_t now_us,
                            uint16_t *detail);
-uint8_t transaction_abort(config_transaction *transaction, uint16_t id, uint16_t *detail);
+uint8_t transaction_abort(config_transaction *transaction, uint16_t id, uint64_t now_us,
+                          uint16_t *detail);
 
 /* Ends the transaction when its lease is over. */
 void transaction_poll(config_transaction *transaction, uint64_t now_us);

@@ -78,6 +78,7 @@ static uint8_t item_read(item *read, const uint8_t *bytes, size_t length, uint8_
 {
     size_t values_length;
 
+    *detail = 0;
     if (length < ITEM_HEADER_LENGTH) return EBL_STATUS_LENGTH;
     *detail = ebl_get_u16(bytes);
     read->parameter = ebl_parameter_find(*detail);
@@ -108,7 +109,6 @@ uint8_t parameters_set(uint8_t *image, const uint8_t *items, size_t length, uint
     size_t at = 0;
 
     memcpy(changed, image, sizeof changed);
-    *detail = 0;
     while (at < length) {
         item read;
         size_t used;

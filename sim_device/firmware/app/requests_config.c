@@ -228,7 +228,7 @@ static void abort_transaction(app *unit, const ebl_header *request, reply *answe
         reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_ABORT_REQUEST_LENGTH);
         return;
     }
-    status = transaction_abort(&unit->transaction, asked.transaction, &detail);
+    status = transaction_abort(&unit->transaction, asked.transaction, now(unit), &detail);
     reply_status(answer, status, detail);
 }
 

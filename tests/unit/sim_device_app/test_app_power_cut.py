@@ -1,0 +1,121 @@
+"""Goal: a commit that loses power leaves exactly the old configuration or exactly the new one.
+
+Method: the flash counts every byte it erases and programs; the power is cut after every one of
+them in turn, until the commit goes through, and the unit is started again each time. Damage to a
+slot is done by hand.
+"""
+
+import numpy as np
+import pytest
+from sim_device.firmware.python._native import lib
+
+from firmware_protocol import parameters
+from firmware_protocol._generated import Event, Status
+from tests.fakes.bench_unit import FLASH_BLOCK_BYTES, BenchUnit
+
+OLD_CUTOFF_KMH = 21.0
+NEW_CUTOFF_KMH = 19.0
+BLOCK_BYTES = 512
+"""Small blocks: fewer dull steps of erasing."""
+
+BIT_OF_MAGIC, BIT_OF_GENERATION, BIT_OF_IMAGE = 0, 16 * 8, (32 + 100) * 8
+
+
+def commit_with_power_for(unit: BenchUnit, steps: int) -> Status | int:
+    unit.boot()
+    lib.bench_flash_cut_after(unit.board, steps)
+    return unit.write({"assist_cutoff_kmh": NEW_CUTOFF_KMH}).status
+
+
+@pytest.mark.parametrize("commits_before", [0, 1, 2])
+def test_power_lost_after_any_byte_leaves_the_old_or_the_new_configuration(
+    commits_before: int,
+) -> None:
+    unit = BenchUnit(flash_block_bytes=BLOCK_BYTES, flash_bytes=2 * BLOCK_BYTES)
+    for i in range(commits_before):
+        unit.write({"assist_cutoff_kmh": OLD_CUTOFF_KMH - i})
+    old = unit.read_image()
+    flash_before = unit.flash().copy()
+    new_config = unit.config() | {"assist_cutoff_kmh": NEW_CUTOFF_KMH}
+    new = (old[0] + 1, parameters.pack_image(new_config))
+    steps = 0
+    booted = []
+
+    while True:
+        unit.flash()[:] = flash_before
+        status = commit_with_power_for(unit, steps)
+        seen = unit.read_image()
+        assert seen == (new if status == Status.OK else old)
+
+        unit.boot()
+        booted.append(unit.read_image())
+        assert booted[-1] in (old, new)
+        assert Event.CONFIG_DEFAULTED not in [event.code for event in unit.events]
+        if status == Status.OK:
+            break
+        assert status == Status.FLASH_FAIL
+        steps += 1
+
+    assert booted[0] == old
+    assert booted[-1] == new
+    assert booted == sorted(booted, key=lambda image: image[0])
+    assert steps > BLOCK_BYTES + len(new[1])
+
+
+def test_a_commit_that_failed_can_be_repeated_when_the_flash_works_again() -> None:
+    unit = BenchUnit()
+    assert commit_with_power_for(unit, 1100) == Status.FLASH_FAIL
+
+    unit.boot()
+
+    assert unit.write({"assist_cutoff_kmh": NEW_CUTOFF_KMH}).status == Status.OK
+    unit.boot()
+    assert unit.config()["assist_cutoff_kmh"] == NEW_CUTOFF_KMH
+
+
+@pytest.mark.parametrize("program", [0, 1, 2], ids=["image", "header", "confirmed"])
+def test_a_byte_that_does_not_take_is_noticed_before_the_commit_counts(program: int) -> None:
+    unit = BenchUnit()
+    unit.write({"assist_cutoff_kmh": OLD_CUTOFF_KMH})
+    old = unit.read_image()
+    lib.bench_flash_weak_bit_after(unit.board, program)
+
+    status = unit.write({"assist_cutoff_kmh": NEW_CUTOFF_KMH}).status
+
+    assert status == Status.VERIFY_FAIL
+    assert unit.read_image() == old
+    unit.boot()
+    assert unit.read_image() == old
+
+
+@pytest.mark.parametrize("bit", [BIT_OF_MAGIC, BIT_OF_GENERATION, BIT_OF_IMAGE])
+def test_a_bit_that_rots_in_the_active_slot_brings_back_the_one_before(bit: int) -> None:
+    unit = BenchUnit()
+    factory = unit.read_image()
+    unit.write({"assist_cutoff_kmh": NEW_CUTOFF_KMH})
+
+    unit.flash()[FLASH_BLOCK_BYTES + bit // 8] ^= np.uint8(1 << bit % 8)
+    unit.boot()
+
+    assert unit.read_image() == factory
+
+
+def test_with_both_slots_damaged_the_unit_starts_on_its_default_and_says_so() -> None:
+    unit = BenchUnit()
+    unit.write({"assist_cutoff_kmh": NEW_CUTOFF_KMH})
+
+    unit.flash()[[50, FLASH_BLOCK_BYTES + 50]] ^= np.uint8(0x10)
+    unit.boot()
+
+    assert unit.read_image() == (0, parameters.pack_image(parameters.default_config()))
+    assert Event.CONFIG_DEFAULTED in [event.code for event in unit.events]
+
+
+def test_damaged_flash_is_not_taken_for_a_unit_fresh_from_the_factory() -> None:
+    unit = BenchUnit()
+    unit.flash()[50] ^= np.uint8(0x10)
+    damaged = unit.flash().copy()
+
+    assert lib.bench_provision(unit.board) == 0
+
+    assert (unit.flash() == damaged).all()
