@@ -14,8 +14,9 @@ def cases(registry: Registry) -> list[dict[str, Any]]:
     found = []
     room = int(registry.protocol["mtu"]) - 8
     for size in SIZES:
-        for row in registry.messages:
-            header = struct.pack("<BH", 7, row.id)
+        for position, row in enumerate(registry.messages, start=1):
+            tid = 255 if size == "largest" else position
+            header = struct.pack("<BH", tid, row.id)
             for kind, layout, head in (
                 ("request", row.request, b"\x20" + header),
                 ("response", row.response, b"\x28" + header + b"\0"),

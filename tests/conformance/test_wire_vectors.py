@@ -131,5 +131,15 @@ def test_the_unit_carries_the_schema_its_hash_promises() -> None:
     assert len(json.loads(canonical_json)["parameter"]) == len(registry.PARAMETERS)
 
 
+def test_whatever_the_registry_has_the_vectors_hold() -> None:
+    messages = {(case.values[0]["message"], case.values[0]["kind"]) for case in cases("messages")}
+    images = {case.values[0]["name"].split(":")[0] for case in cases("images")}
+
+    names = {message.name for message in registry.MessageId}
+    expected = {(name, kind) for name in names for kind in ("request", "response")}
+    assert messages == expected | {(event.name, "event") for event in registry.Event}
+    assert images >= {row.name for row in registry.PARAMETERS}
+
+
 def test_the_vectors_stay_small_enough_to_read() -> None:
     assert sum(path.stat().st_size for path in VECTORS.iterdir()) < 300_000
