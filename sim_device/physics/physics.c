@@ -44,14 +44,28 @@ typedef struct {
     motion motor_shaft;
 } instant;
 
+/* A free motor gains up to 14 rad/s in one step, and its limits hold at the end of it too. */
+static double motor_speed_to_limit(const physics_config *config, const physics_state *state,
+                                   double demand_nm, int engaged, double dt_s) {
+    if (engaged || !(demand_nm > 0.0)) {
+        return state->motor_speed_rad_s;
+    }
+    const double torque_nm = fmin(demand_nm, config->motor.torque_nm_max);
+    return state->motor_speed_rad_s + dt_s * torque_nm / config->motor.inertia_kg_m2;
+}
+
 static void gather(const physics_config *config, const physics_state *state,
-                   const physics_command *command, instant *now) {
+                   const physics_command *command, double dt_s, instant *now) {
     const double reach_m = metres_per_rad(config);
     const double chainring_rad_s = state->speed_ms / reach_m;
     now->road = road_forces_at(&config->road, &command->road, state->speed_ms,
                                drivetrain_chain_ratio(&config->drivetrain),
                                config->drivetrain.chain_efficiency);
-    now->motor = motor_drive_at(&config->motor, command->motor_torque_nm, state->motor_speed_rad_s,
+    const int motor_engaged =
+        state->motor_speed_rad_s >= chainring_rad_s * config->drivetrain.gear_ratio;
+    const double motor_rad_s = motor_speed_to_limit(config, state, command->motor_torque_nm,
+                                                    motor_engaged, dt_s);
+    now->motor = motor_drive_at(&config->motor, command->motor_torque_nm, motor_rad_s,
                                 state->battery.voltage_v);
     now->rider_nm = rider_torque_nm(&config->rider, &command->rider, state->crank_angle_rad,
                                     state->crank_speed_rad_s);
@@ -69,7 +83,7 @@ static void gather(const physics_config *config, const physics_state *state,
         .motor_inertia_kg_m2 = config->motor.inertia_kg_m2,
         .moving = state->speed_ms > 0.0,
         .crank_engaged = state->crank_speed_rad_s >= chainring_rad_s,
-        .motor_engaged = state->motor_speed_rad_s >= chainring_rad_s * config->drivetrain.gear_ratio,
+        .motor_engaged = motor_engaged,
     };
     now->flow = drivetrain_solve(&config->drivetrain, &load);
 }
@@ -154,7 +168,7 @@ static void book(const physics_config *config, physics_ledger *ledger, const ins
 void physics_step(const physics_config *config, physics_state *state,
                   const physics_command *command, double dt_s) {
     instant now = {0};
-    gather(config, state, command, &now);
+    gather(config, state, command, dt_s, &now);
     move(config, state, dt_s, &now);
     close_clutches(config, state, &now);
     book(config, &state->ledger, &now, dt_s);
