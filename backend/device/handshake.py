@@ -139,7 +139,7 @@ def _hello(host_nonce: bytes) -> Operation[HelloResponse]:
     request = HelloRequest(MAJOR, MAJOR, 0, MTU, host_nonce)
     response = yield from attempt(request, HELLO_ATTEMPTS)
     if response.status == Status.VERSION:
-        raise VersionRefused(version_text(f"{response.detail >> 8}.{response.detail & 0xFF}"))
+        raise VersionRefused(version_text(str(response.detail)))
     if response.status != Status.OK:
         raise refused(request, response)
     hello = expect(request, response, HelloResponse)

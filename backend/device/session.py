@@ -257,7 +257,8 @@ class Session:
             self._stand(LinkState.READ_ONLY, acquaintance.read_only_reason)
         if self._plan is not None and acquaintance.channels:
             plan = replace(self._plan, channels=acquaintance.channels)
-            self._runner.start(self._subscription.begin(plan), self._tell, self._no_stream)
+            begin = self._subscription.begin(plan, acquaintance.identity.simulated)
+            self._runner.start(begin, self._tell, self._no_stream)
 
     def _not_acquainted(self, error: BaseException) -> None:
         if self._phase is not _Phase.GREETING:

@@ -98,7 +98,7 @@ class StreamReceiver:
         self._wire_epoch = reply.epoch & WIRE_EPOCH_MASK
         self._next_sequence = reply.start_seq
         self._next_index = 0
-        self._time_us = unit_time_us
+        self.time_us = unit_time_us
         self._statistics = statistics
 
     @property
@@ -121,12 +121,12 @@ class StreamReceiver:
         values = frame.values
         self._next_sequence = (frame.seq + 1) % SEQUENCE_MODULUS
         self._next_index = first_index + len(values)
-        self._time_us = unwrap_us(frame.t0_us, self._time_us)
+        self.time_us = unwrap_us(frame.t0_us, self.time_us)
         self._statistics.stream_frames += 1
         self._statistics.stream_rows += len(values)
         self._statistics.stream_rows_lost += lost_rows
         return StreamBlock(
-            t0_us=self._time_us,
+            t0_us=self.time_us,
             period_us=self.period_us,
             first_index=first_index,
             values=values,

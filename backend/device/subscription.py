@@ -26,6 +26,10 @@ from firmware_protocol.codec import Stream
 ENCODING_PLAIN = 0
 # Halving the rate five times reaches 3 Hz from 100 Hz; a line slower than that is not for us.
 SLOWER_ATTEMPTS = 6
+# Leases run on the unit's clock, and a simulated one may run a hundred times faster than ours.
+LEASE_SIMULATED_S = 250
+# Part of a lease after which it is renewed, by whichever clock comes first.
+RENEW_PART = 0.4
 
 
 class Subscription:
@@ -35,22 +39,25 @@ class Subscription:
         self._statistics = statistics
         self._receiver: StreamReceiver | None = None
         self._epoch = 0
-        self._renew_at_s: float | None = None
+        self._lease_s = LEASE_S
+        self._renewed_s: float | None = None
+        self._renewed_unit_us = 0
 
     @property
     def started(self) -> StreamStarted | None:
         """What is being streamed, None when nothing is."""
         return self._receiver.started if self._receiver else None
 
-    def begin(self, plan: StreamPlan) -> Operation[StreamStarted]:
+    def begin(self, plan: StreamPlan, simulated: bool = False) -> Operation[StreamStarted]:
         """Subscribe, more slowly where the line is too slow. Raises DeviceRefused, NoAnswer."""
         # The stream carries 32 bits of unit time; the snapshot gives the other 32.
         first = bytes([plan.channels[0].id])
         snapshot = yield from ask(StrSnapshotRequest(first), StrSnapshotResponse)
+        self._lease_s = LEASE_SIMULATED_S if simulated else LEASE_S
         divider = plan.divider
         for _ in range(SLOWER_ATTEMPTS):
             request = StrSubscribeRequest(
-                STREAM_ID, divider, plan.batch, ENCODING_PLAIN, LEASE_S, plan.channel_ids
+                STREAM_ID, divider, plan.batch, ENCODING_PLAIN, self._lease_s, plan.channel_ids
             )
             response = yield from attempt(request)
             if response.status != Status.BANDWIDTH:
@@ -62,19 +69,20 @@ class Subscription:
         return self._receiver.started
 
     def renewal_due(self, now_s: float) -> bool:
-        """Whether the lease should be renewed now; asks again RENEW_S later."""
+        """Whether the lease should be renewed now; says so once for each renewal."""
         if self._receiver is None:
             return False
-        if self._renew_at_s is None:
-            self._renew_at_s = now_s + RENEW_S
-        if now_s < self._renew_at_s:
+        if self._renewed_s is None:
+            self._renewed_s, self._renewed_unit_us = now_s, self._receiver.time_us
+        unit_s = (self._receiver.time_us - self._renewed_unit_us) / 1e6
+        if now_s - self._renewed_s < RENEW_S and unit_s < RENEW_PART * self._lease_s:
             return False
-        self._renew_at_s = now_s + RENEW_S
+        self._renewed_s, self._renewed_unit_us = now_s, self._receiver.time_us
         return True
 
     def renew(self) -> Operation[bool]:
         """Renew the lease; False when the unit knows no such stream (any more). Raises NoAnswer."""
-        response = yield from attempt(StrRenewRequest(STREAM_ID, LEASE_S))
+        response = yield from attempt(StrRenewRequest(STREAM_ID, self._lease_s))
         return response.status == Status.OK
 
     def take(self, frame: Stream, wall_us: int) -> StreamBlock | None:
@@ -87,4 +95,4 @@ class Subscription:
     def end(self) -> None:
         """The unit or the port is gone; frames that still come are foreign."""
         self._receiver = None
-        self._renew_at_s = None
+        self._renewed_s = None

@@ -1,6 +1,6 @@
 """From a url to an open link: which transport, and how to find the same adapter again.
 
-- `sim`, `sim:NAME?seed=&speed=&scenario=`: a simulated unit as a child process.
+- `sim`, `sim:NAME?seed=&speed=&scenario=&flash=`: a simulated unit as a child process.
 - `socket://host:port`: a unit behind TCP.
 - `/dev/ttyUSB0`, `COM3`, any other path: a serial port; `?baud=921600` for another speed.
 """
@@ -43,17 +43,21 @@ def kind_of(url: str) -> str:
 
 
 class Opener:
-    """Opens one url again and again, and finds a USB adapter that came back under another name."""
+    """Opens one url again and again, and finds a USB adapter that came back under another name.
 
-    def __init__(self, url: str) -> None:
+    flash_folder: where simulated units keep their configuration, None for nowhere.
+    """
+
+    def __init__(self, url: str, flash_folder: Path | None = None) -> None:
         self.url = url
+        self._flash_folder = flash_folder
         self._kind = kind_of(url)
         self._usb_serial_number: str | None = None
 
     def open(self) -> Link:
         """Open the link; raises LinkError with cause and remedy."""
         if self._kind == "simulated":
-            return SimulatedLink(self.url)
+            return SimulatedLink(self.url, self._flash_folder)
         if self._kind == "socket":
             host, port = _host_and_port(self.url)
             return SocketLink(host, port, url=self.url)

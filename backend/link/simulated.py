@@ -15,7 +15,7 @@ import sys
 import tempfile
 import threading
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from urllib.parse import parse_qs
 
@@ -27,23 +27,24 @@ from backend.link.serial_port import SerialPort
 READY_TIMEOUT_S = 15.0
 STOP_TIMEOUT_S = 2.0
 NAME_DEFAULT = "unit"
-SETTINGS = ("seed", "speed", "scenario")
+SETTINGS = ("seed", "speed", "scenario", "flash")
 # What the child says last is quoted when it fails; more than this helps nobody.
 COMPLAINT_CHARACTERS_MAX = 600
 
 
 @dataclass(frozen=True)
 class SimulatedAddress:
-    """`sim` or `sim:NAME?seed=&speed=&scenario=`, taken apart.
+    """`sim` or `sim:NAME?seed=&speed=&scenario=&flash=`, taken apart.
 
     Each name is a unit of its own: without a seed the name makes one, so two names never share a
-    serial number.
+    serial number. flash: file that keeps the unit's configuration.
     """
 
     name: str
     seed: int
     speed: float
     scenario: str | None
+    flash: str | None
 
     @classmethod
     def parse(cls, url: str) -> SimulatedAddress:
@@ -64,7 +65,7 @@ class SimulatedAddress:
             raise InvalidRequest(f"{url}: seed is a whole number, speed a number.") from error
         if not 0.01 <= speed <= 1000.0:
             raise InvalidRequest(f"{url}: speed is a factor from 0.01 to 1000.")
-        return cls(name, seed, speed, settings.get("scenario"))
+        return cls(name, seed, speed, settings.get("scenario"), settings.get("flash"))
 
     def command(self, pty_path: Path) -> list[str]:
         """The command line of the child that serves this address on `pty_path`."""
@@ -72,22 +73,33 @@ class SimulatedAddress:
         words += ["--seed", str(self.seed), "--speed", str(self.speed)]
         if self.scenario is not None:
             words += ["--scenario", self.scenario]
+        if self.flash is not None:
+            words += ["--flash", self.flash]
         return words
 
 
 class SimulatedLink:
     """The child process and the serial port on its pseudo-terminal.
 
-    Raises LinkError with the child's own words when it does not get ready.
+    flash_folder: where units without a flash of their own keep their configuration, None for
+    nowhere. Raises LinkError with the child's own words when it does not get ready.
     """
 
-    def __init__(self, url: str, ready_timeout_s: float = READY_TIMEOUT_S) -> None:
+    def __init__(
+        self,
+        url: str,
+        flash_folder: Path | None = None,
+        ready_timeout_s: float = READY_TIMEOUT_S,
+    ) -> None:
         if os.name != "posix":
             raise LinkError(
                 f"{url}: a simulated unit of Spindle's own needs pseudo-terminals. Here, start "
                 "`spindle sim --tcp 8751` and add `socket://127.0.0.1:8751`."
             )
         address = SimulatedAddress.parse(url)
+        if address.flash is None and flash_folder is not None:
+            flash_folder.mkdir(parents=True, exist_ok=True)
+            address = replace(address, flash=str(flash_folder / f"unit-{address.seed}.flash"))
         self._url = url
         self._folder = Path(tempfile.mkdtemp(prefix="spindle-sim-"))
         self._complaints = (self._folder / "stderr").open("w+b")

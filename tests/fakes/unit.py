@@ -66,6 +66,7 @@ class FakeUnit:
         self.major = 1
         self.schema = b"{}"
         self.schema_hash = SCHEMA_HASH
+        self.device_class = 1
         self.executed: list[MessageId] = []  # requests done, not those answered from the cache
         self.lies: Callable[[bytes], bytes] = lambda image: image
         self.refuse: dict[MessageId, Status] = {}
@@ -152,10 +153,10 @@ class FakeUnit:
 
     def _on_hello(self, request: Any) -> Message:
         if not request.major_min <= self.major <= request.major_max:
-            raise Refusal(Status.VERSION, self.major << 8)
+            raise Refusal(Status.VERSION, self.major)
         crc32 = zlib.crc32(self.image)
         return HelloResponse(
-            self.major, 0, 129, 1, (0, 1, 0), bytes(8), self.uid, self.boot_id, 1,
+            self.major, 0, self.device_class, 1, (0, 1, 0), bytes(8), self.uid, self.boot_id, 1,
             self.schema_hash, self.generation, crc32, 544, 544, 4, 1, 1, 0, self.time_us,
         )  # fmt: skip
 

@@ -47,7 +47,8 @@ def test_the_unit_is_known_after_hello_however_the_bytes_are_cut(
     identity = bench.session.acquaintance.identity
     assert bytes.fromhex(identity.serial_number) == b"SPINDLE-0001"
     assert identity.firmware_version == "0.1.0"
-    assert identity.simulated
+    assert identity.model == "mid drive"
+    assert not identity.simulated
 
 
 def test_the_session_flushes_half_a_frame_before_it_speaks() -> None:
@@ -221,7 +222,7 @@ def test_a_unit_of_another_major_version_is_refused_naming_both() -> None:
     bench.run(1.0)
 
     assert bench.session.state is LinkState.CLOSED
-    assert "protocol 2.0, this Spindle speaks 1.0" in bench.session.reason
+    assert "protocol 2, this Spindle speaks 1.0" in bench.session.reason
 
 
 def test_a_unit_that_answers_in_frames_of_another_major_is_refused_too() -> None:

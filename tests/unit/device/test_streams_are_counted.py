@@ -135,6 +135,21 @@ def test_the_lease_is_renewed_every_two_seconds_and_the_stream_never_ends() -> N
     assert unit.executed.count(MessageId.STR_SUBSCRIBE) == 1
 
 
+def test_the_lease_of_a_simulated_unit_that_runs_thirty_times_faster_holds() -> None:
+    class Hurried(FakeUnit):
+        def advance(self, seconds: float) -> None:
+            super().advance(30.0 * seconds)
+
+    unit = Hurried()
+    unit.device_class = 129
+    bench = Bench(unit, StreamPlan()).connect()
+
+    bench.run(20.0)
+
+    assert unit.executed.count(MessageId.STR_SUBSCRIBE) == 1
+    assert unit.executed.count(MessageId.HELLO) == 1
+
+
 def test_a_line_that_is_too_slow_is_asked_for_less() -> None:
     class SlowLine(FakeUnit):
         def _on_str_subscribe(self, request: object) -> object:

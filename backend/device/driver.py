@@ -1,0 +1,265 @@
+"""One thread per port: carries bytes between a link and its session, and time into it.
+
+It reads late and in bulk: wake-ups cost, decoding does not (platform page, G). The thread outlives
+everything but `close`: a vanished port is opened again, a listener's exception is logged.
+"""
+
+from __future__ import annotations
+
+import logging
+import os
+import queue
+import threading
+import time
+from collections.abc import Callable
+from concurrent.futures import Future
+from concurrent.futures import TimeoutError as FutureTimeout
+from typing import Protocol, TypeVar
+
+from backend.device.operation import Operation
+from backend.device.session import Session
+from backend.device.snapshot import DeviceStatus, status_of
+from backend.device.states import ACQUAINTED, DeviceEvent, LinkState
+from backend.device.stream import StreamPlan
+from backend.errors import LinkError, NoAnswer, SpindleError
+from backend.link import Link
+
+LOG = logging.getLogger(__name__)
+
+Result = TypeVar("Result")
+Listener = Callable[[DeviceEvent], None]
+
+# Between reads while only the stream flows, and while somebody waits for an answer.
+READ_EVERY_S = 0.020
+READ_EVERY_BUSY_S = 0.004
+# More than this in one read means a fast unit; a pseudo-terminal holds 4096 bytes, so hurry.
+FAST_READ_BYTES = 2048
+READ_EVERY_FAST_S = 0.002
+READ_BYTES = 65536
+# A port that does not open is tried again after 0.1 s, 0.2 s and so on up to this.
+REOPEN_S_MIN = 0.1
+REOPEN_S_MAX = 1.0
+# A port that is open and deaf is opened anew: some adapters do not survive a sleep otherwise.
+GREETINGS_BEFORE_REOPEN = 8
+# Work that waits for the thread; more means that nobody waits for the answers.
+COMMANDS_MAX = 32
+# What a port that takes nothing may pile up: thirty of our longest frames.
+UNSENT_BYTES_MAX = 16384
+CLOSE_TIMEOUT_S = 5.0
+
+SETTLED = (*ACQUAINTED, LinkState.CLOSED)
+
+_Command = Callable[[], None]
+
+
+class LinkOpener(Protocol):
+    """Opens the same way to a unit again and again; backend.link.Opener is one."""
+
+    @property
+    def url(self) -> str: ...
+
+    def open(self) -> Link: ...
+
+
+class Driver:
+    """A device's thread.
+
+    opener: how to get to the unit. listener: called on this thread with every event; it must not
+    wait. reopen_when_deaf: False where a silent unit is better left alone.
+    """
+
+    def __init__(
+        self,
+        opener: LinkOpener,
+        listener: Listener,
+        plan: StreamPlan | None = None,
+        reopen_when_deaf: bool = True,
+    ) -> None:
+        self._opener = opener
+        self._listener = listener
+        self._reopen_when_deaf = reopen_when_deaf
+        self._session = Session(time.monotonic(), plan)
+        self._link: Link | None = None
+        self._unsent = b""
+        self._open_at_s = 0.0
+        self._reopen_s = REOPEN_S_MIN
+        self._read_every_s = READ_EVERY_S
+        self._commands: queue.Queue[_Command] = queue.Queue(COMMANDS_MAX)
+        # Set once it is known what hangs on the port, or that nothing does.
+        self.settled = threading.Event()
+        self._wake = threading.Event()
+        self._stop = threading.Event()
+        self._lock = threading.Lock()
+        self._thread = threading.Thread(target=self._run, name=f"unit {opener.url}", daemon=True)
+
+    def start(self) -> None:
+        """Begin to open the port."""
+        self._thread.start()
+
+    def close(self) -> None:
+        """Say goodbye to the unit, give the port back and end the thread."""
+        self._stop.set()
+        self._wake.set()
+        self._thread.join(CLOSE_TIMEOUT_S)
+        if self._thread.is_alive():
+            LOG.error("The thread of %s does not end; its port stays open.", self._opener.url)
+
+    def status(self) -> DeviceStatus:
+        """Where the device stands now; callable from any thread."""
+        with self._lock:
+            return status_of(self._session)
+
+    def run(self, operation: Operation[Result], timeout_s: float) -> Result:
+        """Run an operation and wait for its result; for any thread but the driver's own.
+
+        Raises what the operation raises, NoAnswer after `timeout_s`.
+        """
+        future: Future[Result] = Future()
+
+        def begin() -> None:
+            if future.set_running_or_notify_cancel():
+                self._session.start(operation, future.set_result, future.set_exception)
+
+        try:
+            self._commands.put_nowait(begin)
+        except queue.Full:
+            raise LinkError(
+                f"{self._opener.url}: too much is asked at once; try again in a moment."
+            ) from None
+        self._wake.set()
+        try:
+            return future.result(timeout_s)
+        except FutureTimeout:
+            future.cancel()
+            raise NoAnswer(
+                f"{self._opener.url}: no result within {timeout_s:g} s. Try again."
+            ) from None
+
+    # ------------------------------------------------------------------ the thread
+
+    def _run(self) -> None:
+        while not self._stop.is_set():
+            try:
+                self._turn(time.monotonic())
+            except Exception:
+                # Ours to mend; the device must not die of it silently.
+                LOG.exception("%s: a fault in Spindle; the port is opened anew.", self._opener.url)
+                self._drop(LinkError("A fault in Spindle; the port is opened anew."))
+            self._wake.wait(self._read_every_s)
+            self._wake.clear()
+        self._finish()
+
+    def _turn(self, now_s: float) -> None:
+        """One round: port, commands, bytes in, time, bytes out, events."""
+        if self._link is None and now_s >= self._open_at_s:
+            self._open()
+        with self._lock:
+            self._session.wall_offset_us = (time.time_ns() - time.monotonic_ns()) // 1000
+            received = self._exchange(self._link) if self._link is not None else 0
+            if self._link is None:
+                self._session.tick(time.monotonic())
+            self._begin_commands()
+            busy = self._session.is_busy
+            events = self._session.next_events()
+            deaf = self._session.failed_greetings >= GREETINGS_BEFORE_REOPEN
+            settled = self._session.failed_greetings > 0 or self._session.state in SETTLED
+        for event in events:
+            self._tell(event)
+        if settled:
+            self.settled.set()
+        if deaf and self._reopen_when_deaf and self._link is not None:
+            self._drop(LinkError(self._session.reason))
+        self._read_every_s = READ_EVERY_BUSY_S if busy else READ_EVERY_S
+        if received > FAST_READ_BYTES:
+            self._read_every_s = READ_EVERY_FAST_S
+
+    def _begin_commands(self) -> None:
+        while True:
+            try:
+                self._commands.get_nowait()()
+            except queue.Empty:
+                break
+        if self._link is not None:
+            self._send(self._link)
+
+    def _exchange(self, link: Link) -> int:
+        """Bytes in, time, bytes out; returns how many came."""
+        try:
+            data = link.read(READ_BYTES)
+        except LinkError as error:
+            self._lose(error)
+            return 0
+        now_s = time.monotonic()
+        if data:
+            self._session.receive(data, now_s)
+        self._session.tick(now_s)
+        self._send(link)
+        return len(data)
+
+    def _send(self, link: Link) -> None:
+        self._unsent += self._session.bytes_to_send()
+        if not self._unsent:
+            return
+        try:
+            self._unsent = self._unsent[link.write(self._unsent) :]
+            if len(self._unsent) > UNSENT_BYTES_MAX:
+                raise LinkError(f"{link.url}: the port takes no bytes; it is opened anew.")
+        except LinkError as error:
+            self._lose(error)
+
+    def _open(self) -> None:
+        """Open the port; outside the lock, because a simulated unit takes a second to start."""
+        try:
+            link = self._opener.open()
+        except SpindleError as error:
+            failure = error if isinstance(error, LinkError) else LinkError(error.message)
+            with self._lock:
+                self._lose(failure)
+            return
+        with self._lock:
+            self._link = link
+            self._reopen_s = REOPEN_S_MIN
+            self._session.port_opened(
+                time.monotonic(), link.url, os.urandom(8), link.bits_per_second
+            )
+
+    def _drop(self, error: LinkError) -> None:
+        with self._lock:
+            self._lose(error)
+
+    def _lose(self, error: LinkError) -> None:
+        """The port is gone or was never there; the caller holds the lock."""
+        now_s = time.monotonic()
+        self._close_link()
+        self._session.port_failed(now_s, error)
+        self._session.failed_greetings = 0
+        self.settled.set()
+        self._open_at_s = now_s + self._reopen_s
+        self._reopen_s = min(2.0 * self._reopen_s, REOPEN_S_MAX)
+
+    def _tell(self, event: DeviceEvent) -> None:
+        try:
+            self._listener(event)
+        except Exception:
+            LOG.exception("%s: a listener failed on %s.", self._opener.url, type(event).__name__)
+
+    def _finish(self) -> None:
+        with self._lock:
+            self._session.close(time.monotonic())
+            if self._link is not None:
+                self._send(self._link)
+            self._close_link()
+            self._begin_commands()
+            events = self._session.next_events()
+        for event in events:
+            self._tell(event)
+
+    def _close_link(self) -> None:
+        self._unsent = b""
+        if self._link is None:
+            return
+        try:
+            self._link.close()
+        except (OSError, SpindleError) as error:
+            LOG.warning("%s: closing the port failed: %s", self._opener.url, error)
+        self._link = None

@@ -1,0 +1,43 @@
+"""The controls of a simulated unit: rider, road and clock as JSON over the same wire."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from backend.device.operation import Operation, ask, attempt, expect
+from backend.errors import InvalidRequest, PeerProtocolError
+from firmware_protocol._generated import (
+    SimGetRequest,
+    SimGetResponse,
+    SimSetRequest,
+    SimSetResponse,
+    Status,
+)
+
+
+def simulation_get() -> Operation[dict[str, Any]]:
+    """What rider, road and clock do now."""
+    answer = yield from ask(SimGetRequest(), SimGetResponse)
+    return _object(answer.text)
+
+
+def simulation_set(changes: Mapping[str, Any]) -> Operation[dict[str, Any]]:
+    """Change what is named; what they do then. Raises InvalidRequest in the simulator's words."""
+    request = SimSetRequest(json.dumps(changes, separators=(",", ":")).encode())
+    response = yield from attempt(request)
+    if response.status == Status.RANGE:
+        words = response.payload.decode("utf-8", "replace")
+        raise InvalidRequest(words or "The simulated unit refuses these values.")
+    return _object(expect(request, response, SimSetResponse).text)
+
+
+def _object(text: bytes) -> dict[str, Any]:
+    try:
+        found = json.loads(text)
+    except ValueError as error:
+        raise PeerProtocolError(f"The simulated unit does not answer in JSON ({error}).") from error
+    if not isinstance(found, dict):
+        raise PeerProtocolError("The simulated unit does not answer with an object.")
+    return found

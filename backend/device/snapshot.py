@@ -1,0 +1,44 @@
+"""Where a device stands at one moment, copied out of its session for other threads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from backend.device.identity import Identity
+from backend.device.session import Session
+from backend.device.states import LinkState
+from backend.device.statistics import LinkStatistics
+from backend.device.stream import StreamBlock, StreamStarted
+
+
+@dataclass(frozen=True)
+class DeviceStatus:
+    """A session's state, copied. mtu: the largest frame both sides take, None before HELLO."""
+
+    state: LinkState
+    reason: str
+    identity: Identity | None
+    mtu: int | None
+    config_generation: int | None
+    config_crc32: int | None
+    faults_active: tuple[str, ...]
+    streaming: StreamStarted | None
+    last_block: StreamBlock | None
+    statistics: LinkStatistics
+
+
+def status_of(session: Session) -> DeviceStatus:
+    """Copy what other threads may want to know."""
+    acquaintance = session.acquaintance
+    return DeviceStatus(
+        state=session.state,
+        reason=session.reason,
+        identity=acquaintance.identity if acquaintance else None,
+        mtu=min(acquaintance.hello.rx_mtu, acquaintance.hello.tx_mtu) if acquaintance else None,
+        config_generation=session.notes.config_generation,
+        config_crc32=session.notes.config_crc32,
+        faults_active=session.notes.faults_active,
+        streaming=session.streaming,
+        last_block=session.last_block,
+        statistics=session.link_statistics(),
+    )

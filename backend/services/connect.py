@@ -1,0 +1,299 @@
+"""Units: add one by its url, look at it, listen to it, let it go. Several at once.
+
+A device keeps the id it got when it was added: the unit's serial number if it answered by then,
+else a name made of its url. Either way it is found by its serial number too, once that is known.
+"""
+
+from __future__ import annotations
+
+import re
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any, TypeVar
+
+from backend.device.driver import Driver, LinkOpener
+from backend.device.faults import fault_description
+from backend.device.live_values import LiveValues, ask_values, last_values
+from backend.device.operation import Operation
+from backend.device.simulation import simulation_get, simulation_set
+from backend.device.snapshot import DeviceStatus
+from backend.device.states import DeviceEvent
+from backend.device.stream import StreamPlan
+from backend.errors import Conflict, DeviceRefused, InvalidRequest, NotFound
+from backend.link import Opener, PortInfo, kind_of, list_ports
+from backend.services.device_view import ConfigStamp, DeviceView, FaultView
+
+Result = TypeVar("Result")
+Listener = Callable[[DeviceEvent], None]
+# For those who follow every device: its id and what happened.
+Watcher = Callable[[str, DeviceEvent], None]
+
+# How long `add` waits for the unit to say who it is: a simulated one starts in a second or two.
+IDENTITY_WAIT_S = 6.0
+OPERATION_TIMEOUT_S = 10.0
+# A workshop has one to four; more is a script gone wrong, and each costs a thread.
+DEVICES_MAX = 32
+
+
+class _Device:
+    """One added unit: its thread, its id once it is settled, who listens."""
+
+    def __init__(self, url: str, kind: str, watchers: Callable[[], tuple[Watcher, ...]]) -> None:
+        self.url = url
+        self.kind = kind
+        self.id: str | None = None
+        self.driver: Driver
+        self._watchers = watchers
+        self._lock = threading.Lock()
+        self._listeners: tuple[Listener, ...] = ()
+
+    @property
+    def serial_number(self) -> str | None:
+        """The unit's serial number once it has said it."""
+        identity = self.driver.status().identity
+        return identity.serial_number if identity else None
+
+    def listen(self, listener: Listener) -> Callable[[], None]:
+        """Add a listener; the result removes it."""
+        with self._lock:
+            self._listeners = (*self._listeners, listener)
+
+        def leave() -> None:
+            with self._lock:
+                self._listeners = tuple(one for one in self._listeners if one is not listener)
+
+        return leave
+
+    def tell(self, event: DeviceEvent) -> None:
+        """Pass an event on; one listener's fault is not the next one's. On the driver's thread."""
+        errors: list[Exception] = []
+        listeners = self._listeners
+        if self.id is not None:
+            device_id = self.id
+            listeners += tuple(_bound(watcher, device_id) for watcher in self._watchers())
+        for listener in listeners:
+            try:
+                listener(event)
+            except Exception as error:
+                errors.append(error)
+        if errors:
+            raise ExceptionGroup(f"{len(errors)} listeners of {self.url} failed", errors)
+
+
+class Devices:
+    """Every unit that was added and not removed, whatever its state. For any thread.
+
+    flash_folder: where simulated units keep their configuration between runs, None for nowhere.
+    plan: what is streamed from each unit. opener: how a url becomes a link.
+    """
+
+    def __init__(
+        self,
+        flash_folder: Path | None = None,
+        plan: StreamPlan | None = StreamPlan(),  # noqa: B008 - frozen
+        opener: Callable[[str], LinkOpener] | None = None,
+    ) -> None:
+        self._plan = plan
+        self._opener = opener or (lambda url: Opener(url, flash_folder))
+        self._lock = threading.Lock()
+        self._devices: dict[str, _Device] = {}  # by url
+        self._watchers: tuple[Watcher, ...] = ()
+
+    # ------------------------------------------------------------------ which there are
+
+    def add(self, url: str, wait_s: float = IDENTITY_WAIT_S) -> DeviceView:
+        """Open a unit; it connects, and reconnects, in the background.
+
+        Waits up to `wait_s` for the unit to say who it is. The same url twice is the same device.
+        Raises InvalidRequest for a bad url, Conflict when the unit is here by another way already.
+        """
+        url = url.strip()
+        kind = kind_of(url)
+        with self._lock:
+            device = self._devices.get(url)
+            if device is None:
+                device = self._open(url, kind)
+        device.driver.settled.wait(wait_s)
+        twin = self._settle(device)
+        if twin is not None:
+            self._close(device)
+            raise Conflict(
+                f"The unit behind {url} is {device.serial_number}, which is connected as "
+                f"{twin.id} over {twin.url} already. Remove that one first."
+            )
+        return _view(device)
+
+    def remove(self, device_id: str) -> None:
+        """Let a unit go and give its port back; a simulated one ends. Raises NotFound."""
+        self._close(self._find(device_id))
+
+    def list(self) -> Sequence[DeviceView]:
+        """Every device in the order of its adding."""
+        with self._lock:
+            devices = [device for device in self._devices.values() if device.id is not None]
+        return [_view(device) for device in devices]
+
+    def get(self, device_id: str) -> DeviceView:
+        """One device by its id or its serial number. Raises NotFound."""
+        return _view(self._find(device_id))
+
+    def ports(self) -> Sequence[PortInfo]:
+        """Ports of this machine that may have a unit, and the simulated unit."""
+        return list_ports()
+
+    def close(self) -> None:
+        """Let every unit go."""
+        with self._lock:
+            devices = list(self._devices.values())
+        for device in devices:
+            self._close(device)
+
+    # ------------------------------------------------------------------ what they tell
+
+    def subscribe(self, device_id: str, listener: Listener) -> Callable[[], None]:
+        """Hear what happens to a device, on its own thread; the result ends it. Raises NotFound.
+
+        A listener must not wait: it holds up the unit.
+        """
+        return self._find(device_id).listen(listener)
+
+    def watch(self, watcher: Watcher) -> Callable[[], None]:
+        """Hear what happens to every device, present and to come; the result ends it."""
+        with self._lock:
+            self._watchers = (*self._watchers, watcher)
+
+        def leave() -> None:
+            with self._lock:
+                self._watchers = tuple(one for one in self._watchers if one is not watcher)
+
+        return leave
+
+    def snapshot(self, device_id: str) -> LiveValues:
+        """The newest value of every channel: of the stream, or asked of the unit.
+
+        Raises NotFound, NoAnswer with the reason when the unit is not there.
+        """
+        device = self._find(device_id)
+        block = device.driver.status().last_block
+        if block is not None:
+            return last_values(block)
+        return device.driver.run(ask_values(), OPERATION_TIMEOUT_S)
+
+    def faults(self, device_id: str) -> Sequence[FaultView]:
+        """The faults that are active in the unit, in words. Raises NotFound."""
+        names = self.status(device_id).faults_active
+        return [FaultView(name, fault_description(name)) for name in names]
+
+    # ------------------------------------------------------------------ what is asked of them
+
+    def status(self, device_id: str) -> DeviceStatus:
+        """Everything that is known of a device's link and unit. Raises NotFound."""
+        return self._find(device_id).driver.status()
+
+    def run(
+        self, device_id: str, operation: Operation[Result], timeout_s: float = OPERATION_TIMEOUT_S
+    ) -> Result:
+        """Run an operation on the unit. Raises NotFound, NoAnswer and what the operation raises."""
+        return self._find(device_id).driver.run(operation, timeout_s)
+
+    def simulation_get(self, device_id: str) -> dict[str, Any]:
+        """Rider, road and clock of a simulated unit. Raises Conflict for a real one."""
+        return self._simulation(device_id, simulation_get())
+
+    def simulation_set(self, device_id: str, changes: Mapping[str, Any]) -> dict[str, Any]:
+        """Change what is named. Raises InvalidRequest in the simulator's words, Conflict."""
+        return self._simulation(device_id, simulation_set(changes))
+
+    # ------------------------------------------------------------------ inside
+
+    def _simulation(self, device_id: str, operation: Operation[dict[str, Any]]) -> dict[str, Any]:
+        device = self._find(device_id)
+        identity = device.driver.status().identity
+        try:
+            if identity is None or identity.simulated:
+                return device.driver.run(operation, OPERATION_TIMEOUT_S)
+        except DeviceRefused as error:
+            if error.status != "UNKNOWN_MSG":
+                raise
+        raise Conflict(f"{device_id} is a real unit; only a simulated one has a simulation.")
+
+    def _open(self, url: str, kind: str) -> _Device:
+        """Make a device and start its thread; the caller holds the lock."""
+        if len(self._devices) >= DEVICES_MAX:
+            raise InvalidRequest(f"There are {DEVICES_MAX} devices already; remove one first.")
+        device = _Device(url, kind, lambda: self._watchers)
+        device.driver = Driver(
+            self._opener(url),
+            lambda event: self._tell(device, event),
+            self._plan,
+            reopen_when_deaf=kind != "simulated",
+        )
+        self._devices[url] = device
+        device.driver.start()
+        return device
+
+    def _tell(self, device: _Device, event: DeviceEvent) -> None:
+        if device.id is None and device.serial_number is not None:
+            self._settle(device)
+        device.tell(event)
+
+    def _settle(self, device: _Device) -> _Device | None:
+        """Give a device its id for good; returns another device that is the same unit."""
+        serial_number = device.serial_number
+        with self._lock:
+            others = [other for other in self._devices.values() if other is not device]
+            twins = [other for other in others if serial_number in (other.id, other.serial_number)]
+            if serial_number is not None and twins:
+                return twins[0]
+            if device.id is None:
+                device.id = serial_number or _name_of(device.url)
+        return None
+
+    def _close(self, device: _Device) -> None:
+        with self._lock:
+            known = self._devices.get(device.url) is device
+        if known:
+            device.driver.close()
+            with self._lock:
+                self._devices.pop(device.url, None)
+
+    def _find(self, device_id: str) -> _Device:
+        with self._lock:
+            devices = list(self._devices.values())
+        for device in devices:
+            if device.id == device_id:
+                return device
+        for device in devices:
+            if device.id is not None and device.serial_number == device_id:
+                return device
+        raise NotFound(f"There is no device {device_id}. `GET /devices` lists those there are.")
+
+
+def _bound(watcher: Watcher, device_id: str) -> Listener:
+    return lambda event: watcher(device_id, event)
+
+
+def _name_of(url: str) -> str:
+    """An id made of a url: `dev-ttyusb0`, `socket-127-0-0-1-8751`."""
+    return re.sub(r"[^a-z0-9]+", "-", url.lower()).strip("-")
+
+
+def _view(device: _Device) -> DeviceView:
+    status = device.driver.status()
+    identity = status.identity
+    config = None
+    if status.config_generation is not None and status.config_crc32 is not None:
+        config = ConfigStamp(status.config_generation, status.config_crc32)
+    return DeviceView(
+        id=device.id or _name_of(device.url),
+        url=device.url,
+        kind="simulated" if identity and identity.simulated else device.kind,
+        state=status.state.value,
+        reason=status.reason,
+        identity=identity,
+        config=config,
+        link=asdict(status.statistics),
+        faults_active=status.faults_active,
+    )
