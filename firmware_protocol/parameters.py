@@ -5,10 +5,8 @@ enumerations ("FUZZY", "PB"), nested lists for shapes. The check here is the hos
 anything is sent; the unit checks again for itself.
 """
 
-import math
 import struct
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -21,38 +19,37 @@ from firmware_protocol._generated import (
     PARAMETERS,
 )
 from firmware_protocol.layout import STRUCT_CODES, Default, Parameter, Value
+from firmware_protocol.parameter_values import (
+    BadValue,
+    ParameterViolation,
+    elements_of,
+    float32,
+    problem_of_form,
+    problem_of_range,
+    shown,
+    unknown_parameter,
+    violation_at,
+)
+
+__all__ = [
+    "BadImage",
+    "BadValue",
+    "ParameterViolation",
+    "default_config",
+    "pack_image",
+    "pack_parameter",
+    "set_items",
+    "unpack_image",
+    "violations",
+]
 
 ITEM_HEAD = struct.Struct("<HBB")
 ITEMS_LENGTH_MAX = MTU - 8 - 2
 """What the payload of CFG_SET holds beside header, check value and transaction."""
 
-INTEGER_LIMITS = {"u8": 0xFF, "u16": 0xFFFF}
-
 
 class BadImage(ValueError):
     """Bytes that are not an image of this registry; the message says what does not fit."""
-
-
-class BadValue(ValueError):
-    """A value cannot be put into its parameter; `violation` says which and why."""
-
-    def __init__(self, violation: "ParameterViolation") -> None:
-        super().__init__(violation.message)
-        self.violation = violation
-
-
-@dataclass(frozen=True, slots=True)
-class ParameterViolation:
-    """One wrong value. `index` is the element in the order of the image.
-
-    `code` is a name of the registry's `violation`, or one only the host can meet:
-    UNKNOWN_PARAMETER, WRONG_SHAPE, NOT_A_NUMBER, TOO_LONG, MISSING_PARAMETER.
-    """
-
-    field: str
-    index: int
-    code: str
-    message: str
 
 
 def default_config() -> dict[str, Value]:
@@ -71,10 +68,10 @@ def pack_image(config: Mapping[str, Value]) -> bytes:
 def pack_parameter(row: Parameter, value: Value) -> bytes:
     """The bytes of one parameter's value. Raises BadValue."""
     elements = []
-    for index, element in enumerate(_elements(row, value)):
-        problem = _problem_of_form(row, element)
+    for index, element in enumerate(elements_of(row, value)):
+        problem = problem_of_form(row, element)
         if problem is not None:
-            raise BadValue(_violation(row, index, *problem))
+            raise BadValue(violation_at(row, index, *problem))
         elements.append(_packed(row, element))
     return b"".join(elements)
 
@@ -93,7 +90,7 @@ def set_items(changes: Mapping[str, Value], length_max: int = ITEMS_LENGTH_MAX) 
     """
     for name in changes:
         if name not in PARAMETER_BY_NAME:
-            raise BadValue(_unknown(name))
+            raise BadValue(unknown_parameter(name))
     chunks = [b""]
     for row in PARAMETERS:
         if row.name not in changes:
@@ -111,7 +108,7 @@ def violations(config: Mapping[str, Value]) -> list[ParameterViolation]:
     In the order of the unit's own check: parameters by id, at most one violation for an element,
     then the rules between parameters.
     """
-    found = [_unknown(name) for name in config if name not in PARAMETER_BY_NAME]
+    found = [unknown_parameter(name) for name in config if name not in PARAMETER_BY_NAME]
     for row in PARAMETERS:
         if row.name not in config:
             text = f"{row.name} is missing from the configuration."
@@ -122,7 +119,7 @@ def violations(config: Mapping[str, Value]) -> list[ParameterViolation]:
         low, high = config.get(order.low), config.get(order.high)
         if not isinstance(low, int | float) or not isinstance(high, int | float):
             continue
-        if _float32(low) >= _float32(high):
+        if float32(low) >= float32(high):
             text = f"{order.high} ({high}) must be greater than {order.low} ({low})."
             found.append(ParameterViolation(order.high, 0, order.violation, text))
     return found
@@ -130,117 +127,29 @@ def violations(config: Mapping[str, Value]) -> list[ParameterViolation]:
 
 def _violations_of(row: Parameter, value: Value) -> Iterator[ParameterViolation]:
     try:
-        elements = _elements(row, value)
+        elements = elements_of(row, value)
     except BadValue as error:
         yield error.violation
         return
     before: float | None = None
     for index, element in enumerate(elements):
-        problem = _problem_of_form(row, element)
+        problem = problem_of_form(row, element)
         if problem is not None:
-            yield _violation(row, index, *problem)
+            yield violation_at(row, index, *problem)
             before = None
             continue
         if row.type == "text" or row.enum is not None:
             continue
-        number = _float32(element)
-        problem = _problem_of_range(row, number)
+        number = float32(element)
+        problem = problem_of_range(row, number)
         if problem is None and row.increasing and before is not None and number <= before:
-            problem = ("NOT_INCREASING", f"must be greater than {before:g}, the value before it")
+            problem = (
+                "NOT_INCREASING",
+                f"must be greater than {shown(before)}, the value before it",
+            )
         if problem is not None:
-            yield _violation(row, index, *problem)
+            yield violation_at(row, index, *problem)
         before = number
-
-
-def _problem_of_form(row: Parameter, element: Value) -> tuple[str, str] | None:
-    """Why an element cannot be put into the image at all, as code and words."""
-    if row.type == "text":
-        return _problem_of_text(row, element)
-    if row.enum is not None:
-        names = list(ENUM_BY_NAME[row.enum].__members__)
-        if isinstance(element, str) and element in names:
-            return None
-        return "NOT_A_CHOICE", f"must be one of {', '.join(names)}"
-    if isinstance(element, bool) or not isinstance(element, int | float):
-        return "NOT_A_NUMBER", "must be a number"
-    if row.type == "f32":
-        return None
-    if not math.isfinite(_float32(element)):
-        return "NOT_FINITE", "must be a finite number"
-    if element != int(element):
-        return "NOT_A_NUMBER", "must be a whole number"
-    if not 0 <= element <= INTEGER_LIMITS[row.type]:
-        return _problem_of_range(row, float(element))
-    return None
-
-
-def _problem_of_text(row: Parameter, element: Value) -> tuple[str, str] | None:
-    if not isinstance(element, str):
-        return "NOT_TEXT", "must be a text"
-    try:
-        size = len(element.encode())
-    except UnicodeEncodeError:
-        return "NOT_TEXT", "must be Unicode text that UTF-8 can hold"
-    if size > row.length:
-        return "TOO_LONG", f"must be at most {row.length} bytes in UTF-8, not {size}"
-    if any(character < " " or character == "\x7f" for character in element):
-        return "NOT_TEXT", "must not hold control characters"
-    return None
-
-
-def _problem_of_range(row: Parameter, number: float) -> tuple[str, str] | None:
-    unit = f" {row.unit}" if row.unit else ""
-    if not math.isfinite(number):
-        return "NOT_FINITE", "must be a finite number"
-    if row.min is not None and number < _float32(row.min):
-        return "BELOW_MIN", f"must be at least {row.min:g}{unit}, not {number:g}"
-    if row.max is not None and number > _float32(row.max):
-        return "ABOVE_MAX", f"must be at most {row.max:g}{unit}, not {number:g}"
-    return None
-
-
-def _violation(row: Parameter, index: int, code: str, words: str) -> ParameterViolation:
-    at = index
-    position = ""
-    for size in reversed(row.shape):
-        position = f"[{at % size}]" + position
-        at //= size
-    return ParameterViolation(row.name, index, code, f"{row.name}{position} {words}.")
-
-
-def _unknown(name: str) -> ParameterViolation:
-    text = f"{name} is not a parameter of this unit."
-    return ParameterViolation(name, 0, "UNKNOWN_PARAMETER", text)
-
-
-def _float32(value: Value) -> float:
-    """The nearest float32, which is what travels; too large for one becomes infinite."""
-    assert isinstance(value, int | float)
-    try:
-        number: float = struct.unpack("<f", struct.pack("<f", float(value)))[0]
-    except OverflowError:
-        return math.inf if value > 0 else -math.inf
-    return number
-
-
-def _elements(row: Parameter, value: Value) -> list[Value]:
-    """The value's elements in the order of the image. Raises BadValue if its shape is wrong."""
-    level = [value]
-    for size in row.shape:
-        rows: list[Value] = []
-        for item in level:
-            if not isinstance(item, list | tuple) or len(item) != size:
-                shape = " x ".join(str(extent) for extent in row.shape)
-                raise BadValue(_violation_of_shape(row, f"must be a list of {shape} values"))
-            rows.extend(item)
-        level = rows
-    if any(isinstance(item, list | tuple) for item in level):
-        raise BadValue(_violation_of_shape(row, "holds a list where one value belongs"))
-    return level
-
-
-def _violation_of_shape(row: Parameter, words: str) -> ParameterViolation:
-    return ParameterViolation(row.name, 0, "WRONG_SHAPE", f"{row.name} {words}.")
 
 
 def _packed(row: Parameter, element: Value) -> bytes:
@@ -249,7 +158,7 @@ def _packed(row: Parameter, element: Value) -> bytes:
     if row.enum is not None:
         return bytes([ENUM_BY_NAME[row.enum][str(element)]])
     if row.type == "f32":
-        return struct.pack("<f", _float32(element))
+        return struct.pack("<f", float32(element))
     assert isinstance(element, int | float)
     return struct.pack("<" + STRUCT_CODES[row.type], int(element))
 

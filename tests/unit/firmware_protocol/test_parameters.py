@@ -57,6 +57,7 @@ def test_two_configurations_share_nothing() -> None:
     ("changes", "index", "code", "words"),
     [
         ({"assist_cutoff_kmh": 25.1}, 0, "ABOVE_MAX", "must be at most 25 km/h, not 25.1"),
+        ({"assist_cutoff_kmh": 25.000002}, 0, "ABOVE_MAX", "at most 25 km/h, not 25.000002"),
         ({"battery_voltage_v_min": 10.0}, 0, "BELOW_MIN", "must be at least 24 V, not 10"),
         ({"torque_filter_s": float("nan")}, 0, "NOT_FINITE", "must be a finite number"),
         ({"pedal_stop_ms": 10**400}, 0, "NOT_FINITE", "must be a finite number"),

@@ -1,0 +1,136 @@
+"""One parameter's value against its row: can it be put at all, and is it in range.
+
+The host's half of the check in SPEC.md 3; numbers are compared as the float32 that travels.
+"""
+
+import math
+import struct
+from dataclasses import dataclass
+
+import numpy as np
+
+from firmware_protocol._generated import ENUM_BY_NAME
+from firmware_protocol.layout import Parameter, Value
+
+INTEGER_LIMITS = {"u8": 0xFF, "u16": 0xFFFF}
+
+
+class BadValue(ValueError):
+    """A value cannot be put into its parameter; `violation` says which and why."""
+
+    def __init__(self, violation: "ParameterViolation") -> None:
+        super().__init__(violation.message)
+        self.violation = violation
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterViolation:
+    """One wrong value. `index` is the element in the order of the image.
+
+    `code` is a name of the registry's `violation`, or one only the host can meet:
+    UNKNOWN_PARAMETER, WRONG_SHAPE, NOT_A_NUMBER, TOO_LONG, MISSING_PARAMETER.
+    """
+
+    field: str
+    index: int
+    code: str
+    message: str
+
+
+def problem_of_form(row: Parameter, element: Value) -> tuple[str, str] | None:
+    """Why an element cannot be put into the image at all, as code and words."""
+    if row.type == "text":
+        return _problem_of_text(row, element)
+    if row.enum is not None:
+        names = list(ENUM_BY_NAME[row.enum].__members__)
+        if isinstance(element, str) and element in names:
+            return None
+        return "NOT_A_CHOICE", f"must be one of {', '.join(names)}"
+    if isinstance(element, bool) or not isinstance(element, int | float):
+        return "NOT_A_NUMBER", "must be a number"
+    if row.type == "f32":
+        return None
+    if not math.isfinite(float32(element)):
+        return "NOT_FINITE", "must be a finite number"
+    if element != int(element):
+        return "NOT_A_NUMBER", "must be a whole number"
+    if not 0 <= element <= INTEGER_LIMITS[row.type]:
+        return problem_of_range(row, float(element))
+    return None
+
+
+def _problem_of_text(row: Parameter, element: Value) -> tuple[str, str] | None:
+    if not isinstance(element, str):
+        return "NOT_TEXT", "must be a text"
+    try:
+        size = len(element.encode())
+    except UnicodeEncodeError:
+        return "NOT_TEXT", "must be Unicode text that UTF-8 can hold"
+    if size > row.length:
+        return "TOO_LONG", f"must be at most {row.length} bytes in UTF-8, not {size}"
+    if any(character < " " or character == "\x7f" for character in element):
+        return "NOT_TEXT", "must not hold control characters"
+    return None
+
+
+def problem_of_range(row: Parameter, number: float) -> tuple[str, str] | None:
+    """Why a number is not one the parameter may have, as code and words."""
+    unit = f" {row.unit}" if row.unit else ""
+    if not math.isfinite(number):
+        return "NOT_FINITE", "must be a finite number"
+    if row.min is not None and number < float32(row.min):
+        return "BELOW_MIN", f"must be at least {row.min:g}{unit}, not {shown(number)}"
+    if row.max is not None and number > float32(row.max):
+        return "ABOVE_MAX", f"must be at most {row.max:g}{unit}, not {shown(number)}"
+    return None
+
+
+def shown(number: float) -> str:
+    """The shortest text that is the same float32, so 25.000002 is not called 25."""
+    return f"{float(str(np.float32(number))):.9g}"
+
+
+def violation_at(row: Parameter, index: int, code: str, words: str) -> ParameterViolation:
+    """The violation of one element, its place in the shape spelled out: fuzzy_rules[4][2]."""
+    at = index
+    position = ""
+    for size in reversed(row.shape):
+        position = f"[{at % size}]" + position
+        at //= size
+    return ParameterViolation(row.name, index, code, f"{row.name}{position} {words}.")
+
+
+def unknown_parameter(name: str) -> ParameterViolation:
+    """The violation of a name that the registry does not have."""
+    text = f"{name} is not a parameter of this unit."
+    return ParameterViolation(name, 0, "UNKNOWN_PARAMETER", text)
+
+
+def float32(value: Value) -> float:
+    """The nearest float32, which is what travels; too large for one becomes infinite."""
+    assert isinstance(value, int | float)
+    try:
+        number: float = struct.unpack("<f", struct.pack("<f", float(value)))[0]
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
+    return number
+
+
+def elements_of(row: Parameter, value: Value) -> list[Value]:
+    """The value's elements in the order of the image. Raises BadValue if its shape is wrong."""
+    level = [value]
+    for size in row.shape:
+        rows: list[Value] = []
+        for item in level:
+            if not isinstance(item, list | tuple) or len(item) != size:
+                shape = " x ".join(str(extent) for extent in row.shape)
+                raise BadValue(_violation_of_shape(row, f"must be a list of {shape} values"))
+            rows.extend(item)
+        level = rows
+    if any(isinstance(item, list | tuple) for item in level):
+        raise BadValue(_violation_of_shape(row, "holds a list where one value belongs"))
+    return level
+
+
+def _violation_of_shape(row: Parameter, words: str) -> ParameterViolation:
+    return ParameterViolation(row.name, 0, "WRONG_SHAPE", f"{row.name} {words}.")
