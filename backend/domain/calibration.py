@@ -13,6 +13,9 @@ import numpy.typing as npt
 
 from backend.errors import FieldError, InvalidRequest
 
+LARGEST_NM = 1e6
+"""Far beyond any spindle; keeps squares and sums finite."""
+
 Numbers = npt.NDArray[np.float64]
 
 
@@ -139,7 +142,7 @@ def _checked(
     full_scale_nm: float, load_nm: npt.ArrayLike, forward: npt.ArrayLike, reverse: npt.ArrayLike
 ) -> tuple[Numbers, Numbers, Numbers]:
     faults = []
-    if not (np.isfinite(full_scale_nm) and full_scale_nm > 0):
+    if not 1.0 / LARGEST_NM <= full_scale_nm <= LARGEST_NM:
         faults.append(FieldError("full_scale_nm", "out_of_range", "full_scale_nm must be above 0"))
     load = _numbers("load_nm", load_nm, faults)
     if load.ndim != 1 or np.unique(load).size < 2:
@@ -165,4 +168,6 @@ def _numbers(name: str, values: npt.ArrayLike, faults: list[FieldError]) -> Numb
         return np.empty(0)
     if not np.isfinite(numbers).all():
         faults.append(FieldError(name, "not_finite", f"{name} holds a value that is not finite"))
+    elif np.abs(numbers).max(initial=0.0) > LARGEST_NM:
+        faults.append(FieldError(name, "out_of_range", f"{name} is beyond {LARGEST_NM:g} Nm"))
     return numbers

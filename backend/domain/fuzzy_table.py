@@ -19,12 +19,17 @@ LABELS = ("NB", "NS", "ZO", "PS", "PB")
 
 INFERENCES = ("mamdani_centroid", "weighted_average")
 
-GAIN_MIN, GAIN_MAX = 0.0, 0.5
-"""The thesis' universe of the gain; protects the rider from a table that triples his torque."""
+RANGES = {
+    "speed_points_kmh": (0.0, 45.0),
+    "torque_rate_points": (0.0, 5.0),
+    "gain_points": (0.0, 0.5),
+}
+"""What the unit takes, as in the registry. The gain's is the thesis' universe: it protects the
+rider from a table that triples the torque."""
 
 NAME_BYTES_MAX = 24
 
-POINT_FIELDS = ("speed_points_kmh", "torque_rate_points", "gain_points")
+POINT_FIELDS = tuple(RANGES)
 PARAMETER_NAMES = {
     "name": "fuzzy_table_name",
     "inference": "fuzzy_inference",
@@ -41,7 +46,7 @@ class FuzzyTable:
     """One table, checked. Raises InvalidRequest naming every field at fault.
 
     name: at most 24 bytes. inference: one of INFERENCES. The points: five each, finite, increasing
-    as float32, gains within [0, 0.5]. rules: rules[speed][torque rate], labels of LABELS.
+    as float32, within RANGES. rules: rules[speed][torque rate], labels of LABELS.
     """
 
     name: str
@@ -130,7 +135,7 @@ def _point_faults(field: str, points: Sequence[Any]) -> Iterable[FieldError]:
     if len(points) != len(LABELS):
         yield FieldError(field, "wrong_shape", f"{field} needs five numbers, not {len(points)}")
         return
-    previous = -np.inf
+    previous: float = -np.inf
     for index, point in enumerate(points):
         where = f"{field}[{index}]"
         if isinstance(point, bool) or not isinstance(point, int | float):
@@ -139,15 +144,22 @@ def _point_faults(field: str, points: Sequence[Any]) -> Iterable[FieldError]:
         if not np.isfinite(point):
             yield FieldError(where, "not_finite", f"{where} is not a finite number")
             continue
-        if not np.float32(point) > np.float32(previous):
+        if not _narrow(point) > _narrow(previous):
             yield FieldError(
                 where, "not_increasing", f"{where} is {point:g} and not above {previous:g}"
             )
-        if field == "gain_points" and not GAIN_MIN <= point <= GAIN_MAX:
+        low, high = RANGES[field]
+        if not low <= point <= high:
             yield FieldError(
-                where, "out_of_range", f"{where} is {point:g}, not within {GAIN_MIN} to {GAIN_MAX}"
+                where, "out_of_range", f"{where} is {point:g}, not within {low:g} to {high:g}"
             )
         previous = point
+
+
+def _narrow(point: float) -> np.float32:
+    """As the unit holds it; a number beyond float32 is infinite and out of range anyway."""
+    with np.errstate(over="ignore"):
+        return np.float32(point)
 
 
 def _rule_faults(rules: Sequence[Sequence[Any]]) -> Iterable[FieldError]:

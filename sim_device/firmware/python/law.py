@@ -169,7 +169,8 @@ def pack_inputs(inputs: Mapping[str, npt.ArrayLike]) -> npt.NDArray[np.void]:
         raise LawRefused(f"inputs of unequal lengths: {sorted(lengths)}")
     packed = np.empty(lengths.pop() if lengths else 1, INPUT_DTYPE)
     for name, column in columns.items():
-        packed[name] = column
+        whole = INPUT_DTYPE[name].kind == "u"
+        packed[name] = _bytes_or_refused(column) if whole else column
     return packed
 
 
@@ -178,6 +179,13 @@ def _numbers(values: npt.ArrayLike, name: str) -> npt.NDArray[Any]:
     if numbers.dtype.kind not in "fiub" or numbers.ndim > 1:
         raise LawRefused(f"{name}: a vector of numbers is needed, not {numbers.dtype}")
     return numbers
+
+
+def _bytes_or_refused(numbers: npt.NDArray[Any]) -> npt.NDArray[np.uint8]:
+    """What is missing or no byte becomes 255: a mode the law refuses, a brake that is pulled."""
+    with np.errstate(invalid="ignore"):
+        fits = (numbers >= 0) & (numbers <= 255)
+    return np.where(fits, numbers, 255).astype(np.uint8)
 
 
 def _vector(values: npt.ArrayLike, name: str) -> Floats:

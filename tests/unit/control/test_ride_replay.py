@@ -61,6 +61,15 @@ def test_missing_samples_give_no_assist_and_are_counted() -> None:
     assert result.motor_torque_nm[-1] > 0.5
 
 
+def test_a_mode_nobody_recorded_gives_no_assist_instead_of_a_guess() -> None:
+    mode = np.where(np.arange(1000) < 600, 3.0, np.nan)
+
+    result = replay(CONFIG, **steady(1000, mode=mode))
+
+    assert result.limit_shares["input_refused"] == pytest.approx(0.4)
+    assert result.limit_shares["mode_off"] == 0.0
+
+
 def test_limits_that_held_the_motor_are_told_as_shares_of_the_ride() -> None:
     speed = np.where(np.arange(1000) < 500, 12.0, 26.0)
 

@@ -87,6 +87,11 @@ def test_every_argument_at_fault_is_named() -> None:
     }
 
 
+def test_readings_no_spindle_can_give_are_refused() -> None:
+    with pytest.raises(InvalidRequest, match="beyond"):
+        evaluate(100, [0, 10], [[0, 10], [0, 1e308]], [[0, 10], [0, 10]])
+
+
 @pytest.mark.parametrize("ragged", [[[1, 2], [1]], "abc", [[None, 1], [1, 1]]])
 def test_readings_that_are_no_table_are_refused(ragged: object) -> None:
     with pytest.raises(InvalidRequest):

@@ -8,8 +8,9 @@ from typing import Any
 
 import pytest
 
-from backend.domain.fuzzy_table import THESIS_TABLE, FuzzyTable
+from backend.domain.fuzzy_table import PARAMETER_NAMES, RANGES, THESIS_TABLE, FuzzyTable
 from backend.errors import InvalidRequest
+from firmware_protocol._generated import PARAMETER_BY_NAME
 from firmware_protocol.parameters import default_config
 
 CONTRACT_EXAMPLE: dict[str, Any] = {
@@ -66,6 +67,7 @@ def with_rule(row: int, column: int, label: Any) -> list[list[Any]]:
         ({"torque_rate_points": [0, 0.2, float("nan"), 0.6, 0.9]}, "torque_rate_points[2]", None),
         ({"torque_rate_points": [0, 0.2, "x", 0.6, 0.9]}, "torque_rate_points[2]", "not_a_number"),
         ({"gain_points": [0.1, 0.2, 0.3, 0.4, 0.51]}, "gain_points[4]", "out_of_range"),
+        ({"speed_points_kmh": [5, 10, 15, 20, 1e60]}, "speed_points_kmh[4]", "out_of_range"),
         ({"gain_points": [-0.1, 0.2, 0.3, 0.4, 0.5]}, "gain_points[0]", "out_of_range"),
         ({"rules": with_rule(3, 1, "XX")}, "rules[3][1]", "not_a_choice"),
         ({"rules": with_rule(3, 1, None)}, "rules[3][1]", "not_a_choice"),
@@ -82,6 +84,16 @@ def test_a_wrong_value_is_refused_by_name(
     fault = refused.value.fields[0]
     assert fault.field == field
     assert fault.code == (code or "not_finite")
+
+
+def test_the_ranges_are_the_registrys() -> None:
+    registry = {
+        field: (PARAMETER_BY_NAME[name].min, PARAMETER_BY_NAME[name].max)
+        for field, name in PARAMETER_NAMES.items()
+        if field in RANGES
+    }
+
+    assert registry == RANGES
 
 
 def test_all_faults_are_told_at_once() -> None:
