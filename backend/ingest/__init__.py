@@ -1,1 +1,6 @@
-"""Log files to samples: FIT and the rest, with salvage; the same bytes are the same ride."""
+"""Log files to samples: FIT and CSV, salvage of damaged ones, in a child process."""
+
+from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide, Outcome
+from backend.ingest.sandbox import read_in_child
+
+__all__ = ["COMPLETE", "PARTIAL", "REJECTED", "ImportedRide", "Outcome", "read_in_child"]

@@ -54,13 +54,12 @@ class UploadStore:
         self._spool = spool
         spool.mkdir(parents=True, exist_ok=True)
 
-    def create(
-        self, name: str, size: int, declared_sha256: str | None, expires_us: int | None
-    ) -> Upload:
-        """Begin an upload of `size` bytes; nothing has arrived yet."""
+    def create(self, name: str, size: int, declared_sha256: str | None, expires_s: int) -> Upload:
+        """Begin an upload of `size` bytes; nothing has arrived yet, and all must in `expires_s`."""
         token = secrets.token_hex(16)
         with self._path(token).open("wb") as file:
             os.fsync(file.fileno())
+        now_us = time.time_ns() // 1000
         values = {
             "token": token,
             "name": name,
@@ -68,8 +67,8 @@ class UploadStore:
             "received": 0,
             "declared_sha256": declared_sha256,
             "state": RECEIVING,
-            "created_us": time.time_ns() // 1000,
-            "expires_us": expires_us,
+            "created_us": now_us,
+            "expires_us": now_us + expires_s * 1_000_000,
         }
         self._database.write(lambda c: c.execute(insert(t.upload).values(values)))
         return self.get(token)
@@ -180,8 +179,9 @@ class UploadStore:
         self._database.write(lambda c: c.execute(delete(t.upload).where(t.upload.c.token == token)))
         self._path(token).unlink(missing_ok=True)
 
-    def remove_expired(self, now_us: int) -> int:
+    def remove_expired(self) -> int:
         """Forget uploads whose time is over; returns how many."""
+        now_us = time.time_ns() // 1000
         query = select(t.upload.c.token).where(
             t.upload.c.state == RECEIVING, t.upload.c.expires_us < now_us
         )

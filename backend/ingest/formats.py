@@ -1,0 +1,84 @@
+"""Which kind of file it is, by its contents first and its name last; the table of readers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from backend.ingest.csv_rows import looks_like_rows, read_csv
+from backend.ingest.fit import HEADER_SIZES, MAGIC, read_fit
+from backend.ingest.outcome import Outcome, rejected
+
+SNIFFED_BYTES = 4096
+
+# First bytes -> what people call it.
+SIGNATURES: tuple[tuple[bytes, str], ...] = (
+    (b"PK\x03\x04", "a ZIP archive"),
+    (b"\x1f\x8b", "a gzip archive"),
+    (b"7z\xbc\xaf", "a 7z archive"),
+    (b"\x28\xb5\x2f\xfd", "a zstd archive"),
+    (b"\x89PNG", "a PNG image"),
+    (b"\xff\xd8\xff", "a JPEG image"),
+    (b"GIF8", "a GIF image"),
+    (b"%PDF", "a PDF document"),
+    (b"\x7fELF", "a program (ELF)"),
+    (b"MZ", "a program (EXE)"),
+    (b"SQLite format 3", "an SQLite database"),
+    (b"PAR1", "a Parquet file"),
+    (b"ULog", "a ULog flight log"),
+)
+MARKUP: tuple[tuple[bytes, str], ...] = (
+    (b"<gpx", "a GPX track"),
+    (b"<trainingcenterdatabase", "a TCX activity"),
+    (b"<!doctype html", "an HTML page: perhaps an error page saved instead of the file"),
+    (b"<html", "an HTML page: perhaps an error page saved instead of the file"),
+    (b"<?xml", "an XML document"),
+)
+ADVICE = "Spindle reads FIT and CSV; export the ride as one of these."
+
+Reader = Callable[[bytes, bool], Outcome]
+
+
+def read_file(name: str, data: bytes, fast: bool = True) -> Outcome:
+    """A file -> what came of it. Never raises on any bytes or name.
+
+    fast: False after a fast reader has died on the same bytes.
+    """
+    if not data:
+        return rejected("empty_file", "The file is empty.", 0)
+    reader = reader_for(name, data)
+    if reader is not None:
+        return reader(data, fast)
+    kind = known_kind(data)
+    if kind is not None:
+        return rejected("unsupported_format", f"This is {kind}. {ADVICE}", 0)
+    return rejected(
+        "unknown_format",
+        f"The first bytes ({data[:8].hex(' ')}) are of no ride format we know. {ADVICE}",
+        0,
+    )
+
+
+def reader_for(name: str, data: bytes) -> Reader | None:
+    """The reader of a file, None when there is none."""
+    if data[8:12] == MAGIC:
+        return read_fit
+    head = data[:SNIFFED_BYTES]
+    if known_kind(data) is None:
+        if looks_like_rows(head):
+            return read_csv
+        named_fit = name.lower().endswith(".fit")
+        if MAGIC in head or (named_fit and data[0] in HEADER_SIZES):
+            return read_fit
+    return None
+
+
+def known_kind(data: bytes) -> str | None:
+    """What the file is when it is something well known that is not a ride."""
+    for signature, kind in SIGNATURES:
+        if data.startswith(signature):
+            return kind
+    head = data[:SNIFFED_BYTES].lstrip(b"\xef\xbb\xbf \t\r\n").lower()
+    for mark, kind in MARKUP:
+        if head.startswith(b"<") and mark in head:
+            return kind
+    return "a JSON document" if head.startswith((b"{", b"[")) else None

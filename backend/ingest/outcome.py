@@ -1,0 +1,51 @@
+"""What came of a file: rides, how whole they are, and the reason in a stable word.
+
+state     `complete` everything the file holds was read; `partial` rows are missing or unproven;
+          `rejected` nothing could be used
+codes     empty_file, unknown_format, unsupported_format, no_records, no_valid_time, too_many_rows,
+          too_slow, too_much_memory, parser_crashed         nothing was saved
+          truncated, damaged, checksum_mismatch, part_unreadable    something was saved
+Programs rely on the words; the detail is for people and says where and how much.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from backend.domain.ride import RideRows
+
+COMPLETE = "complete"
+PARTIAL = "partial"
+REJECTED = "rejected"
+
+
+@dataclass(frozen=True)
+class ImportedRide:
+    """One ride of a file. started_us: Unix time of its first row. notes: what was put right."""
+
+    started_us: int
+    period_us: int | None
+    rows: RideRows
+    sport: str | None = None
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a file became.
+
+    code, detail: None when it is complete. offset: byte where reading first went wrong.
+    completeness: share of the file's rows that were read (0..1), None when nobody can say.
+    """
+
+    state: str
+    rides: tuple[ImportedRide, ...] = ()
+    code: str | None = None
+    detail: str | None = None
+    offset: int | None = None
+    completeness: float | None = None
+
+
+def rejected(code: str, detail: str, offset: int | None = None) -> Outcome:
+    """An outcome without rides."""
+    return Outcome(REJECTED, (), code, detail, offset, 0.0)

@@ -1,0 +1,176 @@
+"""Files become rides: whole ones, resumable ones, damaged ones; the same bytes only once.
+
+A file arrives piece by piece (`create`, `append`), or at once (`receive_file`). With its last byte
+it is kept for ever under its hash, looked at in a child process, and concluded: `complete`,
+`partial` or `rejected`, with a stable code, a sentence, and the rides it became.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+from backend.domain.ride import Ride, RideContext, iso_utc
+from backend.errors import Conflict, InvalidRequest, StoreError
+from backend.ingest import ImportedRide, Outcome, read_in_child
+from backend.store import Store, Upload
+
+LOG = logging.getLogger(__name__)
+
+# A ride of a day is 10 MB in any format; the bound keeps one client from filling the disk.
+UPLOAD_BYTES_MAX = 256 * 1024 * 1024
+NAME_LENGTH_MAX = 255
+PIECE_BYTES = 1 << 20
+
+
+class Reader(Protocol):
+    """Reads a file into an outcome, whatever its bytes."""
+
+    def __call__(self, path: Path, name: str) -> Outcome: ...
+
+
+@dataclass(frozen=True)
+class UploadSettings:
+    """length_max: largest file in bytes. expires_s: how long an unfinished upload is kept."""
+
+    length_max: int = UPLOAD_BYTES_MAX
+    expires_s: int = 7 * 86_400
+
+
+class Uploads:
+    """The uploads' use cases; safe to call from any thread."""
+
+    def __init__(
+        self,
+        store: Store,
+        settings: UploadSettings | None = None,
+        reader: Reader = read_in_child,
+    ) -> None:
+        self._store = store
+        self._settings = settings or UploadSettings()
+        self._reader = reader
+
+    def create(self, name: str, length: int, sha256: str | None = None) -> Upload:
+        """Begin an upload of `length` bytes. Raises InvalidRequest when it is too large.
+
+        sha256: what the whole file will hash to, if the client knows; it is checked at the end.
+        """
+        if not 0 <= length <= self._settings.length_max:
+            raise InvalidRequest(
+                f"The file has {length} bytes; at most {self._settings.length_max} are taken.",
+                code="too_large",
+            )
+        upload = self._store.uploads.create(
+            name[:NAME_LENGTH_MAX] or "upload", length, sha256, self._settings.expires_s
+        )
+        return self._process(upload.id) if length == 0 else upload
+
+    def append(self, upload_id: str, offset: int, data: bytes) -> int:
+        """Add bytes at `offset`; returns the new offset, which is safe on the disk.
+
+        With the last byte the file is looked at. Raises NotFound, Conflict, StoreError.
+        """
+        upload = self._store.uploads.append(upload_id, offset, data)
+        if upload.received == upload.length:
+            self._process(upload_id)
+        return upload.received
+
+    def receive_file(self, name: str, source: bytes | Path) -> Upload:
+        """A whole file at once -> what became of it."""
+        length = len(source) if isinstance(source, bytes) else source.stat().st_size
+        upload = self.create(name, length)
+        offset = 0
+        if isinstance(source, bytes):
+            for start in range(0, length, PIECE_BYTES):
+                offset = self.append(upload.id, offset, source[start : start + PIECE_BYTES])
+        else:
+            with source.open("rb") as file:
+                while piece := file.read(PIECE_BYTES):
+                    offset = self.append(upload.id, offset, piece)
+        return self.get(upload.id)
+
+    def get(self, upload_id: str) -> Upload:
+        """Where an upload stands. Raises NotFound."""
+        return self._store.uploads.get(upload_id)
+
+    def terminate(self, upload_id: str) -> None:
+        """Give an unfinished upload up. Raises NotFound, Conflict once it has arrived."""
+        self._store.uploads.remove(upload_id)
+
+    def recover(self) -> Sequence[Upload]:
+        """Look at the files a crash left waiting, and forget unfinished ones that expired."""
+        self._store.uploads.remove_expired()
+        return [self._process(upload.id) for upload in self._store.uploads.waiting()]
+
+    def _process(self, upload_id: str) -> Upload:
+        uploads = self._store.uploads
+        upload = uploads.keep_original(upload_id)
+        if upload.declared_sha256 and upload.declared_sha256 != upload.sha256:
+            return uploads.conclude(
+                upload_id,
+                "rejected",
+                "hash_mismatch",
+                f"The bytes that arrived hash to {upload.sha256}, not to what was declared.",
+                completeness=0.0,
+            )
+        if (twin := self._twin(upload)) is not None:
+            return twin
+        outcome = self._read(upload)
+        try:
+            for number, imported in enumerate(outcome.rides):
+                self._store.rides.add(
+                    ride_of(upload, imported, number, len(outcome.rides), outcome.completeness),
+                    imported.rows,
+                    upload_id,
+                )
+        except StoreError as error:
+            # The original is kept and the upload waits: the next start looks at it again.
+            LOG.warning("Upload %s is kept but not read: %s", upload_id, error.message)
+            raise
+        return uploads.conclude(
+            upload_id, outcome.state, outcome.code, outcome.detail, outcome.completeness
+        )
+
+    def _read(self, upload: Upload) -> Outcome:
+        if upload.object_key is None:
+            raise Conflict(f"Upload {upload.id} has not arrived.")
+        return self._reader(self._store.objects.local_path(upload.object_key), upload.name)
+
+    def _twin(self, upload: Upload) -> Upload | None:
+        """Conclude an upload of bytes that are here already, naming the ride they became."""
+        first = self._store.uploads.first_with(upload.sha256 or "")
+        if first is None or first.id == upload.id:
+            return None
+        ride = self._store.rides.get(first.ride_ids[0])
+        return self._store.uploads.conclude(
+            upload.id,
+            first.state,
+            "duplicate",
+            f"The same file is here already: ride {ride.id} of {iso_utc(ride.started_us)[:10]}.",
+            first.completeness,
+            duplicate_of=ride.id,
+        )
+
+
+def ride_of(
+    upload: Upload, imported: ImportedRide, number: int, count: int, completeness: float | None
+) -> Ride:
+    """The ride of one part of a file, not yet in the store."""
+    name = upload.name.rsplit(".", 1)[0] if "." in upload.name else upload.name
+    return Ride(
+        id=0,
+        state="live",
+        origin="imported",
+        name=name if count == 1 else f"{name} ({number + 1} of {count})",
+        notes="; ".join(imported.notes),
+        started_us=imported.started_us,
+        row_count=len(imported.rows.times_us),
+        period_us=imported.period_us,
+        channels=imported.rows.channels,
+        derived=(),
+        context=RideContext(),
+        completeness=completeness,
+    )
