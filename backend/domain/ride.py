@@ -210,7 +210,7 @@ def summarise(
 
 
 def movement_figures(values: Mapping[str, Values], seconds: Values) -> dict[str, float | None]:
-    """Distance, moving time and speeds. A recorded odometer wins over the integral of speed."""
+    """Distance, moving time, speeds. An odometer wins over the integral; the mean is of moving."""
     speed = values.get("speed_kmh")
     figures: dict[str, float | None] = {}
     if speed is not None and np.isfinite(speed).any():
@@ -218,17 +218,16 @@ def movement_figures(values: Mapping[str, Values], seconds: Values) -> dict[str,
         moving = there & (np.nan_to_num(speed) >= MOVING_KMH_MIN)
         moving_s = float(np.sum(seconds[moving]))
         kilometres = float(np.sum(speed[there] * seconds[there])) / 3600.0
+        ridden = float(np.sum(speed[moving] * seconds[moving]))
         figures |= {
             "moving_s": moving_s,
             "distance_km": kilometres,
+            "speed_kmh_mean": ridden / moving_s if moving_s > 0 else None,
             "speed_kmh_max": float(np.max(speed[there])),
         }
     odometer = present(values.get("distance_m"))
     if len(odometer):
         figures["distance_km"] = float(np.max(odometer) - np.min(odometer)) / 1000.0
-    moving_s_known, distance_km = figures.get("moving_s"), figures.get("distance_km")
-    if moving_s_known and distance_km is not None:
-        figures["speed_kmh_mean"] = distance_km / (moving_s_known / 3600.0)
     return figures
 
 

@@ -15,7 +15,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
@@ -75,6 +75,7 @@ class LiveRide:
     rows_saved: int = 0
     rows_lost: int = 0
     idle_us: int = 0
+    context: RideContext = field(default_factory=RideContext)
     last_wall_us: int = 0
 
 
@@ -191,14 +192,15 @@ class UnitRecorder:
                 self._lead.clear()
                 first = block
         started_us = block.wall_us - (block.t0_us - first.t0_us)
+        context = self._context_of(self._device_id)
         ride_id = self._rides.start_live(
             self._channels,
             self._period_us,
             started_us,
-            self._context_of(self._device_id),
+            context,
             name=f"Ride of {iso_utc(started_us)[:16].replace('T', ' ')}",
         )
-        self._live = LiveRide(ride_id, first.t0_us, last_wall_us=block.wall_us)
+        self._live = LiveRide(ride_id, first.t0_us, last_wall_us=block.wall_us, context=context)
         for lead in self._lead:
             self._append(self._live, lead.values)
         self._lead.clear()
@@ -266,6 +268,9 @@ class UnitRecorder:
             self._submit(live, row_start, rows)
         self._in_flight.clear()
         self._live = None
+        if live.context.gear_ratio is None:
+            # The unit may have told its configuration only after the bike began to move.
+            self._rides.set_context(live.ride_id, self._context_of(self._device_id))
         finished: Future[object] = self._rides.finish_later(live.ride_id)  # type: ignore[assignment]
         finished.add_done_callback(lambda future: tell_trouble(live.ride_id, future))
         return finished
@@ -294,6 +299,10 @@ class Recorder:
                     device_id, self._rides, self._settings, self._context_of
                 )
             return self._units[device_id].take
+
+    def watch(self, device_id: str, event: DeviceEvent) -> None:
+        """Watcher of every device: records whichever moves."""
+        self.listener(device_id)(event)
 
     def status(self, device_id: str) -> RecordingStatus | None:
         """The ride a unit is recording now, None when it records none."""

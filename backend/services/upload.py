@@ -8,6 +8,7 @@ it is kept for ever under its hash, looked at in a child process, and concluded:
 from __future__ import annotations
 
 import logging
+import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -52,6 +53,8 @@ class Uploads:
         self._store = store
         self._settings = settings or UploadSettings()
         self._reader = reader
+        # One file at a time: the same bytes sent twice at once must not become two rides.
+        self._processing = threading.Lock()
 
     def create(self, name: str, length: int, sha256: str | None = None) -> Upload:
         """Begin an upload of `length` bytes. Raises InvalidRequest when it is too large.
@@ -106,6 +109,10 @@ class Uploads:
         return [self._process(upload.id) for upload in self._store.uploads.waiting()]
 
     def _process(self, upload_id: str) -> Upload:
+        with self._processing:
+            return self._process_next(upload_id)
+
+    def _process_next(self, upload_id: str) -> Upload:
         uploads = self._store.uploads
         upload = uploads.keep_original(upload_id)
         if upload.declared_sha256 and upload.declared_sha256 != upload.sha256:
@@ -121,6 +128,9 @@ class Uploads:
         outcome = self._read(upload)
         try:
             for number, imported in enumerate(outcome.rides):
+                if number < len(upload.ride_ids):
+                    # A crash came between this ride and the conclusion.
+                    continue
                 self._store.rides.add(
                     ride_of(upload, imported, number, len(outcome.rides), outcome.completeness),
                     imported.rows,

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import partial
 from typing import Any
 
@@ -108,6 +108,13 @@ class RideStore:
             connection.execute(insert(t.ride_tail).values(body))
 
         return self._database.submit(work)
+
+    def set_context(self, ride_id: int, context: RideContext) -> None:
+        """Say what was true of the bike, when it is known only after the start."""
+        values = {"context": asdict(context), "device_serial": context.device_serial}
+        self._database.write(
+            lambda c: c.execute(update(t.ride).where(t.ride.c.id == ride_id).values(values))
+        )
 
     def finish(self, ride_id: int) -> Ride | None:
         """Make a live ride an immutable object. Safe to repeat after any failure.

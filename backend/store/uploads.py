@@ -26,7 +26,10 @@ RECEIVING = "receiving"
 
 @dataclass(frozen=True)
 class Upload:
-    """One upload. state: `receiving`, `queued`, `complete`, `partial` or `rejected`."""
+    """One upload. state: `receiving`, `queued`, `complete`, `partial` or `rejected`.
+
+    ride_ids: the rides it became; of a duplicate, the ride that was there before.
+    """
 
     id: str
     name: str
@@ -145,7 +148,8 @@ class UploadStore:
             row = connection.execute(select(t.upload).where(t.upload.c.token == token)).first()
             if row is None:
                 return None, ()
-            rides = select(t.ride.c.id).where(t.ride.c.upload_id == row.id).order_by(t.ride.c.id)
+            mine = (t.ride.c.upload_id == row.id) | (t.ride.c.id == row.duplicate_of)
+            rides = select(t.ride.c.id).where(mine).order_by(t.ride.c.id)
             return row, tuple(connection.execute(rides).scalars())
 
         row, ride_ids = self._database.read(work)
