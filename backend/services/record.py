@@ -24,7 +24,7 @@ from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.stream import StreamBlock
 from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.ride import RideContext, iso_utc
-from backend.errors import StoreError
+from backend.errors import SpindleError, StoreError
 from backend.store import RideStore
 
 LOG = logging.getLogger(__name__)
@@ -192,7 +192,7 @@ class UnitRecorder:
                 self._lead.clear()
                 first = block
         started_us = block.wall_us - (block.t0_us - first.t0_us)
-        context = self._context_of(self._device_id)
+        context = self._context()
         ride_id = self._rides.start_live(
             self._channels,
             self._period_us,
@@ -204,6 +204,13 @@ class UnitRecorder:
         for lead in self._lead:
             self._append(self._live, lead.values)
         self._lead.clear()
+
+    def _context(self) -> RideContext:
+        try:
+            return self._context_of(self._device_id)
+        except SpindleError:
+            # The unit was removed in the meantime: the ride is kept all the same.
+            return RideContext(device_id=self._device_id)
 
     def _add(self, block: StreamBlock, moving: bool) -> None:
         live = self._live
@@ -270,7 +277,9 @@ class UnitRecorder:
         self._live = None
         if live.context.gear_ratio is None:
             # The unit may have told its configuration only after the bike began to move.
-            self._rides.set_context(live.ride_id, self._context_of(self._device_id))
+            context = self._context()
+            if context.gear_ratio is not None:
+                self._rides.set_context(live.ride_id, context)
         finished: Future[object] = self._rides.finish_later(live.ride_id)  # type: ignore[assignment]
         finished.add_done_callback(lambda future: tell_trouble(live.ride_id, future))
         return finished
