@@ -10,6 +10,7 @@ from starlette.requests import HTTPConnection
 
 if TYPE_CHECKING:
     from backend.services.connect import Devices
+    from backend.services.preview import Preview
     from backend.services.review import Rides
     from backend.services.tune import Tuning
     from backend.services.upload import Uploads
@@ -24,6 +25,7 @@ class Services:
     devices: Devices
     watch: Watch
     tuning: Tuning
+    preview: Preview
     rides: Rides
     uploads: Uploads
 

@@ -51,7 +51,7 @@ def print_upload(answer: dict[str, Any]) -> None:
     rides = ", ".join(str(ride) for ride in answer["ride_ids"])
     became = f"ride {rides}" if rides else answer["state"]
     if answer.get("duplicate_of") is not None:
-        became = f"already here as ride {rides or answer['duplicate_of']}"
+        became = f"already here as ride {answer['duplicate_of']}"
     detail = f": {answer['detail']}" if answer.get("detail") else ""
     stream = sys.stderr if answer["state"] == "rejected" else sys.stdout
     stream.write(f"{answer['file']}: {became}{detail}\n")

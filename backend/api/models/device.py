@@ -73,7 +73,9 @@ class Device(Answer):
     reason: str
     identity: Identity | None
     config: ConfigStamp | None
-    link: dict[str, float | None] = Field(description="Counters of the link since it was added.")
+    link: dict[str, int | float | None] = Field(
+        description="Counters of the link since it was added."
+    )
     faults_active: list[str]
 
 
@@ -132,25 +134,29 @@ class Simulation(BaseModel):
 
 class SimulationRiderChange(Question):
     kind: RiderKind | None = None
-    torque_nm: float | None = Field(default=None, ge=0.0, le=300.0)
-    cadence_rpm_max: float | None = Field(default=None, ge=0.0, le=200.0)
+    torque_nm: float | None = None
+    cadence_rpm_max: float | None = None
 
 
 class SimulationRoadChange(Question):
-    grade_deg: float | None = Field(default=None, ge=-30.0, le=30.0)
-    wind_ms: float | None = Field(default=None, ge=-40.0, le=40.0)
+    grade_deg: float | None = None
+    wind_ms: float | None = None
 
 
 class SimulationChange(Question):
-    """Any subset; what is absent stays. A `scenario` starts from its beginning."""
+    """Any subset; what is absent stays. A `scenario` starts from its beginning, null ends it.
+
+    The simulator itself refuses what it cannot simulate, and names it.
+    """
 
     scenario: str | None = Field(default=None, max_length=80)
     running: bool | None = None
-    speed_factor: float | None = Field(default=None, gt=0.0, le=1000.0)
-    seed: int | None = Field(default=None, ge=0, le=2**32 - 1)
+    speed_factor: float | None = None
+    seed: int | None = None
     rider: SimulationRiderChange | None = None
     road: SimulationRoadChange | None = None
     load_source: Literal["road", "dyno"] | None = None
-    mass_kg: float | None = Field(default=None, ge=20.0, le=400.0)
-    assist_mode: int | None = Field(default=None, ge=0, le=4)
+    dyno_nm: float | None = None
+    mass_kg: float | None = None
+    assist_mode: int | None = None
     brake: bool | None = None

@@ -138,15 +138,29 @@ class ReplayRequest(Question):
     assist_modes: AssistModes | None = None
 
 
+class Compared(Answer):
+    recorded: float | None
+    replayed: float
+    difference: float | None
+
+
 class Replay(Answer):
-    """What the motor would have done with another table, against what it did."""
+    """What the motor would have done with another table, beside what it did.
+
+    `series` has each compared channel as recorded, and as replayed under `replayed_` and its name.
+    `limit_shares`: part of the samples, 0 to 1, in which each limit held the motor back.
+    """
 
     ride_id: int
-    motor_energy_wh: float
-    motor_energy_wh_recorded: float | None
-    motor_torque_nm_max: float
-    motor_torque_nm_max_recorded: float | None
-    difference: dict[str, float | None]
+    config_source: Literal["ride", "defaults"] = Field(
+        description="Whose parameters the rest of the law ran with."
+    )
+    engine: str
+    rows: int
+    motor_work_wh: Compared
+    motor_torque_nm_max: Compared
+    motor_torque_nm_difference_max: float | None
+    limit_shares: dict[str, float]
     series: Series
 
 
@@ -155,11 +169,11 @@ class Upload(Answer):
 
     id: str
     name: str
-    bytes: int
+    length: int
     received: int
     state: Literal["receiving", "queued", "complete", "partial", "rejected"]
     code: str | None
     detail: str | None
     ride_ids: list[int]
     completeness: float | None
-    duplicate_of: str | None = Field(description="The upload that brought the same bytes.")
+    duplicate_of: int | None = Field(description="The ride the same bytes became before.")

@@ -82,7 +82,7 @@ async def create_upload(
 async def get_upload_offset(upload_id: str, services: Provided) -> Response:
     """How many bytes have arrived: where to go on after a break."""
     upload = await run_in_threadpool(services.uploads.get, upload_id)
-    return _tus_response(200, upload_offset=str(upload.received), upload_length=str(upload.bytes))
+    return _tus_response(200, upload_offset=str(upload.received), upload_length=str(upload.length))
 
 
 @router.patch("/uploads/{upload_id}", operation_id="append_upload", status_code=204)

@@ -1,0 +1,183 @@
+"""The composition root: builds everything from the settings, wires it, serves it, takes it down.
+
+Opening goes in the order of need: the store, which finishes what a crash left; those who listen;
+then the units, which begin to talk at once. Closing goes the other way round.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+import sys
+import threading
+import time
+from collections.abc import AsyncIterator, Callable, Iterator
+from functools import partial
+from pathlib import Path
+
+import uvicorn
+from fastapi import FastAPI
+
+from backend import __version__
+from backend.api.app import ApiSettings, create_app
+from backend.api.safety import AllowedHosts
+from backend.api.services import Services
+from backend.device.states import DeviceEvent
+from backend.errors import SpindleError
+from backend.link import kind_of
+from backend.services.connect import Devices
+from backend.services.preview import Preview
+from backend.services.record import Recorder
+from backend.services.remember import UnitMemory
+from backend.services.replay import RideReplay
+from backend.services.review import Rides
+from backend.services.tune import Tuning
+from backend.services.upload import Uploads, UploadSettings
+from backend.services.watch import Watch
+from backend.settings import CHECKOUT, Settings
+from backend.store import open_store
+
+LOG = logging.getLogger(__name__)
+# An open WebSocket or a long download must not hold a stopping server back.
+SHUTDOWN_S = 2
+# How often rides of silent units and expired uploads are looked for.
+HOUSEKEEPING_S = 1.0
+# Where the pages are: beside the package in a checkout, inside it once installed.
+FRONTENDS = (CHECKOUT / "frontend" / "dist", Path(__file__).resolve().parent / "pages")
+
+
+@contextlib.contextmanager
+def open_services(settings: Settings) -> Iterator[Services]:
+    """Everything behind the API, opened; closed again in the other order, whatever happens.
+
+    Raises StoreError if the store cannot be opened, InvalidRequest for a device's bad url.
+    """
+    for url in settings.device:
+        kind_of(url)
+    settings.data.mkdir(parents=True, exist_ok=True)
+    with contextlib.ExitStack() as closing:
+        store = open_store(settings.db, settings.objects)
+        closing.callback(store.close)
+        devices = Devices(flash_folder=settings.data / "units")
+        memory = UnitMemory(devices, store.revisions)
+        closing.callback(memory.close)
+        recorder = Recorder(store.rides, memory.ride_context)
+        closing.callback(recorder.close)
+        limit = UploadSettings(length_max=settings.upload_bytes_max)
+        uploads = Uploads(store, limit)
+        in_background("uploads", uploads.recover)
+        # Units close first: their last rows still find the recorder.
+        closing.callback(devices.close)
+
+        def record(device_id: str, event: DeviceEvent) -> None:
+            recorder.listener(device_id)(event)
+
+        devices.watch(memory.follow)
+        devices.watch(record)
+        closing.enter_context(housekeeping(lambda: recorder.tick(time.time_ns() // 1000)))
+        for url in settings.device:
+            in_background(url, partial(devices.add, url))
+        preview = Preview()
+        yield Services(
+            version=__version__,
+            devices=devices,
+            watch=Watch(devices),
+            tuning=Tuning(devices, store.revisions),
+            preview=preview,
+            rides=Rides(store, RideReplay(preview, memory.ride_config)),
+            uploads=uploads,
+        )
+
+
+def in_background(name: str, work: Callable[[], object]) -> None:
+    """Does what the server need not wait for; a failure is told in the log."""
+
+    def run() -> None:
+        try:
+            work()
+        except SpindleError as error:
+            LOG.error("%s: %s", name, error.message)
+
+    threading.Thread(target=run, name=name, daemon=True).start()
+
+
+@contextlib.contextmanager
+def housekeeping(work: Callable[[], None]) -> Iterator[None]:
+    """Does `work` once a second on a thread of its own until the context ends."""
+    stopped = threading.Event()
+
+    def run() -> None:
+        while not stopped.wait(HOUSEKEEPING_S):
+            try:
+                work()
+            except SpindleError as error:
+                LOG.warning("%s", error.message)
+
+    thread = threading.Thread(target=run, name="housekeeping", daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        stopped.set()
+        thread.join()
+
+
+def build_app(settings: Settings) -> FastAPI:
+    """The application; its services open when it starts and close when it stops."""
+
+    @contextlib.asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        opened = open_services(settings)
+        app.state.services = await asyncio.to_thread(opened.__enter__)
+        try:
+            yield
+        finally:
+            await asyncio.to_thread(opened.__exit__, None, None, None)
+
+    hosts = AllowedHosts(frozenset(settings.allowed_hosts), any_address=not settings.is_loopback)
+    api = ApiSettings(
+        version=__version__,
+        hosts=hosts,
+        frontend=next((folder for folder in FRONTENDS if folder.is_dir()), None),
+        upload_bytes_max=settings.upload_bytes_max,
+    )
+    return create_app(api, lifespan)
+
+
+class AnnouncingServer(uvicorn.Server):
+    """Prints one line with the address, and only once requests are really answered."""
+
+    async def startup(self, sockets: list[object] | None = None) -> None:  # type: ignore[override]
+        """Starts to listen, then says where."""
+        await super().startup(sockets)  # type: ignore[arg-type]
+        if not self.started:
+            return
+        host, port = self.servers[0].sockets[0].getsockname()[:2]
+        shown = f"[{host}]" if ":" in host else host
+        sys.stdout.write(f"Spindle is ready at http://{shown}:{port} (Ctrl-C stops it)\n")
+        sys.stdout.flush()
+
+
+def serve(settings: Settings) -> int:
+    """Runs the server until Ctrl-C or SIGTERM. 0 after a clean end, 1 if it could not start."""
+    logging.basicConfig(level=logging.WARNING, format="%(levelname)s %(name)s: %(message)s")
+    config = uvicorn.Config(
+        build_app(settings),
+        host=settings.host,
+        port=settings.port,
+        log_level="warning",
+        # Compressing 20 small frames a second costs more than it saves on loopback.
+        ws_per_message_deflate=False,
+        # Browsers send nothing larger; whatever does is not a browser.
+        ws_max_size=64 * 1024,
+        server_header=False,
+        timeout_graceful_shutdown=SHUTDOWN_S,
+    )
+    server = AnnouncingServer(config)
+    try:
+        server.run()
+    except KeyboardInterrupt:
+        # uvicorn raises it again after it has closed everything.
+        return 0
+    return 0 if server.started else 1

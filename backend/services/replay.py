@@ -1,0 +1,188 @@
+"""Replaying a ride: its inputs through the unit's own law, with another table or other modes.
+
+The configuration the unit had on the ride is the starting point, so that only what was changed
+differs. The recorded motor and the replayed one are told side by side; how well a replay without
+any change matches the record says how far the answer can be trusted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from backend import control
+from backend.domain.channels import ChannelSpec, Values
+from backend.domain.energy import RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
+from backend.domain.ride import Ride
+from backend.errors import InvalidRequest
+from backend.services.preview import Preview
+from backend.store import RideReader
+from backend.views.trace import trace
+
+# The law steps every 10 ms; a ride sampled far slower than that is not what the law saw.
+PERIOD_US_MAX = 100_000
+NEEDED = ("speed_kmh", "cadence_rpm", "assist_mode")
+TORQUES = ("rider_torque_raw", "rider_torque_nm")
+OPTIONAL = ("motor_speed_rpm", "battery_voltage_v")
+COMPARED = (
+    ChannelSpec("motor_torque_nm", "Nm", 0.0001),
+    ChannelSpec("assist_ratio", "", 0.0002),
+    ChannelSpec("fuzzy_gain", "", 0.00005),
+)
+REPLAYED = "replayed_"
+SERIES_PIXELS = 1200
+
+Config = Mapping[str, Any]
+# A ride's configuration and where it is from: `ride`, or `defaults` where nobody kept it.
+ConfigOf = Callable[[Ride], tuple[Config, str]]
+
+
+class RideReplay:
+    """Replays one ride at a time; holds nothing of it."""
+
+    def __init__(self, preview: Preview, config_of: ConfigOf) -> None:
+        self._preview = preview
+        self._config_of = config_of
+
+    def __call__(
+        self,
+        reader: RideReader,
+        fuzzy_table: Mapping[str, Any] | None,
+        assist_modes: Mapping[str, Any] | None,
+    ) -> dict[str, Any]:
+        """The comparison as the API tells it.
+
+        Raises InvalidRequest for a ride that lacks what the law needs, or a table it refuses.
+        """
+        ride = reader.ride
+        columns = read_columns(reader)
+        config, config_source = self._config_of(ride)
+        step_s = (ride.period_us or 0) / 1e6
+        replayed = self._preview.replay(
+            config, law_inputs(columns), fuzzy_table, assist_modes, step_s
+        )
+        new_nm = np.asarray(replayed.motor_torque_nm, np.float64)
+        recorded_nm = columns.get("motor_torque_nm")
+        speed_rpm = columns.get("motor_speed_rpm")
+        return {
+            "ride_id": ride.id,
+            "config_source": config_source,
+            "engine": control.ENGINE,
+            "rows": len(new_nm),
+            "motor_work_wh": compared(
+                work_wh(recorded_nm, speed_rpm, step_s), replayed.motor_work_wh
+            ),
+            "motor_torque_nm_max": compared(largest(recorded_nm), replayed.motor_torque_nm_max),
+            "motor_torque_nm_difference_max": difference_max(recorded_nm, new_nm),
+            "limit_shares": replayed.limit_shares,
+            "series": series(reader, columns, replayed_columns(replayed)),
+        }
+
+
+def read_columns(reader: RideReader) -> dict[str, Values]:
+    """The channels the law needs and the ones it is compared on, (n,) each, missing as NaN.
+
+    Raises InvalidRequest if the ride lacks one, or is sampled too slowly.
+    """
+    offered = {channel.name: channel for channel in reader.ride.channels}
+    torque = next((name for name in TORQUES if name in offered), TORQUES[0])
+    missing = [name for name in (*NEEDED, torque) if name not in offered]
+    if missing:
+        raise InvalidRequest(
+            f"Ride {reader.ride.id} cannot be replayed: it has no {', '.join(missing)}. Rides "
+            "recorded from a unit have them, files of head units do not.",
+            code="missing_channel",
+        )
+    if reader.period_us is None or reader.period_us > PERIOD_US_MAX:
+        raise InvalidRequest(
+            f"Ride {reader.ride.id} cannot be replayed: its samples are too far apart; the law "
+            f"needs one at least every {PERIOD_US_MAX // 1000} ms.",
+            code="too_slow",
+        )
+    names = [*NEEDED, torque, *OPTIONAL, *(channel.name for channel in COMPARED)]
+    chosen = [name for name in names if name in offered]
+    counts = reader.counts(chosen, 0, reader.row_count)
+    return {name: offered[name].to_values(counts[name]) for name in chosen}
+
+
+def law_inputs(columns: Mapping[str, Values]) -> dict[str, npt.ArrayLike]:
+    """The law's inputs by its own names. A sample without a mode gets slot 0, a gap no torque."""
+    inputs: dict[str, npt.ArrayLike] = {
+        name: columns[name] for name in ("speed_kmh", "cadence_rpm", *OPTIONAL) if name in columns
+    }
+    if "rider_torque_raw" in columns:
+        inputs["torque_raw_counts"] = columns["rider_torque_raw"]
+    else:
+        inputs["rider_torque_nm"] = columns["rider_torque_nm"]
+    inputs["mode"] = np.nan_to_num(columns["assist_mode"]).astype(np.uint8)
+    return inputs
+
+
+def replayed_columns(replayed: object) -> dict[str, Values]:
+    """The replay's answers for the compared channels, as float64 (n,)."""
+    return {
+        channel.name: np.asarray(getattr(replayed, channel.name), np.float64)
+        for channel in COMPARED
+    }
+
+
+def compared(recorded: float | None, replayed: float) -> dict[str, float | None]:
+    """The two figures and what the change makes of it."""
+    difference = None if recorded is None else replayed - recorded
+    return {"recorded": recorded, "replayed": replayed, "difference": difference}
+
+
+def work_wh(torque_nm: Values | None, speed_rpm: Values | None, step_s: float) -> float | None:
+    """Work at the motor's shaft over the samples that are there, Wh."""
+    if torque_nm is None or speed_rpm is None:
+        return None
+    power_w = torque_nm * speed_rpm * RADIANS_PER_S_PER_RPM
+    return float(np.nansum(power_w)) * step_s / SECONDS_PER_HOUR
+
+
+def largest(values: Values | None) -> float | None:
+    """The largest sample, None where there is none."""
+    there = values[np.isfinite(values)] if values is not None else np.empty(0)
+    return float(there.max()) if len(there) else None
+
+
+def difference_max(recorded: Values | None, replayed: Values) -> float | None:
+    """The largest difference of any one sample, None where nothing was recorded."""
+    return None if recorded is None else largest(np.abs(replayed - recorded))
+
+
+class ReplayedReader:
+    """Recorded and replayed channels beside one another, as a view reads a ride."""
+
+    def __init__(self, period_us: int, channels: Mapping[ChannelSpec, Values]) -> None:
+        self.period_us: int | None = period_us
+        self.row_count = len(next(iter(channels.values())))
+        self.offered = tuple(channels)
+        self._counts = {spec.name: spec.to_counts(values) for spec, values in channels.items()}
+
+    def times_us(self, start: int, stop: int) -> npt.NDArray[np.int64]:
+        """Times of rows [start, stop)."""
+        return np.arange(start, stop, dtype=np.int64) * (self.period_us or 1)
+
+    def counts(self, names: Any, start: int, stop: int) -> Any:
+        """Counts of rows [start, stop)."""
+        return {name: self._counts[name][start:stop] for name in names}
+
+    def level(self, rows_per_bin: int) -> None:
+        """There is no pyramid: the rows are at hand."""
+
+
+def series(
+    reader: RideReader, columns: Mapping[str, Values], replayed: Mapping[str, Values]
+) -> dict[str, object]:
+    """Recorded and replayed traces at a plot's width."""
+    channels: dict[ChannelSpec, Values] = {}
+    for spec in COMPARED:
+        if spec.name in columns:
+            channels[spec] = columns[spec.name]
+        channels[ChannelSpec(REPLAYED + spec.name, spec.unit, spec.scale)] = replayed[spec.name]
+    beside = ReplayedReader(reader.period_us or 1, channels)
+    return trace(beside, pixels=SERIES_PIXELS).to_json()

@@ -1,0 +1,174 @@
+"""Goal: what a mechanic writes is what the unit does, and what must not be written is not.
+
+The whole way is real: HTTP, the reader thread, the protocol on a pseudo-terminal, the unit's C.
+Expected gains are the thesis' table 4-2 at its own points, where the centroid is a known number.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from tests.fakes.server import SpindleServer, eventually
+
+LABELS = ["NB", "NS", "ZO", "PS", "PB"]
+
+
+@pytest.fixture(autouse=True)
+def bike_as_it_was(server: SpindleServer, device: str) -> Iterator[None]:
+    """Each story leaves the unit with the configuration it found."""
+    before = server.get(f"/devices/{device}/config")["parameters"]
+    server.stand_still(device)
+    yield
+    server.stand_still(device)
+    now = server.get(f"/devices/{device}/config")["parameters"]
+    changed = {name: before[name] for name in before if before[name] != now[name]}
+    if changed:
+        body = {"parameters": changed, "reason": "put back"}
+        server.ask("PATCH", f"/devices/{device}/config", json=body)
+
+
+def ride_along(server: SpindleServer, device: str) -> None:
+    """A rider who pushes steadily in the fuzzy mode, on a flat road."""
+    server.simulate(
+        device,
+        brake=False,
+        assist_mode=3,
+        rider={"kind": "constant", "torque_nm": 20.0, "cadence_rpm_max": 90.0},
+        road={"grade_deg": 0.0, "wind_ms": 0.0},
+    )
+
+
+def live_gain(server: SpindleServer, device: str) -> float | None:
+    channels = server.get(f"/devices/{device}/snapshot")["channels"]
+    gain: float | None = channels["fuzzy_gain"]
+    return gain
+
+
+def test_a_table_of_one_label_gives_that_gain_on_the_road(
+    server: SpindleServer, device: str
+) -> None:
+    table = server.get(f"/devices/{device}/fuzzy-table")
+    table["inference"] = "weighted_average"
+    table["rules"] = [["PB"] * 5] * 5
+    table["gain_points"] = [0.05, 0.10, 0.15, 0.20, 0.25]
+    table["name"] = "always most"
+
+    change = server.ask(
+        "PUT", f"/devices/{device}/fuzzy-table", json=table, params={"reason": "a story"}
+    )
+
+    assert change["verified"] is True
+    assert change["state"] == "committed"
+    assert server.get(f"/devices/{device}/fuzzy-table") == table
+    ride_along(server, device)
+    gain = eventually(lambda: live_gain(server, device), lambda gain: gain is not None)
+    assert gain == pytest.approx(0.25, abs=0.001)
+
+
+def test_the_live_gain_is_the_one_the_surface_promised(server: SpindleServer, device: str) -> None:
+    table = server.get(f"/devices/{device}/fuzzy-table")
+    ride_along(server, device)
+
+    def gain_and_promise() -> tuple[float | None, float]:
+        now = server.get(f"/devices/{device}/snapshot")["channels"]
+        point = [now["speed_kmh"] or 0.0, max(0.0, now["torque_rate"] or 0.0)]
+        body = {"fuzzy_table": table, "points": [point]}
+        return now["fuzzy_gain"], server.ask("POST", "/surface/points", json=body)["gain"][0]
+
+    gain, promised = eventually(gain_and_promise, lambda pair: pair[0] is not None)
+
+    # Counts of the wire: 0.01 km/h and 0.0005 in rate; the surface's steepest slope is 0.44.
+    assert gain == pytest.approx(promised, abs=0.002)
+
+
+def test_values_out_of_range_are_named_one_by_one_and_change_nothing(
+    server: SpindleServer, device: str
+) -> None:
+    before = server.get(f"/devices/{device}/config")
+    wrong = {
+        "assist_cutoff_kmh": 32.0,
+        "mode_ratios": [0.0, 0.5, 1.0, 1.0, 9.0],
+        "torque_filter_s": 0.4,
+    }
+
+    response = server.client.patch(f"/devices/{device}/config", json={"parameters": wrong})
+
+    assert response.status_code == 422
+    assert response.headers["content-type"] == "application/problem+json"
+    fields = " ".join(error["field"] for error in response.json()["errors"])
+    assert "assist_cutoff_kmh" in fields
+    assert "mode_ratios" in fields
+    assert "torque_filter_s" not in fields
+    assert server.get(f"/devices/{device}/config") == before
+
+
+def test_a_change_made_for_an_older_configuration_is_refused(
+    server: SpindleServer, device: str
+) -> None:
+    etag = server.client.get(f"/devices/{device}/config").headers["etag"]
+    first = {"parameters": {"torque_filter_s": 0.4}, "reason": "somebody else"}
+    server.ask("PATCH", f"/devices/{device}/config", json=first)
+
+    response = server.client.patch(
+        f"/devices/{device}/config",
+        json={"parameters": {"torque_filter_s": 0.6}},
+        headers={"if-match": etag},
+    )
+
+    assert response.status_code == 412
+    parameters = server.get(f"/devices/{device}/config")["parameters"]
+    assert parameters["torque_filter_s"] == pytest.approx(0.4)
+
+
+def test_nothing_is_written_while_the_bike_moves(server: SpindleServer, device: str) -> None:
+    before = server.get(f"/devices/{device}/config")
+    ride_along(server, device)
+    eventually(
+        lambda: server.get(f"/devices/{device}/snapshot")["channels"]["speed_kmh"],
+        lambda speed_kmh: speed_kmh > 3.0,
+    )
+
+    response = server.client.patch(
+        f"/devices/{device}/config", json={"parameters": {"torque_filter_s": 0.4}}
+    )
+
+    assert response.status_code == 409
+    assert server.get(f"/devices/{device}/config") == before
+
+
+def test_what_only_the_factory_may_change_is_refused(server: SpindleServer, device: str) -> None:
+    response = server.client.patch(
+        f"/devices/{device}/config", json={"parameters": {"gear_ratio": 20.0}}
+    )
+
+    assert response.status_code == 403
+    assert "gear_ratio" in response.text
+
+
+def test_raw_counts_become_newton_metres_by_the_calibration_that_was_written(
+    server: SpindleServer, device: str
+) -> None:
+    calibration = server.get(f"/devices/{device}/calibration")
+    calibration["sensor_gain_nm_per_count"] *= 2.0
+    calibration["sensor_offset_counts"] += 100.0
+
+    server.ask("PUT", f"/devices/{device}/calibration", json=calibration)
+    now = server.get(f"/devices/{device}/snapshot")["channels"]
+
+    gain, offset = calibration["sensor_gain_nm_per_count"], calibration["sensor_offset_counts"]
+    expected_nm = gain * (now["rider_torque_raw"] - offset)
+    # One raw count and half a count of the channel.
+    assert now["rider_torque_nm"] == pytest.approx(expected_nm, abs=gain + 0.01)
+
+
+def test_every_change_is_remembered_with_its_reason(server: SpindleServer, device: str) -> None:
+    body = {"parameters": {"torque_filter_s": 0.45}, "reason": "smoother on the climb"}
+    server.ask("PATCH", f"/devices/{device}/config", json=body)
+
+    newest = server.get(f"/devices/{device}/config/revisions")["items"][0]
+
+    assert newest["reason"] == "smoother on the climb"
+    assert [change["name"] for change in newest["changed"]] == ["torque_filter_s"]
+    assert newest["changed"][0]["new"] == pytest.approx(0.45)
