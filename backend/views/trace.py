@@ -46,7 +46,7 @@ from backend.errors import InvalidRequest
 
 MAGIC = b"SPV1"
 # A screen has at most this many columns; more would only cost the browser memory.
-PIXELS_MAX = 8192
+PIXELS_MAX = 10_000
 ALIGNMENT = 8
 
 Starts = npt.NDArray[np.int64]
