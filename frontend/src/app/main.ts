@@ -1,0 +1,38 @@
+// Composition root: builds everything once and mounts the application.
+import { Drafts } from '$shared/api/config_draft.svelte'
+import { openHttp } from '$shared/api/client'
+import { DeviceWatch } from '$shared/api/device_watch.svelte'
+import { Server } from '$shared/api/server'
+import { Locale } from '$shared/i18n/locale.svelte'
+import '$shared/ui/base.css'
+import type { Desk } from '$shared/ui/desk'
+import { readPreferences } from '$shared/ui/preferences'
+import { Theme } from '$shared/ui/theme.svelte'
+import { Toasts } from '$shared/ui/toasts.svelte'
+import { Units } from '$shared/units/units.svelte'
+import { mount } from 'svelte'
+import App from './App.svelte'
+import { Router } from './router.svelte'
+
+const chosen = readPreferences()
+const theme = new Theme(chosen.theme)
+theme.apply()
+const server = new Server(openHttp())
+const locale = new Locale(chosen.language)
+const router = new Router()
+const devices = new DeviceWatch(server, chosen.device_id)
+const desk: Desk = {
+  server,
+  devices,
+  drafts: new Drafts(server),
+  locale,
+  units: new Units(locale, chosen.units),
+  theme,
+  toasts: new Toasts(),
+  go: router.go,
+}
+router.start()
+devices.start()
+
+const target = document.getElementById('app')
+if (target) mount(App, { target, props: { desk, router } })

@@ -1,0 +1,20 @@
+// One line per screen. Each loads when it is first opened, so that charts cost nothing before.
+import type { Component } from 'svelte'
+import type { PageName } from './router.svelte'
+
+type Loader = () => Promise<{ default: Component<{ id: string }> }>
+type Screen = { default: Component<Record<string, never>> | Component<{ id: string }> }
+
+const screen = (load: () => Promise<Screen>): Loader => load as Loader
+
+export const loaders: Record<PageName, Loader> = {
+  bike: screen(() => import('../features/bike/BikePage.svelte')),
+  live: screen(() => import('../features/live/LivePage.svelte')),
+  tune: screen(() => import('../features/tune/TunePage.svelte')),
+  rides: screen(() => import('../features/rides/RidesPage.svelte')),
+  ride: screen(() => import('../features/rides/RidePage.svelte')),
+  sensor: screen(() => import('../features/calibrate/SensorPage.svelte')),
+  service: screen(() => import('../features/service/ServicePage.svelte')),
+  settings: screen(() => import('../features/settings/SettingsPage.svelte')),
+  unknown: screen(() => import('./UnknownPage.svelte')),
+}

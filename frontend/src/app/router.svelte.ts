@@ -1,0 +1,53 @@
+// The address bar is the state: which page, which ride.
+
+export type PageName =
+  | 'bike' | 'live' | 'tune' | 'rides' | 'ride' | 'sensor' | 'service' | 'settings' | 'unknown'
+
+export interface Route {
+  page: PageName
+  id: string
+}
+
+const pages: Record<string, PageName> = {
+  '': 'bike', live: 'live', tune: 'tune', rides: 'rides', sensor: 'sensor', service: 'service',
+  settings: 'settings',
+}
+
+export function readRoute(path: string): Route {
+  const [first = '', second = '', ...rest] = path.split('/').slice(1)
+  if (first === 'rides' && second && rest.length === 0) {
+    return { page: 'ride', id: decodeURIComponent(second) }
+  }
+  return { page: second ? 'unknown' : (pages[first] ?? 'unknown'), id: '' }
+}
+
+export class Router {
+  route = $state.raw<Route>(readRoute(location.pathname))
+
+  start(): void {
+    window.addEventListener('popstate', () => this.read())
+    document.addEventListener('click', (event) => this.follow(event))
+  }
+
+  readonly go = (path: string): void => {
+    history.pushState(null, '', path)
+    this.read()
+    window.scrollTo(0, 0)
+  }
+
+  private read(): void {
+    this.route = readRoute(location.pathname)
+  }
+
+  // Links stay plain links: new tab, copy address and middle click work as everywhere.
+  private follow(event: MouseEvent): void {
+    const link = (event.target as Element | null)?.closest('a')
+    const plain = event.button === 0 && !event.metaKey && !event.ctrlKey && !event.shiftKey
+    if (!link || !plain || event.defaultPrevented || link.target || link.hasAttribute('download')) {
+      return
+    }
+    if (link.origin !== location.origin || link.pathname.startsWith('/api/')) return
+    event.preventDefault()
+    this.go(link.pathname + link.search)
+  }
+}

@@ -1,0 +1,151 @@
+// A ride's series as one Plotly figure: rows above each other, one time axis, gaps left open.
+import { plotLook } from '$shared/charts/plotly'
+import type { Series } from '$shared/api/series'
+import type { Theme } from '$shared/ui/theme.svelte'
+import type { Units } from '$shared/units/units.svelte'
+import { binLine, moment, timeTicks, type TraceRow } from './traces'
+
+export interface Figure {
+  data: object[]
+  layout: Record<string, unknown>
+}
+
+export interface FigureWords {
+  row: (key: string) => string
+  channel: (name: string) => string
+}
+
+interface Frame {
+  rows: TraceRow[]
+  window: { from_s: number; to_s: number }
+  gaps: { from_s: number; to_s: number }[]
+  width: number
+}
+
+const ROW_GAP = 0.045
+
+export function traceFigure(
+  series: Series,
+  frame: Frame,
+  theme: Theme,
+  units: Units,
+  words: FigureWords,
+): Figure {
+  const moments = hoverMoments(series)
+  const data = frame.rows.flatMap((row, i) =>
+    row.lines.flatMap((line) => {
+      const channel = series.channels.find((c) => c.name === line.channel)
+      if (!channel) return []
+      const { x, y } = binLine(series.t_first_s, series.t_last_s, channel.min, channel.max)
+      return {
+        type: 'scatter',
+        mode: 'lines',
+        name: words.channel(line.channel),
+        x,
+        y: y.map((value) => units.show(value, row.unit)),
+        yaxis: axisName(i),
+        line: { color: theme.colour(line.token), width: 1.4, simplify: false },
+        connectgaps: false,
+        customdata: moments,
+        hovertemplate: `${units.label(row.unit)} %{y:.4~g}<br>%{customdata}`,
+      }
+    }),
+  )
+  return { data, layout: layoutOf(frame, theme, units, words) }
+}
+
+function axisName(i: number): string {
+  return i === 0 ? 'y' : `y${i + 1}`
+}
+
+function hoverMoments(series: Series): string[] {
+  const step = (series.to_s - series.from_s) / 2000
+  const same = series.kind === 'rows'
+  return Array.from(series.t_first_s).flatMap((first, i) => {
+    const text = moment(first, step)
+    return same ? [text] : [text, moment(series.t_last_s[i] ?? first, step)]
+  })
+}
+
+function layoutOf(
+  frame: Frame,
+  theme: Theme,
+  units: Units,
+  words: FigureWords,
+): Record<string, unknown> {
+  const { base, axis, font } = plotLook(theme)
+  const { from_s, to_s } = frame.window
+  const ticks = timeTicks(from_s, to_s, Math.max(3, frame.width / 110))
+  const count = frame.rows.length
+  const height = (1 - ROW_GAP * (count - 1)) / count
+  const top = (i: number) => 1 - i * (height + ROW_GAP)
+  const rows = frame.rows.map((_, i) => [
+    i === 0 ? 'yaxis' : `yaxis${i + 1}`,
+    {
+      ...axis,
+      domain: [Math.max(0, top(i) - height), top(i)],
+      fixedrange: true,
+      nticks: 4,
+      rangemode: 'tozero',
+      ticklabelposition: 'outside',
+    },
+  ])
+  return {
+    ...base,
+    ...Object.fromEntries(rows),
+    margin: { l: 44, r: 10, t: 18, b: 26 },
+    dragmode: 'zoom',
+    hovermode: 'closest',
+    hoverdistance: 30,
+    xaxis: {
+      ...axis,
+      range: [from_s, to_s],
+      anchor: axisName(count - 1),
+      tickmode: 'array',
+      tickvals: ticks.at,
+      ticktext: ticks.text,
+      showspikes: true,
+      spikemode: 'across',
+      spikethickness: 1,
+      spikecolor: theme.colour('line-strong'),
+    },
+    shapes: frame.gaps.map((gap) => gapShape(gap, theme)),
+    annotations: frame.rows.map((row, i) => ({
+      text: rowTitle(row, units, words, theme),
+      font: { ...font, color: theme.colour('ink') },
+      xref: 'paper',
+      yref: 'paper',
+      x: 0,
+      y: top(i),
+      xanchor: 'left',
+      yanchor: 'bottom',
+      showarrow: false,
+    })),
+  }
+}
+
+function rowTitle(row: TraceRow, units: Units, words: FigureWords, theme: Theme): string {
+  const unit = row.unit ? ` ${units.label(row.unit)}` : ''
+  const keys = row.lines.map(
+    (l) => `<span style="color:${theme.colour(l.token)}">${words.channel(l.channel)}</span>`,
+  )
+  return row.lines.length > 1
+    ? `<b>${words.row(row.key)}</b>${unit}  ${keys.join('  ')}`
+    : `<b>${words.row(row.key)}</b>${unit}`
+}
+
+function gapShape(gap: { from_s: number; to_s: number }, theme: Theme): object {
+  return {
+    type: 'rect',
+    xref: 'x',
+    yref: 'paper',
+    x0: gap.from_s,
+    x1: gap.to_s,
+    y0: 0,
+    y1: 1,
+    fillcolor: theme.colour('line'),
+    opacity: 0.35,
+    line: { width: 0 },
+    layer: 'below',
+  }
+}

@@ -1,0 +1,51 @@
+// The surface and the findings of the table as it is edited, from the unit's own law on the server.
+// The newest table wins: an answer to an older one is dropped.
+import { Refusal } from '$shared/api/client'
+import type { Server } from '$shared/api/server'
+import type { FuzzyTable, LintReport } from '$shared/api/types'
+import { spread } from './table'
+
+const POINTS = 41
+
+export interface Drawn {
+  speeds_kmh: number[]
+  torque_rates: number[]
+  gain: number[][]
+  engine: string
+}
+
+export class SurfacePreview {
+  drawn = $state.raw<Drawn | null>(null)
+  lint = $state.raw<LintReport | null>(null)
+  trouble = $state<string | null>(null)
+  private asked = new AbortController()
+
+  constructor(private readonly server: Server) {}
+
+  async ask(table: FuzzyTable): Promise<void> {
+    this.asked.abort()
+    this.asked = new AbortController()
+    const { signal } = this.asked
+    const speeds_kmh = spread(0, table.speed_points_kmh[4] ?? 25, POINTS)
+    const rates = table.torque_rate_points
+    const torque_rates = spread(rates[0] ?? 0, rates[4] ?? 1, POINTS)
+    try {
+      const [surface, lint] = await Promise.all([
+        this.server.surface(table, speeds_kmh, torque_rates, signal),
+        this.server.lint(table, signal),
+      ])
+      if (signal.aborted) return
+      this.drawn = { speeds_kmh, torque_rates, gain: surface.gain, engine: surface.engine }
+      this.lint = lint
+      this.trouble = null
+    } catch (error) {
+      if (signal.aborted) return
+      if (!(error instanceof Refusal)) throw error
+      this.trouble = error.message
+    }
+  }
+
+  stop(): void {
+    this.asked.abort()
+  }
+}

@@ -1,0 +1,56 @@
+// The only door to HTTP. Every refusal becomes a Refusal, with the fields at fault.
+import type { paths } from '$generated/api'
+import createClient, { type Client } from 'openapi-fetch'
+import type { FieldProblem } from './types'
+
+/** Why a request did not succeed. status 0: the server did not answer at all. */
+export class Refusal extends Error {
+  constructor(
+    readonly status: number,
+    readonly code: string,
+    detail: string,
+    readonly errors: FieldProblem[] = [],
+  ) {
+    super(detail)
+  }
+}
+
+export type Http = Client<paths>
+
+/** A client of the server this page came from. */
+export function openHttp(base = location.origin): Http {
+  return createClient<paths>({ baseUrl: base })
+}
+
+interface Answer<T> {
+  data?: T | undefined
+  error?: unknown
+  response: Response
+}
+
+/** The body of an answer; throws Refusal. */
+export async function body<T>(asked: Promise<Answer<T>>): Promise<T> {
+  return (await bodyAndTag(asked))[0]
+}
+
+/** The body and the ETag of an answer; throws Refusal. */
+export async function bodyAndTag<T>(asked: Promise<Answer<T>>): Promise<[T, string]> {
+  let answer: Answer<T>
+  try {
+    answer = await asked
+  } catch (error) {
+    if (error instanceof DOMException && error.name === 'AbortError') throw error
+    throw new Refusal(0, 'unreachable', String(error))
+  }
+  if (!answer.response.ok) throw refusal(answer.response.status, answer.error)
+  return [answer.data as T, answer.response.headers.get('etag') ?? '']
+}
+
+/** A Refusal from a status and whatever body came with it. */
+export function refusal(status: number, content: unknown): Refusal {
+  if (content && typeof content === 'object' && 'detail' in content) {
+    const problem = content as { code?: string; detail?: unknown; errors?: FieldProblem[] }
+    return new Refusal(status, problem.code ?? 'error', String(problem.detail), problem.errors)
+  }
+  return new Refusal(status, 'error', `The server answered with status ${status}.`)
+}

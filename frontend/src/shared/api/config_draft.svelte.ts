@@ -1,0 +1,160 @@
+// Edits to a unit's configuration that live here, not in the unit, until they are written.
+import type { Server } from './server'
+import type { ConfigChange, Parameter, ParameterValue } from './types'
+
+export type Edits = Readonly<Record<string, ParameterValue>>
+
+export interface DraftChange {
+  parameter: Parameter
+  old: ParameterValue
+  value: ParameterValue
+}
+
+const HISTORY_MAX = 200
+
+/** The draft of one page for one unit; it outlives the page, so that leaving loses nothing. */
+export class ConfigDraft {
+  parameters = $state.raw<Parameter[]>([])
+  tag = $state('')
+  generation = $state(0)
+  loaded = $state(false)
+  private baseline = $state.raw<Edits>({})
+  private edits = $state.raw<Edits>({})
+  private past = $state.raw<Edits[]>([])
+  private future = $state.raw<Edits[]>([])
+  private gesture: string | null = null
+  changes = $derived(this.listChanges())
+
+  constructor(
+    readonly device_id: string,
+    private readonly server: Server,
+  ) {}
+
+  /** Reads the unit's configuration; edits stay and are compared with the new values. */
+  async load(): Promise<void> {
+    const [parameters, [config, tag]] = await Promise.all([
+      this.server.parameters(this.device_id),
+      this.server.config(this.device_id),
+    ])
+    this.parameters = parameters
+    this.baseline = config.parameters
+    this.generation = config.generation
+    this.tag = tag
+    this.loaded = true
+  }
+
+  parameter(name: string): Parameter | undefined {
+    return this.parameters.find((parameter) => parameter.name === name)
+  }
+
+  group(group: string): Parameter[] {
+    return this.parameters.filter((parameter) => parameter.group === group)
+  }
+
+  /** What the unit has. */
+  base(name: string): ParameterValue | undefined {
+    return this.baseline[name]
+  }
+
+  /** What it would have: the edit, else what it has. */
+  value(name: string): ParameterValue | undefined {
+    return this.edits[name] ?? this.baseline[name]
+  }
+
+  /** Changes a value. Calls of one gesture (a drag) are undone together. */
+  set(name: string, value: ParameterValue, gesture: string | null = null): void {
+    if (same(this.value(name), value)) return
+    if (gesture === null || gesture !== this.gesture) {
+      this.past = [...this.past, this.edits].slice(-HISTORY_MAX)
+    }
+    this.gesture = gesture
+    this.future = []
+    this.edits = this.without(name, same(value, this.baseline[name]) ? undefined : value)
+  }
+
+  get canUndo(): boolean {
+    return this.past.length > 0
+  }
+
+  get canRedo(): boolean {
+    return this.future.length > 0
+  }
+
+  undo(): void {
+    const previous = this.past[this.past.length - 1]
+    if (!previous) return
+    this.future = [...this.future, this.edits]
+    this.past = this.past.slice(0, -1)
+    this.edits = previous
+    this.gesture = null
+  }
+
+  redo(): void {
+    const next = this.future[this.future.length - 1]
+    if (!next) return
+    this.past = [...this.past, this.edits]
+    this.future = this.future.slice(0, -1)
+    this.edits = next
+    this.gesture = null
+  }
+
+  /** Drops every edit; undo brings them back. */
+  discard(): void {
+    if (this.changes.length === 0) return
+    this.past = [...this.past, this.edits]
+    this.future = []
+    this.edits = {}
+  }
+
+  /** Writes the edits in one transaction and reads back what the unit has. Throws Refusal. */
+  async write(reason: string): Promise<ConfigChange> {
+    const parameters = Object.fromEntries(this.changes.map((c) => [c.parameter.name, c.value]))
+    const [result] = await this.server.writeConfig(this.device_id, parameters, reason, this.tag)
+    this.edits = {}
+    this.past = []
+    this.future = []
+    await this.load()
+    return result
+  }
+
+  /** Writes the values a change replaced. Throws Refusal. */
+  async takeBack(change: ConfigChange, reason: string): Promise<ConfigChange> {
+    await this.load()
+    const old = change.changed.flatMap((c) => (c.old === null ? [] : [[c.name, c.old] as const]))
+    const [result] = await this.server.writeConfig(
+      this.device_id, Object.fromEntries(old), reason, this.tag,
+    )
+    await this.load()
+    return result
+  }
+
+  private without(name: string, value: ParameterValue | undefined): Edits {
+    const others = Object.entries(this.edits).filter(([other]) => other !== name)
+    return Object.fromEntries(value === undefined ? others : [...others, [name, value]])
+  }
+
+  private listChanges(): DraftChange[] {
+    return this.parameters.flatMap((parameter) => {
+      const value = this.edits[parameter.name]
+      const old = this.baseline[parameter.name]
+      const changed = value !== undefined && old !== undefined && !same(value, old)
+      return changed ? [{ parameter, old, value }] : []
+    })
+  }
+}
+
+/** Drafts by unit and page, so that each page edits and writes its own. */
+export class Drafts {
+  private readonly byKey: Record<string, ConfigDraft> = {}
+
+  constructor(private readonly server: Server) {}
+
+  of(device_id: string, page: string): ConfigDraft {
+    const key = `${device_id}\n${page}`
+    return (this.byKey[key] ??= new ConfigDraft(device_id, this.server))
+  }
+}
+
+function same(a: ParameterValue | undefined, b: ParameterValue | undefined): boolean {
+  return JSON.stringify(a) === JSON.stringify(b)
+}

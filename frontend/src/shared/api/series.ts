@@ -1,0 +1,70 @@
+// Traces of a ride as the server sends them: least and greatest count per bin ("SPV1", described
+// in backend/views/trace.py).
+
+export interface SeriesChannel {
+  name: string
+  unit: string
+  /** Physical values; NaN where there is no sample. The same array twice when bins are rows. */
+  min: Float64Array
+  max: Float64Array
+}
+
+export interface Series {
+  from_s: number
+  to_s: number
+  /** Rows of the ride within the bins. */
+  rows: number
+  kind: 'rows' | 'minmax'
+  t_first_s: Float64Array
+  t_last_s: Float64Array
+  channels: SeriesChannel[]
+}
+
+interface Header {
+  from_s: number
+  to_s: number
+  rows: number
+  bins: number
+  kind: 'rows' | 'minmax'
+  t_first_s: { offset: number }
+  t_last_s: { offset: number }
+  channels: {
+    name: string
+    unit: string
+    scale: number
+    dtype: 'int16' | 'int32'
+    missing: number
+    min_offset: number
+    max_offset: number
+  }[]
+}
+
+/** Reads a series; throws an Error when the bytes are something else. */
+export function readSeries(bytes: ArrayBuffer): Series {
+  const view = new DataView(bytes)
+  const magic = new TextDecoder().decode(new Uint8Array(bytes, 0, Math.min(4, bytes.byteLength)))
+  if (magic !== 'SPV1') throw new Error('These bytes are not a series of a ride.')
+  const length = view.getUint32(4, true)
+  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 8, length))) as Header
+  const start = 8 + length
+  const { bins } = header
+  const times = (offset: number) => new Float64Array(bytes, start + offset, bins)
+  return {
+    from_s: header.from_s,
+    to_s: header.to_s,
+    rows: header.rows,
+    kind: header.kind,
+    t_first_s: times(header.t_first_s.offset),
+    t_last_s: times(header.t_last_s.offset),
+    channels: header.channels.map((channel) => {
+      const Counts = channel.dtype === 'int32' ? Int32Array : Int16Array
+      const values = (offset: number) => {
+        const counts = new Counts(bytes, start + offset, bins)
+        return Float64Array.from(counts, (n) => (n === channel.missing ? NaN : n * channel.scale))
+      }
+      const min = values(channel.min_offset)
+      const same = channel.min_offset === channel.max_offset
+      return { name: channel.name, unit: channel.unit, min, max: same ? min : values(channel.max_offset) }
+    }),
+  }
+}

@@ -1,0 +1,128 @@
+// What can be asked of Spindle's server, one function a verb. Throws Refusal.
+import { body, bodyAndTag, type Http } from './client'
+import { readSeries, type Series } from './series'
+import type {
+  Config, ConfigChange, Device, FuzzyTable, LintReport, Parameter, ParameterValue, Port, Revision,
+  Ride, Simulation, SimulationChange, Surface,
+} from './types'
+
+export class Server {
+  constructor(private readonly http: Http) {}
+
+  private unit(device_id: string) {
+    return { params: { path: { device_id } } }
+  }
+
+  private rideAt(ride_id: number) {
+    return { params: { path: { ride_id } } }
+  }
+
+  async devices(): Promise<Device[]> {
+    return (await body(this.http.GET('/api/v1/devices'))).items
+  }
+
+  async ports(): Promise<Port[]> {
+    return (await body(this.http.GET('/api/v1/ports'))).items
+  }
+
+  connect(url: string): Promise<Device> {
+    return body(this.http.POST('/api/v1/devices', { body: { url } }))
+  }
+
+  async disconnect(id: string): Promise<void> {
+    await body(this.http.DELETE('/api/v1/devices/{device_id}', this.unit(id)))
+  }
+
+  async parameters(id: string): Promise<Parameter[]> {
+    return (await body(this.http.GET('/api/v1/devices/{device_id}/parameters', this.unit(id)))).items
+  }
+
+  /** The configuration and its ETag. */
+  config(id: string): Promise<[Config, string]> {
+    return bodyAndTag(this.http.GET('/api/v1/devices/{device_id}/config', this.unit(id)))
+  }
+
+  /** Writes parameters; `tag` is the ETag of the configuration the change was made for. */
+  writeConfig(
+    id: string,
+    parameters: Record<string, ParameterValue>,
+    reason: string,
+    tag: string,
+  ): Promise<[ConfigChange, string]> {
+    return bodyAndTag(
+      this.http.PATCH('/api/v1/devices/{device_id}/config', {
+        params: { path: { device_id: id }, header: { 'if-match': tag } },
+        body: { parameters, reason, confirm_s: 0 },
+      }),
+    )
+  }
+
+  async revisions(id: string): Promise<Revision[]> {
+    return (await body(this.http.GET('/api/v1/devices/{device_id}/config/revisions', this.unit(id)))).items
+  }
+
+  async channels(id: string): Promise<Record<string, number | null>> {
+    return (await body(this.http.GET('/api/v1/devices/{device_id}/snapshot', this.unit(id)))).channels
+  }
+
+  async faults(id: string): Promise<{ name: string; description: string }[]> {
+    return (await body(this.http.GET('/api/v1/devices/{device_id}/faults', this.unit(id)))).items
+  }
+
+  simulation(id: string): Promise<Simulation> {
+    return body(this.http.GET('/api/v1/devices/{device_id}/simulation', this.unit(id)))
+  }
+
+  setSimulation(id: string, change: SimulationChange): Promise<Simulation> {
+    return body(this.http.PUT('/api/v1/devices/{device_id}/simulation', { ...this.unit(id), body: change }))
+  }
+
+  /** The gain surface of a table, computed by the unit's own law. */
+  surface(
+    fuzzy_table: FuzzyTable,
+    speeds_kmh: number[],
+    torque_rates: number[],
+    signal: AbortSignal,
+  ): Promise<Surface> {
+    const request = { body: { fuzzy_table, speeds_kmh, torque_rates }, signal }
+    return body(this.http.POST('/api/v1/surface', request))
+  }
+
+  lint(fuzzy_table: FuzzyTable, signal: AbortSignal): Promise<LintReport> {
+    return body(this.http.POST('/api/v1/lint', { body: { fuzzy_table }, signal }))
+  }
+
+  async rides(cursor?: string): Promise<{ items: Ride[]; next: string | null }> {
+    const query = cursor ? { limit: 50, cursor } : { limit: 50 }
+    return body(this.http.GET('/api/v1/rides', { params: { query } }))
+  }
+
+  ride(id: number): Promise<Ride> {
+    return body(this.http.GET('/api/v1/rides/{ride_id}', this.rideAt(id)))
+  }
+
+  changeRide(id: number, change: { name?: string; notes?: string }): Promise<Ride> {
+    return body(this.http.PATCH('/api/v1/rides/{ride_id}', { ...this.rideAt(id), body: change }))
+  }
+
+  async deleteRide(id: number): Promise<void> {
+    await body(this.http.DELETE('/api/v1/rides/{ride_id}', this.rideAt(id)))
+  }
+
+  /** Least and greatest value per bin, exact at any zoom. */
+  async series(
+    id: number,
+    channels: string[],
+    window: { from_s?: number; to_s?: number; px: number },
+    signal: AbortSignal,
+  ): Promise<Series> {
+    const query = { channels: channels.join(','), ...window }
+    const request = this.http.GET('/api/v1/rides/{ride_id}/series', {
+      params: { path: { ride_id: id }, query },
+      headers: { accept: 'application/octet-stream' },
+      parseAs: 'arrayBuffer',
+      signal,
+    })
+    return readSeries((await body(request)) as ArrayBuffer)
+  }
+}

@@ -1,0 +1,67 @@
+// The door to Plotly: one configuration for every chart, and each chart kind in its own chunk.
+import type { Language } from '../i18n/locale.svelte'
+import type { Theme } from '../ui/theme.svelte'
+
+/** Nothing leaves this machine, nobody advertises, and zooming explains itself in our words. */
+export function plotConfig(language: Language): object {
+  return {
+    showSendToCloud: false,
+    plotlyServerURL: '',
+    displaylogo: false,
+    showTips: false,
+    displayModeBar: false,
+    responsive: false,
+    scrollZoom: false,
+    doubleClick: false,
+    locale: language === 'zh' ? 'zh-CN' : 'en',
+  }
+}
+
+export async function loadLines() {
+  return (await import('./plotly_lines')).default
+}
+
+export async function loadHeatmap() {
+  return (await import('./plotly_heatmap')).default
+}
+
+export async function loadSurface() {
+  return (await import('./plotly_surface')).default
+}
+
+/** Colours and type of a chart, from the style sheet. */
+export function plotLook(theme: Theme): { font: object; axis: object; base: object } {
+  const ink = theme.colour('ink-2')
+  const font = {
+    family: '-apple-system, "Segoe UI", Roboto, "Noto Sans", "Noto Sans CJK SC", sans-serif',
+    size: 12,
+    color: ink,
+  }
+  const axis = {
+    gridcolor: theme.colour('grid'),
+    linecolor: theme.colour('line'),
+    zerolinecolor: theme.colour('line'),
+    zeroline: false,
+    tickfont: font,
+  }
+  const base = {
+    paper_bgcolor: 'rgba(0,0,0,0)',
+    plot_bgcolor: 'rgba(0,0,0,0)',
+    font,
+    showlegend: false,
+    hoverlabel: {
+      bgcolor: theme.colour('panel'),
+      bordercolor: theme.colour('line-strong'),
+      font: { ...font, color: theme.colour('ink') },
+    },
+  }
+  return { font, axis, base }
+}
+
+/** Whether this browser can draw in three dimensions; Plotly would otherwise show an advert. */
+export function hasWebgl(): boolean {
+  const canvas = document.createElement('canvas')
+  const context = canvas.getContext('webgl2') ?? canvas.getContext('webgl')
+  context?.getExtension('WEBGL_lose_context')?.loseContext()
+  return context !== null
+}

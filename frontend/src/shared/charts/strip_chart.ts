@@ -1,0 +1,44 @@
+// Live strips: the interface the pages know, so that the chart engine behind it can change.
+import type { Column } from '../stream/trace_buffer'
+
+export interface StripLine {
+  channel: string
+  label: string
+  colour: string
+  width?: number
+}
+
+export interface StripSpec {
+  lines: StripLine[]
+  /** What the axis shows at least; it grows with the data. */
+  least: [number, number]
+  span_s: number
+  grid: string
+  ink: string
+}
+
+export interface StripChart {
+  /** Draws the columns with the right edge at `edge_s`. */
+  draw(times: number[], columns: (Column | null)[], edge_s: number): void
+  resize(width: number, height: number): void
+  destroy(): void
+}
+
+/** A range that holds `min` to `max` and ends on a round number. */
+export function roundRange(
+  min: number | null,
+  max: number | null,
+  least: [number, number],
+): [number, number] {
+  const low = Math.min(least[0], min ?? least[0])
+  const high = Math.max(least[1], max ?? least[1])
+  const step = niceStep((high - low) / 4)
+  return [Math.floor(low / step + 1e-9) * step, Math.ceil(high / step - 1e-9) * step]
+}
+
+/** 1, 2 or 5 times a power of ten, at least `rough`. */
+export function niceStep(rough: number): number {
+  const power = 10 ** Math.floor(Math.log10(rough))
+  const factor = [1, 2, 5, 10].find((f) => f * power >= rough - 1e-12) ?? 10
+  return factor * power
+}

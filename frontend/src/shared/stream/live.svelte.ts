@@ -1,0 +1,152 @@
+// One device's live socket: rows into a buffer, the newest values ten times a second, and the
+// truth about age, gaps and reconnecting.
+import { readFrame, valueOf, type StreamFrame, type StreamHeader, type StreamState } from './frame'
+import { TraceBuffer } from './trace_buffer'
+
+const STALE_AFTER_MS = 1500 // a rider's glance: older than this must not look alive
+const SILENT_AFTER_MS = 5000 // an open socket without frames is dead (Wi-Fi change, sleep)
+const RETRY_MS_MAX = 3000
+const TICK_MS = 100
+
+export type Latest = Record<string, number | null>
+
+export interface LiveOptions {
+  device_id: string
+  channels: string[]
+  rate_hz: number
+  window_s?: number
+}
+
+export class LiveStream {
+  readonly buffer: TraceBuffer
+  header = $state.raw<StreamHeader | null>(null)
+  latest = $state.raw<Latest>({})
+  age_ms = $state(Infinity)
+  gaps = $state(0)
+  lost_rows = $state(0)
+  link_state = $state<string | null>(null)
+  reason = $state<string | null>(null)
+  stale = $derived(this.age_ms > STALE_AFTER_MS)
+
+  private socket: WebSocket | null = null
+  private newest: StreamFrame | null = null
+  private arrived_ms = -Infinity
+  private opened_ms = 0
+  private retry_ms = 250
+  private timers: ReturnType<typeof setTimeout>[] = []
+  private ticker: ReturnType<typeof setInterval> | null = null
+  private closed = false
+
+  constructor(private readonly options: LiveOptions) {
+    this.buffer = new TraceBuffer(options.window_s ?? 30)
+  }
+
+  /** Opens the socket and keeps it open until `close`. */
+  open(): void {
+    this.connect()
+    this.ticker = setInterval(() => this.tick(), TICK_MS)
+    document.addEventListener('visibilitychange', this.wake)
+    window.addEventListener('online', this.wake)
+  }
+
+  close(): void {
+    this.closed = true
+    if (this.ticker) clearInterval(this.ticker)
+    this.timers.forEach(clearTimeout)
+    document.removeEventListener('visibilitychange', this.wake)
+    window.removeEventListener('online', this.wake)
+    this.socket?.close()
+  }
+
+  /** Index of a channel in the buffer's columns, or -1. */
+  column(name: string): number {
+    return this.header?.channels.findIndex((channel) => channel.name === name) ?? -1
+  }
+
+  private url(): string {
+    const { device_id, channels, rate_hz } = this.options
+    const scheme = location.protocol === 'https:' ? 'wss' : 'ws'
+    const path = `/api/v1/devices/${encodeURIComponent(device_id)}/live`
+    return `${scheme}://${location.host}${path}?channels=${channels.join(',')}&rate_hz=${rate_hz}`
+  }
+
+  private connect(): void {
+    if (this.closed) return
+    this.opened_ms = performance.now()
+    const socket = new WebSocket(this.url())
+    socket.binaryType = 'arraybuffer'
+    socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => this.receive(event.data)
+    socket.onclose = () => this.lost(socket)
+    this.socket = socket
+  }
+
+  private lost(socket: WebSocket): void {
+    if (socket !== this.socket || this.closed) return
+    this.socket = null
+    this.timers = [setTimeout(() => this.connect(), this.retry_ms)]
+    this.retry_ms = Math.min(RETRY_MS_MAX, this.retry_ms * 2)
+  }
+
+  // After sleep or a network change the old socket may look open for minutes: do not believe it.
+  private readonly wake = (): void => {
+    if (document.hidden || this.age_ms < STALE_AFTER_MS) return
+    this.reconnect()
+  }
+
+  private reconnect(): void {
+    this.timers.forEach(clearTimeout)
+    const old = this.socket
+    this.socket = null
+    old?.close()
+    this.retry_ms = 250
+    this.connect()
+  }
+
+  private receive(data: string | ArrayBuffer): void {
+    if (typeof data === 'string') this.receiveText(data)
+    else this.receiveRows(data)
+  }
+
+  private receiveText(text: string): void {
+    const message = JSON.parse(text) as StreamHeader | StreamState
+    if (message.type === 'stream') {
+      this.buffer.reset(message)
+      this.newest = null
+      this.header = message
+    } else if (message.type === 'state') {
+      this.link_state = message.state
+      this.reason = message.reason
+    }
+  }
+
+  private receiveRows(bytes: ArrayBuffer): void {
+    const frame = readFrame(bytes)
+    if (!frame || frame.rows === 0) return
+    this.retry_ms = 250
+    this.arrived_ms = performance.now()
+    if (frame.lost_rows > 0) {
+      this.gaps += 1
+      this.lost_rows += frame.lost_rows
+    }
+    this.buffer.append(frame)
+    this.newest = frame
+  }
+
+  private tick(): void {
+    const now_ms = performance.now()
+    this.age_ms = now_ms - this.arrived_ms
+    const silent_ms = now_ms - Math.max(this.arrived_ms, this.opened_ms)
+    if (this.socket && silent_ms > SILENT_AFTER_MS && this.link_state === 'ready') this.reconnect()
+    if (this.newest && this.header) this.latest = lastRow(this.newest, this.header)
+  }
+}
+
+function lastRow(frame: StreamFrame, header: StreamHeader): Latest {
+  const start = (frame.rows - 1) * frame.channels
+  return Object.fromEntries(
+    header.channels.map((channel, i) => [
+      channel.name,
+      valueOf(frame.counts[start + i], channel.scale),
+    ]),
+  )
+}

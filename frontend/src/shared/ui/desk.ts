@@ -1,0 +1,31 @@
+// What every page may use, made once by app/main.ts and handed down through Svelte's context.
+import { getContext, setContext } from 'svelte'
+import type { Drafts } from '../api/config_draft.svelte'
+import type { DeviceWatch } from '../api/device_watch.svelte'
+import type { Server } from '../api/server'
+import type { Locale } from '../i18n/locale.svelte'
+import type { Units } from '../units/units.svelte'
+import type { Theme } from './theme.svelte'
+import type { Toasts } from './toasts.svelte'
+
+export interface Desk {
+  server: Server
+  devices: DeviceWatch
+  drafts: Drafts
+  locale: Locale
+  units: Units
+  theme: Theme
+  toasts: Toasts
+  /** Goes to another page of this application. */
+  go: (path: string) => void
+}
+
+const KEY = Symbol('desk')
+
+export function provideDesk(desk: Desk): void {
+  setContext(KEY, desk)
+}
+
+export function useDesk(): Desk {
+  return getContext<Desk>(KEY)
+}

@@ -1,0 +1,127 @@
+// Words for parameters: labels, elements, choices, faults and differences, in the reader's units.
+import type { DraftChange, ConfigDraft } from '../api/config_draft.svelte'
+import { faultsOf, walk, type Fault } from '../api/limits'
+import type { Parameter, ParameterValue } from '../api/types'
+import type { Locale } from '../i18n/locale.svelte'
+import type { Units } from '../units/units.svelte'
+
+export const LABELS = ['NB', 'NS', 'ZO', 'PS', 'PB'] as const
+
+export interface ElementChange {
+  key: string
+  label: string
+  old: string
+  value: string
+  range: string
+  fault: string | null
+}
+
+/** What a parameter is called; a new one is called by its name in words. */
+export function parameterLabel(locale: Locale, name: string): string {
+  const words = name.replace(/_(nm|rpm|kmh|v|a|s|ms|degc|m|pct)(?=_|$)/g, '').replaceAll('_', ' ')
+  return locale.lookup(`parameter.${name}`, words.charAt(0).toUpperCase() + words.slice(1))
+}
+
+/** What a choice of an enumeration is called. */
+export function choiceLabel(locale: Locale, choice: string): string {
+  return locale.lookup(`choice.${choice}`, choice)
+}
+
+/** A number as it is typed: enough digits to be exact in float32, none too many. */
+export function typed(value: number): string {
+  return Number.isFinite(value) ? String(Number(value.toPrecision(6))) : ''
+}
+
+/** The bounds of a parameter with its unit, such as "0 … 25 km/h". */
+export function rangeText(parameter: Parameter, units: Units): string {
+  const { min, max, unit } = parameter
+  if (min == null || max == null) return ''
+  const shown = `${typed(units.show(min, unit))} … ${typed(units.show(max, unit))}`
+  return `${shown} ${units.label(unit)}`.trim()
+}
+
+/** A fault in words. */
+export function faultText(locale: Locale, units: Units, fault: Fault, unit: string): string {
+  if (!('bound' in fault)) return locale.t(`fault.${fault.code}`)
+  const bound = `${typed(units.show(fault.bound, unit))} ${units.label(unit)}`.trim()
+  return locale.t(`fault.${fault.code}`, { bound })
+}
+
+/** Which element of a parameter is meant: the mode slot, the set or the rule's place. */
+export function elementLabel(
+  locale: Locale,
+  units: Units,
+  draft: ConfigDraft,
+  parameter: Parameter,
+  path: number[],
+): string {
+  const label = parameterLabel(locale, parameter.name)
+  const [row, column] = path
+  if (row === undefined) return label
+  if (column === undefined) {
+    const set = parameter.name.includes('points') ? String(row + 1) : String(row)
+    return `${label} ${set}`
+  }
+  const speeds = draft.value('fuzzy_speed_points_kmh') as number[]
+  const rates = draft.value('fuzzy_torque_rate_points') as number[]
+  const speed = `${typed(units.show(speeds[row] ?? NaN, 'km/h'))} ${units.label('km/h')}`
+  return locale.t('review.rule', { speed, rate: typed(rates[column] ?? NaN) })
+}
+
+/** Every element that differs, with its bounds and what is wrong with it. */
+export function elementChanges(
+  locale: Locale,
+  units: Units,
+  draft: ConfigDraft,
+  change: DraftChange,
+): ElementChange[] {
+  const { parameter } = change
+  const faults = faultsOf(parameter, change.value)
+  const found: ElementChange[] = []
+  walk(change.value, [], (element, path) => {
+    const old = elementAt(change.old, path)
+    const fault = faults.find((f) => f.path.join() === path.join())?.fault
+    if (old === element && !fault) return
+    found.push({
+      key: `${parameter.name}/${path.join('/')}`,
+      label: elementLabel(locale, units, draft, parameter, path),
+      old: elementText(locale, units, parameter, old),
+      value: elementText(locale, units, parameter, element),
+      range: rangeText(parameter, units),
+      fault: fault ? faultText(locale, units, fault, parameter.unit) : null,
+    })
+  })
+  return found
+}
+
+/** A whole value in one line, for lists of what changed. */
+export function valueText(
+  locale: Locale,
+  units: Units,
+  parameter: Parameter | undefined,
+  value: ParameterValue | null,
+): string {
+  if (value === null) return '—'
+  const parts: string[] = []
+  walk(value, [], (element) => parts.push(elementText(locale, units, parameter, element)))
+  return parts.join(' ')
+}
+
+function elementText(
+  locale: Locale,
+  units: Units,
+  parameter: Parameter | undefined,
+  element: number | string | undefined,
+): string {
+  if (element === undefined) return '—'
+  if (typeof element === 'string') return choiceLabel(locale, element)
+  const unit = parameter?.unit ?? ''
+  if (!Number.isFinite(element)) return '—'
+  return `${typed(units.show(element, unit))} ${units.label(unit)}`.trim()
+}
+
+function elementAt(value: ParameterValue, path: number[]): number | string | undefined {
+  let at: unknown = value
+  for (const index of path) at = (at as unknown[])[index]
+  return at as number | string | undefined
+}

@@ -1,0 +1,31 @@
+import { svelte } from '@sveltejs/vite-plugin-svelte'
+import { fileURLToPath } from 'node:url'
+import { defineConfig } from 'vitest/config'
+
+const folder = (path: string) => fileURLToPath(new URL(path, import.meta.url))
+const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
+
+export default defineConfig({
+  plugins: [svelte()],
+  define: { global: 'globalThis' },
+  resolve: {
+    alias: {
+      $shared: folder('./src/shared'),
+      $generated: folder('./src/generated'),
+      // plotly's core imports the style sheet of a map engine that we never draw with.
+      'maplibre-gl/dist/maplibre-gl.css': folder('./src/shared/charts/no_map.css'),
+    },
+    // Components run in the tests' DOM, not on a server.
+    conditions: process.env.VITEST ? ['browser'] : undefined,
+  },
+  build: { target: 'es2022', chunkSizeWarningLimit: 1500, modulePreload: { polyfill: false } },
+  server: {
+    host: '127.0.0.1',
+    proxy: { '/api': { target: server, ws: true, changeOrigin: true } },
+  },
+  test: {
+    environment: 'happy-dom',
+    include: ['src/**/*.test.ts', 'tests/**/*.test.ts'],
+    setupFiles: [],
+  },
+})
