@@ -14,6 +14,7 @@ from firmware_protocol._generated import (
     CfgInfoRequest,
     CfgReadRequest,
     CfgSetRequest,
+    CfgValidateRequest,
     MessageId,
     Status,
 )
@@ -44,6 +45,7 @@ def write_config(unit: Unit, changes: dict[str, Any]) -> None:
     )
     for items in set_items(changes):
         exchange.ask(CfgSetRequest(transaction=begun.transaction, items=items))
+    exchange.ask(CfgValidateRequest(transaction=begun.transaction))
     exchange.ask(
         CfgCommitRequest(
             transaction=begun.transaction,

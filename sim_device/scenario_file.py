@@ -20,6 +20,7 @@ TORQUE_NM_MAX = 250.0
 CADENCE_RPM_MAX = 250.0
 GRADE_DEG_MAX = 30.0
 WIND_MS_MAX = 30.0
+SPEED_KMH_MAX = 100.0
 PHASE_S_MAX = 36_000.0
 PHASES_MAX = 1000
 
@@ -148,13 +149,20 @@ def parse(name: str, text: str) -> ScenarioFile:
         settings=_settings(where, table.get("settings", {})),
         phases=_phases(where, table.get("phases", [])),
         repeat=bool(table.get("repeat", False)),
-        speed_kmh=table.get("speed_kmh"),
+        speed_kmh=_start_speed_kmh(where, table.get("speed_kmh")),
         bike={
-            f"{part}.{key}": float(value)
+            f"{part}.{key}": float(Setting(0.0).read(f"{where}, bike.{part}.{key}", value))
             for part, values in table.get("bike", {}).items()
             for key, value in values.items()
         },
     )
+
+
+def _start_speed_kmh(where: str, given: object) -> float | None:
+    if given is None:
+        return None
+    setting = Setting(0.0, min=0.0, max=SPEED_KMH_MAX)
+    return float(setting.read(f"{where}: speed_kmh", given))
 
 
 def _refuse_unknown(where: str, table: dict[str, Any], known: set[str]) -> None:

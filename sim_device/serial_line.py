@@ -90,7 +90,12 @@ class TcpLine:
         return str(self._listener.getsockname()[1])
 
     def read(self) -> bytes:
+        # First the host that may have left, then the one that may wait for its place.
+        data = self._receive()
         self._accept()
+        return data
+
+    def _receive(self) -> bytes:
         if self._host is None:
             return b""
         try:

@@ -18,7 +18,8 @@ static const charge_point CHARGE_CURVE[] = {
 };
 #define CHARGE_POINTS (sizeof CHARGE_CURVE / sizeof CHARGE_CURVE[0])
 
-double battery_open_circuit_v(double soc_pct) {
+double battery_open_circuit_v(double soc_pct)
+{
     if (soc_pct <= CHARGE_CURVE[0].soc_pct) {
         return CELLS_IN_SERIES * CHARGE_CURVE[0].cell_v;
     }
@@ -33,13 +34,15 @@ double battery_open_circuit_v(double soc_pct) {
     return CELLS_IN_SERIES * CHARGE_CURVE[CHARGE_POINTS - 1].cell_v;
 }
 
-void battery_reset(const battery_config *config, battery_state *state) {
+void battery_reset(const battery_config *config, battery_state *state)
+{
     state->soc_pct = config->soc_pct_start;
     state->voltage_v = battery_open_circuit_v(state->soc_pct);
     state->current_a = 0.0;
 }
 
-void battery_step(const battery_config *config, battery_state *state, double power_w, double dt_s) {
+void battery_step(const battery_config *config, battery_state *state, double power_w, double dt_s)
+{
     const double open_v = battery_open_circuit_v(state->soc_pct);
     /* P = (U - iR)i has its maximum at i = U/2R; the smaller root is the one a load settles at. */
     const double root = fmax(open_v * open_v - 4.0 * config->resistance_ohm * power_w, 0.0);

@@ -1,11 +1,13 @@
 #include "drivetrain.h"
 
-double drivetrain_chain_ratio(const drivetrain_config *config) {
+double drivetrain_chain_ratio(const drivetrain_config *config)
+{
     return config->chainring_teeth / config->cog_teeth;
 }
 
 static double acceleration(const drivetrain_config *config, const drivetrain_load *load,
-                           const drivetrain_flow *flow) {
+                           const drivetrain_flow *flow)
+{
     const double ratio = config->gear_ratio;
     const double gear_share = config->gear_efficiency * config->chain_efficiency;
     double inertia = load->bike_inertia_kg_m2;
@@ -24,7 +26,8 @@ static double acceleration(const drivetrain_config *config, const drivetrain_loa
     return (net_nm - load->friction_nm) / inertia;
 }
 
-drivetrain_flow drivetrain_solve(const drivetrain_config *config, const drivetrain_load *load) {
+drivetrain_flow drivetrain_solve(const drivetrain_config *config, const drivetrain_load *load)
+{
     const double ratio = config->gear_ratio;
     drivetrain_flow flow = {0};
     flow.crank_engaged = load->crank_engaged;

@@ -7,11 +7,13 @@
 #define KMH_PER_MS 3.6
 
 /* Metres the bike moves per radian of the chainring. */
-static double metres_per_rad(const physics_config *config) {
+static double metres_per_rad(const physics_config *config)
+{
     return config->road.wheel_radius_m * drivetrain_chain_ratio(&config->drivetrain);
 }
 
-static double bike_inertia_kg_m2(const physics_config *config) {
+static double bike_inertia_kg_m2(const physics_config *config)
+{
     const double reach_m = metres_per_rad(config);
     return road_moving_mass_kg(&config->road) * reach_m * reach_m;
 }
@@ -22,7 +24,8 @@ typedef struct {
 } motion;
 
 /* Constant acceleration for `dt_s`; ends at rest where friction would turn it round. */
-static motion advance(double speed, double acceleration, double dt_s, int friction_stops) {
+static motion advance(double speed, double acceleration, double dt_s, int friction_stops)
+{
     motion after = {speed + acceleration * dt_s, 0.0};
     double moved_s = dt_s;
     if (friction_stops && speed != 0.0 && speed * after.speed <= 0.0) {
@@ -46,7 +49,8 @@ typedef struct {
 
 /* A free motor gains up to 14 rad/s in one step, and its limits hold at the end of it too. */
 static double motor_speed_to_limit(const physics_config *config, const physics_state *state,
-                                   double demand_nm, int engaged, double dt_s) {
+                                   double demand_nm, int engaged, double dt_s)
+{
     if (engaged || !(demand_nm > 0.0)) {
         return state->motor_speed_rad_s;
     }
@@ -55,7 +59,8 @@ static double motor_speed_to_limit(const physics_config *config, const physics_s
 }
 
 static void gather(const physics_config *config, const physics_state *state,
-                   const physics_command *command, double dt_s, instant *now) {
+                   const physics_command *command, double dt_s, instant *now)
+{
     const double reach_m = metres_per_rad(config);
     const double chainring_rad_s = state->speed_ms / reach_m;
     now->road = road_forces_at(&config->road, &command->road, state->speed_ms,
@@ -89,7 +94,8 @@ static void gather(const physics_config *config, const physics_state *state,
 }
 
 static void move(const physics_config *config, const physics_state *state, double dt_s,
-                 instant *now) {
+                 instant *now)
+{
     const double ratio = config->drivetrain.gear_ratio;
     const double chainring_rad_s = state->speed_ms / metres_per_rad(config);
     now->chainring = advance(chainring_rad_s, now->flow.acceleration_rad_s2, dt_s, 1);
@@ -108,14 +114,16 @@ static void move(const physics_config *config, const physics_state *state, doubl
 }
 
 /* Two parts meet and turn on together: momentum stays, the rest of the energy is heat. */
-static double meet(double inertia, double *speed, double other_inertia, double other_speed) {
+static double meet(double inertia, double *speed, double other_inertia, double other_speed)
+{
     const double slip = other_speed - *speed;
     *speed += slip * other_inertia / (inertia + other_inertia);
     return 0.5 * slip * slip * inertia * other_inertia / (inertia + other_inertia);
 }
 
 /* A free crank or motor that has become faster than the chainring drops into its clutch. */
-static void close_clutches(const physics_config *config, physics_state *state, instant *now) {
+static void close_clutches(const physics_config *config, physics_state *state, instant *now)
+{
     const double ratio = config->drivetrain.gear_ratio;
     const double crank_inertia = config->drivetrain.crank_inertia_kg_m2;
     const double motor_inertia = config->motor.inertia_kg_m2 * ratio * ratio;
@@ -144,7 +152,8 @@ static void close_clutches(const physics_config *config, physics_state *state, i
 }
 
 static void book(const physics_config *config, physics_ledger *ledger, const instant *now,
-                 double dt_s) {
+                 double dt_s)
+{
     const double chainring_rad = now->chainring.travel;
     const double travel_m = chainring_rad * metres_per_rad(config);
     const double gear_out_nm = config->drivetrain.gear_efficiency * now->flow.motor_nm;
@@ -166,7 +175,8 @@ static void book(const physics_config *config, physics_ledger *ledger, const ins
 }
 
 void physics_step(const physics_config *config, physics_state *state,
-                  const physics_command *command, double dt_s) {
+                  const physics_command *command, double dt_s)
+{
     instant now = {0};
     gather(config, state, command, dt_s, &now);
     move(config, state, dt_s, &now);
@@ -194,7 +204,8 @@ void physics_step(const physics_config *config, physics_state *state,
     state->torque_counts = torque_sensor_read(&config->sensor, &state->sensor, now.flow.crank_nm);
 }
 
-static double kinetic_j(const physics_config *config, const physics_state *state) {
+static double kinetic_j(const physics_config *config, const physics_state *state)
+{
     const double mass_kg = road_moving_mass_kg(&config->road);
     const double crank_inertia = config->drivetrain.crank_inertia_kg_m2;
     return 0.5 * mass_kg * state->speed_ms * state->speed_ms +
@@ -202,13 +213,15 @@ static double kinetic_j(const physics_config *config, const physics_state *state
            0.5 * config->motor.inertia_kg_m2 * state->motor_speed_rad_s * state->motor_speed_rad_s;
 }
 
-void physics_begin_ledger(const physics_config *config, physics_state *state) {
+void physics_begin_ledger(const physics_config *config, physics_state *state)
+{
     const physics_ledger empty = {0};
     state->ledger = empty;
     state->ledger.kinetic_start_j = kinetic_j(config, state);
 }
 
-double physics_energy_balance_error_pct(const physics_config *config, const physics_state *state) {
+double physics_energy_balance_error_pct(const physics_config *config, const physics_state *state)
+{
     const physics_ledger *ledger = &state->ledger;
     const double in_j = ledger->rider_work_j + ledger->motor_electric_j;
     if (in_j < 1.0) {
@@ -222,7 +235,8 @@ double physics_energy_balance_error_pct(const physics_config *config, const phys
     return 100.0 * fabs(in_j - stored_j - losses_j) / in_j;
 }
 
-physics_kinematics physics_kinematics_at(const physics_config *config, double speed_kmh) {
+physics_kinematics physics_kinematics_at(const physics_config *config, double speed_kmh)
+{
     const double wheel_rad_s = speed_kmh / KMH_PER_MS / config->road.wheel_radius_m;
     const double crank_rad_s = wheel_rad_s / drivetrain_chain_ratio(&config->drivetrain);
     const physics_kinematics turning = {
@@ -234,7 +248,8 @@ physics_kinematics physics_kinematics_at(const physics_config *config, double sp
 }
 
 void physics_reset(const physics_config *config, physics_state *state, double speed_kmh,
-                   uint64_t seed) {
+                   uint64_t seed)
+{
     const physics_state rest = {0};
     *state = rest;
     state->speed_ms = speed_kmh / KMH_PER_MS;

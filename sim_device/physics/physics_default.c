@@ -1,7 +1,8 @@
 #include "physics.h"
 
 /* W1: thesis_checks 4.7. Motor: I-5. Battery and heat: 6, of the size usual for such a unit. */
-void physics_default(physics_config *config) {
+void physics_default(physics_config *config)
+{
     const physics_config bike = {
         .road = {
             .source = LOAD_ROAD,

@@ -7,7 +7,8 @@
 #define STROKE_CADENCE_RPM 20.0
 
 double rider_torque_nm(const rider_config *config, const rider_command *command,
-                       double crank_angle_rad, double crank_speed_rad_s) {
+                       double crank_angle_rad, double crank_speed_rad_s)
+{
     if (command->kind == RIDER_OFF) {
         return 0.0;
     }
@@ -24,6 +25,7 @@ double rider_torque_nm(const rider_config *config, const rider_command *command,
     return torque_nm * (1.0 - ripple * cos(2.0 * crank_angle_rad));
 }
 
-double rider_drag_nm(const rider_config *config, const rider_command *command) {
+double rider_drag_nm(const rider_config *config, const rider_command *command)
+{
     return command->kind == RIDER_OFF ? config->still_leg_drag_nm : 0.0;
 }

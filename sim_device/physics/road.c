@@ -5,7 +5,8 @@
 #define RAD_PER_DEG (3.14159265358979323846 / 180.0)
 
 static double dyno_force_n(const road_config *config, const road_command *command,
-                           double chain_ratio, double chain_efficiency) {
+                           double chain_ratio, double chain_efficiency)
+{
     const double force_n = command->dyno_nm / config->dyno_roller_radius_m;
     if (config->dyno_convention == DYNO_PHYSICAL) {
         return force_n;
@@ -16,7 +17,8 @@ static double dyno_force_n(const road_config *config, const road_command *comman
 }
 
 road_forces road_forces_at(const road_config *config, const road_command *command, double speed_ms,
-                           double chain_ratio, double chain_efficiency) {
+                           double chain_ratio, double chain_efficiency)
+{
     road_forces forces = {0};
     forces.brake_n = command->brake ? config->brake_force_n : 0.0;
     if (config->source == LOAD_DYNO) {
@@ -33,7 +35,8 @@ road_forces road_forces_at(const road_config *config, const road_command *comman
     return forces;
 }
 
-double road_moving_mass_kg(const road_config *config) {
+double road_moving_mass_kg(const road_config *config)
+{
     const double mass_kg = config->source == LOAD_DYNO ? config->dyno_mass_kg : config->mass_kg;
     return mass_kg + config->wheel_inertia_kg_m2 / (config->wheel_radius_m * config->wheel_radius_m);
 }

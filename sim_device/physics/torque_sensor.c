@@ -3,7 +3,8 @@
 #include <math.h>
 
 /* splitmix64: every seed, zero included, starts a full-period sequence. */
-static double uniform(torque_sensor_state *state) {
+static double uniform(torque_sensor_state *state)
+{
     state->random += 0x9E3779B97F4A7C15u;
     uint64_t bits = state->random;
     bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -13,7 +14,8 @@ static double uniform(torque_sensor_state *state) {
 }
 
 /* Sum of twelve uniforms: standard deviation 1, and no rare value far outside an amplifier's. */
-static double gaussian(torque_sensor_state *state) {
+static double gaussian(torque_sensor_state *state)
+{
     double sum = -6.0;
     for (int k = 0; k < 12; k++) {
         sum += uniform(state);
@@ -22,7 +24,8 @@ static double gaussian(torque_sensor_state *state) {
 }
 
 int16_t torque_sensor_read(const torque_sensor_config *config, torque_sensor_state *state,
-                           double torque_nm) {
+                           double torque_nm)
+{
     double seen_nm = torque_nm * config->gain;
     if (config->noise_nm > 0.0) {
         seen_nm += config->noise_nm * gaussian(state);

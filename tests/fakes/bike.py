@@ -16,7 +16,7 @@ RIDER_OFF, RIDER_CONSTANT, RIDER_LEGS = 0, 1, 2
 
 
 class Bike:
-    """One physics_state and its configuration; `config`, `state` and `command` are the C structs."""
+    """One bike; `config`, `state` and `command` are the C structs of physics.h."""
 
     def __init__(self, speed_kmh: float = 0.0, seed: int = 1) -> None:
         self.config: Any = ffi.new("physics_config *")

@@ -40,10 +40,13 @@ def _answer(
     response_length: Any,
 ) -> int:
     answer: BoardRequest = ffi.from_handle(context)
-    status, body = answer(message_id, bytes(ffi.buffer(request, length)) if length else b"")
-    taken = body[:capacity]
-    ffi.memmove(response, taken, len(taken))
-    response_length[0] = len(taken)
+    status, body = answer(message_id, bytes(ffi.buffer(request, length)))
+    if status == lib.EBL_STATUS_OK and len(body) > capacity:
+        # Before HELLO a frame is short: half a JSON object would be worse than none.
+        status, body = int(lib.EBL_STATUS_NO_SPACE), b""
+    body = body[:capacity]
+    ffi.memmove(response, body, len(body))
+    response_length[0] = len(body)
     return status
 
 

@@ -5,10 +5,11 @@ Method: physics alone, driven by hand. Limits are those of thesis_checks I-4, I-
 
 import math
 import random
+from itertools import pairwise
 
 import pytest
-
 from sim_device.firmware.python._native import ffi, lib
+
 from tests.fakes.bike import RIDER_LEGS, RIDER_OFF, Bike
 
 RPM_PER_RAD_S = 30 / math.pi
@@ -171,7 +172,7 @@ def test_two_strokes_a_turn_average_to_the_rider_torque() -> None:
     assert max(torques) == pytest.approx(54.0, rel=0.01)
     assert min(torques) == pytest.approx(6.0, rel=0.01)
     # Left leg and right leg: two pushes in one turn.
-    peaks = sum(1 for a, b in zip(torques, torques[1:], strict=False) if a < 30.0 <= b)
+    peaks = sum(1 for a, b in pairwise(torques) if a < 30.0 <= b)
     assert peaks == 2
 
 

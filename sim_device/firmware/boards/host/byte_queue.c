@@ -1,10 +1,12 @@
 #include "byte_queue.h"
 
-size_t byte_queue_free(const byte_queue *queue) {
+size_t byte_queue_free(const byte_queue *queue)
+{
     return BYTE_QUEUE_CAPACITY - queue->count;
 }
 
-size_t byte_queue_put(byte_queue *queue, const uint8_t *bytes, size_t length) {
+size_t byte_queue_put(byte_queue *queue, const uint8_t *bytes, size_t length)
+{
     const size_t free_bytes = byte_queue_free(queue);
     const size_t taken = length < free_bytes ? length : free_bytes;
     for (size_t k = 0; k < taken; k++) {
@@ -14,7 +16,8 @@ size_t byte_queue_put(byte_queue *queue, const uint8_t *bytes, size_t length) {
     return taken;
 }
 
-size_t byte_queue_take(byte_queue *queue, uint8_t *bytes, size_t capacity) {
+size_t byte_queue_take(byte_queue *queue, uint8_t *bytes, size_t capacity)
+{
     const size_t taken = capacity < queue->count ? capacity : queue->count;
     for (size_t k = 0; k < taken; k++) {
         bytes[k] = queue->bytes[(queue->first + k) % BYTE_QUEUE_CAPACITY];

@@ -33,23 +33,28 @@ struct unit {
     void *request_context;
 };
 
-static uint64_t board_now_us(void *context) {
+static uint64_t board_now_us(void *context)
+{
     return ((const unit *)context)->now_us;
 }
 
-static size_t board_serial_read(void *context, uint8_t *bytes, size_t capacity) {
+static size_t board_serial_read(void *context, uint8_t *bytes, size_t capacity)
+{
     return byte_queue_take(&((unit *)context)->from_host, bytes, capacity);
 }
 
-static size_t board_serial_write(void *context, const uint8_t *bytes, size_t length) {
+static size_t board_serial_write(void *context, const uint8_t *bytes, size_t length)
+{
     return byte_queue_put(&((unit *)context)->to_host, bytes, length);
 }
 
-static size_t board_serial_writable(void *context) {
+static size_t board_serial_writable(void *context)
+{
     return byte_queue_free(&((const unit *)context)->to_host);
 }
 
-static void board_inputs_read(void *context, hal_inputs *inputs) {
+static void board_inputs_read(void *context, hal_inputs *inputs)
+{
     const unit *self = context;
     const physics_state *state = &self->state;
     inputs->torque_raw_counts = (float)state->torque_counts;
@@ -67,15 +72,18 @@ static void board_inputs_read(void *context, hal_inputs *inputs) {
     inputs->brake = self->stimulus.road.brake ? 1 : 0;
 }
 
-static void board_motor_torque_set(void *context, float motor_torque_nm) {
+static void board_motor_torque_set(void *context, float motor_torque_nm)
+{
     ((unit *)context)->stimulus.motor_torque_nm = (double)motor_torque_nm;
 }
 
-static int flash_holds(size_t address, size_t length) {
+static int flash_holds(size_t address, size_t length)
+{
     return address <= UNIT_FLASH_SIZE && length <= UNIT_FLASH_SIZE - address;
 }
 
-static int board_flash_read(void *context, size_t address, uint8_t *bytes, size_t length) {
+static int board_flash_read(void *context, size_t address, uint8_t *bytes, size_t length)
+{
     if (!flash_holds(address, length)) {
         return -1;
     }
@@ -83,7 +91,8 @@ static int board_flash_read(void *context, size_t address, uint8_t *bytes, size_
     return 0;
 }
 
-static int board_flash_erase(void *context, size_t address) {
+static int board_flash_erase(void *context, size_t address)
+{
     if (address % UNIT_FLASH_BLOCK_SIZE != 0 || !flash_holds(address, UNIT_FLASH_BLOCK_SIZE)) {
         return -1;
     }
@@ -92,7 +101,8 @@ static int board_flash_erase(void *context, size_t address) {
 }
 
 static int board_flash_program(void *context, size_t address, const uint8_t *bytes,
-                               size_t length) {
+                               size_t length)
+{
     if (!flash_holds(address, length)) {
         return -1;
     }
@@ -104,13 +114,15 @@ static int board_flash_program(void *context, size_t address, const uint8_t *byt
 }
 
 static int board_request(void *context, uint16_t message_id, const uint8_t *request, size_t length,
-                         uint8_t *response, size_t capacity, size_t *response_length) {
+                         uint8_t *response, size_t capacity, size_t *response_length)
+{
     const unit *self = context;
     return self->request(self->request_context, message_id, request, length, response, capacity,
                          response_length);
 }
 
-static void connect_board(unit *self, const unit_setup *setup) {
+static void connect_board(unit *self, const unit_setup *setup)
+{
     const hal board = {
         .context = self,
         .now_us = board_now_us,
@@ -133,7 +145,8 @@ static void connect_board(unit *self, const unit_setup *setup) {
     self->hal = board;
 }
 
-unit *unit_create(const unit_setup *setup) {
+unit *unit_create(const unit_setup *setup)
+{
     unit *self = calloc(1, sizeof *self);
     if (self == NULL) {
         return NULL;
@@ -159,11 +172,13 @@ unit *unit_create(const unit_setup *setup) {
     return self;
 }
 
-void unit_destroy(unit *self) {
+void unit_destroy(unit *self)
+{
     free(self);
 }
 
-void unit_advance_us(unit *self, uint64_t duration_us) {
+void unit_advance_us(unit *self, uint64_t duration_us)
+{
     self->target_us += duration_us;
     while (self->now_us + PHYSICS_PERIOD_US <= self->target_us) {
         if (self->now_us % CONTROL_PERIOD_US == 0) {
@@ -175,15 +190,18 @@ void unit_advance_us(unit *self, uint64_t duration_us) {
     }
 }
 
-size_t unit_receive(unit *self, const uint8_t *bytes, size_t length) {
+size_t unit_receive(unit *self, const uint8_t *bytes, size_t length)
+{
     return byte_queue_put(&self->from_host, bytes, length);
 }
 
-size_t unit_transmit(unit *self, uint8_t *bytes, size_t capacity) {
+size_t unit_transmit(unit *self, uint8_t *bytes, size_t capacity)
+{
     return byte_queue_take(&self->to_host, bytes, capacity);
 }
 
-void unit_observe(const unit *self, unit_observation *seen) {
+void unit_observe(const unit *self, unit_observation *seen)
+{
     const physics_state *state = &self->state;
     const assist_output *law = app_output(&self->app);
     const unit_observation now = {
@@ -218,30 +236,37 @@ void unit_observe(const unit *self, unit_observation *seen) {
     *seen = now;
 }
 
-physics_config *unit_bike(unit *self) {
+physics_config *unit_bike(unit *self)
+{
     return &self->bike;
 }
 
-physics_command *unit_stimulus(unit *self) {
+physics_command *unit_stimulus(unit *self)
+{
     return &self->stimulus;
 }
 
-void unit_begin_ledger(unit *self) {
+void unit_begin_ledger(unit *self)
+{
     physics_begin_ledger(&self->bike, &self->state);
 }
 
-void unit_place(unit *self, double speed_kmh, uint64_t seed) {
+void unit_place(unit *self, double speed_kmh, uint64_t seed)
+{
     physics_reset(&self->bike, &self->state, speed_kmh, seed);
 }
 
-void unit_seed_noise(unit *self, uint64_t seed) {
+void unit_seed_noise(unit *self, uint64_t seed)
+{
     self->state.sensor.random = seed;
 }
 
-void unit_select_mode(unit *self, uint8_t mode) {
+void unit_select_mode(unit *self, uint8_t mode)
+{
     self->mode_selected = mode;
 }
 
-const uint8_t *unit_flash(const unit *self) {
+const uint8_t *unit_flash(const unit *self)
+{
     return self->flash;
 }
