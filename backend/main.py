@@ -23,7 +23,6 @@ from backend import __version__
 from backend.api.app import ApiSettings, create_app
 from backend.api.safety import AllowedHosts
 from backend.api.services import Services
-from backend.device.states import DeviceEvent
 from backend.errors import SpindleError
 from backend.link import kind_of
 from backend.services.connect import Devices
@@ -70,11 +69,8 @@ def open_services(settings: Settings) -> Iterator[Services]:
         # Units close first: their last rows still find the recorder.
         closing.callback(devices.close)
 
-        def record(device_id: str, event: DeviceEvent) -> None:
-            recorder.listener(device_id)(event)
-
         devices.watch(memory.follow)
-        devices.watch(record)
+        devices.watch(recorder.watch)
         closing.enter_context(housekeeping(lambda: recorder.tick(time.time_ns() // 1000)))
         for url in settings.device:
             in_background(url, partial(devices.add, url))

@@ -90,7 +90,7 @@ def combine(
                 chosen[name] = source
                 break
     data = Path(chosen.get("data") or default_data_folder(environment)).expanduser().resolve()
-    values = {
+    values: dict[str, Any] = {
         "host": str(chosen.get("host", "127.0.0.1")),
         "port": _whole(chosen.get("port", 8750), "port", 0, 65535, errors),
         "data": data,

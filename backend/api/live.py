@@ -37,7 +37,11 @@ async def live(
     await socket.accept()
     loop = asyncio.get_running_loop()
     ready = asyncio.Event()
-    viewer = Viewer(lambda: loop.call_soon_threadsafe(ready.set))
+
+    def wake() -> None:
+        loop.call_soon_threadsafe(ready.set)
+
+    viewer = Viewer(wake)
     try:
         watch.join(device_id, channel_names(channels), rate_hz, viewer)
     except SpindleError as error:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, cast
 
 from fastapi import APIRouter, Header, Query, Response
 
@@ -54,7 +54,7 @@ def patch_config(
 ) -> Any:
     """Writes all the named parameters or none, reads them back and compares field by field."""
     change = services.tuning.write_config(
-        device_id, dict(body.parameters), body.reason, if_match, body.confirm_s
+        device_id, cast("dict[str, Any]", body.parameters), body.reason, if_match, body.confirm_s
     )
     response.headers["etag"] = etag(change.generation, change.crc32)
     return change
