@@ -87,6 +87,8 @@ class Driver:
         self._commands: queue.Queue[_Command] = queue.Queue(COMMANDS_MAX)
         # Set once it is known what hangs on the port, or that nothing does.
         self.settled = threading.Event()
+        # Set while the unit can be asked.
+        self.connected = threading.Event()
         self._wake = threading.Event()
         self._stop = threading.Event()
         self._lock = threading.Lock()
@@ -163,6 +165,10 @@ class Driver:
             events = self._session.next_events()
             deaf = self._session.failed_greetings >= GREETINGS_BEFORE_REOPEN
             settled = self._session.failed_greetings > 0 or self._session.state in SETTLED
+            if self._session.state in ACQUAINTED:
+                self.connected.set()
+            else:
+                self.connected.clear()
         for event in events:
             self._tell(event)
         if settled:

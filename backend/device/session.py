@@ -35,7 +35,7 @@ from backend.device.stream import StreamBlock, StreamPlan, StreamStarted
 from backend.device.subscription import Subscription
 from backend.device.unit_notes import UnitNotes
 from backend.errors import LinkError, NoAnswer, SpindleError
-from firmware_protocol._generated import MTU, ByeRequest, PingRequest, Status
+from firmware_protocol._generated import MTU, MTU_BEFORE_HELLO, ByeRequest, PingRequest, Status
 from firmware_protocol.codec import (
     Event,
     Malformed,
@@ -195,6 +195,14 @@ class Session:
         return not self._requests.is_idle
 
     @property
+    def mtu(self) -> int:
+        """The largest frame that both sides take, in decoded bytes."""
+        if self.acquaintance is None:
+            return MTU_BEFORE_HELLO
+        hello = self.acquaintance.hello
+        return min(MTU, hello.rx_mtu, hello.tx_mtu)
+
+    @property
     def streaming(self) -> StreamStarted | None:
         """What is being streamed, None when nothing is."""
         return self._subscription.started
@@ -250,7 +258,7 @@ class Session:
         self._statistics.connections += 1
         hello = acquaintance.hello
         self._requests.outstanding_max = max(1, hello.max_outstanding)
-        self._requests.longest_answer = min(MTU, hello.tx_mtu)
+        self._requests.longest_answer = self.mtu
         if acquaintance.read_only_reason is None:
             self._stand(LinkState.READY, ready_reason(acquaintance.identity))
         else:

@@ -13,12 +13,12 @@ from backend.device.stream import StreamBlock, StreamStarted
 
 @dataclass(frozen=True)
 class DeviceStatus:
-    """A session's state, copied. mtu: the largest frame both sides take, None before HELLO."""
+    """A session's state, copied. mtu: the largest frame both sides take."""
 
     state: LinkState
     reason: str
     identity: Identity | None
-    mtu: int | None
+    mtu: int
     config_generation: int | None
     config_crc32: int | None
     faults_active: tuple[str, ...]
@@ -34,7 +34,7 @@ def status_of(session: Session) -> DeviceStatus:
         state=session.state,
         reason=session.reason,
         identity=acquaintance.identity if acquaintance else None,
-        mtu=min(acquaintance.hello.rx_mtu, acquaintance.hello.tx_mtu) if acquaintance else None,
+        mtu=session.mtu,
         config_generation=session.notes.config_generation,
         config_crc32=session.notes.config_crc32,
         faults_active=session.notes.faults_active,

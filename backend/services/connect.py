@@ -198,6 +198,10 @@ class Devices:
         """Run an operation on the unit. Raises NotFound, NoAnswer and what the operation raises."""
         return self._find(device_id).driver.run(operation, timeout_s)
 
+    def wait_connected(self, device_id: str, timeout_s: float) -> bool:
+        """Wait until the unit can be asked; False when it cannot after `timeout_s`."""
+        return self._find(device_id).driver.connected.wait(timeout_s)
+
     def simulation_get(self, device_id: str) -> dict[str, Any]:
         """Rider, road and clock of a simulated unit. Raises Conflict for a real one."""
         return self._simulation(device_id, simulation_get())

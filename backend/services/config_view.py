@@ -1,0 +1,149 @@
+"""A configuration, a change of it and its history, as the rest of Spindle sees them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Any, Protocol
+
+from backend.device.config_transaction import ConfigImage
+from backend.device.parameters import PARAMETER_ROWS, ParameterRow, Value
+from backend.errors import ConfigConflict
+
+
+@dataclass(frozen=True)
+class ConfigView:
+    """A unit's whole configuration; parameters by registry name."""
+
+    generation: int
+    crc32: int
+    parameters: dict[str, Value]
+
+
+@dataclass(frozen=True)
+class ParameterView(ParameterRow):
+    """A parameter and its value in the unit now."""
+
+    value: Value
+
+
+@dataclass(frozen=True)
+class Change:
+    """One parameter that became another."""
+
+    name: str
+    old: Value
+    new: Value
+
+
+@dataclass(frozen=True)
+class ConfigChange:
+    """A change the unit took. verified: read back whole and equal field by field.
+
+    state: `committed`. expires_at: until when a provisional change waits to be confirmed.
+    """
+
+    generation: int
+    crc32: int
+    state: str
+    verified: bool
+    changed: tuple[Change, ...]
+    expires_at: datetime | None
+
+
+@dataclass(frozen=True)
+class TypedView:
+    """A part of the configuration in the shape people edit, and which configuration it is of."""
+
+    generation: int
+    crc32: int
+    value: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class RevisionView:
+    """One configuration a unit has had: who, when, why, and what was different before."""
+
+    seq: int
+    created_at: datetime
+    author: str
+    reason: str
+    state: str
+    generation: int | None
+    crc32: int | None
+    changed: Sequence[Mapping[str, Any]]
+
+
+class Revision(Protocol):
+    """What a revision log gives back; created_us is Unix time."""
+
+    @property
+    def seq(self) -> int: ...
+    @property
+    def created_us(self) -> int: ...
+    @property
+    def author(self) -> str: ...
+    @property
+    def reason(self) -> str: ...
+    @property
+    def state(self) -> str: ...
+    @property
+    def generation(self) -> int | None: ...
+    @property
+    def crc32(self) -> int | None: ...
+    @property
+    def changed(self) -> Sequence[Mapping[str, Any]]: ...
+    @property
+    def parameters(self) -> Mapping[str, Any]: ...
+
+
+class RevisionLog(Protocol):
+    """Where configurations are kept by device; backend.store has one."""
+
+    def append(
+        self,
+        device_serial: str,
+        parameters: Mapping[str, Any],
+        changed: Sequence[Mapping[str, Any]] = (),
+        reason: str = "",
+        author: str = "",
+        generation: int | None = None,
+        crc32: int | None = None,
+    ) -> Revision:
+        """Add a configuration the device has. Raises StoreError."""
+        ...
+
+    def list(self, device_serial: str, limit: int = ...) -> Sequence[Revision]:
+        """Configurations of a device, newest first."""
+        ...
+
+
+def etag(generation: int, crc32: int) -> str:
+    """Names one configuration: it changes with every commit and with the content."""
+    return f'"{generation}-{crc32:08x}"'
+
+
+def check_base(config: ConfigImage, if_match: str | None) -> None:
+    """Raise ConfigConflict when the change was made for another configuration.
+
+    if_match: an ETag or several as HTTP writes them, `*` or None for any.
+    """
+    if if_match is None:
+        return
+    wanted = [tag.strip().removeprefix("W/") for tag in if_match.split(",")]
+    found = etag(config.generation, config.crc32)
+    if "*" not in wanted and found not in wanted and found.strip('"') not in wanted:
+        raise ConfigConflict(
+            f"The change was made for configuration {if_match}, but the unit has {found} now: "
+            "somebody else changed it. Read it again, look at the difference, and write once more."
+        )
+
+
+def differences(old: Mapping[str, Value], new: Mapping[str, Value]) -> tuple[Change, ...]:
+    """Parameters whose value differs, in the order of their ids."""
+    return tuple(
+        Change(row.name, old[row.name], new[row.name])
+        for row in PARAMETER_ROWS
+        if old[row.name] != new[row.name]
+    )

@@ -1,0 +1,326 @@
+"""Tuning: a unit's configuration read, changed as a transaction, proven, and remembered.
+
+A change is checked here with every fault named, checked again by the unit on its own, committed
+whole on the configuration it was made for, read back and compared field by field. What the unit had
+before is in the revision log first, so that no write loses anything.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from datetime import UTC, datetime
+
+from backend.device.config_transaction import (
+    CommitUnanswered,
+    ConfigImage,
+    compare,
+    read_config,
+    write_config,
+)
+from backend.device.parameters import (
+    PARAMETER_ROWS,
+    Value,
+    faults_of,
+    needing_factory_access,
+    rounded,
+    unknown_names,
+)
+from backend.device.snapshot import DeviceStatus
+from backend.device.states import LinkState
+from backend.errors import (
+    AccessDenied,
+    ConfigConflict,
+    Conflict,
+    InvalidRequest,
+    LimitViolation,
+    NoAnswer,
+    StoreError,
+)
+from backend.services.config_view import (
+    Change,
+    ConfigChange,
+    ConfigView,
+    ParameterView,
+    RevisionLog,
+    RevisionView,
+    TypedView,
+    check_base,
+    differences,
+)
+from backend.services.connect import Devices
+from backend.services.typed_views import (
+    ASSIST_MODES,
+    CALIBRATION,
+    FUZZY_TABLE,
+    LIMITS,
+    ConfigPart,
+)
+
+LOG = logging.getLogger(__name__)
+
+# A write is some ten round trips; on a poor line each may take four attempts.
+WRITE_TIMEOUT_S = 30.0
+# A unit that fell silent in the middle of a commit is waited for to learn what it did. The first
+# attempts may still meet the dying link, so there are three.
+SETTLE_S = 8.0
+SETTLE_ATTEMPTS = 3
+FOUND_REASON = "Found in the unit before a change."
+
+
+class Tuning:
+    """Reads and changes configurations. For any thread; one change at a time for each device."""
+
+    def __init__(self, devices: Devices, revisions: RevisionLog) -> None:
+        self._devices = devices
+        self._revisions = revisions
+        self._lock = threading.Lock()
+        self._writing: defaultdict[str, threading.Lock] = defaultdict(threading.Lock)
+
+    # ------------------------------------------------------------------ reading
+
+    def parameters(self, device_id: str) -> list[ParameterView]:
+        """Every parameter with its bounds and its value now. Raises NotFound, NoAnswer."""
+        config = self._read(device_id)
+        return [
+            ParameterView(**asdict(row), value=config.parameters[row.name])
+            for row in PARAMETER_ROWS
+        ]
+
+    def read_config(self, device_id: str) -> ConfigView:
+        """The whole configuration, read from the unit. Raises NotFound, NoAnswer."""
+        config = self._read(device_id)
+        return ConfigView(config.generation, config.crc32, config.parameters)
+
+    def revisions(self, device_id: str) -> list[RevisionView]:
+        """Every configuration the unit is known to have had, newest first."""
+        serial_number = self._serial_number(self._devices.status(device_id))
+        return [
+            RevisionView(
+                seq=revision.seq,
+                created_at=datetime.fromtimestamp(revision.created_us / 1e6, UTC),
+                author=revision.author,
+                reason=revision.reason,
+                state=revision.state,
+                generation=revision.generation,
+                crc32=revision.crc32,
+                changed=revision.changed,
+            )
+            for revision in self._revisions.list(serial_number)
+        ]
+
+    # ------------------------------------------------------------------ changing
+
+    def write_config(
+        self,
+        device_id: str,
+        changes: Mapping[str, Value],
+        reason: str = "",
+        if_match: str | None = None,
+        confirm_s: int = 0,
+        author: str = "",
+    ) -> ConfigChange:
+        """Write all of `changes` or none, read everything back and compare.
+
+        if_match: ETag of the configuration the change was made for. Raises InvalidRequest,
+        LimitViolation with every fault named, AccessDenied, ConfigConflict, NotStandingStill,
+        NoAnswer; after each of them the unit is unchanged, or the message says that it may not be.
+        PeerProtocolError names the fields that read back different.
+        """
+        if confirm_s != 0:
+            raise InvalidRequest(
+                "Changes on trial (confirm_s) are not supported by the unit's firmware yet; "
+                "write with confirm_s 0.",
+                "unsupported",
+            )
+        unknown = unknown_names(changes)
+        if unknown:
+            raise InvalidRequest(" ".join(fault.message for fault in unknown), fields=unknown)
+        with self._turn(device_id):
+            base = self._read(device_id)
+            check_base(base, if_match)
+            intended = _intended(base, changes)
+            changed = differences(base.parameters, intended)
+            serial_number = self._serial_number(self._devices.status(device_id))
+            self._back_up(serial_number, base)
+            if changed:
+                found = self._commit(device_id, base, intended, changed)
+                self._remember(serial_number, found, changed, reason, author)
+                base = found
+        return ConfigChange(base.generation, base.crc32, "committed", True, changed, None)
+
+    # ------------------------------------------------------------------ typed views
+
+    def fuzzy_table(self, device_id: str) -> TypedView:
+        """The rule table as the contract's `fuzzy_table`."""
+        return self._part(device_id, FUZZY_TABLE)
+
+    def put_fuzzy_table(
+        self, device_id: str, value: Mapping[str, object], reason: str, if_match: str | None
+    ) -> ConfigChange:
+        """Write the whole rule table in one transaction."""
+        return self._put_part(device_id, FUZZY_TABLE, value, reason, if_match)
+
+    def assist_modes(self, device_id: str) -> TypedView:
+        """The five slots of the rider's switch."""
+        return self._part(device_id, ASSIST_MODES)
+
+    def put_assist_modes(
+        self, device_id: str, value: Mapping[str, object], reason: str, if_match: str | None
+    ) -> ConfigChange:
+        """Write all five slots in one transaction."""
+        return self._put_part(device_id, ASSIST_MODES, value, reason, if_match)
+
+    def calibration(self, device_id: str) -> TypedView:
+        """How raw counts become newton metres."""
+        return self._part(device_id, CALIBRATION)
+
+    def put_calibration(
+        self, device_id: str, value: Mapping[str, object], reason: str, if_match: str | None
+    ) -> ConfigChange:
+        """Write offset, gain and filters in one transaction."""
+        return self._put_part(device_id, CALIBRATION, value, reason, if_match)
+
+    def limits(self, device_id: str) -> TypedView:
+        """What the unit enforces whatever the table says."""
+        return self._part(device_id, LIMITS)
+
+    def put_limits(
+        self, device_id: str, value: Mapping[str, object], reason: str, if_match: str | None
+    ) -> ConfigChange:
+        """Write the limits in one transaction."""
+        return self._put_part(device_id, LIMITS, value, reason, if_match)
+
+    # ------------------------------------------------------------------ inside
+
+    def _part(self, device_id: str, part: ConfigPart) -> TypedView:
+        config = self._read(device_id)
+        return TypedView(config.generation, config.crc32, part.read(config.parameters))
+
+    def _put_part(
+        self,
+        device_id: str,
+        part: ConfigPart,
+        value: Mapping[str, object],
+        reason: str,
+        if_match: str | None,
+    ) -> ConfigChange:
+        try:
+            return self.write_config(device_id, part.changes(value), reason, if_match)
+        except LimitViolation as error:
+            fields = [part.renamed(fault) for fault in error.fields]
+            raise LimitViolation(error.message, error.code, fields) from error
+
+    def _turn(self, device_id: str) -> threading.Lock:
+        """The lock that makes changes of one device wait for each other."""
+        unit_id = self._devices.get(device_id).id
+        with self._lock:
+            return self._writing[unit_id]
+
+    def _read(self, device_id: str) -> ConfigImage:
+        status = self._devices.status(device_id)
+        if status.state is LinkState.READ_ONLY:
+            raise Conflict(status.reason, "read_only")
+        return self._devices.run(device_id, read_config(status.mtu))
+
+    def _commit(
+        self,
+        device_id: str,
+        base: ConfigImage,
+        intended: Mapping[str, Value],
+        changed: Sequence[Change],
+    ) -> ConfigImage:
+        changes = {change.name: change.new for change in changed}
+        mtu = self._devices.status(device_id).mtu
+        try:
+            operation = write_config(base, changes, mtu)
+            return self._devices.run(device_id, operation, WRITE_TIMEOUT_S)
+        except CommitUnanswered as error:
+            return self._settle(device_id, base, intended, error)
+
+    def _settle(
+        self,
+        device_id: str,
+        base: ConfigImage,
+        intended: Mapping[str, Value],
+        error: CommitUnanswered,
+    ) -> ConfigImage:
+        """Learn what became of a commit nobody answered; its result, or NoAnswer."""
+        found: ConfigImage | None = None
+        for _ in range(SETTLE_ATTEMPTS):
+            self._devices.wait_connected(device_id, SETTLE_S)
+            try:
+                found = self._read(device_id)
+                break
+            except NoAnswer:
+                continue
+        if found is None:
+            raise error
+        if (found.generation, found.crc32) == (base.generation, base.crc32):
+            raise NoAnswer(
+                "The unit did not answer the change. It was read again since: its configuration "
+                "is unchanged. Write once more."
+            ) from error
+        if found.generation != base.generation + 1:
+            raise ConfigConflict(
+                "The unit did not answer the change and has another configuration now. Read it "
+                "again and look at the difference."
+            ) from error
+        compare(intended, found.parameters)
+        return found
+
+    def _back_up(self, serial_number: str, base: ConfigImage) -> None:
+        """Keep what the unit has if the log does not know it; a write that cannot is refused."""
+        newest = self._revisions.list(serial_number, 1)
+        if not newest or newest[0].crc32 != base.crc32:
+            self._revisions.append(
+                serial_number,
+                base.parameters,
+                reason=FOUND_REASON,
+                generation=base.generation,
+                crc32=base.crc32,
+            )
+
+    def _remember(
+        self,
+        serial_number: str,
+        found: ConfigImage,
+        changed: Sequence[Change],
+        reason: str,
+        author: str,
+    ) -> None:
+        try:
+            self._revisions.append(
+                serial_number,
+                found.parameters,
+                [asdict(change) for change in changed],
+                reason,
+                author,
+                found.generation,
+                found.crc32,
+            )
+        except StoreError as error:
+            # The unit has the change and it is proven; the next write will keep it as found.
+            LOG.error("%s: a proven change could not be noted: %s", serial_number, error.message)
+
+    @staticmethod
+    def _serial_number(status: DeviceStatus) -> str:
+        if status.identity is None:
+            raise NoAnswer(status.reason, "not_connected")
+        return status.identity.serial_number
+
+
+def _intended(base: ConfigImage, changes: Mapping[str, Value]) -> dict[str, Value]:
+    """The configuration that is meant, checked whole, as the unit will hold it."""
+    moved = {name: value for name, value in changes.items() if value != base.parameters[name]}
+    denied = needing_factory_access(moved)
+    if denied:
+        raise AccessDenied(" ".join(fault.message for fault in denied), fields=denied)
+    intended = {**base.parameters, **moved}
+    faults = faults_of(intended)
+    if faults:
+        raise LimitViolation(" ".join(fault.message for fault in faults), fields=faults)
+    return rounded(intended)
