@@ -82,7 +82,7 @@ def _dyno_nm(changes: Changes, name: str, given: object) -> None:
 
 
 def _mass_kg(changes: Changes, name: str, given: object) -> None:
-    changes.bike["road.mass_kg"] = float(Setting(100.0, min=40.0, max=300.0).read(name, given))
+    changes.bike["road.mass_kg"] = float(Setting(100.0, min=20.0, max=400.0).read(name, given))
 
 
 def _scenario(changes: Changes, name: str, given: object) -> None:

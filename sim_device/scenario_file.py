@@ -16,10 +16,10 @@ Value = float | int | str
 RIDER_KINDS = {"off": 0, "constant": 1, "legs": 2}
 
 # What a person and a road can do; beyond it a typing error is likelier than a wish.
-TORQUE_NM_MAX = 250.0
+TORQUE_NM_MAX = 300.0
 CADENCE_RPM_MAX = 250.0
 GRADE_DEG_MAX = 30.0
-WIND_MS_MAX = 30.0
+WIND_MS_MAX = 40.0
 SPEED_KMH_MAX = 100.0
 PHASE_S_MAX = 36_000.0
 PHASES_MAX = 1000
@@ -111,7 +111,7 @@ _PHASE_RANGES = {
     "seconds": Setting(1.0, min=0.01, max=PHASE_S_MAX),
     "rider": Setting("off", choices=tuple(RIDER_KINDS)),
     "torque_nm": Setting(0.0, min=-TORQUE_NM_MAX, max=TORQUE_NM_MAX),
-    "cadence_rpm_max": Setting(100.0, min=1.0, max=CADENCE_RPM_MAX),
+    "cadence_rpm_max": Setting(100.0, min=0.0, max=CADENCE_RPM_MAX),
     "grade_deg": Setting(0.0, min=-GRADE_DEG_MAX, max=GRADE_DEG_MAX),
     "wind_ms": Setting(0.0, min=-WIND_MS_MAX, max=WIND_MS_MAX),
     "assist_mode": Setting(0, min=0, max=4),
