@@ -1,0 +1,60 @@
+"""A revision log in memory, with the methods of the store's."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from backend.errors import StoreError
+
+
+@dataclass(frozen=True)
+class KeptRevision:
+    seq: int
+    created_us: int
+    author: str
+    reason: str
+    state: str
+    generation: int | None
+    crc32: int | None
+    changed: Sequence[Mapping[str, Any]]
+    parameters: Mapping[str, Any]
+
+
+class MemoryRevisions:
+    """Newest first; `full` makes it refuse like a full disk."""
+
+    def __init__(self) -> None:
+        self.kept: dict[str, list[KeptRevision]] = {}
+        self.full = False
+
+    def append(
+        self,
+        device_serial: str,
+        parameters: Mapping[str, Any],
+        changed: Sequence[Mapping[str, Any]] = (),
+        reason: str = "",
+        author: str = "",
+        generation: int | None = None,
+        crc32: int | None = None,
+    ) -> KeptRevision:
+        if self.full:
+            raise StoreError("The disk is full.")
+        rows = self.kept.setdefault(device_serial, [])
+        revision = KeptRevision(
+            len(rows) + 1,
+            1_700_000_000_000_000,
+            author,
+            reason,
+            "verified",
+            generation,
+            crc32,
+            changed,
+            dict(parameters),
+        )
+        rows.append(revision)
+        return revision
+
+    def list(self, device_serial: str, limit: int = 1000) -> Sequence[KeptRevision]:
+        return self.kept.get(device_serial, [])[::-1][:limit]

@@ -1,0 +1,261 @@
+"""The host's session against the unit's real firmware, in virtual time.
+
+The C firmware runs on the lockstep board; the bytes between both are harmed on purpose. What the
+session believes must be what the unit holds.
+"""
+
+from __future__ import annotations
+
+import random
+
+import numpy as np
+import pytest
+
+from backend.device import handshake
+from backend.device.config_transaction import ConfigImage, read_config, write_config
+from backend.device.live_values import ask_values
+from backend.device.simulation import simulation_get, simulation_set
+from backend.device.states import LinkState
+from backend.device.stream import StreamPlan
+from backend.errors import (
+    AccessDenied,
+    ConfigConflict,
+    InvalidRequest,
+    LimitViolation,
+    NotStandingStill,
+)
+from firmware_protocol._generated import PARAMETERS
+from firmware_protocol.layout import Value
+from firmware_protocol.parameters import default_config
+from sim_device.lockstep import LockstepUnit
+from tests.fakes.bench import Bench, bytewise
+from tests.fakes.unit_link import LockstepAsUnit
+
+
+def bench_with(unit: LockstepUnit, plan: StreamPlan | None = None) -> Bench:
+    return Bench(LockstepAsUnit(unit), plan)
+
+
+def connected(plan: StreamPlan | None = None) -> tuple[Bench, ConfigImage]:
+    bench = bench_with(LockstepUnit(seed=1), plan).connect()
+    return bench, bench.ask(read_config())
+
+
+def test_the_firmware_is_ready_and_has_the_registry_s_defaults() -> None:
+    bench, config = connected()
+
+    assert bench.session.state is LinkState.READY
+    assert config.parameters == default_config()
+    assert config.generation == bench.session.notes.config_generation
+    assert config.crc32 == bench.session.notes.config_crc32
+
+
+def test_a_minute_of_stream_has_no_row_missing_and_none_made_up() -> None:
+    bench, _ = connected(StreamPlan())
+    bench.split = bytewise
+    bench.run(60.0)
+
+    blocks = bench.blocks()
+    counted = bench.session.link_statistics()
+    assert counted.stream_rows_lost == 0
+    assert counted.stream_rows >= 5990
+    times = np.concatenate([block.t0_us + np.arange(5) * 10_000 for block in blocks])
+    assert set(np.diff(times)) == {10_000}
+
+
+def test_rows_lost_on_the_way_are_counted_as_the_firmware_counts_them() -> None:
+    bench, _ = connected(StreamPlan())
+    noise = random.Random(5)
+
+    def harm(data: bytes) -> bytes:
+        if not data or noise.random() > 0.1:
+            return data
+        at = noise.randrange(len(data))
+        return data[:at] + bytes([data[at] ^ 0x10]) + data[at + 1 :]
+
+    bench.to_host = harm
+    bench.run(60.0)
+    bench.to_host = lambda data: data
+    bench.run(2.5)
+
+    counted = bench.session.link_statistics()
+    assert counted.stream_rows_lost > 50
+    assert counted.stream_rows_lost % 5 == 0
+    # The firmware tells its own count once a second; up to a second of frames came since.
+    built = counted.unit_frames_built
+    assert built is not None
+    received_and_lost = (counted.stream_rows + counted.stream_rows_lost) // 5
+    assert 0 <= received_and_lost - built <= 21
+
+
+def test_a_written_table_is_in_the_unit_and_survives_a_restart() -> None:
+    unit = LockstepUnit(seed=1)
+    bench = bench_with(unit).connect()
+    base = bench.ask(read_config())
+    changes: dict[str, Value] = {
+        "fuzzy_rules": [["NB", "NS", "ZO", "PS", "PB"]] * 5,
+        "fuzzy_table_name": "Regen-Tabelle",
+        "mode_ratios": [0.0, 0.4, 0.8, 1.2, 1.6],
+        "pedal_stop_ms": 220,
+    }
+
+    after = bench.ask(write_config(base, changes))
+
+    restarted = LockstepUnit(seed=1, flash=unit.unit.flash(), boot_id=2)
+    again = bench_with(restarted).connect()
+    kept = again.ask(read_config())
+    assert after.parameters == default_config() | changes
+    assert kept.parameters == after.parameters
+    assert kept.generation == after.generation
+
+
+def test_every_parameter_a_dealer_may_write_can_be_written_and_reads_back() -> None:
+    bench, base = connected()
+    changes: dict[str, Value] = {}
+    for row in PARAMETERS:
+        if row.access < 2 and row.type != "text" and row.enum is None and not row.increasing:
+            low, high = row.min or 0.0, row.max or 0.0
+            value = low + 0.75 * (high - low)
+            number = value if row.type == "f32" else round(value)
+            changes[row.name] = [number] * row.count if row.shape else number
+    changes["fixed_taper_end_kmh"] = 20.0
+
+    after = bench.ask(write_config(base, changes))
+
+    assert after.generation == base.generation + 1
+    assert after.parameters["motor_torque_nm_max"] == 1.5
+    assert after.parameters["pedal_stop_ms"] == round(50 + 0.75 * 950)
+
+
+def test_the_unit_refuses_what_is_out_of_range_on_its_own() -> None:
+    bench, base = connected()
+
+    with pytest.raises(LimitViolation) as caught:
+        bench.ask(write_config(base, {"motor_torque_nm_max": 9.0, "assist_cutoff_kmh": 45.0}))
+
+    named = {fault.field.partition("[")[0] for fault in caught.value.fields}
+    assert named <= {"motor_torque_nm_max", "assist_cutoff_kmh"}
+    assert named
+    assert bench.ask(read_config()) == base
+
+
+def test_the_unit_refuses_points_that_do_not_increase() -> None:
+    bench, base = connected()
+
+    with pytest.raises(LimitViolation) as caught:
+        bench.ask(write_config(base, {"fuzzy_gain_points": [0.1, 0.2, 0.2, 0.4, 0.5]}))
+
+    assert [fault.field for fault in caught.value.fields] == ["fuzzy_gain_points[2]"]
+    assert bench.ask(read_config()) == base
+
+
+def test_the_unit_denies_the_factory_s_parameters() -> None:
+    bench, base = connected()
+
+    with pytest.raises(AccessDenied):
+        bench.ask(write_config(base, {"gear_ratio": 36.744}))
+
+    assert bench.ask(read_config()) == base
+
+
+def test_a_riding_bike_is_not_changed() -> None:
+    unit = LockstepUnit(seed=1)
+    bench = bench_with(unit).connect()
+    base = bench.ask(read_config())
+    unit.rider("legs", torque_nm=30.0)
+    bench.run(5.0)
+
+    with pytest.raises(NotStandingStill):
+        bench.ask(write_config(base, {"pedal_stop_ms": 200}))
+
+    assert bench.ask(read_config()) == base
+
+
+def test_an_outdated_base_is_refused_by_the_unit() -> None:
+    bench, base = connected()
+    bench.ask(write_config(base, {"pedal_stop_ms": 200}))
+    bench.run(3.0)
+
+    with pytest.raises(ConfigConflict):
+        bench.ask(write_config(base, {"pedal_stop_ms": 300}))
+
+
+@pytest.mark.parametrize("lost", range(8))
+def test_each_lost_answer_is_repeated_and_the_change_done_once(lost: int) -> None:
+    bench, base = connected()
+    seen = 0
+
+    def lose_one(data: bytes) -> bytes:
+        nonlocal seen
+        seen += bool(data)
+        return b"" if data and seen - 1 == lost else data
+
+    bench.to_host = lose_one
+    after = bench.ask(write_config(base, {"pedal_stop_ms": 200}))
+
+    assert after.generation == base.generation + 1
+    assert after.parameters["pedal_stop_ms"] == 200
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_on_a_bad_line_a_change_is_made_whole_or_not_at_all(seed: int) -> None:
+    unit = LockstepUnit(seed=1)
+    bench = bench_with(unit, StreamPlan()).connect()
+    base = bench.ask(read_config())
+    changes: dict[str, Value] = {"pedal_stop_ms": 200, "mode_ratios": [0.0, 0.4, 0.8, 1.2, 1.6]}
+    noise = random.Random(seed)
+
+    def harm(data: bytes) -> bytes:
+        return b"" if noise.random() < 0.35 else data
+
+    bench.to_unit = bench.to_host = harm
+    outcome: list[object] = []
+    bench.session.start(write_config(base, changes), outcome.append, outcome.append)
+    bench.run_until(lambda: bool(outcome))
+    bench.to_unit = bench.to_host = lambda data: data
+    bench.run(3.0)
+    bench.run_until(lambda: bench.session.state is LinkState.READY)
+    held = bench.ask(read_config()).parameters
+
+    assert held in (base.parameters, base.parameters | changes)
+    if isinstance(outcome[0], ConfigImage):
+        assert held == base.parameters | changes
+
+
+def test_the_firmware_s_own_description_is_read_and_proven(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(handshake, "SCHEMA_HASH", b"not this")
+    bench = bench_with(LockstepUnit(seed=1), StreamPlan()).connect()
+    bench.run(1.0)
+
+    assert bench.session.state is LinkState.READ_ONLY
+    assert "is not the one of this Spindle" in bench.session.reason
+    assert bench.blocks()[0].values.shape == (5, 20)
+
+
+def test_the_snapshot_is_what_the_observer_beside_the_bike_sees() -> None:
+    unit = LockstepUnit(seed=1)
+    bench = bench_with(unit).connect()
+    unit.rider("legs", torque_nm=25.0)
+    bench.run(8.0)
+
+    values = bench.ask(ask_values())
+
+    assert values.channels["speed_kmh"] == pytest.approx(unit.observe()["speed_kmh"], abs=0.3)
+
+
+def test_rider_and_road_are_set_over_the_wire() -> None:
+    bench, _ = connected()
+
+    after = bench.ask(simulation_set({"road": {"grade_deg": 4.58}, "mass_kg": 90.0}))
+
+    assert after["road"]["grade_deg"] == 4.58
+    assert bench.ask(simulation_get())["mass_kg"] == 90.0
+
+
+def test_a_wrong_setting_of_the_simulation_is_refused_in_its_own_words() -> None:
+    bench, _ = connected()
+
+    with pytest.raises(InvalidRequest, match="rocket"):
+        bench.ask(simulation_set({"rider": {"kind": "rocket"}}))

@@ -1,0 +1,283 @@
+"""A change of a unit's configuration through the service: checked, committed, proven, remembered.
+
+The unit is the small honest one behind a real thread, the revision log one in memory. The real
+firmware does the same in tests/simulation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import pytest
+
+from backend.errors import (
+    AccessDenied,
+    ConfigConflict,
+    Conflict,
+    InvalidRequest,
+    LimitViolation,
+    NoAnswer,
+    NotStandingStill,
+    PeerProtocolError,
+    StoreError,
+)
+from backend.services.config_view import etag
+from backend.services.connect import Devices
+from backend.services.tune import Tuning
+from firmware_protocol._generated import PARAMETER_BY_NAME, MessageId
+from firmware_protocol.parameters import default_config, pack_image, unpack_image
+from tests.fakes.revisions import MemoryRevisions
+from tests.fakes.unit import FakeUnit
+from tests.fakes.unit_link import UnitOpener
+
+URL = "socket://bench:1"
+
+
+@dataclass
+class Bench:
+    unit: FakeUnit
+    tuning: Tuning
+    revisions: MemoryRevisions
+    id: str
+
+    @property
+    def held(self) -> dict[str, object]:
+        """What the unit holds."""
+        return dict(unpack_image(self.unit.image))
+
+
+@pytest.fixture
+def bench() -> Iterator[Bench]:
+    unit, revisions = FakeUnit(), MemoryRevisions()
+    devices = Devices(opener=lambda url: UnitOpener(unit, url))
+    device = devices.add(URL)
+    yield Bench(unit, Tuning(devices, revisions), revisions, device.id)
+    devices.close()
+
+
+def test_a_change_is_in_the_unit_proven_and_tells_what_changed(bench: Bench) -> None:
+    change = bench.tuning.write_config(bench.id, {"motor_torque_nm_max": 1.5}, "for the rain")
+
+    assert bench.held == default_config() | {"motor_torque_nm_max": 1.5}
+    assert change.verified
+    assert change.state == "committed"
+    assert [(one.name, one.old, one.new) for one in change.changed] == [
+        ("motor_torque_nm_max", 2.0, 1.5)
+    ]
+
+
+def test_what_the_unit_had_before_is_kept_first(bench: Bench) -> None:
+    bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, "later stop")
+
+    newest, found = bench.tuning.revisions(bench.id)
+    assert found.reason == "Found in the unit before a change."
+    assert (newest.reason, newest.generation) == ("later stop", 8)
+    assert newest.changed == [{"name": "pedal_stop_ms", "old": 150, "new": 200}]
+    kept = bench.revisions.kept[bench.id]
+    assert kept[0].parameters == default_config()
+
+
+def test_a_known_configuration_is_not_kept_twice(bench: Bench) -> None:
+    bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200})
+    bench.tuning.write_config(bench.id, {"pedal_stop_ms": 250})
+
+    assert [revision.generation for revision in bench.revisions.kept[bench.id]] == [7, 8, 9]
+
+
+def test_a_backup_that_cannot_be_kept_stops_the_write(bench: Bench) -> None:
+    bench.revisions.full = True
+
+    with pytest.raises(StoreError):
+        bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200})
+
+    assert bench.held == default_config()
+
+
+def test_a_write_of_what_is_there_already_changes_nothing(bench: Bench) -> None:
+    change = bench.tuning.write_config(bench.id, {"pedal_stop_ms": 150, "gear_ratio": 40.34})
+
+    assert change.changed == ()
+    assert change.generation == 7
+    assert MessageId.CFG_BEGIN not in bench.unit.executed
+
+
+def test_every_value_out_of_range_is_named_and_nothing_is_sent(bench: Bench) -> None:
+    wrong = {
+        "motor_torque_nm_max": 2.5,
+        "fuzzy_gain_points": [0.1, 0.2, 0.2, 0.4, 0.5],
+        "mode_laws": ["OFF", "FIXED", "TURBO", "FUZZY", "FUZZY"],
+    }
+
+    with pytest.raises(LimitViolation) as caught:
+        bench.tuning.write_config(bench.id, wrong)
+
+    assert {(fault.field, fault.code) for fault in caught.value.fields} == {
+        ("motor_torque_nm_max", "above_max"),
+        ("fuzzy_gain_points[2]", "not_increasing"),
+        ("mode_laws[2]", "not_a_choice"),
+    }
+    assert MessageId.CFG_BEGIN not in bench.unit.executed
+
+
+def test_a_name_that_is_no_parameter_is_refused(bench: Bench) -> None:
+    with pytest.raises(InvalidRequest, match="motor_torque is not a parameter"):
+        bench.tuning.write_config(bench.id, {"motor_torque": 1.0})
+
+
+def test_a_factory_parameter_is_denied(bench: Bench) -> None:
+    with pytest.raises(AccessDenied) as caught:
+        bench.tuning.write_config(bench.id, {"gear_ratio": 41.0, "pedal_stop_ms": 200})
+
+    assert [fault.field for fault in caught.value.fields] == ["gear_ratio"]
+    assert bench.held == default_config()
+
+
+def test_a_change_made_for_another_configuration_is_a_conflict(bench: Bench) -> None:
+    seen = bench.tuning.read_config(bench.id)
+    tag = etag(seen.generation, seen.crc32)
+    bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, if_match=tag)
+
+    with pytest.raises(ConfigConflict):
+        bench.tuning.write_config(bench.id, {"pedal_stop_ms": 300}, if_match=tag)
+
+    assert bench.held["pedal_stop_ms"] == 200
+
+
+def test_a_moving_bike_is_left_alone(bench: Bench) -> None:
+    bench.unit.standing_still = False
+
+    with pytest.raises(NotStandingStill, match="Stop the bike"):
+        bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200})
+
+    assert bench.held == default_config()
+
+
+def test_a_change_on_trial_is_refused_in_words(bench: Bench) -> None:
+    with pytest.raises(InvalidRequest, match="not supported by the unit's firmware yet"):
+        bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, confirm_s=10)
+
+
+def test_a_silent_unit_is_no_answer_and_unchanged(bench: Bench) -> None:
+    bench.unit.silent = True
+
+    with pytest.raises(NoAnswer):
+        bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200})
+
+    assert bench.held == default_config()
+
+
+def falls_silent_at_commit(unit: FakeUnit, does_it: bool, for_requests: int) -> None:
+    """The commit is done or not, its answer and the next requests' are not given."""
+    honest = unit._respond
+
+    def respond(request: object) -> bytes:
+        message_id = request.message.MESSAGE_ID  # type: ignore[attr-defined]
+        if message_id is MessageId.CFG_COMMIT and not unit.executed.count(message_id):
+            if does_it:
+                honest(request)  # type: ignore[arg-type]
+            unit.executed.append(message_id)
+            respond.left = for_requests  # type: ignore[attr-defined]
+        if respond.left > 0:  # type: ignore[attr-defined]
+            respond.left -= 1  # type: ignore[attr-defined]
+            return b"\x01"  # no frame of the protocol
+        return honest(request)  # type: ignore[arg-type]
+
+    respond.left = 0  # type: ignore[attr-defined]
+    unit._respond = respond  # type: ignore[method-assign, assignment]
+
+
+def test_a_commit_nobody_acknowledged_is_found_done_when_it_was(bench: Bench) -> None:
+    falls_silent_at_commit(bench.unit, does_it=True, for_requests=1)
+
+    change = bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200})
+
+    assert change.verified
+    assert bench.held["pedal_stop_ms"] == 200
+
+
+def test_a_commit_nobody_acknowledged_is_told_undone_when_it_was_not(bench: Bench) -> None:
+    falls_silent_at_commit(bench.unit, does_it=False, for_requests=1)
+
+    with pytest.raises(NoAnswer, match="unchanged"):
+        bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200})
+
+    assert bench.held == default_config()
+
+
+def test_a_unit_that_lies_when_read_back_is_not_called_verified(bench: Bench) -> None:
+    lie = pack_image(default_config() | {"pedal_stop_ms": 999})
+    bench.unit.lies = lambda image: lie if bench.unit.generation > 7 else image
+
+    with pytest.raises(PeerProtocolError, match="pedal_stop_ms should be 200") as caught:
+        bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200})
+
+    assert [fault.field for fault in caught.value.fields] == ["pedal_stop_ms"]
+
+
+def test_a_read_only_unit_says_why_it_is_not_tuned() -> None:
+    unit = FakeUnit()
+    unit.schema_hash = b"another1"
+    devices = Devices(opener=lambda url: UnitOpener(unit, url))
+    device = devices.add(URL)
+
+    with pytest.raises(Conflict) as caught:
+        Tuning(devices, MemoryRevisions()).read_config(device.id)
+
+    assert caught.value.code == "read_only"
+    devices.close()
+
+
+def test_parameters_come_with_bounds_meaning_and_value(bench: Bench) -> None:
+    rows = {row.name: row for row in bench.tuning.parameters(bench.id)}
+
+    torque = rows["motor_torque_nm_max"]
+    assert (torque.min, torque.max, torque.unit, torque.value) == (0.0, 2.0, "Nm", 2.0)
+    assert rows["mode_laws"].choices == ("OFF", "FIXED", "FUZZY")
+    assert rows["gear_ratio"].access == "FACTORY"
+    assert list(rows) == list(PARAMETER_BY_NAME)
+
+
+def test_the_fuzzy_table_is_read_edited_and_written_as_one(bench: Bench) -> None:
+    table = bench.tuning.fuzzy_table(bench.id).value
+    assert table["name"] == "thesis 4-2"
+    assert table["inference"] == "mamdani_centroid"
+    table["rules"][0][0] = "PB"
+
+    change = bench.tuning.put_fuzzy_table(bench.id, table, "more at the start", None)
+
+    assert [one.name for one in change.changed] == ["fuzzy_rules"]
+    assert bench.tuning.fuzzy_table(bench.id).value == table
+
+
+def test_the_assist_modes_are_five_slots(bench: Bench) -> None:
+    modes = bench.tuning.assist_modes(bench.id).value
+    modes["modes"][1] = {"name": "rain", "law": "fuzzy", "ratio": 0.75}
+
+    bench.tuning.put_assist_modes(bench.id, modes, "", None)
+
+    assert bench.held["mode_names"] == ["off", "rain", "tour", "sport", "boost"]
+    assert bench.held["mode_laws"] == ["OFF", "FUZZY", "FIXED", "FUZZY", "FUZZY"]
+    assert bench.held["mode_ratios"] == [0.0, 0.75, 1.0, 1.0, 1.5]
+
+
+def test_a_fault_in_a_typed_view_names_the_field_of_the_view(bench: Bench) -> None:
+    modes = bench.tuning.assist_modes(bench.id).value
+    modes["modes"][4]["ratio"] = 7.5
+
+    with pytest.raises(LimitViolation) as caught:
+        bench.tuning.put_assist_modes(bench.id, modes, "", None)
+
+    assert [fault.field for fault in caught.value.fields] == ["modes[4].ratio"]
+
+
+def test_calibration_and_limits_are_views_of_the_same_configuration(bench: Bench) -> None:
+    calibration = bench.tuning.calibration(bench.id).value | {"sensor_offset_counts": 812.0}
+    limits = bench.tuning.limits(bench.id).value | {"assist_cutoff_kmh": 20.0}
+
+    bench.tuning.put_calibration(bench.id, calibration, "new zero", None)
+    change = bench.tuning.put_limits(bench.id, limits, "", None)
+
+    assert bench.held["sensor_offset_counts"] == 812.0
+    assert bench.held["assist_cutoff_kmh"] == 20.0
+    assert change.generation == 9
