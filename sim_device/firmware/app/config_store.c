@@ -4,7 +4,7 @@
 
 #include "ebl_bytes.h"  // ebl_get_u32, ebl_put_u32
 #include "ebl_frame.h"  // ebl_crc32
-#include "parameters.h" // parameters_image_is_valid
+#include "parameters.h" // parameters_default_image, parameters_image_is_valid
 
 #define SLOT_MAGIC 0x534C4245u /* "EBLS" */
 
@@ -69,10 +69,7 @@ static int slot_read(const hal *board, uint8_t slot_index, uint8_t *image, uint3
 
 void config_store_boot(config_store *store, const hal *board)
 {
-    ebl_config config;
-
-    ebl_config_default(&config);
-    ebl_config_pack(&config, store->image);
+    parameters_default_image(store->image);
     store->generation = 0;
     store->slot = CONFIG_STORE_NO_SLOT;
     for (uint8_t slot = 0; slot < CONFIG_STORE_SLOTS; slot++) {

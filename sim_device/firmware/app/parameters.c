@@ -57,6 +57,14 @@ void parameters_to_assist(const ebl_config *config, assist_config *assist)
     assist->motor_resistance_ohm = config->motor_resistance_ohm;
 }
 
+void parameters_default_image(uint8_t *image)
+{
+    ebl_config config;
+
+    ebl_config_default(&config);
+    ebl_config_pack(&config, image);
+}
+
 /* True if a value of this parameter may stand alone; order between values is VALIDATE's. */
 static int value_is_in_range(const ebl_parameter *parameter, const uint8_t *bytes)
 {

@@ -11,6 +11,9 @@
 /* The law's view of a configuration; `step_s` is the control period. */
 void parameters_to_assist(const ebl_config *config, assist_config *assist);
 
+/* The factory default as an image. */
+void parameters_default_image(uint8_t *image);
+
 /* True if every value is within its range and the law accepts the whole. */
 int parameters_image_is_valid(const uint8_t *image);
 

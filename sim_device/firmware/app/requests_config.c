@@ -4,6 +4,7 @@
 #include "dispatch.h"     // reply_ok, reply_with
 #include "ebl_bytes.h"    // EBL_OK, ebl_put_u16
 #include "ebl_registry.h" // ebl_cfg_read_request_get
+#include "parameters.h"   // parameters_default_image
 
 /* More than there are elements in the image, so that none is left unsaid. */
 #define REFUSALS_MAX 96
@@ -30,8 +31,6 @@ static void info(app *unit, const ebl_header *request, reply *answer)
 /* A staged image has the generation it is built on, the default has none. */
 static uint8_t bank_read(const app *unit, uint8_t bank, uint8_t *image, uint32_t *generation)
 {
-    ebl_config config;
-
     *generation = unit->store.generation;
     switch (bank) {
     case EBL_BANK_ACTIVE: memcpy(image, unit->store.image, EBL_IMAGE_LENGTH); return EBL_STATUS_OK;
@@ -45,8 +44,7 @@ static uint8_t bank_read(const app *unit, uint8_t bank, uint8_t *image, uint32_t
                    : EBL_STATUS_NOT_FOUND;
     case EBL_BANK_DEFAULT:
         *generation = 0;
-        ebl_config_default(&config);
-        ebl_config_pack(&config, image);
+        parameters_default_image(image);
         return EBL_STATUS_OK;
     default: return EBL_STATUS_RANGE;
     }

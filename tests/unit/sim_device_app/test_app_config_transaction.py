@@ -311,6 +311,18 @@ def test_a_lease_that_ends_leaves_the_active_configuration_untouched(unit: Bench
     assert unit.write(CHANGES).status == Status.OK
 
 
+def test_whoever_keeps_working_on_a_transaction_keeps_it(unit: BenchUnit) -> None:
+    transaction = unit.begin()
+    staged = unit.stage(transaction, CHANGES)
+
+    for _ in range(5):
+        unit.advance(29.0)
+        assert unit.ask(CfgStagedCrcRequest(transaction)).status == Status.OK
+
+    unit.advance(29.0)
+    assert unit.ask(CfgCommitRequest(transaction, crc32(staged), 0, 0)).status == Status.OK
+
+
 @pytest.mark.parametrize("farewell", ["abort", "bye", "hello"])
 def test_leaving_drops_what_was_staged(unit: BenchUnit, farewell: str) -> None:
     active = unit.read_image()

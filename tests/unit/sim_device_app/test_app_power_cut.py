@@ -18,6 +18,7 @@ NEW_CUTOFF_KMH = 19.0
 BLOCK_BYTES = 512
 """Small blocks: fewer dull steps of erasing."""
 
+AT_CONFIRMED, AT_VOID = 24, 28
 BIT_OF_MAGIC, BIT_OF_GENERATION, BIT_OF_IMAGE = 0, 16 * 8, (32 + 100) * 8
 
 
@@ -95,6 +96,19 @@ def test_a_bit_that_rots_in_the_active_slot_brings_back_the_one_before(bit: int)
     unit.write({"assist_cutoff_kmh": NEW_CUTOFF_KMH})
 
     unit.flash()[FLASH_BLOCK_BYTES + bit // 8] ^= np.uint8(1 << bit % 8)
+    unit.boot()
+
+    assert unit.read_image() == factory
+
+
+@pytest.mark.parametrize("word", [AT_CONFIRMED, AT_VOID], ids=["not confirmed", "void"])
+def test_a_whole_slot_that_was_not_confirmed_or_was_taken_back_does_not_count(word: int) -> None:
+    unit = BenchUnit()
+    factory = unit.read_image()
+    unit.write({"assist_cutoff_kmh": NEW_CUTOFF_KMH})
+    state = slice(FLASH_BLOCK_BYTES + word, FLASH_BLOCK_BYTES + word + 4)
+
+    unit.flash()[state] ^= np.uint8(0xFF)
     unit.boot()
 
     assert unit.read_image() == factory

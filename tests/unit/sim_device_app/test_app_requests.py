@@ -13,7 +13,9 @@ from firmware_protocol import codec, framing
 from firmware_protocol._generated import (
     REQUEST_BY_ID,
     SCHEMA_HASH,
+    CfgBeginResponse,
     CfgInfoResponse,
+    CfgStagedCrcRequest,
     HelloRequest,
     HelloResponse,
     MessageId,
@@ -202,6 +204,23 @@ def test_a_retry_is_answered_alike_and_executed_once() -> None:
     assert first.status == Status.OK
     assert first == second == flagged
     assert unit.ask_frame(frame(MessageId.CFG_BEGIN, begin[4:], tid=78)).status == Status.BUSY
+
+
+def test_another_hosts_request_is_not_taken_for_a_retry_of_the_one_before() -> None:
+    unit = BenchUnit()
+    generation, image = unit.read_image()
+    begin = frame(
+        MessageId.CFG_BEGIN,
+        generation.to_bytes(4, "little") + zlib.crc32(image).to_bytes(4, "little"),
+    )
+    unit.ask_frame(begin)
+
+    unit.hello(nonce=b"another!")
+    response = unit.ask_frame(begin)
+
+    assert isinstance(response.message, CfgBeginResponse)
+    staged = unit.ask(CfgStagedCrcRequest(response.message.transaction))
+    assert staged.status == Status.OK
 
 
 def test_the_last_four_answers_are_remembered_whatever_their_order() -> None:
