@@ -32,8 +32,9 @@ Listener = Callable[[DeviceEvent], None]
 # Between reads while only the stream flows, and while somebody waits for an answer.
 READ_EVERY_S = 0.020
 READ_EVERY_BUSY_S = 0.004
-# More than this in one read means a fast unit; a pseudo-terminal holds 4096 bytes, so hurry.
-FAST_READ_BYTES = 2048
+# A pseudo-terminal holds 4096 bytes and a unit's own queue 2240: a unit that runs many times faster
+# than real time is read so often that about this much has come, which leaves room for delays.
+READ_BYTES_AIM = 1024
 READ_EVERY_FAST_S = 0.002
 READ_BYTES = 65536
 # A port that does not open is tried again after 0.1 s, 0.2 s and so on up to this.
@@ -84,6 +85,7 @@ class Driver:
         self._open_at_s = 0.0
         self._reopen_s = REOPEN_S_MIN
         self._read_every_s = READ_EVERY_S
+        self._read_at_s = time.monotonic()
         self._commands: queue.Queue[_Command] = queue.Queue(COMMANDS_MAX)
         # Set once it is known what hangs on the port, or that nothing does.
         self.settled = threading.Event()
@@ -175,9 +177,8 @@ class Driver:
             self.settled.set()
         if deaf and self._reopen_when_deaf and self._link is not None:
             self._drop(LinkError(self._session.reason))
-        self._read_every_s = READ_EVERY_BUSY_S if busy else READ_EVERY_S
-        if received > FAST_READ_BYTES:
-            self._read_every_s = READ_EVERY_FAST_S
+        self._read_every_s = _read_every_s(busy, received, now_s - self._read_at_s)
+        self._read_at_s = now_s
 
     def _begin_commands(self) -> None:
         while True:
@@ -269,3 +270,11 @@ class Driver:
         except (OSError, SpindleError) as error:
             LOG.warning("%s: closing the port failed: %s", self._opener.url, error)
         self._link = None
+
+
+def _read_every_s(busy: bool, received: int, within_s: float) -> float:
+    """How long to wait until the next read, from what came within the last wait."""
+    calm_s = READ_EVERY_BUSY_S if busy else READ_EVERY_S
+    if received == 0:
+        return calm_s
+    return max(READ_EVERY_FAST_S, min(calm_s, within_s * READ_BYTES_AIM / received))

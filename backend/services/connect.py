@@ -17,12 +17,12 @@ from backend.device.driver import Driver, LinkOpener
 from backend.device.faults import fault_description
 from backend.device.live_values import LiveValues, ask_values, last_values
 from backend.device.operation import Operation
+from backend.device.ports import Opener, PortInfo, kind_of, list_ports
 from backend.device.simulation import simulation_get, simulation_set
 from backend.device.snapshot import DeviceStatus
 from backend.device.states import DeviceEvent
 from backend.device.stream import StreamPlan
 from backend.errors import Conflict, DeviceRefused, InvalidRequest, NotFound
-from backend.link import Opener, PortInfo, kind_of, list_ports
 from backend.services.device_view import ConfigStamp, DeviceView, FaultView
 
 Result = TypeVar("Result")

@@ -1,0 +1,7 @@
+"""The ways to a unit, for services: what a url means, which ports there are."""
+
+from __future__ import annotations
+
+from backend.link import Opener, PortInfo, kind_of, list_ports
+
+__all__ = ["Opener", "PortInfo", "kind_of", "list_ports"]
