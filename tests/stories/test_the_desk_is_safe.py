@@ -30,7 +30,7 @@ def test_it_listens_on_loopback_only(server: SpindleServer) -> None:
     if other is None:
         pytest.skip("this machine has no other address")
 
-    with pytest.raises(OSError, match="refused|timed out|unreachable"):
+    with pytest.raises(OSError, match=r"refused|timed out|unreachable"):
         socket.create_connection((other, port), timeout=2.0).close()
 
 

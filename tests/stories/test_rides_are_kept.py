@@ -1,0 +1,285 @@
+"""Goal: a ride records itself, ends itself, loses nothing, and survives a server that is killed.
+
+Simulated units at five times real time: the recorder goes by the unit's own clock, so the rides
+are the same, only sooner. Figures are checked against physics (distance is the integral of speed,
+energy of power), not against the code that made the summary.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+
+from tests.fakes.server import SpindleServer, eventually
+
+QUICK = ["sim:one?seed=11&speed=5", "sim:two?seed=12&speed=5"]
+
+
+@pytest.fixture(scope="module")
+def workshop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
+    """A server with two units side by side, in fast motion."""
+    running = SpindleServer(tmp_path_factory.mktemp("workshop"), QUICK).start()
+    running.ready_device(1)
+    yield running
+    running.stop()
+
+
+def begin_to_ride(server: SpindleServer, device: str, torque_nm: float = 25.0) -> None:
+    server.simulate(
+        device,
+        scenario=None,
+        brake=False,
+        assist_mode=3,
+        rider={"kind": "legs", "torque_nm": torque_nm, "cadence_rpm_max": 90.0},
+    )
+
+
+def stop_riding(server: SpindleServer, device: str) -> None:
+    server.simulate(device, scenario=None, rider={"kind": "off"}, brake=True)
+
+
+def rides_of(server: SpindleServer, device: str) -> list[dict[str, Any]]:
+    rides: list[dict[str, Any]] = server.get("/rides")["items"]
+    return [ride for ride in rides if ride["device"]["device_serial"] == device]
+
+
+def states(rides: list[dict[str, Any]]) -> set[str]:
+    return {ride["state"] for ride in rides}
+
+
+def recorded_ride(server: SpindleServer, device: str) -> dict[str, Any]:
+    """Rides for half a minute of the unit's time and waits for the ride to end itself."""
+    stop_riding(server, device)
+    eventually(lambda: rides_of(server, device), lambda all_: "live" not in states(all_))
+    before = {ride["id"] for ride in rides_of(server, device)}
+    begin_to_ride(server, device)
+    eventually(
+        lambda: [ride for ride in rides_of(server, device) if ride["id"] not in before],
+        lambda found: found and found[0]["row_count"] > 3000,
+    )
+    stop_riding(server, device)
+    ended = eventually(
+        lambda: [ride for ride in rides_of(server, device) if ride["id"] not in before],
+        lambda found: found and found[0]["state"] == "done",
+    )
+    return ended[0]
+
+
+@pytest.fixture(scope="module")
+def ride(workshop: SpindleServer) -> dict[str, Any]:
+    return recorded_ride(workshop, workshop.ready_device(0))
+
+
+def whole_series(server: SpindleServer, ride: dict[str, Any], *channels: str) -> dict[str, Any]:
+    """Every row of the ride: at ten thousand pixels and more rows, window by window."""
+    step_s = 60.0
+    columns: dict[str, list[float | None]] = {name: [] for name in channels}
+    for start in range(math.ceil(ride["summary"]["duration_s"] / step_s) + 1):
+        # A row's width off the end, so that no row is in two windows.
+        window = {"from_s": start * step_s, "to_s": (start + 1) * step_s - 0.005, "px": 8000}
+        part = server.get(
+            f"/rides/{ride['id']}/series", params={"channels": ",".join(channels), **window}
+        )
+        assert part["kind"] == "rows"
+        for channel in part["channels"]:
+            columns[channel["name"]] += channel["min"]
+    return {name: np.array(values, dtype=float) for name, values in columns.items()}
+
+
+def test_a_ride_ends_itself_and_no_sample_is_missing(ride: dict[str, Any]) -> None:
+    assert ride["origin"] == "recorded"
+    assert ride["period_us"] == 10_000
+    assert ride["completeness"] == 1.0
+    assert ride["gaps"] == []
+    assert ride["row_count"] == pytest.approx(ride["summary"]["duration_s"] * 100.0 + 1, abs=1)
+
+
+def test_the_summary_is_what_physics_makes_of_the_samples(
+    workshop: SpindleServer, ride: dict[str, Any]
+) -> None:
+    rows = whole_series(
+        workshop,
+        ride,
+        "speed_kmh",
+        "rider_torque_nm",
+        "cadence_rpm",
+        "motor_torque_nm",
+        "motor_speed_rpm",
+    )
+    summary = ride["summary"]
+    hours = 0.01 / 3600.0
+    radians = 2.0 * math.pi / 60.0
+
+    assert len(rows["speed_kmh"]) == ride["row_count"]
+    distance_km = rows["speed_kmh"].sum() * hours
+    rider_wh = (rows["rider_torque_nm"] * rows["cadence_rpm"]).sum() * radians * hours
+    motor_wh = (rows["motor_torque_nm"] * rows["motor_speed_rpm"]).sum() * radians * hours
+    assert summary["distance_km"] == pytest.approx(distance_km, rel=1e-3)
+    assert summary["rider_wh"] == pytest.approx(rider_wh, rel=2e-3)
+    assert summary["motor_wh"] == pytest.approx(motor_wh, rel=2e-3)
+    assert summary["speed_kmh_max"] == pytest.approx(rows["speed_kmh"].max(), abs=0.01)
+    assert 0.0 < summary["motor_wh"] != summary["rider_wh"] > 0.0
+
+
+def test_every_extreme_is_in_the_coarsest_view(
+    workshop: SpindleServer, ride: dict[str, Any]
+) -> None:
+    rows = whole_series(workshop, ride, "rider_torque_nm", "speed_kmh")
+
+    coarse = workshop.get(
+        f"/rides/{ride['id']}/series",
+        params={"channels": "rider_torque_nm,speed_kmh", "px": 20},
+    )
+
+    assert coarse["kind"] == "minmax"
+    assert coarse["bins"] <= 20
+    for channel in coarse["channels"]:
+        values = rows[channel["name"]]
+        assert max(channel["max"]) == pytest.approx(values.max(), abs=1e-6)
+        assert min(channel["min"]) == pytest.approx(values.min(), abs=1e-6)
+
+
+def test_the_binary_series_says_the_same_as_the_json_one(
+    workshop: SpindleServer, ride: dict[str, Any]
+) -> None:
+    path = f"/rides/{ride['id']}/series"
+    question = {"channels": "speed_kmh", "px": 100}
+    as_json = workshop.get(path, params=question)
+
+    block = workshop.client.get(
+        path, params=question, headers={"accept": "application/octet-stream"}
+    ).content
+
+    assert block[:4] == b"SPV1"
+    (length,) = struct.unpack_from("<I", block, 4)
+    header = httpx.Response(200, content=block[8 : 8 + length]).json()
+    channel = header["channels"][0]
+    counts = np.frombuffer(
+        block,
+        f"<{channel['dtype'][0]}{int(channel['dtype'][3:]) // 8}",
+        count=header["bins"],
+        offset=8 + length + channel["max_offset"],
+    )
+    assert (counts * channel["scale"]).tolist() == pytest.approx(as_json["channels"][0]["max"])
+
+
+def test_a_ride_can_be_named_drawn_exported_and_deleted(workshop: SpindleServer) -> None:
+    ride = recorded_ride(workshop, workshop.ready_device(1))
+    path = f"/rides/{ride['id']}"
+
+    named = workshop.ask("PATCH", path, json={"name": "Test loop", "notes": "tailwind"})
+    figure = workshop.get(f"{path}/figure")
+    csv = workshop.client.get(f"{path}/export", params={"format": "csv"})
+    unknown = workshop.client.get(f"{path}/series", params={"channels": "altitude"})
+    workshop.ask("DELETE", path)
+
+    assert (named["name"], named["notes"]) == ("Test loop", "tailwind")
+    assert {"data", "layout"} == set(figure)
+    assert len(csv.text.splitlines()) == ride["row_count"] + 1
+    assert "attachment" in csv.headers["content-disposition"]
+    assert unknown.status_code == 422
+    assert workshop.client.get(path).status_code == 404
+
+
+def test_a_replay_with_nothing_changed_is_what_the_motor_did(
+    workshop: SpindleServer, ride: dict[str, Any]
+) -> None:
+    answer = workshop.ask("POST", f"/rides/{ride['id']}/replay", json={})
+
+    assert answer["config_source"] == "ride"
+    # The record has counts of the wire where the unit had float32, hence not to the bit.
+    recorded = answer["motor_work_wh"]["recorded"]
+    assert answer["motor_work_wh"]["replayed"] == pytest.approx(recorded, rel=0.02)
+
+
+def test_a_replay_with_the_motor_off_does_no_work(
+    workshop: SpindleServer, ride: dict[str, Any]
+) -> None:
+    off = [{"name": "off", "law": "off", "ratio": 0.0}] * 5
+
+    answer = workshop.ask(
+        "POST",
+        f"/rides/{ride['id']}/replay",
+        json={"assist_modes": {"modes": off, "mode_at_start": 0}},
+    )
+
+    assert answer["motor_work_wh"]["replayed"] == 0.0
+    assert answer["motor_work_wh"]["difference"] < 0.0
+
+
+def test_two_units_are_two_bikes(workshop: SpindleServer) -> None:
+    one, two = workshop.ready_device(0), workshop.ready_device(1)
+    workshop.stand_still(one)
+    workshop.stand_still(two)
+
+    workshop.ask("PATCH", f"/devices/{one}/config", json={"parameters": {"torque_filter_s": 0.31}})
+    begin_to_ride(workshop, one)
+    eventually(
+        lambda: workshop.get(f"/devices/{one}/snapshot")["channels"]["speed_kmh"],
+        lambda speed_kmh: speed_kmh > 5.0,
+    )
+
+    other = workshop.get(f"/devices/{two}/config")["parameters"]
+    assert one != two
+    assert other["torque_filter_s"] == pytest.approx(0.5)
+    assert workshop.get(f"/devices/{two}/snapshot")["channels"]["speed_kmh"] < 0.1
+    stop_riding(workshop, one)
+
+
+def test_a_killed_server_finishes_the_ride_at_its_next_start(tmp_path: Path) -> None:
+    server = SpindleServer(tmp_path / "data", QUICK[:1]).start()
+    device = server.ready_device()
+    begin_to_ride(server, device)
+    live = eventually(
+        lambda: rides_of(server, device), lambda found: found and found[0]["row_count"] > 1000
+    )[0]
+
+    server.kill()
+    again = SpindleServer(tmp_path / "data", []).start()
+    ride = again.get(f"/rides/{live['id']}")
+    again.stop()
+
+    assert ride["state"] == "done"
+    assert ride["row_count"] >= live["row_count"]
+    assert ride["completeness"] == 1.0
+    assert ride["summary"]["distance_km"] > 0.0
+
+
+def test_a_killed_server_leaves_no_simulator_behind(tmp_path: Path) -> None:
+    server = SpindleServer(tmp_path / "data").start()
+    server.ready_device()
+    children = children_of(server.pid)
+
+    server.kill()
+
+    assert children
+    eventually(lambda: [pid for pid in children if is_running(pid)], lambda left: not left)
+
+
+def children_of(pid: int) -> list[int]:
+    """Processes whose parent is `pid`."""
+    found = []
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = stat.read_text().rsplit(")", 1)[1].split()
+        except OSError:
+            continue
+        if int(fields[1]) == pid:
+            found.append(int(stat.parent.name))
+    return found
+
+
+def is_running(pid: int) -> bool:
+    """Whether a process is there and not only waiting to be reaped."""
+    try:
+        state = (Path("/proc") / str(pid) / "stat").read_text().rsplit(")", 1)[1].split()[0]
+    except OSError:
+        return False
+    return state != "Z"
