@@ -1,0 +1,31 @@
+"""Measures everything in one run and writes docs/benchmarks.md. Usage: python -m tests.bench"""
+
+import sys
+from pathlib import Path
+
+from tests.bench import law, rides, server, wire
+from tests.bench.figures import Figure, mark, write
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "benchmarks.md"
+SECTIONS = {
+    "The law": law.run,
+    "The wire": wire.run,
+    "Rides": rides.run,
+    "The server": server.run,
+}
+
+
+def main() -> None:
+    results: dict[str, list[Figure]] = {}
+    for title, run in SECTIONS.items():
+        results[title] = run()
+        for figure in results[title]:
+            print(f"{mark(figure):8} {figure.subject}: {figure.value}  {figure.target}", flush=True)
+    write(PAGE, results)
+    missed = [f.subject for figures in results.values() for f in figures if f.reached is False]
+    if missed:
+        sys.exit("Not reached: " + "; ".join(missed))
+
+
+if __name__ == "__main__":
+    main()
