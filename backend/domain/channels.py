@@ -46,7 +46,8 @@ class ChannelSpec:
 
     def to_values(self, counts: Counts) -> Values:
         """Counts (n,) -> physical values float64 (n,) in `unit`, missing as NaN."""
-        values = counts.astype(np.float64) * self.scale
+        values = counts.astype(np.float64)
+        values *= self.scale
         values[counts == self.missing] = np.nan
         return values
 

@@ -82,9 +82,16 @@ def derive(name: str, columns: Mapping[str, Values], gear_ratio: float | None) -
 
 def energy(power_w: Values, seconds: Values) -> Energy:
     """Energy of power (n,) where sample i holds for seconds[i] (n,); NaN samples are left out."""
-    there = np.isfinite(power_w)
-    joules = float(np.sum(power_w[there] * seconds[there]))
-    return Energy(wh=joules / SECONDS_PER_HOUR, excluded_s=float(np.sum(seconds[~there])))
+    missing = ~np.isfinite(power_w)
+    joules = held_sum(power_w, seconds)
+    return Energy(wh=joules / SECONDS_PER_HOUR, excluded_s=float(np.sum(seconds[missing])))
+
+
+def held_sum(values: Values, seconds: Values) -> float:
+    """Sum of the samples (n,) times how long each holds; missing ones count nothing."""
+    there = np.where(np.isfinite(values), values, 0.0)
+    there *= seconds
+    return float(np.sum(there))
 
 
 def sample_seconds(times_us: np.ndarray[tuple[int], np.dtype[np.int64]], pause_us: int) -> Values:
@@ -94,6 +101,9 @@ def sample_seconds(times_us: np.ndarray[tuple[int], np.dtype[np.int64]], pause_u
     """
     if len(times_us) < 2:
         return np.zeros(len(times_us))
+    if int(times_us[-1] - times_us[0]) == pause_us * (len(times_us) - 1):
+        # Regular rows: one number for all of them, whatever the length of the ride.
+        return np.broadcast_to(np.float64(pause_us / 1e6), len(times_us))
     spacing = np.diff(times_us)
     running = spacing[(spacing > 0) & (spacing <= pause_us)]
     usual = float(np.median(running)) if len(running) else 0.0

@@ -13,7 +13,8 @@ import numpy as np
 
 from backend.domain.channels import ChannelSpec, Counts
 
-STEPS = (64, 512, 4096)
+# Finer than 128 costs more disk than it saves time: raw rows below it take some 15 ms a view.
+STEPS = (128, 1024, 8192)
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from backend.domain.energy import (
     MOTOR_POWER,
     RIDER_POWER,
     energy,
+    held_sum,
     sample_seconds,
 )
 
@@ -214,16 +215,14 @@ def movement_figures(values: Mapping[str, Values], seconds: Values) -> dict[str,
     speed = values.get("speed_kmh")
     figures: dict[str, float | None] = {}
     if speed is not None and np.isfinite(speed).any():
-        there = np.isfinite(speed)
-        moving = there & (np.nan_to_num(speed) >= MOVING_KMH_MIN)
+        moving = speed >= MOVING_KMH_MIN
         moving_s = float(np.sum(seconds[moving]))
-        kilometres = float(np.sum(speed[there] * seconds[there])) / 3600.0
-        ridden = float(np.sum(speed[moving] * seconds[moving]))
+        ridden = held_sum(speed[moving], seconds[moving])
         figures |= {
             "moving_s": moving_s,
-            "distance_km": kilometres,
+            "distance_km": held_sum(speed, seconds) / 3600.0,
             "speed_kmh_mean": ridden / moving_s if moving_s > 0 else None,
-            "speed_kmh_max": float(np.max(speed[there])),
+            "speed_kmh_max": largest(speed),
         }
     odometer = present(values.get("distance_m"))
     if len(odometer):
@@ -233,8 +232,7 @@ def movement_figures(values: Mapping[str, Values], seconds: Values) -> dict[str,
 
 def power_figures(owner: str, power_w: Values | None, seconds: Values) -> dict[str, float | None]:
     """Energy, mean and maximum of the rider's or the motor's power."""
-    there = present(power_w)
-    if power_w is None or not len(there):
+    if power_w is None or not np.isfinite(power_w).any():
         return {}
     total = energy(power_w, seconds)
     included_s = float(np.sum(seconds)) - total.excluded_s
@@ -242,7 +240,7 @@ def power_figures(owner: str, power_w: Values | None, seconds: Values) -> dict[s
         f"{owner}_wh": total.wh,
         f"{owner}_excluded_s": total.excluded_s,
         f"{owner}_power_w_mean": total.wh * 3600.0 / included_s if included_s > 0 else None,
-        f"{owner}_power_w_max": float(np.max(there)),
+        f"{owner}_power_w_max": largest(power_w),
     }
 
 
@@ -254,7 +252,7 @@ def crank_figures(values: Mapping[str, Values]) -> dict[str, float | None]:
         "rider_torque_nm_max": largest(torque),
     }
     if cadence is not None:
-        turning = np.nan_to_num(cadence) > 0
+        turning = cadence > 0
         if turning.any():
             figures["cadence_rpm_mean"] = float(np.mean(cadence[turning]))
             torques = present(torque[turning]) if torque is not None else present(None)

@@ -55,7 +55,7 @@ def encode_level(level: Level) -> bytes:
     body = bytearray(struct.pack("<I", len(header)) + header)
     for channel in level.channels:
         low, high = level.minimum[channel.name], level.maximum[channel.name]
-        body += shuffled(low) + shuffled(high - low)
+        body += shuffled(low) + shuffled(high)
     return LEVEL_MAGIC + zlib.compress(bytes(body), LEVEL_EFFORT)
 
 
@@ -73,9 +73,8 @@ def decode_level(payload: bytes) -> Level:
         maximum: dict[str, Counts] = {}
         for channel in channels:
             size = channel.dtype.itemsize * cells
-            low = unshuffled(body[offset : offset + size], channel)
-            rise = unshuffled(body[offset + size : offset + 2 * size], channel)
-            minimum[channel.name], maximum[channel.name] = low, low + rise
+            minimum[channel.name] = unshuffled(body[offset : offset + size], channel)
+            maximum[channel.name] = unshuffled(body[offset + size : offset + 2 * size], channel)
             offset += 2 * size
     except (zlib.error, ValueError, KeyError, struct.error) as error:
         raise StoreError(f"A ride's overview is damaged: {error}") from error
@@ -83,9 +82,8 @@ def decode_level(payload: bytes) -> Level:
 
 
 def shuffled(counts: Counts) -> bytes:
-    """Deltas, all low bytes first: what zlib likes. Arithmetic wraps, so nothing is lost."""
-    deltas = np.diff(counts, prepend=counts.dtype.type(0))
-    little = deltas.astype(deltas.dtype.newbyteorder("<"))
+    """All low bytes first, then the high ones, which hardly change: what zlib likes."""
+    little = counts.astype(counts.dtype.newbyteorder("<"))
     width = counts.dtype.itemsize
     return little.view(np.uint8).reshape(-1, width).T.tobytes()
 
@@ -94,8 +92,8 @@ def unshuffled(raw: bytes, channel: ChannelSpec) -> Counts:
     """The inverse of `shuffled`."""
     width = channel.dtype.itemsize
     planes = np.frombuffer(raw, np.uint8).reshape(width, -1)
-    deltas = np.ascontiguousarray(planes.T).view(channel.dtype.newbyteorder("<")).reshape(-1)
-    return np.cumsum(deltas, dtype=channel.dtype)
+    little = np.ascontiguousarray(planes.T).view(channel.dtype.newbyteorder("<")).reshape(-1)
+    return little.astype(channel.dtype)
 
 
 def channel_list(entries: Sequence[dict[str, object]]) -> tuple[ChannelSpec, ...]:

@@ -19,7 +19,9 @@ from backend.domain.energy import FACTORS, derivable, derive
 from backend.domain.pyramid import STEPS, Level, first_level, reduce_groups
 from backend.domain.ride import Gap, Ride, RideRows, RideSummary, find_gaps, summarise
 from backend.store.objects import Objects, content_key, file_sha256
-from backend.store.parquet import RideFile, write_rows
+from backend.store.parquet import ROW_GROUP_ROWS, RideFile, release_memory, write_rows
+
+PIECE_ROWS = 4 * ROW_GROUP_ROWS
 
 
 @dataclass(frozen=True)
@@ -42,8 +44,13 @@ class Digest:
     rows_empty: int
 
 
-def write_object(objects: Objects, ride: Ride, chunks: Iterable[RideRows]) -> WrittenObject:
-    """Write a ride's rows as an object under its content's hash. Safe to repeat."""
+def write_object(
+    objects: Objects, ride: Ride, chunks: Iterable[RideRows], sample: RideRows
+) -> WrittenObject:
+    """Write a ride's rows as an object under its content's hash. Safe to repeat.
+
+    sample: a stretch from the middle of the ride.
+    """
     staged = objects.stage()
     try:
         facts = {
@@ -52,7 +59,7 @@ def write_object(objects: Objects, ride: Ride, chunks: Iterable[RideRows]) -> Wr
             "gear_ratio": ride.context.gear_ratio,
             "device_serial": ride.context.device_serial,
         }
-        rows = write_rows(staged, ride.channels, chunks, facts)
+        rows = write_rows(staged, ride.channels, chunks, facts, sample)
         sha256, size = file_sha256(staged), staged.stat().st_size
         key = content_key("rides", sha256, ".parquet")
         objects.publish(staged, key)
@@ -75,7 +82,7 @@ def digest(path: Path, ride: Ride) -> Digest:
     for channel in columns.derived:
         pairs[channel.name] = pyramid(columns.counts(channel))
     offered = ride.channels + columns.derived
-    return Digest(
+    found = Digest(
         levels=tuple(
             Level(
                 step,
@@ -89,6 +96,8 @@ def digest(path: Path, ride: Ride) -> Digest:
         gaps=find_gaps(times, empty, ride.period_us),
         rows_empty=int(np.sum(empty)),
     )
+    release_memory()
+    return found
 
 
 def pyramid(counts: Counts) -> list[tuple[Counts, Counts]]:
@@ -112,13 +121,12 @@ class FileColumns(Mapping[str, Values]):
         self.derived = derivable(self._recorded.keys(), gear_ratio)
 
     def __getitem__(self, name: str) -> Values:
-        if name in self._recorded:
-            counts = self._file.counts([name], 0, self._file.row_count)[name]
-            return self._recorded[name].to_values(counts)
-        if any(channel.name == name for channel in self.derived):
-            factors = {factor: self[factor] for factor in FACTORS[name]}
-            return derive(name, factors, self._gear_ratio)
-        raise KeyError(name)
+        if name not in self._recorded and all(name != c.name for c in self.derived):
+            raise KeyError(name)
+        values = np.empty(self._file.row_count)
+        for start, stop in self._pieces():
+            values[start:stop] = self._values(name, start, stop)
+        return values
 
     def __iter__(self) -> Iterator[str]:
         yield from self._recorded
@@ -131,4 +139,20 @@ class FileColumns(Mapping[str, Values]):
         """Counts (n,) of a recorded or derived channel."""
         if channel.name in self._recorded:
             return self._file.counts([channel.name], 0, self._file.row_count)[channel.name]
-        return channel.to_counts(self[channel.name])
+        counts = np.empty(self._file.row_count, channel.dtype)
+        for start, stop in self._pieces():
+            counts[start:stop] = channel.to_counts(self._values(channel.name, start, stop))
+        return counts
+
+    def _values(self, name: str, start: int, stop: int) -> Values:
+        """Physical values of rows [start, stop) of a recorded or derived channel."""
+        if name in self._recorded:
+            counts = self._file.counts([name], start, stop)[name]
+            return self._recorded[name].to_values(counts)
+        factors = {factor: self._values(factor, start, stop) for factor in FACTORS[name]}
+        return derive(name, factors, self._gear_ratio)
+
+    def _pieces(self) -> Iterator[tuple[int, int]]:
+        """Stretches of the ride: physical values take four times the room of counts."""
+        rows = self._file.row_count
+        return ((start, min(start + PIECE_ROWS, rows)) for start in range(0, rows, PIECE_ROWS))

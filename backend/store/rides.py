@@ -28,7 +28,7 @@ from backend.store.blobs import Rows16, decode_level, decode_tail, encode_tail
 from backend.store.database import Database
 from backend.store.finish import WrittenObject, digest, write_object
 from backend.store.objects import Objects
-from backend.store.parquet import RideFile
+from backend.store.parquet import ROW_GROUP_ROWS, RideFile, joined, sliced
 from backend.store.reader import LiveRows, ReaderCache, RideReader
 from backend.store.ride_table import (
     NAME_LENGTH_MAX,
@@ -45,6 +45,8 @@ from backend.store.ride_table import (
 PAGE_MAX = 500
 NOTES_LENGTH_MAX = 20_000
 TAILS_AT_ONCE = 64
+# Rows by which a ride's encodings are chosen.
+SAMPLE_ROWS = ROW_GROUP_ROWS
 
 
 @dataclass(frozen=True)
@@ -128,7 +130,9 @@ class RideStore:
         if ride.row_count == 0:
             self._database.write(lambda c: remove_ride(c, ride_id))
             return None
-        written = write_object(self._objects, ride, self._tail_chunks(ride))
+        middle = max(0, ride.row_count // 2 - SAMPLE_ROWS // 2)
+        sample = joined(ride.channels, list(self._tail_chunks(ride, middle, SAMPLE_ROWS)))
+        written = write_object(self._objects, ride, self._tail_chunks(ride), sample)
         return self._publish(ride, written)
 
     def finish_later(self, ride_id: int) -> Future[Ride | None]:
@@ -149,7 +153,9 @@ class RideStore:
 
         The object is written before the ride is known, so a failure leaves no half ride.
         """
-        written = write_object(self._objects, ride, [rows])
+        middle = max(0, len(rows.times_us) // 2 - SAMPLE_ROWS // 2)
+        sample = sliced(rows, middle, middle + SAMPLE_ROWS)
+        written = write_object(self._objects, ride, [rows], sample)
         body = ride_row(
             "live",
             ride.origin,
@@ -268,12 +274,12 @@ class RideStore:
         payload = self._database.read(lambda c: c.execute(query).scalar())
         return None if payload is None else decode_level(payload)
 
-    def _tail_blocks(self, ride: Ride) -> Iterator[Rows16]:
-        """The tail's rows in order and without holes: what is lost or damaged is missing rows."""
+    def _tail_blocks(self, ride: Ride, start: int = 0) -> Iterator[Rows16]:
+        """Rows from `start` on, in order, without holes: what is lost or damaged is missing."""
         missing = np.int16(MISSING_INT16)
         width = len(ride.channels)
-        at = 0
-        for row_start, row_count, payload in self._tails(ride.id):
+        at = start
+        for row_start, row_count, payload in self._tails(ride.id, start):
             if row_start > at:
                 yield np.full((row_start - at, width), missing)
             try:
@@ -283,12 +289,11 @@ class RideStore:
             yield block[max(0, at - row_start) :]
             at = max(at, row_start + len(block))
 
-    def _tails(self, ride_id: int) -> Iterator[tuple[int, int, bytes]]:
-        """Row start, row count and payload of every tail in order, a minute or so from SQL."""
+    def _tails(self, ride_id: int, next_start: int) -> Iterator[tuple[int, int, bytes]]:
+        """Start, rows and payload of the tails from a row on, a minute or so at once from SQL."""
         columns = (t.ride_tail.c.row_start, t.ride_tail.c.row_count, t.ride_tail.c.payload)
         mine = select(*columns).where(t.ride_tail.c.ride_id == ride_id)
         ordered = mine.order_by(t.ride_tail.c.row_start).limit(TAILS_AT_ONCE)
-        next_start = 0
         while True:
             query = ordered.where(t.ride_tail.c.row_start >= next_start)
             found = self._database.read(partial(fetched, query))
@@ -297,9 +302,12 @@ class RideStore:
                 return
             next_start = found[-1][0] + 1
 
-    def _tail_chunks(self, ride: Ride) -> Iterable[RideRows]:
-        start = 0
-        for block in self._tail_blocks(ride):
+    def _tail_chunks(
+        self, ride: Ride, start: int = 0, rows: int | None = None
+    ) -> Iterable[RideRows]:
+        """The tail's blocks from row `start` on, until there are at least `rows`."""
+        stop = None if rows is None else start + rows
+        for block in self._tail_blocks(ride, start):
             times_us = np.arange(start, start + len(block), dtype=np.int64) * (ride.period_us or 1)
             counts = {
                 channel.name: np.ascontiguousarray(block[:, index])
@@ -307,6 +315,8 @@ class RideStore:
             }
             yield RideRows(ride.channels, times_us, counts)
             start += len(block)
+            if stop is not None and start >= stop:
+                return
 
     def _publish(self, ride: Ride, written: WrittenObject) -> Ride:
         found = digest(self._objects.local_path(written.key), ride)

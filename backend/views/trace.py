@@ -2,7 +2,7 @@
 
 How a window is cut:
 - Few rows: each row is its own bin (`kind` = `rows`), minimum and maximum are the row's value.
-- Regular rows: every bin has the same number of rows (the last may have fewer). From 64 rows a bin
+- Regular rows: every bin has the same number of rows (the last may have fewer). From 128 rows a bin
   on, bins are made of whole cells of the pyramid; the window then grows by less than one bin at
   either end, and the bins' own times say so.
 - Irregular rows (head units): bins of equal time, cut at pauses; bins without rows are left out,
