@@ -34,7 +34,7 @@ export default ts.config(
     languageOptions: { parserOptions: { parser: ts.parser, svelteConfig } },
   },
   { files: ['scripts/*.mjs'], rules: { 'no-console': 'off' } },
-  { files: ['**/*.test.ts'], rules: { 'max-lines-per-function': 'off' } },
+  { files: ['**/*.test.{ts,mjs}'], rules: { 'max-lines-per-function': 'off' } },
   {
     files: ['src/shared/**'],
     rules: {

@@ -26,7 +26,8 @@ export async function whileStanding<T>(
   } finally {
     const { kind, torque_nm, cadence_rpm_max } = before.rider
     const rider = { kind, torque_nm, cadence_rpm_max }
-    await server.setSimulation(id, { rider, brake: before.brake })
+    const scenario = before.running ? { running: true } : {}
+    await server.setSimulation(id, { rider, brake: before.brake, ...scenario })
   }
 }
 

@@ -24,12 +24,13 @@ export interface StripChart {
   destroy(): void
 }
 
-/** A range that holds `min` to `max` and ends on a round number. */
+/** `least`, or where the data leaves it a range that holds them and ends on round numbers. */
 export function roundRange(
   min: number | null,
   max: number | null,
   least: [number, number],
 ): [number, number] {
+  if ((min ?? least[0]) >= least[0] && (max ?? least[1]) <= least[1]) return least
   const low = Math.min(least[0], min ?? least[0])
   const high = Math.max(least[1], max ?? least[1])
   const step = niceStep((high - low) / 4)

@@ -20,7 +20,6 @@ export class StripClock {
       if (!this.running) return
       const end = end_s()
       if (!held() && Number.isFinite(end)) this.advance(now_ms, end)
-      this.last_ms = now_ms
       requestAnimationFrame(step)
     }
     requestAnimationFrame(step)
@@ -33,6 +32,7 @@ export class StripClock {
   /** Moves the edge to where it belongs at `now_ms` and counts the frame, if anything moved. */
   advance(now_ms: number, end_s: number): void {
     const elapsed_s = Math.min(0.25, (now_ms - this.last_ms) / 1000)
+    this.last_ms = now_ms
     this.measureRate(now_ms, end_s)
     const behind_s = (FOLLOW_MS / 1000) * Math.max(1, this.rate)
     const next = Math.max(this.edge_s + elapsed_s * Math.max(0.1, this.rate), end_s - behind_s)

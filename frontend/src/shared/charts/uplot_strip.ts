@@ -15,7 +15,7 @@ export function uplotStrip(node: HTMLElement, spec: StripSpec, show_time: boolea
       height: Math.max(40, node.clientHeight),
       cursor: { show: false },
       legend: { show: false },
-      padding: [6, 8, show_time ? 0 : 4, 0],
+      padding: [7, 8, show_time ? 0 : 7, 0],
       scales: {
         x: { time: false },
         y: { range: (_, min, max) => roundRange(min, max, spec.least) },
@@ -71,7 +71,7 @@ function timeMarks(edge_s: number, span_s: number): number[] {
 }
 
 function valueMarks(min: number, max: number): number[] {
-  const step = niceStep((max - min) / 3)
+  const step = niceStep((max - min) / 4.1)
   const marks: number[] = []
   for (let i = Math.ceil(min / step - 1e-9); i * step <= max + 1e-9; i++) marks.push(i * step)
   return marks

@@ -45,6 +45,9 @@ export const enUnit = {
   'choice.mid drive': 'Mid drive',
   'choice.mid drive (simulated)': 'Mid drive (simulated)',
 
+  'quantity.counts': 'counts',
+  'quantity.Nm/count': 'Nm/count',
+
   'channel.speed_kmh': 'Speed',
   'channel.cadence_rpm': 'Cadence',
   'channel.rider_torque_nm': 'Rider torque',

@@ -47,6 +47,9 @@ export const zhUnit: Record<keyof typeof enUnit, string> = {
   'choice.mid drive': '中置电机',
   'choice.mid drive (simulated)': '中置电机（模拟）',
 
+  'quantity.counts': '计数',
+  'quantity.Nm/count': 'Nm/计数',
+
   'channel.speed_kmh': '速度',
   'channel.cadence_rpm': '踏频',
   'channel.rider_torque_nm': '骑手扭矩',

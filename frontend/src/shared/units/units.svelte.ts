@@ -58,7 +58,8 @@ export class Units {
 
   /** The unit's label on screen, such as "mph" for km/h in imperial. */
   label(unit: string): string {
-    return this.shown(unit).unit
+    const label = this.shown(unit).unit
+    return this.locale.lookup(`quantity.${label}`, label)
   }
 
   /** SI to what is shown. */
@@ -83,6 +84,6 @@ export class Units {
   text(value: number | null | undefined, unit: string, digits?: number): string {
     const number = this.number(value, unit, digits)
     const label = this.label(unit)
-    return number === '—' || label === '' ? number : `${number}\u202f${label}`
+    return number === '—' || label === '' ? number : `${number}\u00a0${label}`
   }
 }

@@ -1,0 +1,14 @@
+/* Goal: an address names one page, and an unknown one says so. */
+import { expect, it } from 'vitest'
+import { readRoute } from './router.svelte'
+
+it.each([
+  ['/', { page: 'bike', id: '' }],
+  ['/live', { page: 'live', id: '' }],
+  ['/rides', { page: 'rides', id: '' }],
+  ['/rides/12', { page: 'ride', id: '12' }],
+  ['/rides/12/more', { page: 'unknown', id: '' }],
+  ['/nonsense', { page: 'unknown', id: '' }],
+])('%s', (path, route) => {
+  expect(readRoute(path)).toEqual(route)
+})

@@ -1,0 +1,43 @@
+/* Goal: the binary series is read as backend/views/trace.py describes it. The bytes are laid out
+   here by hand from that description. */
+import { expect, it } from 'vitest'
+import { readSeries } from './series'
+
+function block(header: object, body: ArrayBuffer): ArrayBuffer {
+  let text = JSON.stringify(header)
+  text = text.padEnd(Math.ceil((8 + text.length) / 8) * 8 - 8, ' ')
+  const bytes = new Uint8Array(8 + text.length + body.byteLength)
+  bytes.set(new TextEncoder().encode('SPV1'))
+  new DataView(bytes.buffer).setUint32(4, text.length, true)
+  bytes.set(new TextEncoder().encode(text), 8)
+  bytes.set(new Uint8Array(body), 8 + text.length)
+  return bytes.buffer
+}
+
+it('gives physical values, missing as NaN', () => {
+  const body = new ArrayBuffer(48)
+  new Float64Array(body, 0, 2).set([0, 10])
+  new Float64Array(body, 16, 2).set([9, 19])
+  new Int16Array(body, 32, 2).set([100, -32768])
+  new Int16Array(body, 40, 2).set([9500, -32768])
+  const channel = {
+    name: 'rider_torque_nm', unit: 'Nm', scale: 0.01, dtype: 'int16', missing: -32768,
+    min_offset: 32, max_offset: 40,
+  }
+  const header = {
+    from_s: 0, to_s: 20, rows: 2000, bins: 2, kind: 'minmax',
+    t_first_s: { dtype: 'float64', offset: 0 }, t_last_s: { dtype: 'float64', offset: 16 },
+    channels: [channel],
+  }
+
+  const series = readSeries(block(header, body))
+
+  expect([...series.t_last_s]).toEqual([9, 19])
+  expect(series.channels[0]?.min[0]).toBeCloseTo(1)
+  expect(series.channels[0]?.max[0]).toBeCloseTo(95)
+  expect(series.channels[0]?.max[1]).toBeNaN()
+})
+
+it('refuses bytes that are something else', () => {
+  expect(() => readSeries(new TextEncoder().encode('{"detail": 1}').buffer)).toThrow('not a series')
+})
