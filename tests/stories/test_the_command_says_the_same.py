@@ -1,0 +1,153 @@
+"""Goal: what the pages can do, a shell can do: same verbs, JSON on request, honest exit codes.
+
+Exit 0 done, 1 refused with the reason, 2 wrong usage (contract, Commands).
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.fakes.fit_file import fit_ride
+from tests.fakes.server import SpindleServer
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def spindle(server: SpindleServer | None, *words: str | Path) -> subprocess.CompletedProcess[str]:
+    """Runs the command against this server."""
+    at = ["--server", server.url] if server is not None else []
+    return subprocess.run(
+        [sys.executable, "-m", "backend.cli", *map(str, words), *at],
+        cwd=ROOT, capture_output=True, text=True, timeout=60, check=False,
+    )  # fmt: skip
+
+
+def test_a_unit_is_listed_and_shown(server: SpindleServer, device: str) -> None:
+    listed = spindle(server, "device", "list", "--json")
+    shown = spindle(server, "device", "show")
+
+    assert device in [item["id"] for item in json.loads(listed.stdout)["items"]]
+    assert shown.returncode == 0
+    assert device in shown.stdout
+    assert "speed_kmh" in shown.stdout
+
+
+def test_a_parameter_is_set_backed_up_compared_and_restored(
+    server: SpindleServer, device: str, tmp_path: Path
+) -> None:
+    server.stand_still(device)
+    kept = tmp_path / "kept.json"
+
+    backup = spindle(server, "device", "backup", "--output", kept)
+    change = spindle(server, "device", "set", "torque_filter_s=0.7", "--reason", "a try")
+    differing = spindle(server, "device", "diff", kept, "--json")
+    restore = spindle(server, "device", "restore", kept)
+    value = spindle(server, "device", "get", "torque_filter_s", "--json")
+
+    assert backup.returncode == change.returncode == restore.returncode == 0, change.stderr
+    assert [item["name"] for item in json.loads(differing.stdout)["changed"]] == ["torque_filter_s"]
+    assert json.loads(value.stdout)["parameters"]["torque_filter_s"] == pytest.approx(0.5)
+
+
+def test_a_refused_value_is_named_and_ends_with_one(server: SpindleServer, device: str) -> None:
+    server.stand_still(device)
+
+    refused = spindle(server, "device", "set", "assist_cutoff_kmh=60")
+
+    assert refused.returncode == 1
+    assert "assist_cutoff_kmh" in refused.stderr
+    assert refused.stdout == ""
+
+
+def test_a_file_is_imported_listed_and_exported(server: SpindleServer, tmp_path: Path) -> None:
+    file = tmp_path / "lunch.fit"
+    file.write_bytes(fit_ride(1_600_000_000, [20.0] * 400, [75] * 400, [160] * 400))
+    csv = tmp_path / "lunch.csv"
+
+    result = spindle(server, "ride", "import", file, "--json")
+    ride = json.loads(result.stdout)["ride_ids"][0]
+    shown = spindle(server, "ride", "show", str(ride))
+    exported = spindle(server, "ride", "export", str(ride), "--output", csv)
+    listed = spindle(server, "ride", "list")
+
+    assert result.returncode == exported.returncode == 0
+    assert "distance_km" in shown.stdout
+    assert "lunch" in listed.stdout
+    assert len(csv.read_text().splitlines()) == 401
+
+
+def test_a_file_that_is_no_ride_ends_with_one_and_the_reason(
+    server: SpindleServer, tmp_path: Path
+) -> None:
+    file = tmp_path / "letter.fit"
+    file.write_bytes(b"dear sirs")
+
+    result = spindle(server, "ride", "import", file)
+
+    assert result.returncode == 1
+    assert "letter.fit" in result.stderr
+
+
+def test_the_surface_and_the_sensor_s_figures_come_from_the_shell_too(
+    server: SpindleServer, device: str, tmp_path: Path
+) -> None:
+    readings = tmp_path / "readings.json"
+    readings.write_text(
+        json.dumps(
+            {
+                "full_scale_nm": 100.0,
+                "load_nm": [0.0, 50.0, 100.0],
+                "forward": [[0.0, 50.2, 100.0], [0.0, 50.2, 100.0]],
+                "reverse": [[0.0, 50.2, 100.0], [0.0, 50.2, 100.0]],
+            }
+        )
+    )
+
+    surface = spindle(server, "surface", "--speeds", "5:25:5", "--rates", "0:0.9:5", "--json")
+    figures = spindle(server, "calibrate", "evaluate", readings, "--json")
+
+    assert len(json.loads(surface.stdout)["gain"]) == 5
+    # 0.2 Nm off at 50 Nm of 100 Nm full scale; the strokes repeat exactly.
+    assert json.loads(figures.stdout)["linearity_pct"] == pytest.approx(0.2)
+    assert json.loads(figures.stdout)["repeatability_pct"]["range"] == 0.0
+
+
+def test_no_server_is_said_so_with_what_to_do() -> None:
+    result = spindle(None, "device", "list", "--server", "http://127.0.0.1:9")
+
+    assert result.returncode == 1
+    assert "spindle serve" in result.stderr
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["device"],
+        ["ride", "export", "not-a-number"],
+        ["surface", "--speeds", "0:25"],
+        ["device", "set", "no-equals-sign"],
+        ["device", "restore", "no-such-file.json"],
+        ["serve", "--port", "99999"],
+        ["fly"],
+    ],
+)
+def test_wrong_usage_ends_with_two(server: SpindleServer, words: list[str]) -> None:
+    at = None if words[0] in ("serve", "fly") else server
+    result = spindle(at, *words)
+
+    assert result.returncode == 2, result.stderr
+    assert result.stderr
+
+
+def test_scenarios_run_without_a_server() -> None:
+    listed = spindle(None, "scenario", "list")
+    run = spindle(None, "scenario", "run", "kinematics", "--json", "--set", "speed_kmh=25")
+
+    assert "slope" in listed.stdout
+    # 25 km/h on a wheel of 0.33 m radius: 25 / 3.6 / (2 pi 0.33) * 60 turns a minute.
+    assert json.loads(run.stdout)["wheel_rpm"] == pytest.approx(200.95, rel=0.01)
