@@ -648,6 +648,15 @@ export interface components {
             /** New */
             new: number | string | (number | string)[] | (number | string)[][] | null;
         };
+        /** Compared */
+        Compared: {
+            /** Recorded */
+            recorded: number | null;
+            /** Replayed */
+            replayed: number;
+            /** Difference */
+            difference: number | null;
+        };
         /** Config */
         Config: {
             /** Generation */
@@ -1044,22 +1053,31 @@ export interface components {
         };
         /**
          * Replay
-         * @description What the motor would have done with another table, against what it did.
+         * @description What the motor would have done with another table, beside what it did.
+         *
+         *     `series` has each compared channel as recorded, and as replayed under `replayed_` and its name.
+         *     `limit_shares`: part of the samples, 0 to 1, in which each limit held the motor back.
          */
         Replay: {
             /** Ride Id */
             ride_id: number;
-            /** Motor Energy Wh */
-            motor_energy_wh: number;
-            /** Motor Energy Wh Recorded */
-            motor_energy_wh_recorded: number | null;
-            /** Motor Torque Nm Max */
-            motor_torque_nm_max: number;
-            /** Motor Torque Nm Max Recorded */
-            motor_torque_nm_max_recorded: number | null;
-            /** Difference */
-            difference: {
-                [key: string]: number | null;
+            /**
+             * Config Source
+             * @description Whose parameters the rest of the law ran with.
+             * @enum {string}
+             */
+            config_source: "ride" | "defaults";
+            /** Engine */
+            engine: string;
+            /** Rows */
+            rows: number;
+            motor_work_wh: components["schemas"]["Compared"];
+            motor_torque_nm_max: components["schemas"]["Compared"];
+            /** Motor Torque Nm Difference Max */
+            motor_torque_nm_difference_max: number | null;
+            /** Limit Shares */
+            limit_shares: {
+                [key: string]: number;
             };
             series: components["schemas"]["Series"];
         };
@@ -1331,7 +1349,9 @@ export interface components {
         };
         /**
          * SimulationChange
-         * @description Any subset; what is absent stays. A `scenario` starts from its beginning.
+         * @description Any subset; what is absent stays. A `scenario` starts from its beginning, null ends it.
+         *
+         *     The simulator itself refuses what it cannot simulate, and names it.
          */
         SimulationChange: {
             /** Scenario */
@@ -1346,6 +1366,8 @@ export interface components {
             road?: components["schemas"]["SimulationRoadChange"] | null;
             /** Load Source */
             load_source?: ("road" | "dyno") | null;
+            /** Dyno Nm */
+            dyno_nm?: number | null;
             /** Mass Kg */
             mass_kg?: number | null;
             /** Assist Mode */
@@ -1440,8 +1462,8 @@ export interface components {
             id: string;
             /** Name */
             name: string;
-            /** Bytes */
-            bytes: number;
+            /** Length */
+            length: number;
             /** Received */
             received: number;
             /**
@@ -1459,9 +1481,9 @@ export interface components {
             completeness: number | null;
             /**
              * Duplicate Of
-             * @description The upload that brought the same bytes.
+             * @description The ride the same bytes became before.
              */
-            duplicate_of: string | null;
+            duplicate_of: number | null;
         };
         /**
          * Problem
