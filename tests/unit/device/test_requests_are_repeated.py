@@ -158,7 +158,8 @@ def test_a_repeated_request_does_not_spoil_the_measured_round_trip() -> None:
     table.frames_due(0.0)
     table.frames_due(0.2)
 
-    table.answered(pong(1), 0.201)
+    # Whichever sending this answers, 140 ms is not the round trip.
+    table.answered(pong(1), 0.340)
 
     assert table.timeout_s(0) == pytest.approx(0.150)
 

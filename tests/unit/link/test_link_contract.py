@@ -117,6 +117,17 @@ def test_a_full_line_takes_nothing_more_and_does_not_wait(wire: Wire) -> None:
     assert taken == 0
 
 
+def test_what_a_full_line_took_is_what_arrives(wire: Wire) -> None:
+    taken = []
+    while not taken or taken[-1]:
+        taken.append(wire.link.write(bytes(65536)))
+
+    arrived = collect(wire.hear, sum(taken))
+
+    assert len(arrived) == sum(taken)
+    assert wire.hear() == b""
+
+
 def test_a_vanished_far_end_is_an_error_in_words(wire: Wire) -> None:
     wire.vanish()
 

@@ -205,6 +205,17 @@ def test_a_commit_nobody_acknowledged_is_told_undone_when_it_was_not(bench: Benc
     assert bench.held == default_config()
 
 
+def test_a_commit_nobody_acknowledged_is_not_believed_when_something_else_is_there(
+    bench: Bench,
+) -> None:
+    falls_silent_at_commit(bench.unit, does_it=True, for_requests=1)
+    lie = pack_image(default_config() | {"pedal_stop_ms": 999})
+    bench.unit.lies = lambda image: lie if bench.unit.generation > 7 else image
+
+    with pytest.raises(PeerProtocolError, match="pedal_stop_ms should be 200"):
+        bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200})
+
+
 def test_a_unit_that_lies_when_read_back_is_not_called_verified(bench: Bench) -> None:
     lie = pack_image(default_config() | {"pedal_stop_ms": 999})
     bench.unit.lies = lambda image: lie if bench.unit.generation > 7 else image
