@@ -6,13 +6,14 @@ then the units, which begin to talk at once. Closing goes the other way round.
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
 import logging
+import signal
+import socket
 import sys
 import threading
 import time
-from collections.abc import AsyncIterator, Callable, Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
@@ -23,7 +24,7 @@ from backend import __version__
 from backend.api.app import ApiSettings, create_app
 from backend.api.safety import AllowedHosts
 from backend.api.services import Services
-from backend.errors import SpindleError
+from backend.errors import LinkError, SpindleError
 from backend.link import kind_of
 from backend.services.connect import Devices
 from backend.services.preview import Preview
@@ -40,6 +41,8 @@ from backend.store import open_store
 LOG = logging.getLogger(__name__)
 # An open WebSocket or a long download must not hold a stopping server back.
 SHUTDOWN_S = 2
+# Connections that may wait while the store and the units are being opened.
+BACKLOG = 128
 # How often rides of silent units and expired uploads are looked for.
 HOUSEKEEPING_S = 1.0
 # Where the pages are: beside the package in a checkout, inside it once installed.
@@ -119,18 +122,8 @@ def housekeeping(work: Callable[[], None]) -> Iterator[None]:
         thread.join()
 
 
-def build_app(settings: Settings) -> FastAPI:
-    """The application; its services open when it starts and close when it stops."""
-
-    @contextlib.asynccontextmanager
-    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        opened = open_services(settings)
-        app.state.services = await asyncio.to_thread(opened.__enter__)
-        try:
-            yield
-        finally:
-            await asyncio.to_thread(opened.__exit__, None, None, None)
-
+def build_app(settings: Settings, services: Services) -> FastAPI:
+    """The application over open services."""
     hosts = AllowedHosts(frozenset(settings.allowed_hosts), any_address=not settings.is_loopback)
     api = ApiSettings(
         version=__version__,
@@ -138,31 +131,61 @@ def build_app(settings: Settings) -> FastAPI:
         frontend=next((folder for folder in FRONTENDS if folder.is_dir()), None),
         upload_bytes_max=settings.upload_bytes_max,
     )
-    return create_app(api, lifespan)
+    return create_app(api, services)
+
+
+def listening_socket(host: str, port: int) -> socket.socket:
+    """A socket on the address, before anything else is opened. Raises LinkError if it is taken."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    try:
+        return socket.create_server((host, port), family=family, backlog=BACKLOG)
+    except OSError as error:
+        raise LinkError(
+            f"{host} port {port} cannot be listened on: {error.strerror or error}. Stop what uses "
+            "it, or choose another with --port (0 takes a free one)."
+        ) from None
 
 
 class AnnouncingServer(uvicorn.Server):
     """Prints one line with the address, and only once requests are really answered."""
 
-    async def startup(self, sockets: list[object] | None = None) -> None:  # type: ignore[override]
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Starts to listen, then says where."""
-        await super().startup(sockets)  # type: ignore[arg-type]
-        if not self.started:
-            return
-        host, port = self.servers[0].sockets[0].getsockname()[:2]
-        shown = f"[{host}]" if ":" in host else host
-        sys.stdout.write(f"Spindle is ready at http://{shown}:{port} (Ctrl-C stops it)\n")
-        sys.stdout.flush()
+        await super().startup(sockets)
+        if self.started and sockets:
+            host, port = sockets[0].getsockname()[:2]
+            shown = f"[{host}]" if ":" in host else host
+            sys.stdout.write(f"Spindle is ready at http://{shown}:{port} (Ctrl-C stops it)\n")
+            sys.stdout.flush()
 
 
 def serve(settings: Settings) -> int:
-    """Runs the server until Ctrl-C or SIGTERM. 0 after a clean end, 1 if it could not start."""
+    """Runs the server until Ctrl-C or SIGTERM; the process's exit code.
+
+    Raises SpindleError with what to do if it cannot start.
+    """
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s %(name)s: %(message)s")
-    config = uvicorn.Config(
-        build_app(settings),
-        host=settings.host,
-        port=settings.port,
+    # uvicorn hands SIGTERM back once it has stopped; by default that would end the process before
+    # rides and units are closed.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        with (
+            listening_socket(settings.host, settings.port) as listening,
+            open_services(settings) as services,
+        ):
+            server = AnnouncingServer(server_config(build_app(settings, services)))
+            server.run(sockets=[listening])
+            return 0 if server.started else 1
+    except KeyboardInterrupt:
+        return 0
+
+
+def server_config(app: FastAPI) -> uvicorn.Config:
+    """How uvicorn runs the application."""
+    return uvicorn.Config(
+        app,
         log_level="warning",
+        lifespan="off",
         # Compressing 20 small frames a second costs more than it saves on loopback.
         ws_per_message_deflate=False,
         # Browsers send nothing larger; whatever does is not a browser.
@@ -170,10 +193,3 @@ def serve(settings: Settings) -> int:
         server_header=False,
         timeout_graceful_shutdown=SHUTDOWN_S,
     )
-    server = AnnouncingServer(config)
-    try:
-        server.run()
-    except KeyboardInterrupt:
-        # uvicorn raises it again after it has closed everything.
-        return 0
-    return 0 if server.started else 1

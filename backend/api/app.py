@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from contextlib import AbstractAsyncContextManager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,14 +14,13 @@ from backend.api import docs, errors, live, pages
 from backend.api.problem import Problem
 from backend.api.routes import config, devices, health, law, rides, uploads
 from backend.api.safety import AllowedHosts, BodyBound, SameOriginOnly, SecurityHeaders
+from backend.api.services import Services
 
 PREFIX = "/api/v1"
 # A whole ride is a file and goes another way; the largest honest JSON body is a page of points.
 BODY_BYTES_MAX = 1024 * 1024
 # Ride samples and files are compressed already or not worth the processor's time.
 UNCOMPRESSED = (*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/octet-stream", "application/vnd.*")
-
-Lifespan = Callable[[FastAPI], AbstractAsyncContextManager[None]]
 
 
 @dataclass(frozen=True)
@@ -39,8 +36,8 @@ class ApiSettings:
     upload_bytes_max: int = 256 * 1024 * 1024
 
 
-def create_app(settings: ApiSettings, lifespan: Lifespan | None = None) -> FastAPI:
-    """The application. `lifespan` must put a `Services` on `app.state.services` before requests."""
+def create_app(settings: ApiSettings, services: Services | None = None) -> FastAPI:
+    """The application over open services; without any it can only describe itself."""
     app = FastAPI(
         title="Spindle",
         version=settings.version,
@@ -48,8 +45,8 @@ def create_app(settings: ApiSettings, lifespan: Lifespan | None = None) -> FastA
         openapi_url=f"{PREFIX}/openapi.json",
         docs_url=None,
         redoc_url=None,
-        lifespan=lifespan,
     )
+    app.state.services = services
     app.state.upload_bytes_max = settings.upload_bytes_max
     api = APIRouter(prefix=PREFIX)
     for module in (health, devices, config, law, rides, uploads, live):

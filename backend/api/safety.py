@@ -25,6 +25,8 @@ CONTENT_SECURITY_POLICY = (
     "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self'; worker-src 'self'; "
     "object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
 )
+# Python refuses to read numbers of thousands of digits with an exception of its own.
+LENGTH_DIGITS_MAX = 18
 SECURITY_HEADERS = {
     "content-security-policy": CONTENT_SECURITY_POLICY,
     "x-content-type-options": "nosniff",
@@ -40,6 +42,14 @@ def host_name(netloc: str) -> str:
     """The name or address in `name:port`, lower case, without brackets; empty if malformed."""
     try:
         return (urlsplit(f"//{netloc}").hostname or "").rstrip(".")
+    except ValueError:
+        return ""
+
+
+def origin_host(origin: str) -> str:
+    """The `name:port` of an Origin header; empty for `null` and for what is no origin."""
+    try:
+        return urlsplit(origin).netloc.lower()
     except ValueError:
         return ""
 
@@ -98,7 +108,7 @@ class SameOriginOnly:
                 "name it in SPINDLE_ALLOWED_HOSTS.",
             )
         origin = headers.get("origin")
-        if origin is not None and urlsplit(origin).netloc.lower() != host.lower():
+        if origin is not None and origin_host(origin) != host.lower():
             return problem_response(
                 403,
                 "foreign_origin",
@@ -136,7 +146,11 @@ class BodyBound:
         is_upload = scope["path"].startswith(self.upload_paths)
         bytes_max = self.upload_bytes_max if is_upload else self.bytes_max
         declared = Headers(scope=scope).get("content-length", "0")
-        if not declared.isdecimal() or int(declared) > bytes_max:
+        if (
+            not declared.isdecimal()
+            or len(declared) > LENGTH_DIGITS_MAX
+            or int(declared) > bytes_max
+        ):
             detail = f"The request body may have at most {bytes_max} bytes, not {declared[:30]}."
             await problem_response(413, "too_large", detail, headers={"connection": "close"})(
                 scope, receive, send

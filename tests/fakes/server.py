@@ -117,11 +117,17 @@ class SpindleServer:
             lambda now: abs(now["speed_kmh"]) < 0.01 and abs(now["motor_speed_rpm"]) < 0.1,
         )
 
-    def stop(self) -> str:
+    @property
+    def exit_code(self) -> int | None:
+        """How it ended, None while it runs."""
+        assert self._process is not None
+        return self._process.poll()
+
+    def stop(self, ending: signal.Signals = signal.SIGINT) -> str:
         """Stops it as Ctrl-C does; everything it has said since the address."""
         assert self._process is not None
         if self._process.poll() is None:
-            self._process.send_signal(signal.SIGINT)
+            self._process.send_signal(ending)
         self._process.wait(PATIENCE_S)
         return self._said()
 

@@ -78,7 +78,8 @@ def test_a_server_on_the_network_is_reached_by_address_but_not_by_a_foreign_name
 
 
 @pytest.mark.parametrize(
-    "origin", ["http://evil.example", "null", "http://localhost:9999", "http://127.0.0.1"]
+    "origin",
+    ["http://evil.example", "null", "http://localhost:9999", "http://127.0.0.1", "http://[", ""],
 )
 def test_a_page_of_another_origin_is_refused(client: TestClient, origin: str) -> None:
     response = client.post("/value", headers={"origin": origin}, content=b"x")
@@ -106,6 +107,13 @@ def test_a_declared_size_beyond_the_bound_is_refused_unread(client: TestClient) 
 
     assert response.status_code == 413
     assert response.json()["code"] == "too_large"
+
+
+def test_a_size_that_is_no_number_is_refused(client: TestClient) -> None:
+    for declared in ("9" * 5000, "-1", "ten"):
+        response = client.post("/value", headers={"content-length": declared}, content=b"")
+
+        assert response.status_code == 413
 
 
 def test_a_body_without_a_declared_size_is_cut_off_at_the_bound(client: TestClient) -> None:

@@ -1,0 +1,133 @@
+"""Goal: a server that tells its address, ends everything it started, and says why it cannot start.
+
+Each story has a server of its own, because each ends one.
+"""
+
+from __future__ import annotations
+
+import signal
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.fakes.server import SpindleServer, eventually
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def refused_start(data: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """A `spindle serve` that must end by itself."""
+    command = [sys.executable, "-m", "backend.cli", "serve", "--data", str(data), *words]
+    return subprocess.run(
+        command, cwd=ROOT, capture_output=True, text=True, timeout=60, check=False
+    )
+
+
+def test_the_simulated_unit_appears_ready_with_its_identity(
+    server: SpindleServer, device: str
+) -> None:
+    unit = server.get(f"/devices/{device}")
+    health = server.get("/health")
+
+    assert unit["kind"] == "simulated"
+    assert unit["identity"]["serial_number"] == device
+    assert unit["identity"]["protocol_version"] == "1.0"
+    assert unit["config"]["generation"] >= 1
+    assert {"id": device, "state": "ready"} in health["devices"]
+    assert "sim" in [port["url"] for port in server.get("/ports")["items"]]
+
+
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+def test_the_end_of_the_server_is_the_end_of_its_simulator(
+    tmp_path: Path, ending: signal.Signals
+) -> None:
+    server = SpindleServer(tmp_path).start()
+    server.ready_device()
+    simulators = simulators_of(server.pid)
+
+    said = server.stop(ending)
+
+    assert simulators
+    assert server.exit_code == 0
+    assert "Traceback" not in said
+    eventually(
+        lambda: [pid for pid in simulators if Path(f"/proc/{pid}").exists()], lambda x: not x
+    )
+
+
+def simulators_of(server_pid: int) -> list[int]:
+    """Simulators this server started."""
+    found = []
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            words = (folder / "cmdline").read_bytes().split(b"\0")
+            parent = int((folder / "stat").read_text().rsplit(")", 1)[1].split()[1])
+        except OSError:
+            continue
+        if parent == server_pid and b"sim_device" in words:
+            found.append(int(folder.name))
+    return found
+
+
+def test_what_a_unit_was_told_survives_a_restart(tmp_path: Path) -> None:
+    first = SpindleServer(tmp_path).start()
+    device = first.ready_device()
+    first.stand_still(device)
+    body = {"parameters": {"torque_filter_s": 0.33}, "reason": "to stay"}
+    first.ask("PATCH", f"/devices/{device}/config", json=body)
+    first.stop()
+
+    second = SpindleServer(tmp_path).start()
+    again = second.ready_device()
+    value = second.get(f"/devices/{again}/config")["parameters"]["torque_filter_s"]
+    reasons = [item["reason"] for item in second.get(f"/devices/{again}/config/revisions")["items"]]
+    second.stop()
+
+    assert again == device
+    assert value == pytest.approx(0.33)
+    assert "to stay" in reasons
+
+
+def test_a_taken_port_is_said_before_anything_is_opened(tmp_path: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        result = refused_start(tmp_path / "data", "--port", str(port))
+
+    assert result.returncode == 1
+    assert f"port {port}" in result.stderr
+    assert "Traceback" not in result.stderr
+    assert not (tmp_path / "data").exists()
+
+
+def test_two_servers_do_not_share_one_folder(tmp_path: Path) -> None:
+    first = SpindleServer(tmp_path, []).start()
+
+    second = refused_start(tmp_path, "--port", "0")
+
+    first.stop()
+    assert second.returncode == 1
+    assert "--data" in second.stderr
+    assert "Traceback" not in second.stderr
+
+
+def test_a_unit_s_address_that_is_none_is_refused(tmp_path: Path) -> None:
+    result = refused_start(tmp_path, "--port", "0", "--device", "ftp://bike")
+
+    assert result.returncode == 2
+    assert "ftp://bike" in result.stderr
+
+
+def test_a_unit_that_is_not_there_keeps_nobody_waiting(tmp_path: Path) -> None:
+    server = SpindleServer(tmp_path, ["/dev/no-such-port"]).start()
+
+    unit = eventually(lambda: server.get("/devices")["items"])[0]
+    answer = server.client.get(f"/devices/{unit['id']}/config")
+    server.stop()
+
+    assert unit["state"] in ("connecting", "lost")
+    assert "/dev/no-such-port" in unit["reason"]
+    assert answer.status_code in (503, 504)
+    assert answer.json()["detail"]
