@@ -150,7 +150,7 @@ def rules_for(names: Sequence[str], columns: dict[str, Values]) -> tuple[FieldRu
     for name in dict.fromkeys(names):
         if name not in columns or name == SECONDS_NAME:
             continue
-        rule = by_source.get(name) or own_rule(name) or known.get(name)
+        rule = own_rule(name) or by_source.get(name) or known.get(name)
         if rule is None:
             continue
         factor = speed_factor(columns) if name == "speed" else 1.0

@@ -178,8 +178,7 @@ class RideFile:
     """A ride's Parquet file, its footer read once. Safe to use from several threads."""
 
     def __init__(self, path: Path, channels: Sequence[ChannelSpec]) -> None:
-        import pyarrow as pa
-        import pyarrow.parquet as pq
+        pa, pq = arrow()
 
         self._path = path
         self._channels = {channel.name: channel for channel in channels}
@@ -209,8 +208,7 @@ class RideFile:
 
     def _read(self, columns: list[str], start: int, stop: int) -> Any:
         """The table of rows [start, stop); every page's checksum is verified."""
-        import pyarrow as pa
-        import pyarrow.parquet as pq
+        pa, pq = arrow()
 
         last = max(start, stop - 1)
         groups = range(start // ROW_GROUP_ROWS, last // ROW_GROUP_ROWS + 1)

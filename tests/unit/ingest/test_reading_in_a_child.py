@@ -1,0 +1,68 @@
+"""Goal: whatever a file does to its reader, the server gets an answer.
+
+Method: the real child process, on sound, hostile and expensive files.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from backend.ingest import COMPLETE, REJECTED, read_in_child
+from backend.ingest import sandbox as sandbox_module
+from backend.ingest.formats import read_file
+from backend.ingest.sandbox import decode, run_child
+from backend.ingest.worker import encode
+from tests.unit.ingest.fit_writer import commute, definition, enclosed, fit_file
+
+
+def test_the_child_s_answer_is_what_reading_here_gives(tmp_path: Path) -> None:
+    data = fit_file(commute(120))
+    path = tmp_path / "object"
+    path.write_bytes(data)
+
+    there, here = read_in_child(path, "ride.fit"), read_file("ride.fit", data)
+
+    assert there.state == COMPLETE
+    (mine,), (its,) = here.rides, there.rides
+    assert its.started_us == mine.started_us
+    assert its.rows.channels == mine.rows.channels
+    assert its.rows.times_us.tolist() == mine.rows.times_us.tolist()
+    for name, counts in mine.rows.counts.items():
+        assert its.rows.counts[name].tolist() == counts.tolist()
+
+
+def test_an_answer_that_was_cut_is_a_refusal_and_not_a_crash() -> None:
+    answer = encode(read_file("ride.fit", fit_file(commute(20))))
+
+    outcomes = [decode(answer[:length]) for length in range(0, len(answer), 37)]
+
+    assert {outcome.code for outcome in outcomes} == {"parser_crashed"}
+
+
+def test_a_million_empty_messages_end_in_an_answer(tmp_path: Path) -> None:
+    path = tmp_path / "object"
+    path.write_bytes(enclosed(definition(0, 20, []) + bytes(1_000_000)))
+
+    outcome = read_in_child(path, "bomb.fit")
+
+    assert outcome.state == REJECTED
+
+
+def test_reading_that_takes_too_long_is_stopped_with_the_reason(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "object"
+    path.write_bytes(fit_file(commute(20)))
+    monkeypatch.setattr(sandbox_module, "WALL_S", 0.001)
+
+    assert run_child(path, "ride.fit", "fast").code == "too_slow"
+
+
+def test_a_name_can_be_anything(tmp_path: Path) -> None:
+    path = tmp_path / "object"
+    path.write_bytes(fit_file(commute(20)))
+
+    for name in ("", "--help", "a\nb\x00c.fit", "=cmd|' /C calc'!A0.fit", "\u202egpj.tif"):
+        assert read_in_child(path, name).state == COMPLETE
