@@ -23,7 +23,7 @@ import numpy.typing as npt
 from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.stream import StreamBlock
 from backend.domain.channels import MISSING_INT16, ChannelSpec
-from backend.domain.ride import RideContext, iso_utc
+from backend.domain.ride import Ride, RideContext, iso_utc
 from backend.errors import SpindleError, StoreError
 from backend.store import RideStore
 
@@ -36,6 +36,8 @@ ContextOf = Callable[[str], RideContext]
 RIDE_ROWS_MAX = 24 * 3600 * 100
 # Seconds that wait for a disk that refuses them; more are lost, and counted as lost rows.
 TAILS_WAITING_MAX = 120
+# How often a refused second is tried again when the ride ends.
+LAST_TRIES = 3
 
 
 @dataclass(frozen=True)
@@ -95,6 +97,7 @@ class UnitRecorder:
         self._live: LiveRide | None = None
         self._lead: deque[StreamBlock] = deque()
         self._told_trouble = False
+        self._finishing: Future[Ride | None] | None = None
         self._unsent: list[Rows16] = []
         self._in_flight: deque[tuple[Future[None], int, Rows16]] = deque()
 
@@ -120,10 +123,10 @@ class UnitRecorder:
             if silent_us > self._settings.lost_s * 1e6:
                 self._end()
 
-    def end(self) -> Future[object] | None:
-        """End the ride that is being recorded; the future is done when it is finished."""
+    def end(self) -> Future[Ride | None] | None:
+        """End the ride that is being recorded; the future is done when the last one is finished."""
         with self._lock:
-            return self._end()
+            return self._end() or self._finishing
 
     @property
     def status(self) -> RecordingStatus | None:
@@ -180,7 +183,7 @@ class UnitRecorder:
                 self._lead.clear()
         self._lead.append(block)
         keep_us = self._settings.lead_in_s * 1e6
-        while block.t0_us - self._lead[0].t0_us > keep_us:
+        while self._lead and block.t0_us - self._lead[0].t0_us >= keep_us:
             self._lead.popleft()
 
     def _begin(self, block: StreamBlock) -> None:
@@ -263,16 +266,17 @@ class UnitRecorder:
             else:
                 live.rows_lost += len(rows)
 
-    def _end(self) -> Future[object] | None:
+    def _end(self) -> Future[Ride | None] | None:
         """Last rows out, refused ones once more, then finish on the store's thread."""
         live = self._live
         if live is None:
             return None
         self._send(live)
-        refused = [(start, rows) for future, start, rows in self._in_flight if future.exception()]
-        self._in_flight.clear()
-        for row_start, rows in refused:
-            self._submit(live, row_start, rows)
+        for _ in range(LAST_TRIES):
+            refused = [(start, rows) for done, start, rows in self._in_flight if done.exception()]
+            self._in_flight.clear()
+            for row_start, rows in refused:
+                self._submit(live, row_start, rows)
         self._in_flight.clear()
         self._live = None
         if live.context.gear_ratio is None:
@@ -280,8 +284,9 @@ class UnitRecorder:
             context = self._context()
             if context.gear_ratio is not None:
                 self._rides.set_context(live.ride_id, context)
-        finished: Future[object] = self._rides.finish_later(live.ride_id)  # type: ignore[assignment]
+        finished: Future[Ride | None] = self._rides.finish_later(live.ride_id)
         finished.add_done_callback(lambda future: tell_trouble(live.ride_id, future))
+        self._finishing = finished
         return finished
 
 
@@ -334,7 +339,7 @@ class Recorder:
             return list(self._units.values())
 
 
-def tell_trouble(ride_id: int, future: Future[object]) -> None:
+def tell_trouble(ride_id: int, future: Future[Ride | None]) -> None:
     """Say in the log when a ride could not be finished."""
     error = future.exception()
     if isinstance(error, StoreError):

@@ -1,0 +1,259 @@
+"""Goal: a bike that moves makes a ride with every row of it, and ends it when it stands.
+
+Method: blocks as the device hands them over, made here; the recorded rows are compared with them.
+The store is a real one in a temporary folder; unit time and wall time are numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from concurrent.futures import Future
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from backend.device.states import LinkState, StateChanged
+from backend.device.stream import StreamBlock
+from backend.domain.channels import MISSING_INT16, ChannelSpec
+from backend.domain.ride import Ride, RideContext
+from backend.errors import NotFound, StoreError
+from backend.services.record import Recorder, RecordSettings
+from backend.store import Store, open_store
+
+CHANNELS = (
+    ChannelSpec("speed_kmh", "km/h", 0.01),
+    ChannelSpec("cadence_rpm", "rpm", 0.01),
+    ChannelSpec("rider_torque_nm", "Nm", 0.01),
+)
+PERIOD_US = 10_000
+BLOCK_ROWS = 5
+WALL_US = 1_700_000_000_000_000
+SETTINGS = RecordSettings(idle_s=5.0, lead_in_s=1.0, lost_s=10.0)
+Rows16 = npt.NDArray[np.int16]
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Iterator[Store]:
+    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
+        yield opened
+
+
+@pytest.fixture
+def recorder(store: Store) -> Recorder:
+    return Recorder(store.rides, lambda unit: RideContext(unit, "SP-1", gear_ratio=40.34), SETTINGS)
+
+
+def riding(seconds: float, seed: int = 1) -> Rows16:
+    """Rows of a moving bike; the torque tells every row from every other."""
+    rows = np.full((round(seconds * 100), 3), 2_000, np.int16)
+    rows[:, 2] = np.random.default_rng(seed).integers(-9_000, 9_000, len(rows))
+    return rows
+
+
+def standing(seconds: float) -> Rows16:
+    rows = riding(seconds, seed=2)
+    rows[:, :2] = 0
+    return rows
+
+
+def blocks(rows: Rows16, t0_us: int = 0, epoch: int = 1) -> list[StreamBlock]:
+    return [
+        StreamBlock(
+            t0_us=t0_us + start * PERIOD_US,
+            period_us=PERIOD_US,
+            first_index=start,
+            values=rows[start : start + BLOCK_ROWS],
+            lost_rows_before=0,
+            epoch=epoch,
+            wall_us=WALL_US + t0_us + start * PERIOD_US,
+            channels=CHANNELS,
+        )
+        for start in range(0, len(rows), BLOCK_ROWS)
+    ]
+
+
+def feed(recorder: Recorder, *parts: StreamBlock) -> None:
+    for block in parts:
+        recorder.watch("u1", block)
+
+
+def rides(store: Store, recorder: Recorder) -> list[Ride]:
+    """Every ride, oldest first, once all that has ended is finished."""
+    recorder.close()
+    return list(reversed(store.rides.list().items))
+
+
+def rows_of(store: Store, ride: Ride) -> Rows16:
+    reader = store.rides.reader(ride.id)
+    names = [channel.name for channel in CHANNELS]
+    counts = reader.counts(names, 0, reader.row_count)
+    return np.stack([counts[name] for name in names], axis=1).astype(np.int16)
+
+
+def test_a_ride_is_every_row_from_just_before_it_moved_until_it_stood_long_enough(
+    store: Store, recorder: Recorder
+) -> None:
+    rows = np.concatenate((standing(8), riding(30), standing(20)))
+
+    feed(recorder, *blocks(rows))
+
+    (ride,) = rides(store, recorder)
+    lead, idle = 100, 500
+    assert np.array_equal(rows_of(store, ride), rows[800 - lead : 3_800 + idle])
+    assert ride.state == "done"
+    assert ride.completeness == 1.0
+    assert ride.started_us == WALL_US + (800 - lead) * PERIOD_US
+    assert ride.context.device_serial == "SP-1"
+
+
+def test_a_bike_that_stands_makes_no_ride(store: Store, recorder: Recorder) -> None:
+    feed(recorder, *blocks(standing(60)))
+
+    assert rides(store, recorder) == []
+
+
+def test_a_red_light_does_not_cut_a_ride_in_two(store: Store, recorder: Recorder) -> None:
+    rows = np.concatenate((riding(10), standing(4), riding(10)))
+
+    feed(recorder, *blocks(rows))
+
+    (ride,) = rides(store, recorder)
+    assert np.array_equal(rows_of(store, ride), rows)
+
+
+def test_lost_rows_become_missing_rows_at_their_time(store: Store, recorder: Recorder) -> None:
+    rows = riding(20)
+    sent = blocks(rows)
+
+    feed(recorder, *sent[:100], *sent[140:])
+
+    (ride,) = rides(store, recorder)
+    back = rows_of(store, ride)
+    assert np.array_equal(back[:500], rows[:500])
+    assert (back[500:700] == MISSING_INT16).all()
+    assert np.array_equal(back[700:], rows[700:])
+    assert [(gap.from_s, gap.to_s, gap.rows_lost) for gap in ride.gaps] == [(5.0, 7.0, 200)]
+    assert ride.completeness == pytest.approx(0.9)
+
+
+def test_a_new_subscription_of_the_same_unit_goes_on_with_the_ride(
+    store: Store, recorder: Recorder
+) -> None:
+    rows = riding(20)
+
+    feed(recorder, *blocks(rows[:1000]), *blocks(rows[1000:], t0_us=10_000_000, epoch=2))
+
+    (ride,) = rides(store, recorder)
+    assert np.array_equal(rows_of(store, ride), rows)
+
+
+def test_a_unit_that_restarted_starts_a_new_ride(store: Store, recorder: Recorder) -> None:
+    first, second = riding(10, seed=3), riding(12, seed=4)
+
+    feed(recorder, *blocks(first, t0_us=500_000_000), *blocks(second, t0_us=0, epoch=2))
+
+    one, two = sorted(rides(store, recorder), key=lambda ride: ride.id)
+    assert np.array_equal(rows_of(store, one), first)
+    assert np.array_equal(rows_of(store, two), second)
+
+
+def test_a_unit_that_was_away_too_long_starts_a_new_ride(store: Store, recorder: Recorder) -> None:
+    feed(recorder, *blocks(riding(10)), *blocks(riding(10), t0_us=25_000_000))
+
+    assert [ride.row_count for ride in rides(store, recorder)] == [1000, 1000]
+
+
+def test_a_silent_unit_s_ride_ends_by_the_wall_clock(store: Store, recorder: Recorder) -> None:
+    feed(recorder, *blocks(riding(10)))
+
+    recorder.tick(WALL_US + 15_000_000)
+    assert recorder.status("u1") is not None
+    recorder.tick(WALL_US + 25_000_000)
+
+    assert recorder.status("u1") is None
+    assert [ride.state for ride in rides(store, recorder)] == ["done"]
+
+
+def test_a_unit_that_is_let_go_ends_its_ride_at_once(store: Store, recorder: Recorder) -> None:
+    feed(recorder, *blocks(riding(10)))
+
+    recorder.watch("u1", StateChanged(LinkState.CLOSED, "removed"))
+
+    assert recorder.status("u1") is None
+    assert [ride.row_count for ride in rides(store, recorder)] == [1000]
+
+
+def test_a_ride_outlives_a_unit_that_nobody_knows_any_more(store: Store) -> None:
+    def gone(device_id: str) -> RideContext:
+        raise NotFound(f"There is no device {device_id}.")
+
+    recorder = Recorder(store.rides, gone, SETTINGS)
+    feed(recorder, *blocks(riding(10)))
+
+    assert [ride.row_count for ride in rides(store, recorder)] == [1000]
+
+
+def test_two_units_are_recorded_side_by_side(store: Store, recorder: Recorder) -> None:
+    one, two = riding(10, seed=5), riding(10, seed=6)
+
+    for first, second in zip(blocks(one), blocks(two), strict=True):
+        recorder.watch("u1", first)
+        recorder.watch("u2", second)
+
+    found = {ride.context.device_id: ride for ride in rides(store, recorder)}
+    assert np.array_equal(rows_of(store, found["u1"]), one)
+    assert np.array_equal(rows_of(store, found["u2"]), two)
+
+
+def test_only_committed_rows_are_called_saved(store: Store, recorder: Recorder) -> None:
+    feed(recorder, *blocks(riding(10.5)))
+    store.database.write(lambda _: None)
+
+    status = recorder.status("u1")
+
+    assert status is not None
+    assert (status.rows, status.rows_saved) == (1050, 1000)
+    assert store.rides.get(status.ride_id).row_count == 1000
+
+
+def test_a_second_the_disk_refused_is_written_again(
+    store: Store, recorder: Recorder, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    append = store.rides.append_tail
+    calls = 0
+
+    def sometimes(ride_id: int, row_start: int, part: Rows16) -> Future[None]:
+        nonlocal calls
+        calls += 1
+        if calls % 3 == 0:
+            refused: Future[None] = Future()
+            refused.set_exception(StoreError("no space left"))
+            return refused
+        return append(ride_id, row_start, part)
+
+    monkeypatch.setattr(store.rides, "append_tail", sometimes)
+    rows = riding(20)
+
+    feed(recorder, *blocks(rows))
+
+    (ride,) = rides(store, recorder)
+    assert np.array_equal(rows_of(store, ride), rows)
+
+
+def test_a_store_that_refuses_to_begin_does_not_stop_the_unit(
+    store: Store, recorder: Recorder, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object, **__: object) -> int:
+        raise StoreError("no space left")
+
+    monkeypatch.setattr(store.rides, "start_live", refuse)
+    rows = riding(20)
+    feed(recorder, *blocks(rows[:1000]))
+    monkeypatch.undo()
+
+    feed(recorder, *blocks(rows[1000:], t0_us=10_000_000))
+
+    (ride,) = rides(store, recorder)
+    assert np.array_equal(rows_of(store, ride)[-1000:], rows[1000:])
