@@ -18,6 +18,8 @@ from backend.store.blobs import channel_list, encode_level
 from backend.store.finish import Digest, WrittenObject
 
 NAME_LENGTH_MAX = 200
+# The largest whole number SQL holds.
+INTEGER_MAX = 2**63 - 1
 
 
 def whole_ride(ride_id: int | None = None) -> Select[Any]:
@@ -67,9 +69,12 @@ def cursor_parts(cursor: str) -> tuple[int, int]:
     """A cursor -> start and id of the last ride of the page before. Raises InvalidRequest."""
     started, _, ride_id = cursor.partition(".")
     try:
-        return int(started), int(ride_id)
-    except ValueError as error:
-        raise InvalidRequest("cursor must be the `next` of an earlier page.") from error
+        parts = int(started), int(ride_id)
+    except ValueError:
+        parts = (INTEGER_MAX, INTEGER_MAX)
+    if not all(-INTEGER_MAX < part < INTEGER_MAX for part in parts):
+        raise InvalidRequest("cursor must be the `next` of an earlier page.")
+    return parts
 
 
 def ride_row(

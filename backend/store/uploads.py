@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import secrets
+import threading
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -55,6 +56,8 @@ class UploadStore:
         self._database = database
         self._objects = objects
         self._spool = spool
+        # Two clients with the same piece must not write over one another.
+        self._appending = threading.Lock()
         spool.mkdir(parents=True, exist_ok=True)
 
     def create(self, name: str, size: int, declared_sha256: str | None, expires_s: int) -> Upload:
@@ -82,6 +85,10 @@ class UploadStore:
         Raises Conflict when the offset is not where the upload stands or the bytes are too many,
         StoreError when the disk refuses; then the upload stands where it stood.
         """
+        with self._appending:
+            return self._append(token, offset, data)
+
+    def _append(self, token: str, offset: int, data: bytes) -> Upload:
         upload = self.get(token)
         if upload.state != RECEIVING or offset != upload.received:
             raise Conflict(

@@ -15,6 +15,7 @@ from backend.domain.channels import MISSING_INT16
 from backend.domain.ride import Ride, RideContext
 from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
 from backend.store import Store
+from backend.views.trace import trace
 from tests.unit.store.ride_data import (
     CHANNELS,
     GEAR_RATIO,
@@ -145,6 +146,27 @@ def test_a_deleted_ride_leaves_no_object_behind(store: Store) -> None:
     assert list(store.objects.keys()) == []
     with pytest.raises(NotFound):
         store.rides.reader(ride.id)
+
+
+def test_the_kept_overview_has_the_exact_extremes_of_recorded_and_derived_channels(
+    store: Store,
+) -> None:
+    rows = honest_ride(100_000)
+    rows[77_777, 2] = 9_500
+    ride = finished(store, rows)
+    reader = store.rides.reader(ride.id)
+    names = ["rider_torque_nm", "rider_power_w", "motor_power_w", "motor_torque_crank_nm"]
+    raw = reader.counts(names, 0, len(rows))
+
+    for pixels in (3, 40, 500):
+        shown = trace(reader, names, pixels=pixels)
+
+        assert shown.kind == "minmax"
+        starts = np.rint(shown.t_first_s * 1e6 / PERIOD_US).astype(int)
+        for name in names:
+            assert np.array_equal(np.minimum.reduceat(raw[name], starts), shown.minimum[name])
+            assert np.array_equal(np.maximum.reduceat(raw[name], starts), shown.maximum[name])
+        assert shown.maximum["rider_torque_nm"].max() == 9_500
 
 
 def test_two_rides_of_equal_rows_share_an_object_until_both_are_gone(store: Store) -> None:
