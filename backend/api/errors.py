@@ -75,7 +75,10 @@ def validation_problem(_: Request, error: Exception) -> JSONResponse:
 
 def field_path(location: tuple[int | str, ...]) -> str:
     """`("body", "rules", 2, 0)` as a person writes it: `rules[2][0]`."""
-    parts = location[1:] if len(location) > 1 else location
+    if len(location) < 2 or (location[0] == "body" and isinstance(location[1], int)):
+        # The body as a whole; a number after it is where its JSON breaks off.
+        return str(location[0]) if location else ""
+    parts = location[1:]
     path = ""
     for part in parts:
         path += f"[{part}]" if isinstance(part, int) else f".{part}" if path else part
@@ -93,9 +96,8 @@ def http_problem(request: Request, error: Exception) -> JSONResponse:
     return problem_response(status, code, detail, headers=dict(error.headers or {}))
 
 
-def unexpected_problem(request: Request, error: Exception) -> JSONResponse:
-    """A bug of ours. The log has the trace; the answer does not give the insides away."""
-    LOG.error("%s %s failed", request.method, request.url.path, exc_info=error)
+def unexpected_problem(_: Request, __: Exception) -> JSONResponse:
+    """A bug of ours. uvicorn logs the trace; the answer does not give the insides away."""
     detail = "Something unexpected went wrong in the server; its log has the details."
     return problem_response(500, "internal", detail)
 

@@ -103,3 +103,34 @@ def test_the_documentation_loads_nothing_from_elsewhere(server: SpindleServer) -
     assert "list_rides" not in page or "<script" not in page
     assert "https://" not in page
     assert "/api/v1/devices/{device_id}/config" in page
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "body"),
+    [
+        ("GET", "/rides/99999999999999999999999", None),
+        ("GET", "/rides?cursor=99999999999999999999999.1", None),
+        ("GET", "/rides?limit=100000", None),
+        ("GET", "/rides/1/series?from_s=nan", None),
+        ("POST", "/devices", {"url": "/dev/\x00"}),
+        ("POST", "/devices", {"url": "http://evil.example"}),
+        ("POST", "/rides/import", None),
+    ],
+)
+def test_what_makes_no_sense_is_refused_and_not_our_fault(
+    server: SpindleServer, method: str, path: str, body: object
+) -> None:
+    response = server.client.request(method, path, json=body)
+
+    assert response.status_code == 422
+    assert response.json()["detail"]
+
+
+def test_true_is_no_number(server: SpindleServer, device: str) -> None:
+    server.stand_still(device)
+
+    response = server.client.patch(
+        f"/devices/{device}/config", json={"parameters": {"torque_filter_s": True}}
+    )
+
+    assert response.status_code == 422

@@ -5,19 +5,15 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, StrictInt, StrictStr
 
 from backend.api.models.base import Answer, Question
 
-ParameterValue = (
-    int
-    | float
-    | str
-    | Annotated[list[int | float | str], Field(max_length=64)]
-    | Annotated[
-        list[Annotated[list[int | float | str], Field(max_length=64)]], Field(max_length=64)
-    ]
-)
+# Strict: `true` is no number, and `"5"` is no 5.
+Number = StrictInt | Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Scalar = Number | StrictStr
+Row = Annotated[list[Scalar], Field(max_length=64)]
+ParameterValue = Scalar | Row | Annotated[list[Row], Field(max_length=64)]
 Parameters = dict[str, ParameterValue]
 
 

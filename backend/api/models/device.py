@@ -45,6 +45,7 @@ class DeviceRequest(Question):
     url: str = Field(
         min_length=1,
         max_length=400,
+        pattern=r"^[^\x00-\x1f\x7f]+$",
         description="`sim`, `sim:NAME?seed=1`, `/dev/ttyUSB0`, `COM3` or `socket://host:port`.",
     )
 

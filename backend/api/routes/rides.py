@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Query, Request, Response, status
+from fastapi import APIRouter, Path, Query, Request, Response, status
 from fastapi.responses import JSONResponse, StreamingResponse
 
 from backend.api.models.ride import (
@@ -23,6 +23,8 @@ from backend.api.services import Provided
 
 router = APIRouter(prefix="/rides", tags=["rides"], responses=refusals(404, 409, 415))
 
+# What the database can hold.
+RideId = Annotated[int, Path(ge=1, le=2**63 - 1)]
 Channels = Annotated[
     str | None,
     Query(max_length=600, description="Names separated by commas; absent means all of them."),
@@ -52,19 +54,19 @@ async def list_rides(
 
 
 @router.get("/{ride_id}", operation_id="get_ride", response_model=Ride)
-async def get_ride(ride_id: int, services: Provided) -> Any:
+async def get_ride(ride_id: RideId, services: Provided) -> Any:
     """One ride with its summary, its gaps and its channels."""
     return services.rides.get(ride_id)
 
 
 @router.patch("/{ride_id}", operation_id="patch_ride", response_model=Ride)
-def patch_ride(ride_id: int, body: RidePatch, services: Provided) -> Any:
+def patch_ride(ride_id: RideId, body: RidePatch, services: Provided) -> Any:
     """Changes name and notes; what was measured cannot be changed."""
     return services.rides.patch(ride_id, **body.model_dump(exclude_unset=True))
 
 
 @router.delete("/{ride_id}", operation_id="delete_ride", status_code=status.HTTP_204_NO_CONTENT)
-def delete_ride(ride_id: int, services: Provided) -> None:
+def delete_ride(ride_id: RideId, services: Provided) -> None:
     """Deletes a ride, its samples and its original file."""
     services.rides.delete(ride_id)
 
@@ -76,7 +78,7 @@ def delete_ride(ride_id: int, services: Provided) -> None:
     responses={200: {"content": {BINARY_MEDIA_TYPE: {}}}},
 )
 def get_ride_series(
-    ride_id: int,
+    ride_id: RideId,
     request: Request,
     services: Provided,
     channels: Channels = None,
@@ -94,7 +96,7 @@ def get_ride_series(
 
 @router.get("/{ride_id}/figure", operation_id="get_ride_figure", response_model=Figure)
 def get_ride_figure(
-    ride_id: int,
+    ride_id: RideId,
     services: Provided,
     channels: Channels = None,
     px: Annotated[int, Query(ge=1, le=10_000)] = 1200,
@@ -110,7 +112,7 @@ def get_ride_figure(
     responses={200: {"content": {"application/octet-stream": {}}}},
 )
 def export_ride(
-    ride_id: int,
+    ride_id: RideId,
     services: Provided,
     file_format: Annotated[ExportFormat, Query(alias="format")] = "csv",
 ) -> StreamingResponse:
@@ -124,7 +126,7 @@ def export_ride(
 
 
 @router.post("/{ride_id}/replay", operation_id="replay_ride", response_model=Replay)
-def replay_ride(ride_id: int, body: ReplayRequest, services: Provided) -> Any:
+def replay_ride(ride_id: RideId, body: ReplayRequest, services: Provided) -> Any:
     """Runs the ride's inputs through the unit's own law with another table or other modes."""
     question = body.model_dump()
     return services.rides.replay(ride_id, question["fuzzy_table"], question["assist_modes"])

@@ -112,6 +112,7 @@ def test_text_that_is_not_json_is_a_problem() -> None:
 
     assert response.status_code == 422
     assert response.json()["errors"][0]["code"] == "json_invalid"
+    assert response.json()["errors"][0]["field"] == "body"
 
 
 def test_a_bug_of_ours_is_a_problem_without_its_insides() -> None:
@@ -120,3 +121,17 @@ def test_a_bug_of_ours_is_a_problem_without_its_insides() -> None:
     assert response.status_code == 500
     assert response.headers["content-type"] == "application/problem+json"
     assert "secret" not in response.text
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"[" * 200_000, b'{"rules":' * 100_000, b'{"rules": ' + b"9" * 6000 + b"}", b"\xff\xfe{"],
+    ids=["deep list", "deep object", "endless number", "no text"],
+)
+def test_a_body_made_to_break_the_reader_is_a_problem(content: bytes) -> None:
+    client = app_that_raises(errors.NotFound(""))
+
+    response = client.post("/body", content=content, headers={"content-type": "application/json"})
+
+    assert response.status_code in (400, 422)
+    assert response.headers["content-type"] == "application/problem+json"
