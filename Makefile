@@ -47,6 +47,7 @@ lint: $(STAMP)/native $(STAMP)/web-modules ## all static checks, Python, C and b
 fix: $(STAMP)/python ## format, and mend what the linters can
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
+	.ci/lint-c --fix
 
 .PHONY: gen
 gen: $(STAMP)/native $(STAMP)/web-modules ## regenerate everything that comes from the registry and the API

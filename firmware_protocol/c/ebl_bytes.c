@@ -3,15 +3,9 @@
 
 #include <string.h>
 
-uint8_t ebl_get_u8(const uint8_t *bytes)
-{
-    return bytes[0];
-}
+uint8_t ebl_get_u8(const uint8_t *bytes) { return bytes[0]; }
 
-uint16_t ebl_get_u16(const uint8_t *bytes)
-{
-    return (uint16_t)(bytes[0] | (bytes[1] << 8));
-}
+uint16_t ebl_get_u16(const uint8_t *bytes) { return (uint16_t)(bytes[0] | (bytes[1] << 8)); }
 
 uint32_t ebl_get_u32(const uint8_t *bytes)
 {
@@ -47,10 +41,7 @@ float ebl_get_f32(const uint8_t *bytes)
     return value;
 }
 
-void ebl_put_u8(uint8_t *bytes, uint8_t value)
-{
-    bytes[0] = value;
-}
+void ebl_put_u8(uint8_t *bytes, uint8_t value) { bytes[0] = value; }
 
 void ebl_put_u16(uint8_t *bytes, uint16_t value)
 {

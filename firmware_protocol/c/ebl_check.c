@@ -4,8 +4,8 @@
 #include "ebl_registry.h" // ebl_message_find, EBL_MAJOR
 
 #define RESERVED_BIT 4u
-#define DETAIL_LENGTH 3  /* status and its u16 */
-#define STREAM_LENGTH 6  /* t0_us u32, rows u8, flags u8 */
+#define DETAIL_LENGTH 3 /* status and its u16 */
+#define STREAM_LENGTH 6 /* t0_us u32, rows u8, flags u8 */
 #define ENCODING_BITS 0x60u
 
 void ebl_header_put(uint8_t *frame, uint8_t kind, uint8_t flags, uint8_t tag, uint16_t word)
@@ -93,13 +93,9 @@ int ebl_frame_check(ebl_header *header, const uint8_t *frame, size_t length)
         return error;
     }
     switch (header->kind) {
-    case EBL_KIND_REQUEST:
-        return request_check(header);
-    case EBL_KIND_RESPONSE:
-        return response_check(header);
-    case EBL_KIND_STREAM:
-        return stream_check(header);
-    default:
-        return async_check(header);
+    case EBL_KIND_REQUEST: return request_check(header);
+    case EBL_KIND_RESPONSE: return response_check(header);
+    case EBL_KIND_STREAM: return stream_check(header);
+    default: return async_check(header);
     }
 }

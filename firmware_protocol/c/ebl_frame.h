@@ -57,8 +57,8 @@ typedef struct {
     uint8_t *buffer; /* the caller's, `mtu` bytes: header, payload and check value */
     size_t mtu;
     size_t length;
-    uint8_t remaining;   /* bytes left of the current run */
-    uint8_t zero_due;    /* the run before stands for a zero after it */
+    uint8_t remaining; /* bytes left of the current run */
+    uint8_t zero_due;  /* the run before stands for a zero after it */
     uint8_t started;
     uint8_t overflowed;
     ebl_counts counts;

@@ -5,10 +5,7 @@
 
 #define NO_VIOLATION 0
 
-static int is_finite(float value)
-{
-    return value - value == 0.0f;
-}
+static int is_finite(float value) { return value - value == 0.0f; }
 
 int16_t ebl_channel_counts(float scale, float value)
 {
@@ -82,12 +79,9 @@ static int is_text(const uint8_t *text, size_t length)
 static float number(const ebl_parameter *parameter, const uint8_t *element)
 {
     switch (parameter->type) {
-    case EBL_TYPE_U8:
-        return (float)ebl_get_u8(element);
-    case EBL_TYPE_U16:
-        return (float)ebl_get_u16(element);
-    default:
-        return ebl_get_f32(element);
+    case EBL_TYPE_U8: return (float)ebl_get_u8(element);
+    case EBL_TYPE_U16: return (float)ebl_get_u16(element);
+    default: return ebl_get_f32(element);
     }
 }
 

@@ -13,8 +13,7 @@ typedef struct {
 
 /* Shape of an ordinary NMC cell at rest; 30 to 42 V for the pack as in thesis_checks 6. */
 static const charge_point CHARGE_CURVE[] = {
-    {0.0, 3.00},  {5.0, 3.30},  {10.0, 3.45}, {20.0, 3.55},
-    {50.0, 3.68}, {80.0, 3.98}, {100.0, 4.20},
+    {0.0, 3.00}, {5.0, 3.30}, {10.0, 3.45}, {20.0, 3.55}, {50.0, 3.68}, {80.0, 3.98}, {100.0, 4.20},
 };
 #define CHARGE_POINTS (sizeof CHARGE_CURVE / sizeof CHARGE_CURVE[0])
 

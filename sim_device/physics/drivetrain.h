@@ -18,20 +18,20 @@ typedef struct {
 /* What acts on the chainring in one instant. */
 typedef struct {
     double bike_inertia_kg_m2;
-    double pull_nm;           /* grade and air; negative pushes forward */
-    double friction_nm;       /* never moves anything by itself */
-    double crank_nm;          /* on the cranks */
-    double motor_shaft_nm;    /* at the motor's shaft */
+    double pull_nm;        /* grade and air; negative pushes forward */
+    double friction_nm;    /* never moves anything by itself */
+    double crank_nm;       /* on the cranks */
+    double motor_shaft_nm; /* at the motor's shaft */
     double motor_inertia_kg_m2;
     int moving;
-    int crank_engaged;        /* as fast as the chainring */
+    int crank_engaged; /* as fast as the chainring */
     int motor_engaged;
 } drivetrain_load;
 
 typedef struct {
     double acceleration_rad_s2; /* of the chainring */
     double crank_nm;            /* passed from the cranks to the chainring, never negative */
-    double motor_nm;            /* passed from the motor, referred to the chainring, before losses */
+    double motor_nm; /* passed from the motor, referred to the chainring, before losses */
     int crank_engaged;
     int motor_engaged;
 } drivetrain_flow;

@@ -68,8 +68,8 @@ static void gather(const physics_config *config, const physics_state *state,
                                config->drivetrain.chain_efficiency);
     const int motor_engaged =
         state->motor_speed_rad_s >= chainring_rad_s * config->drivetrain.gear_ratio;
-    const double motor_rad_s = motor_speed_to_limit(config, state, command->motor_torque_nm,
-                                                    motor_engaged, dt_s);
+    const double motor_rad_s =
+        motor_speed_to_limit(config, state, command->motor_torque_nm, motor_engaged, dt_s);
     now->motor = motor_drive_at(&config->motor, command->motor_torque_nm, motor_rad_s,
                                 state->battery.voltage_v);
     now->rider_nm = rider_torque_nm(&config->rider, &command->rider, state->crank_angle_rad,
@@ -160,9 +160,8 @@ static void book(const physics_config *config, physics_ledger *ledger, const ins
     const double chain_in_nm = now->flow.crank_nm + gear_out_nm;
     ledger->rider_work_j += now->rider_nm * now->crank.travel;
     ledger->legs_j += now->leg_drag_nm * now->crank.travel;
-    ledger->motor_electric_j +=
-        now->motor.electromagnetic_torque_nm * now->motor_shaft.travel +
-        now->motor.copper_loss_w * dt_s;
+    ledger->motor_electric_j += now->motor.electromagnetic_torque_nm * now->motor_shaft.travel +
+                                now->motor.copper_loss_w * dt_s;
     ledger->copper_j += now->motor.copper_loss_w * dt_s;
     ledger->motor_friction_j += now->motor.friction_torque_nm * now->motor_shaft.travel;
     ledger->gear_j += (now->flow.motor_nm - gear_out_nm) * chainring_rad;
@@ -190,14 +189,13 @@ void physics_step(const physics_config *config, physics_state *state,
     state->crank_angle_rad = fmod(state->crank_angle_rad + now.crank.travel, 2.0 * PI);
     state->crank_angle_rad += state->crank_angle_rad < 0.0 ? 2.0 * PI : 0.0;
     state->spindle_torque_nm = now.flow.crank_nm;
-    state->motor_shaft_nm = now.motor.electromagnetic_torque_nm > 0.0 ? now.motor.shaft_torque_nm
-                                                                     : 0.0;
+    state->motor_shaft_nm =
+        now.motor.electromagnetic_torque_nm > 0.0 ? now.motor.shaft_torque_nm : 0.0;
     state->motor_current_a = now.motor.current_a;
     const double motor_rad_s = now.motor_shaft.travel / dt_s;
     const double friction_w = now.motor.friction_torque_nm * motor_rad_s;
-    state->motor_temperature_degc =
-        motor_temperature_after(&config->motor, state->motor_temperature_degc,
-                                now.motor.copper_loss_w + friction_w, dt_s);
+    state->motor_temperature_degc = motor_temperature_after(
+        &config->motor, state->motor_temperature_degc, now.motor.copper_loss_w + friction_w, dt_s);
     const double electric_w =
         now.motor.electromagnetic_torque_nm * motor_rad_s + now.motor.copper_loss_w;
     battery_step(&config->battery, &state->battery, electric_w, dt_s);

@@ -9,13 +9,13 @@ typedef enum {
 } rider_kind;
 
 typedef struct {
-    int kind; /* rider_kind */
+    int kind;               /* rider_kind */
     double torque_nm;       /* mean over a turn; negative pedals backwards */
     double cadence_rpm_max; /* legs cannot follow faster than this, either way */
 } rider_command;
 
 typedef struct {
-    double stroke_ripple;    /* 0 is an even turn, 1 has dead spots */
+    double stroke_ripple;     /* 0 is an even turn, 1 has dead spots */
     double still_leg_drag_nm; /* what resting legs hold the cranks back with */
 } rider_config;
 

@@ -30,13 +30,13 @@ road_forces road_forces_at(const road_config *config, const road_command *comman
     const double air_ms = speed_ms + command->wind_ms;
     forces.grade_n = weight_n * sin(grade_rad);
     forces.rolling_n = config->rolling_coefficient * weight_n * cos(grade_rad);
-    forces.air_n =
-        0.5 * config->air_density_kg_m3 * config->drag_area_m2 * air_ms * fabs(air_ms);
+    forces.air_n = 0.5 * config->air_density_kg_m3 * config->drag_area_m2 * air_ms * fabs(air_ms);
     return forces;
 }
 
 double road_moving_mass_kg(const road_config *config)
 {
     const double mass_kg = config->source == LOAD_DYNO ? config->dyno_mass_kg : config->mass_kg;
-    return mass_kg + config->wheel_inertia_kg_m2 / (config->wheel_radius_m * config->wheel_radius_m);
+    return mass_kg +
+           config->wheel_inertia_kg_m2 / (config->wheel_radius_m * config->wheel_radius_m);
 }

@@ -11,8 +11,8 @@ typedef enum {
 } dyno_convention;
 
 typedef struct {
-    int source; /* load_source */
-    double mass_kg; /* bike and rider */
+    int source;                 /* load_source */
+    double mass_kg;             /* bike and rider */
     double wheel_inertia_kg_m2; /* both wheels */
     double wheel_radius_m;
     double rolling_coefficient;
@@ -20,7 +20,7 @@ typedef struct {
     double air_density_kg_m3;
     double gravity_m_s2;
     double brake_force_n; /* of a pulled lever */
-    int dyno_convention; /* dyno_convention */
+    int dyno_convention;  /* dyno_convention */
     double dyno_roller_radius_m;
     double dyno_mass_kg; /* flywheel and rollers as a mass at the tyre */
 } road_config;
@@ -33,11 +33,11 @@ typedef struct {
 } road_command;
 
 typedef struct {
-    double grade_n;    /* pulls back uphill, forward downhill */
-    double air_n;      /* against the motion relative to the air */
-    double rolling_n;  /* friction: never more than what it opposes */
-    double brake_n;    /* friction */
-    double dyno_n;     /* friction */
+    double grade_n;   /* pulls back uphill, forward downhill */
+    double air_n;     /* against the motion relative to the air */
+    double rolling_n; /* friction: never more than what it opposes */
+    double brake_n;   /* friction */
+    double dyno_n;    /* friction */
 } road_forces;
 
 /* Forces at the tyre at `speed_ms` (thesis eq. 4.2 to 4.4, with the wind's sign of I-25).

@@ -62,7 +62,7 @@ def measure(store: Store, root: Path) -> list[Figure]:
                f"one-sample spike of 95 Nm kept: {'yes' if kept else 'no'}"),
         Figure("60 s of the same 12 channels, row by row", f"{window_ms:.2f} ms", "", None),
         Figure("closing a 2 h ride (object, overview, figures)", f"{finish_s:.2f} s", "", None),
-        Figure("recording it: a commit a second, FULL", f"{1e3 * tail_s * HZ / SAMPLES:.2f} ms each",
+        Figure("recording it: a commit a second", f"{1e3 * tail_s * HZ / SAMPLES:.2f} ms each",
                "", None, f"{SAMPLES / HZ / tail_s:,.0f} units could be recorded at once"),
     ]  # fmt: skip
 

@@ -90,9 +90,9 @@ static uint8_t mode_select(const app *unit, const hal_inputs *inputs)
 /* The law refuses what is not a number, so that is what a broken sensor becomes. */
 static void assist_input_from(const hal_inputs *inputs, uint8_t mode, assist_input *input)
 {
-    input->torque_raw_counts =
-        faults_torque_is_plausible(inputs->torque_raw_counts) ? inputs->torque_raw_counts
-                                                              : float32_missing();
+    input->torque_raw_counts = faults_torque_is_plausible(inputs->torque_raw_counts)
+                                   ? inputs->torque_raw_counts
+                                   : float32_missing();
     input->speed_kmh = inputs->speed_kmh;
     input->cadence_rpm = inputs->cadence_rpm;
     input->motor_speed_rpm = inputs->motor_speed_rpm;
@@ -133,7 +133,4 @@ void app_control_step(app *unit)
     telemetry_step(&unit->telemetry, &sources, now_us, &unit->link);
 }
 
-const assist_output *app_output(const app *unit)
-{
-    return &unit->output;
-}
+const assist_output *app_output(const app *unit) { return &unit->output; }

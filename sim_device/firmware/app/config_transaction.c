@@ -36,8 +36,7 @@ static uint8_t transaction_enter(config_transaction *transaction, uint16_t id, u
 }
 
 uint8_t transaction_begin(config_transaction *transaction, const config_store *store,
-                          const ebl_cfg_begin_request *request, uint64_t now_us,
-                          uint16_t *detail)
+                          const ebl_cfg_begin_request *request, uint64_t now_us, uint16_t *detail)
 {
     *detail = 0;
     if (transaction->state != EBL_CONFIG_STATE_IDLE) {
@@ -65,8 +64,8 @@ uint8_t transaction_set(config_transaction *transaction, const ebl_cfg_set_reque
     uint8_t status = transaction_enter(transaction, request->transaction, now_us, detail);
 
     if (status != EBL_STATUS_OK) return status;
-    status = parameters_set(transaction->image, request->items, request->items_length, access,
-                            detail);
+    status =
+        parameters_set(transaction->image, request->items, request->items_length, access, detail);
     if (status != EBL_STATUS_OK) return status;
     transaction->state = EBL_CONFIG_STATE_STAGING;
     return EBL_STATUS_OK;
@@ -97,10 +96,7 @@ uint8_t transaction_staged_crc(config_transaction *transaction, uint16_t id, uin
     return EBL_STATUS_OK;
 }
 
-static int magnitude_is_below(float value, float limit)
-{
-    return value > -limit && value < limit;
-}
+static int magnitude_is_below(float value, float limit) { return value > -limit && value < limit; }
 
 /* A speed that is not known is not a standstill; an unknown voltage the second slot covers. */
 static uint8_t flash_may_be_written(const hal *board)
@@ -145,8 +141,7 @@ static uint8_t store_status(int result)
 }
 
 uint8_t transaction_commit(config_transaction *transaction, config_store *store, const hal *board,
-                           const ebl_cfg_commit_request *request, uint64_t now_us,
-                           uint16_t *detail)
+                           const ebl_cfg_commit_request *request, uint64_t now_us, uint16_t *detail)
 {
     uint8_t status = commit_check(transaction, board, request, now_us, detail);
 

@@ -14,9 +14,9 @@
 #define TRANSACTION_LEASE_MS 30000
 
 typedef struct {
-    uint8_t state;         /* ebl_config_state */
-    uint16_t id;           /* of the open transaction; the latest one while idle */
-    uint8_t expired;       /* the latest one ended by its lease */
+    uint8_t state;   /* ebl_config_state */
+    uint16_t id;     /* of the open transaction; the latest one while idle */
+    uint8_t expired; /* the latest one ended by its lease */
     uint64_t lease_end_us;
     uint8_t image[EBL_IMAGE_LENGTH];
 } config_transaction;
@@ -24,8 +24,7 @@ typedef struct {
 /* All but `poll` and `drop` return an ebl_status and, where it is not OK, fill `detail`. Whatever
  * names the open transaction renews its lease. */
 uint8_t transaction_begin(config_transaction *transaction, const config_store *store,
-                          const ebl_cfg_begin_request *request, uint64_t now_us,
-                          uint16_t *detail);
+                          const ebl_cfg_begin_request *request, uint64_t now_us, uint16_t *detail);
 uint8_t transaction_set(config_transaction *transaction, const ebl_cfg_set_request *request,
                         uint8_t access, uint64_t now_us, uint16_t *detail);
 

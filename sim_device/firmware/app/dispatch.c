@@ -40,15 +40,9 @@ void reply_with(reply *answer, int put, size_t length)
     answer->length = STATUS_LENGTH + length;
 }
 
-uint8_t *reply_fields(const reply *answer)
-{
-    return answer->bytes + STATUS_LENGTH;
-}
+uint8_t *reply_fields(const reply *answer) { return answer->bytes + STATUS_LENGTH; }
 
-size_t reply_capacity(const reply *answer)
-{
-    return answer->capacity - STATUS_LENGTH;
-}
+size_t reply_capacity(const reply *answer) { return answer->capacity - STATUS_LENGTH; }
 
 /* What a board gives with a refusal are its words for it: they follow the detail, as far as they
  * fit. */

@@ -46,8 +46,7 @@ void event_faults_set(event_log *events, unit_link *link, uint64_t now_us, uint1
     event_send(events, link, now_us, EBL_EVENT_FAULT_SET, fields, length);
 }
 
-void event_faults_cleared(event_log *events, unit_link *link, uint64_t now_us,
-                          uint16_t fault_flags)
+void event_faults_cleared(event_log *events, unit_link *link, uint64_t now_us, uint16_t fault_flags)
 {
     ebl_fault_cleared_event event = {fault_flags};
     uint8_t fields[EBL_FAULT_CLEARED_EVENT_LENGTH];

@@ -10,9 +10,9 @@
  * would flicker with every pedal stroke. */
 #define BATTERY_RECOVERY_V 1.0f
 
-#define SENSOR_BAD_STEPS 10   /* 0.1 s: shorter than a pedal stroke, longer than a spark */
-#define BATTERY_BAD_STEPS 50  /* 0.5 s: a sag while starting is not an empty battery */
-#define GOOD_STEPS 100        /* 1 s */
+#define SENSOR_BAD_STEPS 10  /* 0.1 s: shorter than a pedal stroke, longer than a spark */
+#define BATTERY_BAD_STEPS 50 /* 0.5 s: a sag while starting is not an empty battery */
+#define GOOD_STEPS 100       /* 1 s */
 
 int faults_torque_is_plausible(float torque_raw_counts)
 {
@@ -53,8 +53,8 @@ void faults_step(fault_list *faults, const hal_inputs *inputs, float battery_vol
     if (faults->active & EBL_FAULT_BATTERY_LOW) battery_floor_v += BATTERY_RECOVERY_V;
     *set = 0;
     *cleared = 0;
-    fault_count(faults, 0, !faults_torque_is_plausible(inputs->torque_raw_counts),
-                SENSOR_BAD_STEPS, set, cleared);
+    fault_count(faults, 0, !faults_torque_is_plausible(inputs->torque_raw_counts), SENSOR_BAD_STEPS,
+                set, cleared);
     fault_count(faults, 1, !speed_is_plausible(inputs->speed_kmh), SENSOR_BAD_STEPS, set, cleared);
     fault_count(faults, 2, !(inputs->battery_voltage_v >= battery_floor_v), BATTERY_BAD_STEPS, set,
                 cleared);

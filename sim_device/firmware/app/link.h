@@ -40,7 +40,7 @@ typedef struct {
     uint8_t response_bytes[LINK_RESPONSE_QUEUE_BYTES];
     uint8_t event_bytes[LINK_EVENT_QUEUE_BYTES];
     uint8_t stream_bytes[LINK_STREAM_QUEUE_BYTES];
-    uint8_t frame[EBL_MTU];             /* the frame being encoded */
+    uint8_t frame[EBL_MTU];            /* the frame being encoded */
     uint8_t wire[LINK_WIRE_BYTES_MAX]; /* the frame being sent */
     uint16_t wire_length;
     uint16_t wire_sent;

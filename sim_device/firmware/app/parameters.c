@@ -18,8 +18,7 @@ typedef struct {
 
 static void fuzzy_table_from(const ebl_config *config, fuzzy_table *table)
 {
-    memcpy(table->speed_points_kmh, config->fuzzy_speed_points_kmh,
-           sizeof table->speed_points_kmh);
+    memcpy(table->speed_points_kmh, config->fuzzy_speed_points_kmh, sizeof table->speed_points_kmh);
     memcpy(table->torque_rate_points, config->fuzzy_torque_rate_points,
            sizeof table->torque_rate_points);
     memcpy(table->gain_points, config->fuzzy_gain_points, sizeof table->gain_points);
@@ -123,8 +122,7 @@ uint8_t parameters_set(uint8_t *image, const uint8_t *items, size_t length, uint
         uint8_t status = item_read(&read, items + at, length - at, access, &used, detail);
 
         if (status != EBL_STATUS_OK) return status;
-        memcpy(changed + read.parameter->image_offset +
-                   (size_t)read.first * read.parameter->length,
+        memcpy(changed + read.parameter->image_offset + (size_t)read.first * read.parameter->length,
                read.values, (size_t)read.count * read.parameter->length);
         at += used;
     }

@@ -10,10 +10,7 @@
 #define REFUSALS_MAX 96
 #define REFUSAL_BYTES 4
 
-static uint64_t now(const app *unit)
-{
-    return unit->board->now_us(unit->board->context);
-}
+static uint64_t now(const app *unit) { return unit->board->now_us(unit->board->context); }
 
 static void info(app *unit, const ebl_header *request, reply *answer)
 {
@@ -23,8 +20,8 @@ static void info(app *unit, const ebl_header *request, reply *answer)
     int put;
 
     (void)request;
-    put = ebl_cfg_info_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                    &length);
+    put =
+        ebl_cfg_info_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
     reply_with(answer, put, length);
 }
 
@@ -75,8 +72,8 @@ static void read_bank(app *unit, const ebl_header *request, reply *answer)
     response.data_length = (size_t)(EBL_IMAGE_LENGTH - asked.offset);
     if (response.data_length > asked.length) response.data_length = asked.length;
     if (response.data_length > room) response.data_length = room;
-    put = ebl_cfg_read_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                    &length);
+    put =
+        ebl_cfg_read_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
     reply_with(answer, put, length);
 }
 
@@ -139,8 +136,7 @@ static void validate(app *unit, const ebl_header *request, reply *answer)
     uint16_t detail = 0;
     uint8_t status;
 
-    if (ebl_cfg_validate_request_get(&asked, request->payload, request->payload_length) !=
-        EBL_OK) {
+    if (ebl_cfg_validate_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
         reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_VALIDATE_REQUEST_LENGTH);
         return;
     }

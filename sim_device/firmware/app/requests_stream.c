@@ -64,8 +64,7 @@ static void snapshot(app *unit, const ebl_header *request, reply *answer)
     size_t length = 0;
     int put;
 
-    if (ebl_str_snapshot_request_get(&asked, request->payload, request->payload_length) !=
-        EBL_OK) {
+    if (ebl_str_snapshot_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
         reply_refuse(answer, EBL_STATUS_LENGTH, EBL_STR_SNAPSHOT_REQUEST_LENGTH);
         return;
     }

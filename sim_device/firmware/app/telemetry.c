@@ -7,7 +7,7 @@
 #include "ebl_values.h" // ebl_channel_counts
 #include "float32.h"    // float32_missing
 
-#define COUNT_MAX 32767 /* what a value beyond the range of its channel becomes */
+#define COUNT_MAX 32767      /* what a value beyond the range of its channel becomes */
 #define STREAM_HEAD_LENGTH 6 /* t0_us u32, rows u8, flags u8 */
 #define STREAM_OVERHEAD (EBL_HEADER_LENGTH + STREAM_HEAD_LENGTH)
 #define FLAG_OVERRUN 0x08
@@ -201,8 +201,8 @@ static uint8_t subscription_check(const ebl_str_subscribe_request *request, uint
 }
 
 uint8_t telemetry_subscribe(telemetry *state, const ebl_str_subscribe_request *request,
-                            uint16_t tx_mtu, uint64_t now_us,
-                            ebl_str_subscribe_response *response, uint16_t *detail)
+                            uint16_t tx_mtu, uint64_t now_us, ebl_str_subscribe_response *response,
+                            uint16_t *detail)
 {
     uint8_t places[EBL_CHANNEL_COUNT];
     telemetry_stream *stream = stream_find(state, request->stream_id);

@@ -27,15 +27,15 @@ typedef struct {
     uint8_t batch;
     uint8_t epoch;
     uint16_t divider;
-    uint16_t steps_left;  /* until the next row */
+    uint16_t steps_left; /* until the next row */
     uint64_t lease_end_us;
     uint64_t stats_due_us;
-    uint16_t seq;         /* of the frame being built */
-    uint32_t built;       /* since the subscription, like dropped_tx */
+    uint16_t seq;   /* of the frame being built */
+    uint32_t built; /* since the subscription, like dropped_tx */
     uint32_t dropped_tx;
-    uint8_t rows;         /* in the frame being built */
-    uint8_t flags;        /* of the frame being built, without the epoch */
-    uint8_t overrun;      /* the frame before this one was dropped */
+    uint8_t rows;    /* in the frame being built */
+    uint8_t flags;   /* of the frame being built, without the epoch */
+    uint8_t overrun; /* the frame before this one was dropped */
     uint8_t channel_count;
     uint8_t channels[EBL_CHANNEL_COUNT]; /* places in the row */
     uint8_t frame[EBL_MTU];
@@ -45,7 +45,7 @@ typedef struct {
     int16_t row[EBL_CHANNEL_COUNT]; /* the latest, in the order of ebl_channels */
     uint32_t clipped;               /* a bit for each place in the row */
     uint64_t row_us;
-    uint8_t epoch;                  /* of the latest subscription, 0 to 7 */
+    uint8_t epoch; /* of the latest subscription, 0 to 7 */
     telemetry_stream streams[TELEMETRY_STREAMS];
 } telemetry;
 
@@ -60,8 +60,8 @@ void telemetry_poll(telemetry *state, event_log *events, unit_link *link, uint64
 
 /* Starts or changes a stream. Returns an ebl_status. */
 uint8_t telemetry_subscribe(telemetry *state, const ebl_str_subscribe_request *request,
-                            uint16_t tx_mtu, uint64_t now_us,
-                            ebl_str_subscribe_response *response, uint16_t *detail);
+                            uint16_t tx_mtu, uint64_t now_us, ebl_str_subscribe_response *response,
+                            uint16_t *detail);
 
 uint8_t telemetry_unsubscribe(telemetry *state, uint8_t stream_id);
 uint8_t telemetry_renew(telemetry *state, uint8_t stream_id, uint8_t lease_s, uint64_t now_us);

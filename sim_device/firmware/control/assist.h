@@ -33,7 +33,7 @@
 typedef enum { ASSIST_LAW_OFF = 0, ASSIST_LAW_FIXED = 1, ASSIST_LAW_FUZZY = 2 } assist_law;
 
 typedef struct {
-    float step_s;                         /* control period, 0.01 s */
+    float step_s; /* control period, 0.01 s */
     float sensor_offset_counts;
     float sensor_gain_nm_per_count;
     float torque_filter_s;
@@ -43,11 +43,11 @@ typedef struct {
     float mode_ratios[ASSIST_MODE_SLOTS];
     float fixed_taper_start_kmh;
     float fixed_taper_end_kmh;
-    float assist_ramp_up_nm_per_s;        /* at the crank */
+    float assist_ramp_up_nm_per_s; /* at the crank */
     float assist_ramp_down_nm_per_s;
     float pedal_torque_nm_min;
     fuzzy_table table;
-    uint8_t fuzzy_falling_torque;         /* 0: rate held at zero, 1: no gain */
+    uint8_t fuzzy_falling_torque; /* 0: rate held at zero, 1: no gain */
     float assist_cutoff_kmh;
     float assist_cutoff_band_kmh;
     float motor_torque_nm_max;

@@ -44,8 +44,7 @@ static int limits_accepted(const assist_config *config)
            not_negative(config->assist_cutoff_band_kmh) &&
            not_negative(config->motor_torque_nm_max) &&
            not_negative(config->battery_current_a_max) &&
-           not_negative(config->battery_voltage_v_min) &&
-           not_negative(config->motor_speed_rpm_max);
+           not_negative(config->battery_voltage_v_min) && not_negative(config->motor_speed_rpm_max);
 }
 
 int assist_config_check(const assist_config *config)

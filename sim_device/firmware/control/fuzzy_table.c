@@ -36,10 +36,10 @@ static inline membership locate(const float *points, float value)
 
 /* What the output peaks alone decide; made once for a batch. */
 typedef struct {
-    float width[FUZZY_SETS - 1];  /* of the gap above each peak but the last */
+    float width[FUZZY_SETS - 1]; /* of the gap above each peak but the last */
     float middle[FUZZY_SETS - 1];
-    float first_reach;            /* how much of the outermost halves lies inside the universe, */
-    float last_reach;             /* 0 to 1 of the width of their inner halves */
+    float first_reach; /* how much of the outermost halves lies inside the universe, */
+    float last_reach;  /* 0 to 1 of the width of their inner halves */
     float first_peak;
     float last_peak;
 } gain_gaps;
@@ -168,9 +168,9 @@ static void centroid_block(const fuzzy_table *table, const gain_gaps *gaps, cons
                    locate(table->torque_rate_points, torque_rates[index]), levels + index, BLOCK);
     }
     for (index = 0; index < BLOCK; ++index) {
-        centroids[index] = centroid(gaps, levels[index], levels[BLOCK + index],
-                                    levels[2 * BLOCK + index], levels[3 * BLOCK + index],
-                                    levels[4 * BLOCK + index]);
+        centroids[index] =
+            centroid(gaps, levels[index], levels[BLOCK + index], levels[2 * BLOCK + index],
+                     levels[3 * BLOCK + index], levels[4 * BLOCK + index]);
     }
     for (index = 0; index < count; ++index) gains[index] = centroids[index];
 }
@@ -270,8 +270,7 @@ size_t fuzzy_gain_run(const fuzzy_table *table, const float *speeds_kmh, const f
             centroid_block(table, &gaps, speeds_kmh + start, torque_rates + start, gains + start,
                            length);
         }
-        refused +=
-            blank_refused(speeds_kmh + start, torque_rates + start, gains + start, length);
+        refused += blank_refused(speeds_kmh + start, torque_rates + start, gains + start, length);
     }
     return refused;
 }

@@ -10,7 +10,7 @@
 typedef enum { FUZZY_MAMDANI_CENTROID = 0, FUZZY_WEIGHTED_AVERAGE = 1 } fuzzy_inference;
 
 typedef struct {
-    float speed_points_kmh[FUZZY_SETS];   /* peaks, increasing; a left shoulder at the first */
+    float speed_points_kmh[FUZZY_SETS]; /* peaks, increasing; a left shoulder at the first */
     float torque_rate_points[FUZZY_SETS];
     float gain_points[FUZZY_SETS];
     uint8_t rules[FUZZY_SETS][FUZZY_SETS]; /* [speed][torque rate], label 0 NB to 4 PB */

@@ -39,9 +39,7 @@ float apply_law(const assist_config *config, const assist_input *input, float ea
     case ASSIST_LAW_FUZZY:
         output->assist_ratio = fuzzy_ratio(config, input, torque_nm < earlier_torque_nm, output);
         break;
-    default:
-        output->limit_flags |= ASSIST_LIMIT_MODE_OFF;
-        break;
+    default: output->limit_flags |= ASSIST_LIMIT_MODE_OFF; break;
     }
     if (torque_nm <= 0.0f || torque_nm < config->pedal_torque_nm_min) return 0.0f;
     if (taper < 1.0f) output->limit_flags |= ASSIST_LIMIT_TAPER;

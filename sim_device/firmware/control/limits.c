@@ -22,10 +22,9 @@ static float back_emf_torque_nm(const assist_config *config, const assist_input 
 static float battery_torque_nm(const assist_config *config, const assist_input *input,
                                float back_emf_v)
 {
-    float power_w =
-        float32_max(input->battery_voltage_v, 0.0f) * config->battery_current_a_max;
-    float root_v = float32_sqrt(back_emf_v * back_emf_v +
-                                4.0f * config->motor_resistance_ohm * power_w);
+    float power_w = float32_max(input->battery_voltage_v, 0.0f) * config->battery_current_a_max;
+    float root_v =
+        float32_sqrt(back_emf_v * back_emf_v + 4.0f * config->motor_resistance_ohm * power_w);
     float sum_v = back_emf_v + root_v;
 
     if (sum_v <= 0.0f) return 0.0f;

@@ -9,19 +9,19 @@
 #include <stdint.h>
 
 typedef struct {
-    float torque_raw_counts;      /* signed bridge reading; the sensor word is 16 bit */
+    float torque_raw_counts; /* signed bridge reading; the sensor word is 16 bit */
     float sensor_temperature_degc;
     float speed_kmh;
-    float crank_angle_deg;        /* 0 <= angle < 360, 0 with the left crank up */
-    float cadence_rpm;            /* negative when pedalling backwards */
+    float crank_angle_deg; /* 0 <= angle < 360, 0 with the left crank up */
+    float cadence_rpm;     /* negative when pedalling backwards */
     float motor_speed_rpm;
     float motor_current_a;
     float motor_temperature_degc;
     float battery_voltage_v;
     float battery_current_a;
     float battery_soc_pct;
-    uint8_t mode_selected;        /* slot chosen on the handlebar; HAL_MODE_NOT_SELECTED: none yet */
-    uint8_t brake;                /* 1 while a brake lever is pulled */
+    uint8_t mode_selected; /* slot chosen on the handlebar; HAL_MODE_NOT_SELECTED: none yet */
+    uint8_t brake;         /* 1 while a brake lever is pulled */
 } hal_inputs;
 
 #define HAL_MODE_NOT_SELECTED 255
@@ -53,7 +53,7 @@ typedef struct {
     int (*board_request)(void *context, uint16_t message_id, const uint8_t *request, size_t length,
                          uint8_t *response, size_t capacity, size_t *response_length);
 
-    const uint8_t *uid;           /* 12 bytes */
+    const uint8_t *uid; /* 12 bytes */
     uint8_t device_class;
     uint16_t hardware_revision;
     uint32_t boot_id;

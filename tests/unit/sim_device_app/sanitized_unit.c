@@ -10,10 +10,7 @@
 #define FLASH_BLOCK_BYTES 1024
 #define FLASH_BYTES 8192
 
-static int take(uint8_t *bytes, size_t length)
-{
-    return fread(bytes, 1, length, stdin) == length;
-}
+static int take(uint8_t *bytes, size_t length) { return fread(bytes, 1, length, stdin) == length; }
 
 static void hear(bench_board *board)
 {

@@ -51,10 +51,7 @@ static size_t line_read(line *queue, uint8_t *bytes, size_t capacity)
     return taken;
 }
 
-static uint64_t now_us(void *context)
-{
-    return ((const bench_board *)context)->now_us;
-}
+static uint64_t now_us(void *context) { return ((const bench_board *)context)->now_us; }
 
 static size_t serial_read(void *context, uint8_t *bytes, size_t capacity)
 {
@@ -252,62 +249,35 @@ void bench_line_capacity(bench_board *board, size_t bytes)
     board->to_host.capacity = bytes < BENCH_LINE_BYTES ? bytes : BENCH_LINE_BYTES;
 }
 
-void bench_inputs_get(const bench_board *board, hal_inputs *inputs)
-{
-    *inputs = board->inputs;
-}
+void bench_inputs_get(const bench_board *board, hal_inputs *inputs) { *inputs = board->inputs; }
 
-void bench_inputs_set(bench_board *board, const hal_inputs *inputs)
-{
-    board->inputs = *inputs;
-}
+void bench_inputs_set(bench_board *board, const hal_inputs *inputs) { board->inputs = *inputs; }
 
 void bench_board_requests(bench_board *board, int present)
 {
     board->hal.board_request = present ? board_request : NULL;
 }
 
-float bench_motor_torque_nm(const bench_board *board)
-{
-    return board->motor_torque_nm;
-}
+float bench_motor_torque_nm(const bench_board *board) { return board->motor_torque_nm; }
 
-uint64_t bench_now_us(const bench_board *board)
-{
-    return board->now_us;
-}
+uint64_t bench_now_us(const bench_board *board) { return board->now_us; }
 
 void bench_output(const bench_board *board, assist_output *output)
 {
     *output = *app_output(&board->app);
 }
 
-uint32_t bench_flash_steps(const bench_board *board)
-{
-    return board->flash_steps;
-}
+uint32_t bench_flash_steps(const bench_board *board) { return board->flash_steps; }
 
-void bench_flash_cut_after(bench_board *board, uint32_t steps)
-{
-    board->flash_steps_left = steps;
-}
+void bench_flash_cut_after(bench_board *board, uint32_t steps) { board->flash_steps_left = steps; }
 
 void bench_flash_weak_bit_after(bench_board *board, uint32_t count)
 {
     board->flash_weak_bit_countdown = count;
 }
 
-uint8_t *bench_flash(bench_board *board)
-{
-    return board->flash;
-}
+uint8_t *bench_flash(bench_board *board) { return board->flash; }
 
-size_t bench_flash_size(const bench_board *board)
-{
-    return board->hal.flash_size;
-}
+size_t bench_flash_size(const bench_board *board) { return board->hal.flash_size; }
 
-size_t bench_app_bytes(void)
-{
-    return sizeof(app);
-}
+size_t bench_app_bytes(void) { return sizeof(app); }

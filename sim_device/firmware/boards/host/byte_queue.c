@@ -1,9 +1,6 @@
 #include "byte_queue.h"
 
-size_t byte_queue_free(const byte_queue *queue)
-{
-    return BYTE_QUEUE_CAPACITY - queue->count;
-}
+size_t byte_queue_free(const byte_queue *queue) { return BYTE_QUEUE_CAPACITY - queue->count; }
 
 size_t byte_queue_put(byte_queue *queue, const uint8_t *bytes, size_t length)
 {

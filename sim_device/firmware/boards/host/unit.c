@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app.h" // app_poll
-#include "byte_queue.h" // byte_queue_put
+#include "app.h"          // app_poll
+#include "byte_queue.h"   // byte_queue_put
 #include "ebl_registry.h" // EBL_DEVICE_CLASS_MID_DRIVE_SIMULATED
-#include "hal.h" // hal
+#include "hal.h"          // hal
 
 #define PHYSICS_PERIOD_US 1000u
 #define CONTROL_PERIOD_US 10000u
@@ -33,10 +33,7 @@ struct unit {
     void *request_context;
 };
 
-static uint64_t board_now_us(void *context)
-{
-    return ((const unit *)context)->now_us;
-}
+static uint64_t board_now_us(void *context) { return ((const unit *)context)->now_us; }
 
 static size_t board_serial_read(void *context, uint8_t *bytes, size_t capacity)
 {
@@ -100,8 +97,7 @@ static int board_flash_erase(void *context, size_t address)
     return 0;
 }
 
-static int board_flash_program(void *context, size_t address, const uint8_t *bytes,
-                               size_t length)
+static int board_flash_program(void *context, size_t address, const uint8_t *bytes, size_t length)
 {
     if (!flash_holds(address, length)) {
         return -1;
@@ -172,10 +168,7 @@ unit *unit_create(const unit_setup *setup)
     return self;
 }
 
-void unit_destroy(unit *self)
-{
-    free(self);
-}
+void unit_destroy(unit *self) { free(self); }
 
 void unit_advance_us(unit *self, uint64_t duration_us)
 {
@@ -236,37 +229,19 @@ void unit_observe(const unit *self, unit_observation *seen)
     *seen = now;
 }
 
-physics_config *unit_bike(unit *self)
-{
-    return &self->bike;
-}
+physics_config *unit_bike(unit *self) { return &self->bike; }
 
-physics_command *unit_stimulus(unit *self)
-{
-    return &self->stimulus;
-}
+physics_command *unit_stimulus(unit *self) { return &self->stimulus; }
 
-void unit_begin_ledger(unit *self)
-{
-    physics_begin_ledger(&self->bike, &self->state);
-}
+void unit_begin_ledger(unit *self) { physics_begin_ledger(&self->bike, &self->state); }
 
 void unit_place(unit *self, double speed_kmh, uint64_t seed)
 {
     physics_reset(&self->bike, &self->state, speed_kmh, seed);
 }
 
-void unit_seed_noise(unit *self, uint64_t seed)
-{
-    self->state.sensor.random = seed;
-}
+void unit_seed_noise(unit *self, uint64_t seed) { self->state.sensor.random = seed; }
 
-void unit_select_mode(unit *self, uint8_t mode)
-{
-    self->mode_selected = mode;
-}
+void unit_select_mode(unit *self, uint8_t mode) { self->mode_selected = mode; }
 
-const uint8_t *unit_flash(const unit *self)
-{
-    return self->flash;
-}
+const uint8_t *unit_flash(const unit *self) { return self->flash; }
