@@ -7,7 +7,7 @@ import { describe, expect, it } from 'vitest'
 const folder = 'dist/assets'
 const built = existsSync(folder)
 const files = built ? readdirSync(folder).filter((name) => /\.(js|css)$/.test(name)) : []
-const kb = (names: string[]) =>
+const kb = (names) =>
   names.reduce((sum, name) => sum + gzipSync(readFileSync(`${folder}/${name}`)).length, 0) / 1000
 const lines = files.filter((name) => name.startsWith('plotly_lines'))
 const surface = files.filter((name) => name.startsWith('plotly_surface'))

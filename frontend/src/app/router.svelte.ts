@@ -46,6 +46,7 @@ export class Router {
     if (!link || !plain || event.defaultPrevented || link.target || link.hasAttribute('download')) {
       return
     }
+    if (link.hash && link.pathname === location.pathname) return
     if (link.origin !== location.origin || link.pathname.startsWith('/api/')) return
     event.preventDefault()
     this.go(link.pathname + link.search)

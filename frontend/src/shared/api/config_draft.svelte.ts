@@ -23,7 +23,6 @@ export class ConfigDraft {
   private past = $state.raw<Edits[]>([])
   private future = $state.raw<Edits[]>([])
   private gesture: string | null = null
-  changes = $derived(this.listChanges())
 
   constructor(
     readonly device_id: string,
@@ -133,7 +132,8 @@ export class ConfigDraft {
     return Object.fromEntries(value === undefined ? others : [...others, [name, value]])
   }
 
-  private listChanges(): DraftChange[] {
+  /** Every parameter that differs from what the unit has. */
+  get changes(): DraftChange[] {
     return this.parameters.flatMap((parameter) => {
       const value = this.edits[parameter.name]
       const old = this.baseline[parameter.name]

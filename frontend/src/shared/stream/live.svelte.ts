@@ -26,7 +26,6 @@ export class LiveStream {
   lost_rows = $state(0)
   link_state = $state<string | null>(null)
   reason = $state<string | null>(null)
-  stale = $derived(this.age_ms > STALE_AFTER_MS)
 
   private socket: WebSocket | null = null
   private newest: StreamFrame | null = null
@@ -39,6 +38,11 @@ export class LiveStream {
 
   constructor(private readonly options: LiveOptions) {
     this.buffer = new TraceBuffer(options.window_s ?? 30)
+  }
+
+  /** Whether what is shown is too old to look alive. */
+  get stale(): boolean {
+    return this.age_ms > STALE_AFTER_MS
   }
 
   /** Opens the socket and keeps it open until `close`. */

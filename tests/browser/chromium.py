@@ -1,0 +1,38 @@
+"""Finds the Chromium that drives the browser tests, or says exactly how to get one."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+INSTALLED = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome")
+ADVICE = (
+    "No Chromium was found for the browser tests. Do one of these:\n"
+    "  sudo apt-get install chromium            (Debian, Ubuntu)\n"
+    "  .venv/bin/playwright install chromium    (Playwright's own, any system)\n"
+    "  export SPINDLE_CHROMIUM=/path/to/chrome  (one you already have)"
+)
+
+
+class NoChromium(Exception):
+    """There is none; the message says how to get one."""
+
+
+def find_chromium(own: str) -> str:
+    """Path of a Chromium: SPINDLE_CHROMIUM, else an installed one, else `own`, Playwright's.
+
+    Raises NoChromium; also when SPINDLE_CHROMIUM names a file that is not there.
+    """
+    named = os.environ.get("SPINDLE_CHROMIUM")
+    if named:
+        if Path(named).is_file():
+            return named
+        raise NoChromium(f"SPINDLE_CHROMIUM names {named}, and there is no such file.\n{ADVICE}")
+    for name in INSTALLED:
+        found = shutil.which(name)
+        if found:
+            return found
+    if Path(own).is_file():
+        return own
+    raise NoChromium(ADVICE)

@@ -1,0 +1,135 @@
+"""One real server for all browser tests: a simulated unit, and a two-hour ride on its shelf."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Playwright, sync_playwright
+
+from tests.browser.chromium import NoChromium, find_chromium
+from tests.browser.desk import ROOT, Desk
+from tests.browser.long_ride import write_long_ride
+from tests.fakes.server import SpindleServer
+
+OpenDesk = Callable[..., Desk]
+
+
+@pytest.fixture(scope="session")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
+    """`spindle serve` with one simulated unit that stands still, and the long ride."""
+    if not (ROOT / "frontend" / "dist" / "index.html").is_file():
+        pytest.fail("The pages are not built: run `make setup`.", pytrace=False)
+    data = tmp_path_factory.mktemp("browser")
+    write_long_ride(data)
+    running = SpindleServer(data, ["sim:bench?seed=1"]).start()
+    yield running
+    running.stop()
+
+
+@pytest.fixture(scope="session")
+def device(server: SpindleServer) -> str:
+    """The id of the simulated unit, once it is ready."""
+    return server.ready_device()
+
+
+@pytest.fixture(scope="session")
+def playwright() -> Iterator[Playwright]:
+    with sync_playwright() as running:
+        yield running
+
+
+@pytest.fixture(scope="session")
+def launch(playwright: Playwright) -> Callable[..., Browser]:
+    """Starts a Chromium; extra words go to its command line."""
+    try:
+        path = find_chromium(playwright.chromium.executable_path)
+    except NoChromium as none:
+        pytest.fail(str(none), pytrace=False)
+
+    # No sandbox: it needs rights that containers of test machines do not give.
+    def start(*words: str) -> Browser:
+        return playwright.chromium.launch(executable_path=path, args=["--no-sandbox", *words])
+
+    return start
+
+
+@pytest.fixture(scope="session")
+def browser(launch: Callable[..., Browser]) -> Iterator[Browser]:
+    running = launch()
+    yield running
+    running.close()
+
+
+@pytest.fixture
+def open_desk(browser: Browser, server: SpindleServer) -> Iterator[OpenDesk]:
+    """Opens desks with the wanted width, theme and language; none may complain unexpectedly."""
+    desks: list[Desk] = []
+
+    def open_one(
+        width: int = 1280,
+        height: int = 800,
+        theme: Any = "light",
+        language: str = "en-GB",
+        within: Browser = browser,
+        address: str = server.url,
+    ) -> Desk:
+        context = within.new_context(
+            viewport={"width": width, "height": height},
+            color_scheme=theme,
+            locale=language,
+            timezone_id="Europe/Berlin",
+        )
+        context.grant_permissions(["clipboard-read", "clipboard-write"])
+        desk = Desk(context.new_page(), address)
+        desks.append(desk)
+        return desk
+
+    yield open_one
+    complaints = [complaint for desk in desks for complaint in desk.unexpected()]
+    for desk in desks:
+        desk.page.context.close()
+    assert complaints == []
+
+
+@pytest.fixture
+def desk(open_desk: OpenDesk) -> Desk:
+    """A desk as most have it: 1280 wide, light, English."""
+    return open_desk()
+
+
+@pytest.fixture
+def standing(server: SpindleServer, device: str) -> str:
+    """The id of the unit, with its bike at rest and the configuration of the factory."""
+    server.stand_still(device)
+    parameters = server.get(f"/devices/{device}/parameters")["items"]
+    changed = {
+        p["name"]: p["default"]
+        for p in parameters
+        if p["value"] != p["default"] and p["access"] != "FACTORY"
+    }
+    if changed:
+        body = {"parameters": changed, "reason": "before a test"}
+        server.ask("PATCH", f"/devices/{device}/config", json=body)
+    return device
+
+
+@pytest.fixture
+def riding(server: SpindleServer, standing: str) -> str:
+    """The id of the unit, with a rider who pushes steadily in the fuzzy mode on a flat road."""
+    server.simulate(
+        standing,
+        brake=False,
+        assist_mode=3,
+        rider={"kind": "legs", "torque_nm": 20.0, "cadence_rpm_max": 90.0},
+        road={"grade_deg": 0.0, "wind_ms": 0.0},
+    )
+    return standing
+
+
+@pytest.fixture(scope="session")
+def axe() -> str:
+    """The source of axe-core, which the frontend pins."""
+    return Path(ROOT / "frontend/node_modules/axe-core/axe.min.js").read_text(encoding="utf-8")

@@ -1,0 +1,73 @@
+"""A browser page on the real server, with an eye on what no page of ours may do."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlsplit
+
+from playwright.sync_api import ConsoleMessage, Page, Request
+
+from tests.fakes.server import eventually
+
+ROOT = Path(__file__).resolve().parents[2]
+PICTURES = ROOT / "test-results"
+# A refused request is also written to the console by the browser itself, not by our code.
+REFUSED = re.compile(r"Failed to load resource: the server responded with a status of 4\d\d")
+
+
+class Desk:
+    """One page. `complaints` collects errors of scripts and requests that leave the machine."""
+
+    def __init__(self, page: Page, address: str) -> None:
+        self.page = page
+        self.address = address
+        self.complaints: list[str] = []
+        self.allowed: list[re.Pattern[str]] = []
+        page.on("console", self._console)
+        page.on("pageerror", lambda error: self.complaints.append(f"script: {error}"))
+        page.on("request", self._request)
+
+    def open(self, path: str) -> Page:
+        """Loads a page of the application and waits until it says something."""
+        self.page.goto(self.address + path)
+        self.page.wait_for_selector("main :is(section, form, fieldset, table, div)")
+        return self.page
+
+    def picture(self, name: str, full: bool = False) -> None:
+        """Keeps a picture for people to look at."""
+        PICTURES.mkdir(exist_ok=True)
+        self.page.screenshot(path=str(PICTURES / f"{name}.png"), full_page=full)
+
+    def allow(self, pattern: str) -> None:
+        """Complaints like this are what the test provokes."""
+        self.allowed.append(re.compile(pattern))
+
+    def unexpected(self) -> list[str]:
+        """Complaints that no test asked for."""
+        return [c for c in self.complaints if not any(p.search(c) for p in self.allowed)]
+
+    def number(self, selector: str) -> float:
+        """The number shown by an element; NaN while it shows a dash."""
+        text = self.page.inner_text(selector).replace(",", "").replace("\u2212", "-")
+        found = re.search(r"-?\d+(\.\d+)?", text)
+        return float(found.group()) if found else float("nan")
+
+    def plot(self, script: str) -> Any:
+        """Evaluates an expression over `gd`, the page's Plotly node."""
+        found = "const gd = document.querySelector('.js-plotly-plot')"
+        return self.page.evaluate(f"() => {{ {found}; return gd ? {script} : null }}")
+
+    def until(self, script: str) -> None:
+        """Waits until an expression is true (Playwright's own waiting needs eval: CSP bars it)."""
+        eventually(lambda: self.page.evaluate(f"() => {script}"))
+
+    def _console(self, message: ConsoleMessage) -> None:
+        if message.type in ("error", "warning") and not REFUSED.search(message.text):
+            self.complaints.append(f"console: {message.text}")
+
+    def _request(self, request: Request) -> None:
+        parts = urlsplit(request.url)
+        if parts.scheme not in ("data", "blob") and parts.hostname != "127.0.0.1":
+            self.complaints.append(f"request leaves the machine: {request.url}")

@@ -1,0 +1,75 @@
+"""Goal: who the unit is and how its link stands; several units side by side from the first day."""
+
+from __future__ import annotations
+
+from playwright.sync_api import expect
+
+from tests.browser.desk import Desk
+from tests.fakes.server import SpindleServer, eventually
+
+PILL = "[data-testid=device-pill]"
+
+
+def test_the_unit_says_who_it_is(desk: Desk, server: SpindleServer, standing: str) -> None:
+    known = server.get(f"/devices/{standing}")
+    page = desk.open("/")
+
+    expect(page.locator("main")).to_contain_text(known["identity"]["serial_number"])
+    stamp = f"{known['config']['crc32']:08x}"
+    expect(page.locator("[data-testid=config-stamp]")).to_contain_text(stamp)
+    expect(page.locator(PILL)).to_contain_text("Connected")
+    desk.picture("bike", full=True)
+
+
+def test_the_simulated_rider_obeys_the_panel(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    page = desk.open("/")
+
+    page.select_option("label:has-text('Rider') >> select", value="constant")
+    page.select_option("label:has-text('Speed of time') >> select", value="2")
+
+    eventually(
+        lambda: server.get(f"/devices/{standing}/simulation"),
+        lambda now: (now["rider"]["kind"], now["speed_factor"]) == ("constant", 2),
+    )
+    server.simulate(standing, speed_factor=1.0)
+
+
+def test_a_second_unit_is_added_chosen_and_removed(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    page = desk.open("/")
+    page.wait_for_selector(PILL)
+
+    page.click("text=Add a simulated unit")
+
+    chooser = page.locator(f"{PILL} select")
+    expect(chooser.locator("option")).to_have_count(2)
+    second = next(d for d in server.get("/devices")["items"] if d["id"] != standing)
+    expect(page.locator("main")).to_contain_text(second["url"])
+    page.click("text=Disconnect")
+    expect(chooser).to_have_count(0)
+    assert [d["id"] for d in server.get("/devices")["items"]] == [standing]
+
+
+def test_a_port_that_cannot_be_opened_says_why(desk: Desk, device: str) -> None:
+    desk.allow("Failed to load resource: the server responded with a status of 5")
+    page = desk.open("/")
+
+    page.fill("input[aria-label='Address of a port']", "socket://127.0.0.1:9")
+    page.press("input[aria-label='Address of a port']", "Enter")
+
+    page.wait_for_selector("main [role=alert], [data-testid=banner], dd:has-text('127.0.0.1:9')")
+
+
+def test_without_a_unit_the_page_shows_the_way(desk: Desk) -> None:
+    nothing = {"items": [], "next": None}
+    desk.page.route("**/api/v1/devices", lambda route: route.fulfill(json=nothing))
+
+    page = desk.open("/live")
+
+    page.wait_for_selector("[data-testid=no-unit]")
+    page.click("text=Connect a unit")
+    expect(page.locator("button", has_text="Add a simulated unit")).to_be_visible()
+    desk.picture("no-unit")

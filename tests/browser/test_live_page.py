@@ -1,0 +1,103 @@
+"""Goal: what the unit measures is on screen at once, and what is old never looks alive.
+
+Real server, real protocol, the unit's own firmware; a rider pedals in the simulation.
+"""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.browser.conftest import OpenDesk
+from tests.browser.desk import Desk
+from tests.fakes.server import SpindleServer, eventually
+
+LIVE = "[data-testid=live]"
+TORQUE = "[data-channel=rider_torque_filtered_nm] strong"
+SPEED = "[data-channel=speed_kmh] strong"
+
+
+@pytest.fixture
+def own_unit(server: SpindleServer, tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
+    """A simulated unit of our own, so that it can be frozen, and the browser's choice of units."""
+    words = [sys.executable, "-m", "sim_device", "unit", "--tcp", "0", "--scenario", "commute"]
+    unit = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
+    assert unit.stdout is not None
+    port = unit.stdout.readline().split()[-1].rsplit(":", 1)[-1]
+    device = server.ask("POST", "/devices", json={"url": f"socket://127.0.0.1:{port}"})
+    yield unit
+    unit.send_signal(signal.SIGCONT)
+    server.ask("DELETE", f"/devices/{device['id']}")
+    unit.terminate()
+    unit.wait(10)
+
+
+def test_numbers_move_and_strips_draw_at_thirty_frames_a_second(desk: Desk, riding: str) -> None:
+    page = desk.open("/live")
+
+    eventually(lambda: desk.number(SPEED), lambda speed: speed > 5)
+    before = page.inner_text(SPEED)
+    eventually(lambda: page.inner_text(SPEED), lambda text: text != before)
+    desk.until(f"Number(document.querySelector('{LIVE}').dataset.fps) >= 30")
+    assert len(page.query_selector_all("[data-draws]")) == 6
+    assert "0" in page.inner_text("[data-testid=gaps]")
+    desk.picture("live")
+
+
+def test_the_motor_torque_is_labelled_with_where_it_acts(desk: Desk, riding: str) -> None:
+    page = desk.open("/live")
+
+    page.wait_for_selector("text=Motor torque at the crank (motor × 40.34)")
+
+
+def test_pausing_holds_the_strips_and_not_the_numbers(desk: Desk, riding: str) -> None:
+    page = desk.open("/live")
+    desk.until("Number(document.querySelector('[data-draws]')?.dataset.draws) > 10")
+
+    page.keyboard.press("Space")
+    page.wait_for_selector("text=The strips stand still")
+    draws = page.get_attribute("[data-draws]", "data-draws")
+    before = page.inner_text(TORQUE)
+    eventually(lambda: page.inner_text(TORQUE), lambda text: text != before)
+
+    assert page.get_attribute("[data-draws]", "data-draws") == draws
+
+
+def test_a_silent_unit_is_shown_as_old_and_comes_back(
+    desk: Desk, server: SpindleServer, device: str, own_unit: subprocess.Popen[str]
+) -> None:
+    page = desk.open("/live")
+    page.wait_for_selector("[data-testid=device-pill] select")
+    page.select_option("[data-testid=device-pill] select", index=1)
+    page.wait_for_selector(f"{LIVE}[data-stale=false]")
+
+    own_unit.send_signal(signal.SIGSTOP)
+    page.wait_for_selector(f"{LIVE}[data-stale=true]")
+    page.wait_for_selector("text=the values below are old")
+    assert "s old" in page.inner_text("[data-channel=speed_kmh]")
+    page.wait_for_selector("[data-testid=banner]")
+    desk.picture("live-stale")
+
+    own_unit.send_signal(signal.SIGCONT)
+    page.wait_for_selector(f"{LIVE}[data-stale=false]")
+    page.wait_for_selector("[data-testid=banner]", state="detached")
+
+
+def test_a_server_that_is_gone_is_said_to_be_gone(open_desk: OpenDesk, tmp_path: Path) -> None:
+    mortal = SpindleServer(tmp_path, ["sim"]).start()
+    mortal.ready_device()
+    desk = open_desk(address=mortal.url)
+    desk.allow("ERR_CONNECTION|WebSocket|Failed to load resource")
+    page = desk.open("/live")
+    page.wait_for_selector(f"{LIVE}[data-stale=false]")
+
+    mortal.kill()
+
+    page.wait_for_selector("text=server does not answer")
+    page.wait_for_selector(f"{LIVE}[data-stale=true]")
+    assert "Offline" in page.inner_text("[data-testid=device-pill]")

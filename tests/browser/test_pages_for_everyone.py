@@ -1,0 +1,118 @@
+"""Goal: every page works for all: small screens, dark rooms, Chinese, keyboard, screen readers.
+
+Accessibility is judged by axe-core with the WCAG 2.2 A and AA rules.
+"""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.browser.conftest import OpenDesk
+from tests.browser.desk import Desk
+from tests.browser.test_rides_page import long_ride
+from tests.fakes.server import SpindleServer
+
+PAGES = ["/", "/live", "/tune", "/rides", "/sensor", "/service", "/settings"]
+READY = {
+    "/": "text=Round trip",
+    "/live": "[data-draws]",
+    "/tune": "[data-testid=surface][data-draws]",
+    "/rides": "[data-testid=ride-table]",
+    "/sensor": "[data-parameter=sensor_offset_counts]",
+    "/service": "section",
+    "/settings": "fieldset",
+}
+JUDGE = """async () => {
+    const only = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa']
+    const found = await axe.run(document, { runOnly: only })
+    return found.violations.map((v) => v.id + ': ' + v.nodes.map((n) =>
+        n.target.join(' ') + ' ' + n.any.map((a) => a.message).join('; ')).join(' | '))
+}"""
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("path", ["/", "/live", "/tune", "/rides", "/sensor"])
+def test_axe_finds_no_fault(
+    open_desk: OpenDesk, riding: str, axe: str, path: str, theme: str
+) -> None:
+    desk = open_desk(theme=theme)
+    page = desk.open(path)
+    page.wait_for_selector(READY[path])
+
+    page.evaluate(axe)
+
+    assert page.evaluate(JUDGE) == []
+    desk.picture(f"page{path.replace('/', '-')}-{theme}")
+
+
+def test_axe_finds_no_fault_in_a_ride(desk: Desk, server: SpindleServer, axe: str) -> None:
+    page = desk.open(f"/rides/{long_ride(server)}")
+    page.wait_for_selector("[data-testid=traces][data-draws]")
+
+    page.evaluate(axe)
+
+    assert page.evaluate(JUDGE) == []
+
+
+@pytest.mark.parametrize("path", PAGES)
+def test_a_small_phone_never_scrolls_sideways(open_desk: OpenDesk, riding: str, path: str) -> None:
+    desk = open_desk(width=360, height=740)
+    page = desk.open(path)
+    page.wait_for_selector(READY[path].replace("text=Round trip", "text=Serial number"))
+
+    assert page.evaluate("document.documentElement.scrollWidth") == 360
+
+
+def test_a_ride_fits_a_small_phone(open_desk: OpenDesk, server: SpindleServer) -> None:
+    desk = open_desk(width=360, height=740)
+    page = desk.open(f"/rides/{long_ride(server)}")
+    page.wait_for_selector("[data-testid=traces][data-draws]")
+
+    assert page.evaluate("document.documentElement.scrollWidth") == 360
+    desk.picture("ride-phone", full=True)
+
+
+@pytest.mark.parametrize("path", ["/live", "/tune"])
+def test_a_phone_in_the_dark_reads_chinese(open_desk: OpenDesk, riding: str, path: str) -> None:
+    desk = open_desk(width=390, height=844, theme="dark", language="zh-CN")
+    page = desk.open(path)
+    page.wait_for_selector(READY[path])
+
+    assert page.get_attribute("html", "lang") == "zh-CN"
+    expect(page.locator("nav")).to_contain_text("实时")
+    words = page.inner_text("main")
+    leftover = re.findall(r"\b[a-z]+\.[a-z_]+\b", words)
+    assert leftover == []
+    desk.picture(f"phone{path.replace('/', '-')}-zh-dark")
+
+
+def test_language_theme_and_units_are_chosen_and_kept(desk: Desk, riding: str) -> None:
+    page = desk.open("/settings")
+
+    page.check("input[value=dark]")
+    page.check("input[value=imperial]")
+    page.check("input[value=zh]")
+    page.reload()
+
+    expect(page.locator("h1")).to_have_text("设置")
+    assert page.get_attribute("html", "data-theme") == "dark"
+    page.click("nav >> text=实时")
+    expect(page.locator("[data-channel=speed_kmh]")).to_contain_text("mph")
+
+
+def test_the_first_tab_skips_to_the_page(desk: Desk, device: str) -> None:
+    page = desk.open("/rides")
+
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+
+    assert page.evaluate("document.activeElement.id") == "main"
+
+
+def test_an_unknown_address_says_so(desk: Desk, device: str) -> None:
+    page = desk.open("/nonsense")
+
+    expect(page.locator("main")).to_contain_text("no page at this address")

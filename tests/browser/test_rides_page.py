@@ -1,0 +1,178 @@
+"""Goal: two hours of a ride are looked through without losing a sample, and files become rides."""
+
+from __future__ import annotations
+
+import base64
+import re
+
+from playwright.sync_api import Page, expect
+
+from tests.browser.desk import Desk
+from tests.browser.long_ride import NAME, SPIKE_NM, SPIKE_ROW
+from tests.fakes.fit_file import fit_ride
+from tests.fakes.server import SpindleServer, eventually
+
+TRACES = "[data-testid=traces]"
+GREATEST = "Math.max(...gd.data.find((d) => d.name === 'Rider torque').y.filter((v) => !isNaN(v)))"
+
+
+def long_ride(server: SpindleServer) -> int:
+    rides = server.get("/rides")["items"]
+    return next(int(ride["id"]) for ride in rides if ride["name"] == NAME)
+
+
+def open_ride(desk: Desk, server: SpindleServer, query: str = "") -> Page:
+    page = desk.open(f"/rides/{long_ride(server)}{query}")
+    page.wait_for_selector(f"{TRACES}[data-draws]")
+    return page
+
+
+def drop_file(page: Page, name: str, content: bytes) -> None:
+    """What a file manager does when a file is let go over the page."""
+    page.evaluate(
+        """([name, text]) => {
+            const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0))
+            const transfer = new DataTransfer()
+            transfer.items.add(new File([bytes], name))
+            const event = { dataTransfer: transfer, bubbles: true, cancelable: true }
+            document.body.dispatchEvent(new DragEvent('dragover', event))
+            document.body.dispatchEvent(new DragEvent('drop', event))
+        }""",
+        [name, base64.b64encode(content).decode()],
+    )
+
+
+def steady_ride(minutes: int) -> bytes:
+    seconds = 60 * minutes
+    return fit_ride(1_700_000_000, [18.0] * seconds, [80] * seconds, [180] * seconds)
+
+
+def test_the_whole_ride_shows_its_one_spike(desk: Desk, server: SpindleServer) -> None:
+    page = open_ride(desk, server)
+
+    assert desk.plot(GREATEST) == SPIKE_NM
+    points = page.inner_text("[data-testid=points]")
+    shown, rows = re.findall(r"[\d,]+ of [\d,]+", points)[0].split(" of ")
+    assert 400 < int(shown.replace(",", "")) <= 4000
+    assert int(rows.replace(",", "")) == 720_000
+    desk.picture("ride", full=True)
+
+
+def test_zooming_keeps_the_spike_until_every_sample_is_drawn(
+    desk: Desk, server: SpindleServer
+) -> None:
+    page = open_ride(desk, server)
+    spike_s = SPIKE_ROW / 100
+    for half_s in (600, 60, 2):
+        left, right = (
+            desk.plot(f"gd._fullLayout.xaxis._offset + gd._fullLayout.xaxis.l2p({t})")
+            for t in (spike_s - half_s, spike_s + half_s)
+        )
+        box = page.locator(TRACES).bounding_box()
+        assert box is not None
+        before = page.inner_text("[data-testid=points]")
+        page.mouse.move(box["x"] + left, box["y"] + 60)
+        page.mouse.down()
+        page.mouse.move(box["x"] + right, box["y"] + 62, steps=4)
+        page.mouse.up()
+
+        points = page.locator("[data-testid=points]")
+        expect(points).not_to_have_text(before)
+        eventually(lambda: desk.plot(GREATEST), lambda most: most == SPIKE_NM)
+    expect(page.locator("[data-testid=points]")).to_contain_text("all")
+    desk.picture("ride-zoomed", full=True)
+
+
+def test_the_zoom_is_in_the_address(desk: Desk, server: SpindleServer) -> None:
+    page = open_ride(desk, server, "?from_s=4300&to_s=4330")
+
+    expect(page.locator("[data-testid=points]")).to_contain_text("1:11:40 – 1:12:10")
+    page.click("text=Whole ride")
+    expect(page.locator("[data-testid=points]")).to_contain_text("0:00 – 2:00:00")
+    assert "from_s" not in page.url
+
+
+def test_no_line_is_drawn_across_the_hole(desk: Desk, server: SpindleServer) -> None:
+    page = open_ride(desk, server)
+
+    inside = desk.plot("[...gd.data[0].y].filter((_, i) => gd.data[0].x[i] > 2010"
+                       " && gd.data[0].x[i] < 2290).every(Number.isNaN)")  # fmt: skip
+    assert inside is True
+    assert desk.plot("gd.data.every((d) => d.connectgaps === false)") is True
+    assert desk.plot("gd.layout.shapes.length") == 1
+    expect(page.locator("text=gaps without samples (1)")).to_be_visible()
+
+
+def test_rider_and_motor_are_told_apart(desk: Desk, server: SpindleServer) -> None:
+    page = open_ride(desk, server)
+
+    summary = page.locator("[data-testid=summary]")
+    expect(summary).to_contain_text("Rider energy")
+    expect(summary).to_contain_text("Motor energy")
+    assert desk.plot("gd.data.map((d) => d.name)") == [
+        "Speed", "Rider torque", "Motor torque at the crank", "rider", "motor", "Gain", "Cadence",
+    ]  # fmt: skip
+
+
+def test_the_same_window_is_a_table_for_those_who_see_no_curves(
+    desk: Desk, server: SpindleServer
+) -> None:
+    page = open_ride(desk, server)
+
+    page.click("button >> text=Data table")
+
+    expect(page.locator("section table")).to_contain_text("95.0")
+    assert 20 <= page.locator("section table tbody tr").count() <= 40
+
+
+def test_no_button_sends_a_chart_away(desk: Desk, server: SpindleServer) -> None:
+    page = open_ride(desk, server)
+
+    assert desk.plot("gd._context.showSendToCloud") is False
+    assert desk.plot("gd._context.plotlyServerURL") == ""
+    page.hover(TRACES)
+    assert page.locator("[data-title*=Share], [data-title*=cloud], .plotlyjsicon").count() == 0
+
+
+def test_a_dropped_fit_file_becomes_a_ride(desk: Desk, server: SpindleServer) -> None:
+    page = desk.open("/rides")
+
+    drop_file(page, "morning loop.fit", steady_ride(10))
+
+    row = page.locator("[data-testid=intake-list] li")
+    expect(row).to_have_attribute("data-state", "complete")
+    row.locator("text=Open the ride").click()
+    page.wait_for_selector(f"{TRACES}[data-draws]")
+    # 599 s at 18 km/h and 180 W.
+    expect(page.locator("[data-testid=summary]")).to_contain_text("3.00 km")
+    expect(page.locator("[data-testid=summary]")).to_contain_text("—")
+    expect(page.locator("text=Not recorded in this ride")).to_contain_text("Gain")
+    desk.picture("ride-imported")
+
+
+def test_a_damaged_file_says_why_and_what_was_saved(desk: Desk, server: SpindleServer) -> None:
+    page = desk.open("/rides")
+
+    drop_file(page, "cut short.fit", steady_ride(9)[:-1500])
+    drop_file(page, "holiday.fit", b"not a ride at all")
+
+    partial = page.locator("[data-testid=intake-list] li", has_text="cut short")
+    expect(partial).to_have_attribute("data-state", "partial")
+    expect(partial.locator("small")).not_to_be_empty()
+    rejected = page.locator("[data-testid=intake-list] li", has_text="holiday")
+    expect(rejected).to_have_attribute("data-state", "rejected")
+    expect(rejected.locator("small")).not_to_be_empty()
+    desk.picture("rides-intake")
+
+
+def test_a_ride_is_renamed(desk: Desk, server: SpindleServer) -> None:
+    page = desk.open("/rides")
+    drop_file(page, "to rename.fit", steady_ride(4))
+    page.click("text=Open the ride")
+
+    page.click("text=Rename")
+    page.fill("input[name=name]", "Along the river")
+    page.click("text=Keep")
+
+    expect(page.locator("h2", has_text="Along the river")).to_be_visible()
+    assert "Along the river" in [ride["name"] for ride in server.get("/rides")["items"]]

@@ -1,0 +1,54 @@
+"""Goal: raw counts and torque side by side, and a zero that is proposed, reviewed and written."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.browser.desk import Desk
+from tests.fakes.server import SpindleServer, eventually
+
+RAW = "[data-channel=rider_torque_raw] strong"
+TORQUE = "[data-channel=rider_torque_nm] strong"
+
+
+def test_a_zero_is_proposed_from_the_reading_and_written(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    page = desk.open("/sensor")
+    page.wait_for_selector("text=steady")
+
+    page.click("text=Zero from current reading")
+    offset = page.locator("input[aria-label='Sensor offset']")
+    expect(offset).not_to_have_value("0")
+    proposed = float(offset.input_value())
+    page.click("text=Review and write")
+    expect(page.locator("dialog")).to_contain_text("Sensor offset")
+    expect(page.locator("dialog")).to_contain_text("-30000 … 30000 counts")
+    page.click("dialog >> text=Write to the unit")
+
+    expect(page.locator("[role=status]", has_text="verified")).to_be_visible()
+    written = server.get(f"/devices/{standing}/config")["parameters"]["sensor_offset_counts"]
+    assert written == pytest.approx(proposed, abs=0.05)
+    desk.picture("sensor")
+
+
+def test_torque_is_the_reading_times_the_gain_that_was_written(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    body = {"parameters": {"sensor_offset_counts": -1000.0, "sensor_gain_nm_per_count": 0.02}}
+    server.ask("PATCH", f"/devices/{standing}/config", json=body)
+
+    page = desk.open("/sensor")
+
+    # (reading + 1000) x 0.02 with a reading of about nothing.
+    eventually(lambda: desk.number(TORQUE), lambda torque: abs(torque - 20.0) < 1.0)
+    assert page.inner_text(RAW) != "—"
+
+
+def test_zero_is_not_taken_from_turning_cranks(desk: Desk, riding: str) -> None:
+    page = desk.open("/sensor")
+
+    page.wait_for_selector("text=the cranks turn")
+
+    expect(page.locator("text=Zero from current reading")).to_be_disabled()

@@ -1,0 +1,262 @@
+"""Goal: a mechanic edits the table by keyboard, sees what it does, and writes it into the unit.
+
+Expected gains come from the geometry of the sets, not from our code: with every rule PB the
+centroid is that of the right-hand half triangle from 0.4 to 0.5, which is 0.4 + 2/3 of 0.1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from playwright.sync_api import Browser, Page, expect
+
+from tests.browser.conftest import OpenDesk
+from tests.browser.desk import Desk
+from tests.fakes.server import SpindleServer, eventually
+
+CELL = "[data-cell='0,0']"
+WRITE = "dialog >> text=Write to the unit"
+SURFACE = "[data-testid=surface]"
+BAR = "[data-testid=draft-bar]"
+GAIN_ALL_PB = 0.4 + 0.1 * 2 / 3
+
+
+def open_tune(desk: Desk) -> Page:
+    page = desk.open("/tune")
+    page.wait_for_selector(CELL)
+    page.wait_for_selector(f"{SURFACE}[data-draws]")
+    return page
+
+
+def all_rules_to(page: Page, key: str) -> None:
+    page.focus(CELL)
+    page.keyboard.press("Control+a")
+    page.keyboard.press(key)
+
+
+def review(page: Page) -> None:
+    page.click("text=Review and write")
+
+
+def test_an_edit_by_keyboard_is_reviewed_written_verified_and_felt(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    page = open_tune(desk)
+
+    all_rules_to(page, "5")
+    review(page)
+    dialog = page.locator("dialog")
+    expect(dialog).to_contain_text("Rule at 15 km/h, torque rate 0.45")
+    desk.picture("tune-review")
+    page.click(WRITE)
+
+    expect(page.locator("[role=status]", has_text="verified")).to_be_visible()
+    config = server.get(f"/devices/{standing}/config")
+    assert config["parameters"]["fuzzy_rules"] == [["PB"] * 5] * 5
+    server.simulate(standing, brake=False, rider={"kind": "constant", "torque_nm": 20.0})
+    eventually(lambda: desk.number("[data-testid=live-gain]"),
+               lambda gain: abs(gain - GAIN_ALL_PB) < 0.002)  # fmt: skip
+    desk.picture("tune-written")
+
+
+def test_a_written_change_can_be_taken_back_from_its_message(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    before = server.get(f"/devices/{standing}/config")["parameters"]
+    page = open_tune(desk)
+    page.focus(CELL)
+    page.keyboard.press("1")
+    review(page)
+    page.click(WRITE)
+
+    page.click("[role=status] >> text=Undo")
+
+    expect(page.locator("[role=status]", has_text="the old values are back")).to_be_visible()
+    assert server.get(f"/devices/{standing}/config")["parameters"] == before
+
+
+def test_a_value_out_of_range_is_named_and_cannot_be_written(desk: Desk, standing: str) -> None:
+    page = open_tune(desk)
+
+    page.fill("input[aria-label='Gain PB']", "0.9")
+
+    expect(page.locator("text=above the greatest allowed value, 0.5")).to_be_visible()
+    review(page)
+    expect(page.locator("dialog tr.wrong")).to_contain_text("Gain peak 5")
+    expect(page.locator(WRITE)).to_be_disabled()
+
+
+def test_what_the_unit_refuses_is_named_and_the_edit_stays(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    before = server.get(f"/devices/{standing}/config")
+    page = open_tune(desk)
+    page.click("summary >> text=Assist modes")
+
+    # Each value is allowed; that the taper would end before it starts only the unit knows.
+    page.fill("input[aria-label='Fixed law: taper starts at']", "24")
+    page.fill("input[aria-label='Fixed law: taper ends at']", "10")
+    review(page)
+    page.click(WRITE)
+
+    refusal = page.locator("dialog [role=alert]")
+    expect(refusal).to_contain_text("The unit refuses")
+    expect(refusal).to_contain_text("Fixed law: taper")
+    desk.picture("tune-refused")
+    assert server.get(f"/devices/{standing}/config") == before
+    page.keyboard.press("Escape")
+    expect(page.locator(BAR)).to_contain_text("2 changed")
+
+
+def test_a_moving_bike_is_explained_and_its_simulated_rider_can_be_stopped(
+    desk: Desk, server: SpindleServer, riding: str
+) -> None:
+    eventually(lambda: server.get(f"/devices/{riding}/snapshot")["channels"]["speed_kmh"],
+               lambda speed: speed > 2)  # fmt: skip
+    page = open_tune(desk)
+    page.focus(CELL)
+    page.keyboard.press("1")
+    review(page)
+
+    page.click(WRITE)
+    expect(page.locator("dialog [role=alert]")).to_contain_text("the wheel or the motor turns")
+    desk.picture("tune-moving")
+    page.click("text=Stop the simulated rider, write")
+
+    expect(page.locator("[role=status]", has_text="verified")).to_be_visible(timeout=60_000)
+    rules = server.get(f"/devices/{riding}/config")["parameters"]["fuzzy_rules"]
+    assert rules[0][0] == "NB"
+    eventually(lambda: server.get(f"/devices/{riding}/simulation")["rider"]["kind"],
+               lambda kind: kind == "legs")  # fmt: skip
+
+
+def test_somebody_elses_change_is_not_overwritten(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    page = open_tune(desk)
+    page.focus(CELL)
+    page.keyboard.press("1")
+    review(page)
+    # The page may see the new configuration before it writes; then there is nothing to refuse.
+    page.route("**/config", lambda route: route.continue_(headers={
+        **route.request.headers, "if-match": '"1-00000000"'
+    }) if route.request.method == "PATCH" else route.continue_())  # fmt: skip
+
+    page.click(WRITE)
+
+    expect(page.locator("dialog [role=alert]")).to_contain_text("somebody else changed the unit")
+    config = server.get(f"/devices/{standing}/config")["parameters"]
+    assert config["fuzzy_rules"][0][0] == "ZO"
+
+
+def test_edits_survive_a_look_at_another_page(desk: Desk, standing: str) -> None:
+    page = open_tune(desk)
+    page.focus("[data-cell='2,2']")
+    page.keyboard.press("+")
+
+    page.click("nav >> text=Bike")
+    page.wait_for_selector("text=Last ride")
+    page.click("nav >> text=Tune")
+
+    expect(page.locator("[data-cell='2,2'] .label")).to_have_text("PS")
+    expect(page.locator(BAR)).to_contain_text("1 changed")
+
+
+def test_the_grid_is_worked_by_keyboard_alone(desk: Desk, standing: str) -> None:
+    page = open_tune(desk)
+    page.focus(CELL)
+
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Shift+ArrowRight")
+    page.keyboard.press("4")
+    labels = page.locator("[data-cell='1,1'] .label, [data-cell='1,2'] .label")
+    assert labels.all_inner_texts() == ["PS", "PS"]
+    page.keyboard.press("Control+c")
+    page.focus("[data-cell='4,3']")
+    page.keyboard.press("Control+v")
+    pasted = page.locator("[data-cell='4,3'] .label, [data-cell='4,4'] .label")
+    expect(pasted.first).to_have_text("PS")
+    assert pasted.all_inner_texts() == ["PS", "PS"]
+
+    page.keyboard.press("Control+z")
+    expect(pasted.first).to_have_text("NS")
+    page.keyboard.press("Control+z")
+    expect(labels.first).to_have_text("ZO")
+    expect(page.locator(BAR)).to_contain_text("Same as in the unit")
+
+
+def test_a_paste_that_does_not_fit_changes_nothing(desk: Desk, standing: str) -> None:
+    page = open_tune(desk)
+    page.evaluate("navigator.clipboard.writeText('NB\\tNB\\tNB')")
+
+    page.focus("[data-cell='4,4']")
+    page.keyboard.press("Control+v")
+
+    expect(page.locator("[role=alert]")).to_contain_text("Nothing pasted")
+    expect(page.locator(BAR)).to_contain_text("Same as in the unit")
+
+
+def test_the_surface_follows_the_table(desk: Desk, standing: str) -> None:
+    page = open_tune(desk)
+    before = desk.plot("gd.data[0].z.map((row) => [...row])")
+    assert len(before) == len(before[0]) == 41
+
+    all_rules_to(page, "5")
+
+    eventually(lambda: desk.plot("gd.data[0].z[0][0]"), lambda z: abs(z - GAIN_ALL_PB) < 1e-4)
+
+
+def test_a_peak_is_moved_by_keys_and_keeps_its_order(desk: Desk, standing: str) -> None:
+    page = open_tune(desk)
+    handle = page.locator("[role=slider][aria-label='Speed 2']")
+    handle.focus()
+
+    for _ in range(12):
+        page.keyboard.press("Shift+ArrowRight")
+
+    expect(handle).to_have_attribute("aria-valuenow", "14.9")
+    expect(page.locator("input[aria-label='Speed 2']")).to_have_value("14.9")
+
+
+def test_a_peak_is_dragged(desk: Desk, standing: str) -> None:
+    page = open_tune(desk)
+    handle = page.locator("[role=slider][aria-label='Gain ZO'] circle")
+    handle.scroll_into_view_if_needed()
+    box = handle.bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 20, y)
+    page.mouse.move(x + 40, y)
+    page.mouse.up()
+
+    value = float(page.input_value("input[aria-label='Gain ZO']"))
+    assert 0.3 < value < 0.4
+    page.keyboard.press("Control+z")
+    expect(page.locator("input[aria-label='Gain ZO']")).to_have_value("0.3")
+
+
+def test_the_surface_turns_in_three_dimensions(desk: Desk, standing: str) -> None:
+    # Plotly picks the point under the cursor by reading its canvas back.
+    desk.allow("Canvas2D: Multiple readback|GPU stall due to ReadPixels|too many errors")
+    page = open_tune(desk)
+
+    page.click("button >> text=3D")
+
+    page.wait_for_selector(f"{SURFACE}[data-kind='3d'][data-draws] canvas", timeout=60_000)
+    assert desk.plot("gd.data[0].type") == "surface"
+    desk.picture("tune-3d")
+
+
+def test_without_webgl_the_map_says_so(
+    launch: Callable[..., Browser], open_desk: OpenDesk, standing: str
+) -> None:
+    flat = launch("--disable-3d-apis")
+    page = open_tune(open_desk(within=flat))
+
+    expect(page.locator("button >> text=3D")).to_be_disabled()
+    expect(page.locator("text=cannot draw in three dimensions")).to_be_visible()
+    flat.close()
