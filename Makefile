@@ -5,7 +5,6 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := .make
-export PYTHONDONTWRITEBYTECODE = 1
 
 C_SOURCES := $(wildcard firmware_protocol/c/*.[ch] sim_device/firmware/*/*.[ch] \
 	sim_device/firmware/boards/host/*.[ch] sim_device/physics/*.[ch])
@@ -87,7 +86,7 @@ $(STAMP)/python: requirements.lock build.lock pyproject.toml setup.py
 	@.ci/check-machine $(PYTHON)
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install -q --disable-pip-version-check --require-hashes --no-deps -r build.lock
-	$(BIN)/uv pip sync -q --require-hashes requirements.lock build.lock
+	$(BIN)/uv pip sync -q --compile-bytecode --require-hashes requirements.lock build.lock
 	@touch $@
 
 $(STAMP)/native: $(STAMP)/python $(C_SOURCES) sim_device/firmware/python/build.py
