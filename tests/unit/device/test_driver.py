@@ -39,7 +39,7 @@ def opener() -> UnitOpener:
 
 @pytest.fixture
 def driver(opener: UnitOpener, heard: Heard) -> Iterator[Driver]:
-    driver = Driver(opener, heard, StreamPlan())
+    driver = Driver(opener, heard, StreamPlan(batch=5))
     yield driver
     driver.close()
 
@@ -98,7 +98,7 @@ def test_a_listener_that_fails_is_logged_and_the_thread_goes_on(
         heard(event)
         raise ValueError("a listener's fault")
 
-    driver = Driver(opener, broken, StreamPlan())
+    driver = Driver(opener, broken, StreamPlan(batch=5))
     with caplog.at_level(logging.ERROR):
         driver.start()
         heard.wait_for(StreamBlock, count=5)
@@ -211,7 +211,7 @@ def test_a_unit_on_a_pseudo_terminal_vanishes_with_it_and_is_ready_again_on_the_
     unit = FakeUnit()
     served = PtyUnit(unit)
     os.symlink(served.path, port)  # noqa: PTH211
-    driver = Driver(Opener(port), heard, StreamPlan())
+    driver = Driver(Opener(port), heard, StreamPlan(batch=5))
     driver.start()
     heard.wait_for(StreamBlock, count=3)
 

@@ -31,7 +31,7 @@ from tests.fakes.unit import FakeUnit, Refusal
 
 
 def test_a_hundred_rows_a_second_arrive_in_twenty_blocks_of_all_channels() -> None:
-    bench = Bench(FakeUnit(), StreamPlan()).connect()
+    bench = Bench(FakeUnit(), StreamPlan(batch=5)).connect()
     bench.run(0.2)
     before = len(bench.blocks())
 
@@ -45,7 +45,7 @@ def test_a_hundred_rows_a_second_arrive_in_twenty_blocks_of_all_channels() -> No
 
 
 def test_blocks_follow_each_other_in_time_and_number_without_a_seam() -> None:
-    bench = Bench(FakeUnit(), StreamPlan()).connect()
+    bench = Bench(FakeUnit(), StreamPlan(batch=5)).connect()
     bench.run(10.0)
 
     blocks = bench.blocks()
@@ -58,7 +58,7 @@ def test_blocks_follow_each_other_in_time_and_number_without_a_seam() -> None:
 
 def test_lost_frames_are_counted_to_the_row() -> None:
     unit = FakeUnit()
-    bench = Bench(unit, StreamPlan()).connect()
+    bench = Bench(unit, StreamPlan(batch=5)).connect()
     bench.run(1.0)
     seen = len(bench.blocks())
 
@@ -73,7 +73,7 @@ def test_lost_frames_are_counted_to_the_row() -> None:
 
 def test_what_was_built_is_what_was_received_and_what_was_lost() -> None:
     unit = FakeUnit()
-    bench = Bench(unit, StreamPlan()).connect()
+    bench = Bench(unit, StreamPlan(batch=5)).connect()
     bench.run(0.5)
     pieces = 0
 
@@ -96,7 +96,7 @@ def test_what_was_built_is_what_was_received_and_what_was_lost() -> None:
 def test_unit_time_goes_on_past_its_32_bits() -> None:
     unit = FakeUnit()
     unit.time_us = 2**32 - 500_000
-    bench = Bench(unit, StreamPlan()).connect()
+    bench = Bench(unit, StreamPlan(batch=5)).connect()
     bench.run(2.0)
 
     times = [block.t0_us for block in bench.blocks()]
@@ -108,7 +108,7 @@ def test_unit_time_goes_on_past_its_32_bits() -> None:
 def test_the_first_rows_have_the_unit_s_full_time_after_days_of_running() -> None:
     unit = FakeUnit()
     unit.time_us = 3 * 86_400_000_000
-    bench = Bench(unit, StreamPlan()).connect()
+    bench = Bench(unit, StreamPlan(batch=5)).connect()
 
     bench.run(0.5)
 
@@ -116,7 +116,7 @@ def test_the_first_rows_have_the_unit_s_full_time_after_days_of_running() -> Non
 
 
 def test_a_block_knows_when_the_host_read_it() -> None:
-    bench = Bench(FakeUnit(), StreamPlan())
+    bench = Bench(FakeUnit(), StreamPlan(batch=5))
     bench.session.wall_offset_us = 1_700_000_000_000_000
     bench.connect().run(1.0)
 
@@ -127,7 +127,7 @@ def test_a_block_knows_when_the_host_read_it() -> None:
 
 def test_the_lease_is_renewed_every_two_seconds_and_the_stream_never_ends() -> None:
     unit = FakeUnit()
-    bench = Bench(unit, StreamPlan()).connect()
+    bench = Bench(unit, StreamPlan(batch=5)).connect()
 
     bench.run(21.0)
 
@@ -142,7 +142,7 @@ def test_the_lease_of_a_simulated_unit_that_runs_two_hundred_times_faster_holds(
 
     unit = Hurried()
     unit.device_class = 129
-    bench = Bench(unit, StreamPlan()).connect()
+    bench = Bench(unit, StreamPlan(batch=5)).connect()
 
     bench.run(5.0)
 
@@ -157,7 +157,7 @@ def test_a_line_that_is_too_slow_is_asked_for_less() -> None:
                 raise Refusal(Status.BANDWIDTH, 25)
             return super()._on_str_subscribe(request)
 
-    bench = Bench(SlowLine(), StreamPlan()).connect()
+    bench = Bench(SlowLine(), StreamPlan(batch=5)).connect()
     bench.run(1.0)
 
     assert bench.of(StreamStarted)[0].period_us == 40_000
@@ -165,7 +165,7 @@ def test_a_line_that_is_too_slow_is_asked_for_less() -> None:
 
 def test_faults_and_the_unit_s_own_frame_count_are_noted() -> None:
     unit = FakeUnit()
-    bench = Bench(unit, StreamPlan()).connect()
+    bench = Bench(unit, StreamPlan(batch=5)).connect()
 
     unit.tell(FaultSetEvent(0b101))
     unit.tell(FaultClearedEvent(0b001))
@@ -236,7 +236,7 @@ def test_32_bits_of_time_are_enough_within_half_an_hour(time_us: int, apart_us: 
 
 @pytest.mark.parametrize("listener_sleeps_s", [120.0])
 def test_a_caller_that_stops_reading_loses_events_and_not_memory(listener_sleeps_s: float) -> None:
-    bench = Bench(FakeUnit(), StreamPlan()).connect()
+    bench = Bench(FakeUnit(), StreamPlan(batch=5)).connect()
     session = bench.session
     for _ in range(round(listener_sleeps_s * 100)):
         bench.now_s += 0.01
