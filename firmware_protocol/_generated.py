@@ -13,7 +13,7 @@ MTU = 544
 MAX_OUTSTANDING = 4
 CONTROL_PERIOD_US = 10000
 IMAGE_LENGTH = 299
-SCHEMA_HASH = bytes.fromhex("b13ee7b28c3f71db")
+SCHEMA_HASH = bytes.fromhex("e99234d04403a8bf")
 
 
 class Status(IntEnum):
@@ -1204,7 +1204,7 @@ CHANNELS: tuple[Channel, ...] = (
     Channel(7, "torque_rate", "", 0.0005, "Relative torque change over the rate interval: the law's second input."),
     Channel(8, "motor_torque_nm", "Nm", 0.0001, "Torque at the motor's shaft; times gear_ratio it is the torque at the crank."),
     Channel(9, "motor_current_a", "A", 0.001, "Current in the motor."),
-    Channel(10, "motor_speed_rpm", "rpm", 0.1, "Motor speed."),
+    Channel(10, "motor_speed_rpm", "rpm", 0.2, "Motor speed."),
     Channel(11, "battery_current_a", "A", 0.001, "Current from the battery."),
     Channel(12, "battery_voltage_v", "V", 0.002, "Battery voltage at the terminals."),
     Channel(13, "battery_soc_pct", "%", 0.01, "Battery state of charge."),

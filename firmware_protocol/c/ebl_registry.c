@@ -123,7 +123,7 @@ const ebl_channel ebl_channels[EBL_CHANNEL_COUNT] = {
     {7, 0.0005f},
     {8, 0.0001f},
     {9, 0.001f},
-    {10, 0.1f},
+    {10, 0.2f},
     {11, 0.001f},
     {12, 0.002f},
     {13, 0.01f},

@@ -19,7 +19,7 @@
 #define EBL_ORDER_COUNT 1
 #define EBL_CHANNEL_COUNT 20
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 2955
+#define EBL_SCHEMA_LENGTH 2957
 
 enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */
 

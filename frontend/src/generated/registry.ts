@@ -767,7 +767,7 @@ export const CHANNELS = {
     id: 10,
     name: "motor_speed_rpm",
     unit: "rpm",
-    scale: 0.1,
+    scale: 0.2,
     doc: "Motor speed.",
   },
   battery_current_a: {
