@@ -84,7 +84,8 @@ def test_the_law_keeps_no_state_of_its_own() -> None:
         if path.suffix == ".c"
         for line in path.read_text().splitlines()
         if re.match(
-            r"^(static\s+)?(?!const|inline|typedef|enum|struct)\w[\w ]*\s+\w+(\[.*\])?\s*(=|;)", line
+            r"^(static\s+)?(?!const|inline|typedef|enum|struct)\w[\w ]*\s+\w+(\[.*\])?\s*(=|;)",
+            line,
         )
         and "const" not in line
         and "(" not in line.split("=")[0]
