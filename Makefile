@@ -27,6 +27,7 @@ setup: $(STAMP)/native $(STAMP)/web ## install and build everything, start nothi
 
 .PHONY: test
 test: setup $(STAMP)/chromium lint ## every test there is, a real browser included
+	cd frontend && npm run --silent test
 	$(BIN)/pytest
 
 .PHONY: test-fast
