@@ -53,14 +53,19 @@ def test_a_second_unit_is_added_chosen_and_removed(
     assert [d["id"] for d in server.get("/devices")["items"]] == [standing]
 
 
-def test_a_port_that_cannot_be_opened_says_why(desk: Desk, device: str) -> None:
-    desk.allow("Failed to load resource: the server responded with a status of 5")
+def test_a_port_that_cannot_be_opened_says_why(
+    desk: Desk, server: SpindleServer, device: str
+) -> None:
+    desk.allow("the server responded with a status of 50[34]")
     page = desk.open("/")
 
     page.fill("input[aria-label='Address of a port']", "socket://127.0.0.1:9")
     page.press("input[aria-label='Address of a port']", "Enter")
 
-    page.wait_for_selector("main [role=alert], [data-testid=banner], dd:has-text('127.0.0.1:9')")
+    expect(page.locator("[data-testid=banner]")).to_contain_text("127.0.0.1")
+    page.click("text=Disconnect")
+    expect(page.locator(PILL)).to_contain_text("Connected")
+    assert [d["id"] for d in server.get("/devices")["items"]] == [device]
 
 
 def test_without_a_unit_the_page_shows_the_way(desk: Desk) -> None:

@@ -17,20 +17,22 @@ from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk
 from tests.fakes.server import SpindleServer, eventually
 
+OwnUnit = tuple[subprocess.Popen[str], str]
+
 LIVE = "[data-testid=live]"
 TORQUE = "[data-channel=rider_torque_filtered_nm] strong"
 SPEED = "[data-channel=speed_kmh] strong"
 
 
 @pytest.fixture
-def own_unit(server: SpindleServer, tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
-    """A simulated unit of our own, so that it can be frozen, and the browser's choice of units."""
+def own_unit(server: SpindleServer) -> Iterator[OwnUnit]:
+    """A simulated unit of our own, so that it can be frozen; with the id the server gave it."""
     words = [sys.executable, "-m", "sim_device", "unit", "--tcp", "0", "--scenario", "commute"]
     unit = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
     assert unit.stdout is not None
     port = unit.stdout.readline().split()[-1].rsplit(":", 1)[-1]
     device = server.ask("POST", "/devices", json={"url": f"socket://127.0.0.1:{port}"})
-    yield unit
+    yield unit, device["id"]
     unit.send_signal(signal.SIGCONT)
     server.ask("DELETE", f"/devices/{device['id']}")
     unit.terminate()
@@ -69,21 +71,23 @@ def test_pausing_holds_the_strips_and_not_the_numbers(desk: Desk, riding: str) -
 
 
 def test_a_silent_unit_is_shown_as_old_and_comes_back(
-    desk: Desk, server: SpindleServer, device: str, own_unit: subprocess.Popen[str]
+    desk: Desk, server: SpindleServer, device: str, own_unit: OwnUnit
 ) -> None:
+    unit, own_id = own_unit
+    # Its configuration is asked for while it is silent.
+    desk.allow("status of 50[34]")
     page = desk.open("/live")
-    page.wait_for_selector("[data-testid=device-pill] select")
-    page.select_option("[data-testid=device-pill] select", index=1)
+    page.select_option("[data-testid=device-pill] select", value=own_id)
     page.wait_for_selector(f"{LIVE}[data-stale=false]")
 
-    own_unit.send_signal(signal.SIGSTOP)
+    unit.send_signal(signal.SIGSTOP)
     page.wait_for_selector(f"{LIVE}[data-stale=true]")
     page.wait_for_selector("text=the values below are old")
     assert "s old" in page.inner_text("[data-channel=speed_kmh]")
     page.wait_for_selector("[data-testid=banner]")
     desk.picture("live-stale")
 
-    own_unit.send_signal(signal.SIGCONT)
+    unit.send_signal(signal.SIGCONT)
     page.wait_for_selector(f"{LIVE}[data-stale=false]")
     page.wait_for_selector("[data-testid=banner]", state="detached")
 

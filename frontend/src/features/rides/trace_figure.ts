@@ -19,10 +19,12 @@ interface Frame {
   rows: TraceRow[]
   window: { from_s: number; to_s: number }
   gaps: { from_s: number; to_s: number }[]
+  /** Size of the plot in pixels. */
   width: number
+  height: number
 }
 
-const ROW_GAP = 0.045
+const ROW_GAP_PX = 26 // room for a row's title
 
 export function traceFigure(
   series: Series,
@@ -77,8 +79,9 @@ function layoutOf(
   const { from_s, to_s } = frame.window
   const ticks = timeTicks(from_s, to_s, Math.max(3, frame.width / 110))
   const count = frame.rows.length
-  const height = (1 - ROW_GAP * (count - 1)) / count
-  const top = (i: number) => 1 - i * (height + ROW_GAP)
+  const gap = ROW_GAP_PX / frame.height
+  const height = (1 - gap * (count - 1)) / count
+  const top = (i: number) => 1 - i * (height + gap)
   const rows = frame.rows.map((_, i) => [
     i === 0 ? 'yaxis' : `yaxis${i + 1}`,
     {

@@ -127,6 +127,11 @@ export class ConfigDraft {
     return result
   }
 
+  /** How many values differ, each element of a table counted. */
+  get count(): number {
+    return this.changes.reduce((sum, { old, value }) => sum + differing(old, value), 0)
+  }
+
   private without(name: string, value: ParameterValue | undefined): Edits {
     const others = Object.entries(this.edits).filter(([other]) => other !== name)
     return Object.fromEntries(value === undefined ? others : [...others, [name, value]])
@@ -153,6 +158,14 @@ export class Drafts {
     const key = `${device_id}\n${page}`
     return (this.byKey[key] ??= new ConfigDraft(device_id, this.server))
   }
+}
+
+function differing(a: ParameterValue, b: ParameterValue): number {
+  if (!Array.isArray(a) || !Array.isArray(b)) return same(a, b) ? 0 : 1
+  const others = b as ParameterValue[]
+  return (a as ParameterValue[]).reduce<number>(
+    (sum, element, i) => sum + differing(element, others[i] as ParameterValue), 0,
+  )
 }
 
 function same(a: ParameterValue | undefined, b: ParameterValue | undefined): boolean {

@@ -30,7 +30,10 @@ export function roundRange(
   max: number | null,
   least: [number, number],
 ): [number, number] {
-  if ((min ?? least[0]) >= least[0] && (max ?? least[1]) <= least[1]) return least
+  // A sensor's noise about zero must not make the axis jump.
+  const slack = 0.03 * (least[1] - least[0])
+  const within = (min ?? least[0]) >= least[0] - slack && (max ?? least[1]) <= least[1] + slack
+  if (within) return least
   const low = Math.min(least[0], min ?? least[0])
   const high = Math.max(least[1], max ?? least[1])
   const step = niceStep((high - low) / 4)

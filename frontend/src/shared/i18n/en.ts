@@ -198,6 +198,7 @@ export const en = {
   'ride.battery_energy': 'Battery energy',
   'ride.rider_power': 'Mean rider power',
   'ride.motor_power': 'Mean motor power',
+  'ride.max_power': 'Top rider power',
   'ride.mean_torque': 'Mean rider torque',
   'ride.max_torque': 'Top rider torque',
   'ride.mean_cadence': 'Mean cadence',

@@ -36,7 +36,7 @@ export const enUnit = {
   'parameter.motor_resistance_ohm': 'Motor resistance',
 
   'choice.OFF': 'off',
-  'choice.FIXED': 'fixed ratio',
+  'choice.FIXED': 'fixed',
   'choice.FUZZY': 'fuzzy',
   'choice.MAMDANI_CENTROID': 'Mamdani, exact centroid',
   'choice.WEIGHTED_AVERAGE': 'Weighted average',

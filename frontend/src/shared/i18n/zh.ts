@@ -199,6 +199,7 @@ export const zh: Record<Key, string> = {
   'ride.battery_energy': '电池能量',
   'ride.rider_power': '骑手平均功率',
   'ride.motor_power': '电机平均功率',
+  'ride.max_power': '骑手最大功率',
   'ride.mean_torque': '骑手平均扭矩',
   'ride.max_torque': '骑手最大扭矩',
   'ride.mean_cadence': '平均踏频',

@@ -34,7 +34,8 @@ export function typed(value: number): string {
 
 /** The bounds of a parameter with its unit, such as "0 … 25 km/h". */
 export function rangeText(parameter: Parameter, units: Units): string {
-  const { min, max, unit } = parameter
+  const { min, max, unit, choices } = parameter
+  if (choices && choices.length > 3) return `${choices[0]} … ${choices[choices.length - 1]}`
   if (min == null || max == null) return ''
   const shown = `${typed(units.show(min, unit))} … ${typed(units.show(max, unit))}`
   return `${shown} ${units.label(unit)}`.trim()
