@@ -13,7 +13,7 @@ MTU = 544
 MAX_OUTSTANDING = 4
 CONTROL_PERIOD_US = 10000
 IMAGE_LENGTH = 299
-SCHEMA_HASH = bytes.fromhex("e99234d04403a8bf")
+SCHEMA_HASH = bytes.fromhex("1cf37cde55ff5064")
 
 
 class Status(IntEnum):
@@ -137,6 +137,8 @@ class Event(IntEnum):
     CONFIG_ROLLED_BACK = 5
     CONFIG_DEFAULTED = 6
     STREAM_STATS = 7
+    LOG_CLOSED = 20
+    LOG_OVERWRITTEN = 21
 
 
 class LimitFlags(IntFlag):
@@ -154,6 +156,14 @@ class LimitFlags(IntFlag):
     BATTERY_VOLTAGE = 512
     INPUT_REFUSED = 1024
     MODE_OFF = 2048
+
+
+class LogFlags(IntFlag):
+    """Where a ride log stands."""
+
+    RECORDING = 1
+    CONFIRMED = 2
+    ENDED = 4
 
 
 class FaultFlags(IntFlag):
@@ -186,6 +196,12 @@ class MessageId(IntEnum):
     STR_RENEW = 0x0203
     STR_SNAPSHOT = 0x0205
     EVT_FAULT_LIST = 0x0302
+    LOG_LIST = 0x0401
+    LOG_OPEN = 0x0402
+    LOG_ACK = 0x0403
+    LOG_CLOSE = 0x0404
+    LOG_CRC = 0x0405
+    LOG_CONFIRM = 0x0407
     SIM_GET = 0x7001
     SIM_SET = 0x7002
 
@@ -695,6 +711,182 @@ class EvtFaultListResponse(Message):
 
 
 @dataclass(frozen=True, slots=True)
+class LogListRequest(Message):
+    """Ride logs from number `start` on, the oldest first. Entries of 40 bytes: log_id u32, generation u32, boot_id u32, t0_us u64, t1_us u64, length u32, flags u8 (log_flags), 7 reserved."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_LIST
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("start", "u16"),
+        Field("count", "u8"),
+    )
+    LENGTH: ClassVar[int] = 3
+
+    start: int
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
+class LogListResponse(Message):
+    """Ride logs from number `start` on, the oldest first. Entries of 40 bytes: log_id u32, generation u32, boot_id u32, t0_us u64, t1_us u64, length u32, flags u8 (log_flags), 7 reserved."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_LIST
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("total", "u16"),
+        Field("overwritten", "u32"),
+        Field("boot_id", "u32"),
+        Field("now_us", "u64"),
+        Field("entries", "bytes"),
+    )
+    LENGTH: ClassVar[int] = 18
+
+    total: int
+    overwritten: int
+    boot_id: int
+    now_us: int
+    entries: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class LogOpenRequest(Message):
+    """Sends a log from `offset` on as BULK frames of channel `session` (1 to 15), at most `window` (1 to 32) unacknowledged."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_OPEN
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("log_id", "u32"),
+        Field("generation", "u32"),
+        Field("offset", "u32"),
+        Field("window", "u8"),
+        Field("session", "u8"),
+    )
+    LENGTH: ClassVar[int] = 14
+
+    log_id: int
+    generation: int
+    offset: int
+    window: int
+    session: int
+
+
+@dataclass(frozen=True, slots=True)
+class LogOpenResponse(Message):
+    """Sends a log from `offset` on as BULK frames of channel `session` (1 to 15), at most `window` (1 to 32) unacknowledged."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_OPEN
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("length", "u32"),
+        Field("chunk", "u16"),
+        Field("window", "u8"),
+    )
+    LENGTH: ClassVar[int] = 7
+
+    length: int
+    chunk: int
+    window: int
+
+
+@dataclass(frozen=True, slots=True)
+class LogAckRequest(Message):
+    """Everything below `base` has come; bit k of the bitmap: the chunk k chunks above has. With transaction id 0 it is not answered."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_ACK
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("session", "u8"),
+        Field("base", "u32"),
+        Field("bitmap", "u64"),
+    )
+    LENGTH: ClassVar[int] = 13
+
+    session: int
+    base: int
+    bitmap: int
+
+
+@dataclass(frozen=True, slots=True)
+class LogAckResponse(Message):
+    """Everything below `base` has come; bit k of the bitmap: the chunk k chunks above has. With transaction id 0 it is not answered."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_ACK
+
+
+@dataclass(frozen=True, slots=True)
+class LogCloseRequest(Message):
+    """Ends a session."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_CLOSE
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("session", "u8"),
+    )
+    LENGTH: ClassVar[int] = 1
+
+    session: int
+
+
+@dataclass(frozen=True, slots=True)
+class LogCloseResponse(Message):
+    """Ends a session."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_CLOSE
+
+
+@dataclass(frozen=True, slots=True)
+class LogCrcRequest(Message):
+    """The CRC-32 of a part of a log. Answers PENDING first."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_CRC
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("log_id", "u32"),
+        Field("generation", "u32"),
+        Field("offset", "u32"),
+        Field("length", "u32"),
+    )
+    LENGTH: ClassVar[int] = 16
+
+    log_id: int
+    generation: int
+    offset: int
+    length: int
+
+
+@dataclass(frozen=True, slots=True)
+class LogCrcResponse(Message):
+    """The CRC-32 of a part of a log. Answers PENDING first."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_CRC
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("crc32", "u32"),
+    )
+    LENGTH: ClassVar[int] = 4
+
+    crc32: int
+
+
+@dataclass(frozen=True, slots=True)
+class LogConfirmRequest(Message):
+    """The host has the whole log safe, and this is its CRC-32; if it is the unit's too, the log may be freed. Answers PENDING first."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_CONFIRM
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("log_id", "u32"),
+        Field("generation", "u32"),
+        Field("length", "u32"),
+        Field("crc32", "u32"),
+    )
+    LENGTH: ClassVar[int] = 16
+
+    log_id: int
+    generation: int
+    length: int
+    crc32: int
+
+
+@dataclass(frozen=True, slots=True)
+class LogConfirmResponse(Message):
+    """The host has the whole log safe, and this is its CRC-32; if it is the unit's too, the log may be freed. Answers PENDING first."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_CONFIRM
+
+
+@dataclass(frozen=True, slots=True)
 class SimGetRequest(Message):
     """Simulated units only: what rider, road and clock do now, as JSON text. A real unit answers UNKNOWN_MSG."""
 
@@ -843,6 +1035,40 @@ class StreamStatsEvent(Message):
     dropped_tx: int
 
 
+@dataclass(frozen=True, slots=True)
+class LogClosedEvent(Message):
+    """Fields of the event LOG_CLOSED."""
+
+    CODE: ClassVar[Event] = Event.LOG_CLOSED
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("log_id", "u32"),
+        Field("generation", "u32"),
+        Field("length", "u32"),
+    )
+    LENGTH: ClassVar[int] = 12
+
+    log_id: int
+    generation: int
+    length: int
+
+
+@dataclass(frozen=True, slots=True)
+class LogOverwrittenEvent(Message):
+    """Fields of the event LOG_OVERWRITTEN."""
+
+    CODE: ClassVar[Event] = Event.LOG_OVERWRITTEN
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("log_id", "u32"),
+        Field("generation", "u32"),
+        Field("overwritten", "u32"),
+    )
+    LENGTH: ClassVar[int] = 12
+
+    log_id: int
+    generation: int
+    overwritten: int
+
+
 REQUEST_BY_ID: dict[int, type[Message]] = {
     0x0001: HelloRequest,
     0x0002: PingRequest,
@@ -862,6 +1088,12 @@ REQUEST_BY_ID: dict[int, type[Message]] = {
     0x0203: StrRenewRequest,
     0x0205: StrSnapshotRequest,
     0x0302: EvtFaultListRequest,
+    0x0401: LogListRequest,
+    0x0402: LogOpenRequest,
+    0x0403: LogAckRequest,
+    0x0404: LogCloseRequest,
+    0x0405: LogCrcRequest,
+    0x0407: LogConfirmRequest,
     0x7001: SimGetRequest,
     0x7002: SimSetRequest,
 }
@@ -885,6 +1117,12 @@ RESPONSE_BY_ID: dict[int, type[Message]] = {
     0x0203: StrRenewResponse,
     0x0205: StrSnapshotResponse,
     0x0302: EvtFaultListResponse,
+    0x0401: LogListResponse,
+    0x0402: LogOpenResponse,
+    0x0403: LogAckResponse,
+    0x0404: LogCloseResponse,
+    0x0405: LogCrcResponse,
+    0x0407: LogConfirmResponse,
     0x7001: SimGetResponse,
     0x7002: SimSetResponse,
 }
@@ -897,6 +1135,8 @@ EVENT_BY_CODE: dict[int, type[Message]] = {
     Event.CONFIG_ROLLED_BACK: ConfigRolledBackEvent,
     Event.CONFIG_DEFAULTED: ConfigDefaultedEvent,
     Event.STREAM_STATS: StreamStatsEvent,
+    Event.LOG_CLOSED: LogClosedEvent,
+    Event.LOG_OVERWRITTEN: LogOverwrittenEvent,
 }
 
 ENUM_BY_NAME: dict[str, type[IntEnum]] = {

@@ -29,10 +29,12 @@ Rows: TypeAlias = npt.NDArray[np.int16]
 
 KIND_REQUEST, KIND_RESPONSE, KIND_STREAM, KIND_ASYNC = range(4)
 FLAG_MORE, FLAG_RETRANSMIT, RESERVED_BIT = 1, 2, 4
+BULK_SESSION_MAX = 15
 
 _HEADER = struct.Struct("<BBH")
 _STREAM = struct.Struct("<IBB")
 _EVENT = struct.Struct("<BI")
+_BULK = struct.Struct("<IHH")
 _EPOCH_BITS, _OVERRUN_BIT, _CLIP_BIT, _ENCODING_BITS = 0x07, 0x08, 0x10, 0x60
 
 
@@ -97,6 +99,16 @@ class Event:
 
 
 @dataclass(frozen=True, slots=True)
+class Bulk:
+    """A piece of a ride log: `data` lies at byte `offset` of it. `session`: 1 to 15."""
+
+    session: int
+    seq: int
+    offset: int
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
 class Malformed:
     """A frame that passed its check value and still cannot be understood."""
 
@@ -104,7 +116,7 @@ class Malformed:
     frame: bytes
 
 
-Decoded: TypeAlias = Request | Response | Stream | Event | Malformed
+Decoded: TypeAlias = Request | Response | Stream | Event | Bulk | Malformed
 
 
 def decode(frame: bytes, channel_count: int | None = None) -> Decoded:
@@ -128,7 +140,7 @@ def decode(frame: bytes, channel_count: int | None = None) -> Decoded:
             return _request(frame, tag, word, retransmit)
         if kind == KIND_RESPONSE:
             return _response(frame, tag, word, retransmit)
-        return _event(frame, tag, word)
+        return _event(frame, word) if tag == 0 else _bulk(frame, tag, word)
     except ShortPayload:
         return Malformed(Reason.LENGTH, frame)
 
@@ -180,9 +192,19 @@ def _response(frame: bytes, tid: int, message_id: int, retransmit: bool) -> Deco
     return Response(tid, message_id, status, detail, None, payload[3:], retransmit)
 
 
-def _event(frame: bytes, channel: int, seq: int) -> Decoded:
-    if channel != 0:
+def _bulk(frame: bytes, session: int, seq: int) -> Decoded:
+    if session > BULK_SESSION_MAX:
         return Malformed(Reason.UNKNOWN_MSG, frame)
+    if len(frame) < _HEADER.size + _BULK.size:
+        return Malformed(Reason.LENGTH, frame)
+    offset, length, _ = _BULK.unpack_from(frame, _HEADER.size)
+    data = frame[_HEADER.size + _BULK.size :]
+    if length != len(data) or not data:
+        return Malformed(Reason.SHAPE, frame)
+    return Bulk(session, seq, offset, bytes(data))
+
+
+def _event(frame: bytes, seq: int) -> Decoded:
     if len(frame) < _HEADER.size + _EVENT.size:
         return Malformed(Reason.LENGTH, frame)
     code, t_us = _EVENT.unpack_from(frame, _HEADER.size)
@@ -209,7 +231,7 @@ def _known(codes: type[Status], code: int) -> Status | int:
         return code
 
 
-def encode(message: Request | Response | Stream | Event) -> bytes:
+def encode(message: Request | Response | Stream | Event | Bulk) -> bytes:
     """The frame of a message. Raises struct.error or ValueError if a value does not fit."""
     if isinstance(message, Request):
         identity = message.message.MESSAGE_ID
@@ -226,6 +248,9 @@ def encode(message: Request | Response | Stream | Event) -> bytes:
         header = _header(KIND_STREAM, False, message.stream_id, message.seq)
         rows = np.ascontiguousarray(message.values, dtype="<i2")
         return header + _STREAM.pack(message.t0_us, len(rows), flags) + rows.tobytes()
+    if isinstance(message, Bulk):
+        header = _header(KIND_ASYNC, False, message.session, message.seq)
+        return header + _BULK.pack(message.offset, len(message.data), 0) + message.data
     header = _header(KIND_ASYNC, False, 0, message.seq)
     body = message.message.to_bytes() if message.message is not None else message.payload
     return header + _EVENT.pack(message.code, message.t_us) + body

@@ -73,10 +73,22 @@ static int stream_check(const ebl_header *header)
     return row_bytes % (2u * rows) != 0 ? EBL_ERROR_SHAPE : EBL_OK;
 }
 
+static int bulk_check(const ebl_header *header)
+{
+    if (header->tag > EBL_BULK_SESSION_MAX) {
+        return EBL_ERROR_UNKNOWN_MSG;
+    }
+    if (header->payload_length < EBL_BULK_HEAD_LENGTH) {
+        return EBL_ERROR_LENGTH;
+    }
+    size_t length = header->payload_length - EBL_BULK_HEAD_LENGTH;
+    return length == 0 || length != ebl_get_u16(header->payload + 4) ? EBL_ERROR_SHAPE : EBL_OK;
+}
+
 static int async_check(const ebl_header *header)
 {
     if (header->tag != 0) {
-        return EBL_ERROR_UNKNOWN_MSG;
+        return bulk_check(header);
     }
     if (header->payload_length < EBL_EVENT_HEAD_LENGTH) {
         return EBL_ERROR_LENGTH;

@@ -10,6 +10,8 @@
 #define EBL_HEADER_LENGTH 4
 #define EBL_CHECK_LENGTH 4
 #define EBL_FRAME_LENGTH_MIN 8 /* header and check value */
+#define EBL_BULK_HEAD_LENGTH 8 /* offset u32, length u16, 0 u16 */
+#define EBL_BULK_SESSION_MAX 15
 
 enum { EBL_KIND_REQUEST = 0, EBL_KIND_RESPONSE = 1, EBL_KIND_STREAM = 2, EBL_KIND_ASYNC = 3 };
 enum { EBL_FLAG_MORE = 1, EBL_FLAG_RETRANSMIT = 2 };

@@ -612,6 +612,227 @@ int ebl_evt_fault_list_response_put(const ebl_evt_fault_list_response *message, 
     return EBL_OK;
 }
 
+int ebl_log_list_request_get(ebl_log_list_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 3) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->start = ebl_get_u16(bytes + 0);
+    message->count = ebl_get_u8(bytes + 2);
+    return EBL_OK;
+}
+
+int ebl_log_list_request_put(const ebl_log_list_request *message, uint8_t *bytes, size_t capacity,
+                            size_t *length)
+{
+    if (capacity < 3) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u16(bytes + 0, message->start);
+    ebl_put_u8(bytes + 2, message->count);
+    *length = 3;
+    return EBL_OK;
+}
+
+int ebl_log_list_response_get(ebl_log_list_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 18) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->total = ebl_get_u16(bytes + 0);
+    message->overwritten = ebl_get_u32(bytes + 2);
+    message->boot_id = ebl_get_u32(bytes + 6);
+    message->now_us = ebl_get_u64(bytes + 10);
+    message->entries = bytes + 18;
+    message->entries_length = length - 18;
+    return EBL_OK;
+}
+
+int ebl_log_list_response_put(const ebl_log_list_response *message, uint8_t *bytes, size_t capacity,
+                             size_t *length)
+{
+    if (capacity < 18 || capacity - 18 < message->entries_length) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u16(bytes + 0, message->total);
+    ebl_put_u32(bytes + 2, message->overwritten);
+    ebl_put_u32(bytes + 6, message->boot_id);
+    ebl_put_u64(bytes + 10, message->now_us);
+    if (message->entries_length > 0) {
+        memcpy(bytes + 18, message->entries, message->entries_length);
+    }
+    *length = 18 + message->entries_length;
+    return EBL_OK;
+}
+
+int ebl_log_open_request_get(ebl_log_open_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 14) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->log_id = ebl_get_u32(bytes + 0);
+    message->generation = ebl_get_u32(bytes + 4);
+    message->offset = ebl_get_u32(bytes + 8);
+    message->window = ebl_get_u8(bytes + 12);
+    message->session = ebl_get_u8(bytes + 13);
+    return EBL_OK;
+}
+
+int ebl_log_open_request_put(const ebl_log_open_request *message, uint8_t *bytes, size_t capacity,
+                            size_t *length)
+{
+    if (capacity < 14) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->log_id);
+    ebl_put_u32(bytes + 4, message->generation);
+    ebl_put_u32(bytes + 8, message->offset);
+    ebl_put_u8(bytes + 12, message->window);
+    ebl_put_u8(bytes + 13, message->session);
+    *length = 14;
+    return EBL_OK;
+}
+
+int ebl_log_open_response_get(ebl_log_open_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 7) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->length = ebl_get_u32(bytes + 0);
+    message->chunk = ebl_get_u16(bytes + 4);
+    message->window = ebl_get_u8(bytes + 6);
+    return EBL_OK;
+}
+
+int ebl_log_open_response_put(const ebl_log_open_response *message, uint8_t *bytes, size_t capacity,
+                             size_t *length)
+{
+    if (capacity < 7) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->length);
+    ebl_put_u16(bytes + 4, message->chunk);
+    ebl_put_u8(bytes + 6, message->window);
+    *length = 7;
+    return EBL_OK;
+}
+
+int ebl_log_ack_request_get(ebl_log_ack_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 13) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->session = ebl_get_u8(bytes + 0);
+    message->base = ebl_get_u32(bytes + 1);
+    message->bitmap = ebl_get_u64(bytes + 5);
+    return EBL_OK;
+}
+
+int ebl_log_ack_request_put(const ebl_log_ack_request *message, uint8_t *bytes, size_t capacity,
+                           size_t *length)
+{
+    if (capacity < 13) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u8(bytes + 0, message->session);
+    ebl_put_u32(bytes + 1, message->base);
+    ebl_put_u64(bytes + 5, message->bitmap);
+    *length = 13;
+    return EBL_OK;
+}
+
+int ebl_log_close_request_get(ebl_log_close_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 1) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->session = ebl_get_u8(bytes + 0);
+    return EBL_OK;
+}
+
+int ebl_log_close_request_put(const ebl_log_close_request *message, uint8_t *bytes, size_t capacity,
+                             size_t *length)
+{
+    if (capacity < 1) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u8(bytes + 0, message->session);
+    *length = 1;
+    return EBL_OK;
+}
+
+int ebl_log_crc_request_get(ebl_log_crc_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 16) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->log_id = ebl_get_u32(bytes + 0);
+    message->generation = ebl_get_u32(bytes + 4);
+    message->offset = ebl_get_u32(bytes + 8);
+    message->length = ebl_get_u32(bytes + 12);
+    return EBL_OK;
+}
+
+int ebl_log_crc_request_put(const ebl_log_crc_request *message, uint8_t *bytes, size_t capacity,
+                           size_t *length)
+{
+    if (capacity < 16) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->log_id);
+    ebl_put_u32(bytes + 4, message->generation);
+    ebl_put_u32(bytes + 8, message->offset);
+    ebl_put_u32(bytes + 12, message->length);
+    *length = 16;
+    return EBL_OK;
+}
+
+int ebl_log_crc_response_get(ebl_log_crc_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 4) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->crc32 = ebl_get_u32(bytes + 0);
+    return EBL_OK;
+}
+
+int ebl_log_crc_response_put(const ebl_log_crc_response *message, uint8_t *bytes, size_t capacity,
+                            size_t *length)
+{
+    if (capacity < 4) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->crc32);
+    *length = 4;
+    return EBL_OK;
+}
+
+int ebl_log_confirm_request_get(ebl_log_confirm_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 16) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->log_id = ebl_get_u32(bytes + 0);
+    message->generation = ebl_get_u32(bytes + 4);
+    message->length = ebl_get_u32(bytes + 8);
+    message->crc32 = ebl_get_u32(bytes + 12);
+    return EBL_OK;
+}
+
+int ebl_log_confirm_request_put(const ebl_log_confirm_request *message, uint8_t *bytes, size_t capacity,
+                               size_t *length)
+{
+    if (capacity < 16) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->log_id);
+    ebl_put_u32(bytes + 4, message->generation);
+    ebl_put_u32(bytes + 8, message->length);
+    ebl_put_u32(bytes + 12, message->crc32);
+    *length = 16;
+    return EBL_OK;
+}
+
 int ebl_sim_get_response_get(ebl_sim_get_response *message, const uint8_t *bytes, size_t length)
 {
     message->text = bytes + 0;
@@ -821,5 +1042,53 @@ int ebl_stream_stats_event_put(const ebl_stream_stats_event *message, uint8_t *b
     ebl_put_u32(bytes + 1, message->built);
     ebl_put_u32(bytes + 5, message->dropped_tx);
     *length = 9;
+    return EBL_OK;
+}
+
+int ebl_log_closed_event_get(ebl_log_closed_event *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 12) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->log_id = ebl_get_u32(bytes + 0);
+    message->generation = ebl_get_u32(bytes + 4);
+    message->length = ebl_get_u32(bytes + 8);
+    return EBL_OK;
+}
+
+int ebl_log_closed_event_put(const ebl_log_closed_event *message, uint8_t *bytes, size_t capacity,
+                            size_t *length)
+{
+    if (capacity < 12) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->log_id);
+    ebl_put_u32(bytes + 4, message->generation);
+    ebl_put_u32(bytes + 8, message->length);
+    *length = 12;
+    return EBL_OK;
+}
+
+int ebl_log_overwritten_event_get(ebl_log_overwritten_event *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 12) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->log_id = ebl_get_u32(bytes + 0);
+    message->generation = ebl_get_u32(bytes + 4);
+    message->overwritten = ebl_get_u32(bytes + 8);
+    return EBL_OK;
+}
+
+int ebl_log_overwritten_event_put(const ebl_log_overwritten_event *message, uint8_t *bytes, size_t capacity,
+                                 size_t *length)
+{
+    if (capacity < 12) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->log_id);
+    ebl_put_u32(bytes + 4, message->generation);
+    ebl_put_u32(bytes + 8, message->overwritten);
+    *length = 12;
     return EBL_OK;
 }

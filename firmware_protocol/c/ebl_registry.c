@@ -24,6 +24,12 @@ const ebl_message ebl_messages[EBL_MESSAGE_COUNT] = {
     {0x0203, 2, 0},
     {0x0205, 0, 8},
     {0x0302, 0, 2},
+    {0x0401, 3, 18},
+    {0x0402, 14, 7},
+    {0x0403, 13, 0},
+    {0x0404, 1, 0},
+    {0x0405, 16, 4},
+    {0x0407, 16, 0},
     {0x7001, 0, 0},
     {0x7002, 0, 0},
 };
@@ -36,6 +42,8 @@ const ebl_event_row ebl_event_rows[EBL_EVENT_COUNT] = {
     {EBL_EVENT_CONFIG_ROLLED_BACK, 8},
     {EBL_EVENT_CONFIG_DEFAULTED, 8},
     {EBL_EVENT_STREAM_STATS, 9},
+    {EBL_EVENT_LOG_CLOSED, 12},
+    {EBL_EVENT_LOG_OVERWRITTEN, 12},
 };
 
 const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT] = {

@@ -12,14 +12,14 @@
 #define EBL_MAX_OUTSTANDING 4
 #define EBL_CONTROL_PERIOD_US 10000
 #define EBL_IMAGE_LENGTH 299
-#define EBL_MESSAGE_COUNT 20
-#define EBL_EVENT_COUNT 7
+#define EBL_MESSAGE_COUNT 26
+#define EBL_EVENT_COUNT 9
 #define EBL_EVENT_HEAD_LENGTH 5
 #define EBL_PARAMETER_COUNT 34
 #define EBL_ORDER_COUNT 1
 #define EBL_CHANNEL_COUNT 20
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 2957
+#define EBL_SCHEMA_LENGTH 3183
 
 enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */
 
@@ -133,6 +133,8 @@ typedef enum {
     EBL_EVENT_CONFIG_ROLLED_BACK = 5,
     EBL_EVENT_CONFIG_DEFAULTED = 6,
     EBL_EVENT_STREAM_STATS = 7,
+    EBL_EVENT_LOG_CLOSED = 20,
+    EBL_EVENT_LOG_OVERWRITTEN = 21,
 } ebl_event;
 
 /* Which steps of the assist pipeline held the motor back in this control step. */
@@ -149,6 +151,13 @@ enum {
     EBL_LIMIT_BATTERY_VOLTAGE = 512,
     EBL_LIMIT_INPUT_REFUSED = 1024,
     EBL_LIMIT_MODE_OFF = 2048,
+};
+
+/* Where a ride log stands. */
+enum {
+    EBL_LOG_RECORDING = 1,
+    EBL_LOG_CONFIRMED = 2,
+    EBL_LOG_ENDED = 4,
 };
 
 /* What is wrong with the unit now. */
@@ -178,6 +187,12 @@ enum {
     EBL_MSG_STR_RENEW = 0x0203,
     EBL_MSG_STR_SNAPSHOT = 0x0205,
     EBL_MSG_EVT_FAULT_LIST = 0x0302,
+    EBL_MSG_LOG_LIST = 0x0401,
+    EBL_MSG_LOG_OPEN = 0x0402,
+    EBL_MSG_LOG_ACK = 0x0403,
+    EBL_MSG_LOG_CLOSE = 0x0404,
+    EBL_MSG_LOG_CRC = 0x0405,
+    EBL_MSG_LOG_CONFIRM = 0x0407,
     EBL_MSG_SIM_GET = 0x7001,
     EBL_MSG_SIM_SET = 0x7002,
 };
@@ -598,6 +613,98 @@ int ebl_evt_fault_list_response_get(ebl_evt_fault_list_response *message, const 
 int ebl_evt_fault_list_response_put(const ebl_evt_fault_list_response *message, uint8_t *bytes, size_t capacity,
                                    size_t *length);
 
+#define EBL_LOG_LIST_REQUEST_LENGTH 3
+typedef struct {
+    uint16_t start;
+    uint8_t count;
+} ebl_log_list_request;
+int ebl_log_list_request_get(ebl_log_list_request *message, const uint8_t *bytes, size_t length);
+int ebl_log_list_request_put(const ebl_log_list_request *message, uint8_t *bytes, size_t capacity,
+                            size_t *length);
+
+#define EBL_LOG_LIST_RESPONSE_LENGTH 18
+typedef struct {
+    uint16_t total;
+    uint32_t overwritten;
+    uint32_t boot_id;
+    uint64_t now_us;
+    const uint8_t *entries;
+    size_t entries_length;
+} ebl_log_list_response;
+int ebl_log_list_response_get(ebl_log_list_response *message, const uint8_t *bytes, size_t length);
+int ebl_log_list_response_put(const ebl_log_list_response *message, uint8_t *bytes, size_t capacity,
+                             size_t *length);
+
+#define EBL_LOG_OPEN_REQUEST_LENGTH 14
+typedef struct {
+    uint32_t log_id;
+    uint32_t generation;
+    uint32_t offset;
+    uint8_t window;
+    uint8_t session;
+} ebl_log_open_request;
+int ebl_log_open_request_get(ebl_log_open_request *message, const uint8_t *bytes, size_t length);
+int ebl_log_open_request_put(const ebl_log_open_request *message, uint8_t *bytes, size_t capacity,
+                            size_t *length);
+
+#define EBL_LOG_OPEN_RESPONSE_LENGTH 7
+typedef struct {
+    uint32_t length;
+    uint16_t chunk;
+    uint8_t window;
+} ebl_log_open_response;
+int ebl_log_open_response_get(ebl_log_open_response *message, const uint8_t *bytes, size_t length);
+int ebl_log_open_response_put(const ebl_log_open_response *message, uint8_t *bytes, size_t capacity,
+                             size_t *length);
+
+#define EBL_LOG_ACK_REQUEST_LENGTH 13
+typedef struct {
+    uint8_t session;
+    uint32_t base;
+    uint64_t bitmap;
+} ebl_log_ack_request;
+int ebl_log_ack_request_get(ebl_log_ack_request *message, const uint8_t *bytes, size_t length);
+int ebl_log_ack_request_put(const ebl_log_ack_request *message, uint8_t *bytes, size_t capacity,
+                           size_t *length);
+
+#define EBL_LOG_CLOSE_REQUEST_LENGTH 1
+typedef struct {
+    uint8_t session;
+} ebl_log_close_request;
+int ebl_log_close_request_get(ebl_log_close_request *message, const uint8_t *bytes, size_t length);
+int ebl_log_close_request_put(const ebl_log_close_request *message, uint8_t *bytes, size_t capacity,
+                             size_t *length);
+
+#define EBL_LOG_CRC_REQUEST_LENGTH 16
+typedef struct {
+    uint32_t log_id;
+    uint32_t generation;
+    uint32_t offset;
+    uint32_t length;
+} ebl_log_crc_request;
+int ebl_log_crc_request_get(ebl_log_crc_request *message, const uint8_t *bytes, size_t length);
+int ebl_log_crc_request_put(const ebl_log_crc_request *message, uint8_t *bytes, size_t capacity,
+                           size_t *length);
+
+#define EBL_LOG_CRC_RESPONSE_LENGTH 4
+typedef struct {
+    uint32_t crc32;
+} ebl_log_crc_response;
+int ebl_log_crc_response_get(ebl_log_crc_response *message, const uint8_t *bytes, size_t length);
+int ebl_log_crc_response_put(const ebl_log_crc_response *message, uint8_t *bytes, size_t capacity,
+                            size_t *length);
+
+#define EBL_LOG_CONFIRM_REQUEST_LENGTH 16
+typedef struct {
+    uint32_t log_id;
+    uint32_t generation;
+    uint32_t length;
+    uint32_t crc32;
+} ebl_log_confirm_request;
+int ebl_log_confirm_request_get(ebl_log_confirm_request *message, const uint8_t *bytes, size_t length);
+int ebl_log_confirm_request_put(const ebl_log_confirm_request *message, uint8_t *bytes, size_t capacity,
+                               size_t *length);
+
 #define EBL_SIM_GET_RESPONSE_LENGTH 0
 typedef struct {
     const uint8_t *text;
@@ -686,5 +793,25 @@ typedef struct {
 int ebl_stream_stats_event_get(ebl_stream_stats_event *message, const uint8_t *bytes, size_t length);
 int ebl_stream_stats_event_put(const ebl_stream_stats_event *message, uint8_t *bytes, size_t capacity,
                               size_t *length);
+
+#define EBL_LOG_CLOSED_EVENT_LENGTH 12
+typedef struct {
+    uint32_t log_id;
+    uint32_t generation;
+    uint32_t length;
+} ebl_log_closed_event;
+int ebl_log_closed_event_get(ebl_log_closed_event *message, const uint8_t *bytes, size_t length);
+int ebl_log_closed_event_put(const ebl_log_closed_event *message, uint8_t *bytes, size_t capacity,
+                            size_t *length);
+
+#define EBL_LOG_OVERWRITTEN_EVENT_LENGTH 12
+typedef struct {
+    uint32_t log_id;
+    uint32_t generation;
+    uint32_t overwritten;
+} ebl_log_overwritten_event;
+int ebl_log_overwritten_event_get(ebl_log_overwritten_event *message, const uint8_t *bytes, size_t length);
+int ebl_log_overwritten_event_put(const ebl_log_overwritten_event *message, uint8_t *bytes, size_t capacity,
+                                 size_t *length);
 
 #endif

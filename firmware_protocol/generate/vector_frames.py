@@ -180,7 +180,25 @@ def _event_rows(registry: Registry) -> list[tuple[str, bytes, str]]:
     rows = [
         ("event without a time", head + b"\1\0\0\0", "LENGTH"),
         ("event with a code we do not know", head + struct.pack("<BI", 99, 5), "OK"),
-        ("a bulk frame, which 1.0 does not have", b"\x38\1\0\0" + b"\0" * 8, "UNKNOWN_MSG"),
+        ("bulk on a channel that does not exist", b"\x38\x10\0\0" + b"\0" * 8, "UNKNOWN_MSG"),
+        ("bulk without its length", b"\x38\1\0\0" + b"\0" * 7, "LENGTH"),
+        ("bulk of nothing", b"\x38\1\0\0" + b"\0" * 8, "SHAPE"),
+        ("bulk of three bytes", b"\x38\x0f\1\0" + struct.pack("<IHH", 512, 3, 0) + b"abc", "OK"),
+        (
+            "bulk with a byte too many",
+            b"\x38\1\1\0" + struct.pack("<IHH", 0, 2, 0) + b"abc",
+            "SHAPE",
+        ),
+        (
+            "bulk with a byte too few",
+            b"\x38\1\1\0" + struct.pack("<IHH", 0, 4, 0) + b"abc",
+            "SHAPE",
+        ),
+        (
+            "bulk with its reserved word set",
+            b"\x38\1\1\0" + struct.pack("<IHH", 0, 1, 9) + b"a",
+            "OK",
+        ),
     ]
     for name, layout in registry.events:
         code = registry.enum("event").members[name]

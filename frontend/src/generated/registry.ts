@@ -123,6 +123,8 @@ export const ENUMS = {
     CONFIG_ROLLED_BACK: 5,
     CONFIG_DEFAULTED: 6,
     STREAM_STATS: 7,
+    LOG_CLOSED: 20,
+    LOG_OVERWRITTEN: 21,
   },
 } as const;
 
@@ -141,6 +143,11 @@ export const FLAGS = {
     BATTERY_VOLTAGE: 9,
     INPUT_REFUSED: 10,
     MODE_OFF: 11,
+  },
+  log_flags: {
+    RECORDING: 0,
+    CONFIRMED: 1,
+    ENDED: 2,
   },
   fault_flags: {
     TORQUE_SENSOR: 0,

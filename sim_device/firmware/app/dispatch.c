@@ -85,6 +85,7 @@ static void request_execute(app *unit, const ebl_header *request, reply *answer)
 
     if (handler == NULL) handler = requests_config(request->word);
     if (handler == NULL) handler = requests_stream(request->word);
+    if (handler == NULL) handler = requests_log(request->word);
     if (handler != NULL) {
         handler(unit, request, answer);
     } else if (request->word >= BOARD_MESSAGE_FIRST) {

@@ -35,5 +35,6 @@ void dispatch_frame(app *unit, const uint8_t *frame, size_t length);
 request_handler requests_system(uint16_t message_id);
 request_handler requests_config(uint16_t message_id);
 request_handler requests_stream(uint16_t message_id);
+request_handler requests_log(uint16_t message_id);
 
 #endif
