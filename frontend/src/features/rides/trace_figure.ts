@@ -5,19 +5,13 @@ import type { Theme } from '$shared/ui/theme.svelte'
 import type { Units } from '$shared/units/units.svelte'
 import { binLine, moment, timeTicks, type TraceRow } from './traces'
 
-export interface Figure {
-  data: object[]
-  layout: Record<string, unknown>
-}
-
 export interface FigureWords {
   row: (key: string) => string
   channel: (name: string) => string
 }
 
-interface Frame {
+export interface Frame {
   rows: TraceRow[]
-  window: { from_s: number; to_s: number }
   gaps: { from_s: number; to_s: number }[]
   /** Size of the plot in pixels. */
   width: number
@@ -26,15 +20,16 @@ interface Frame {
 
 const ROW_GAP_PX = 26 // room for a row's title
 
-export function traceFigure(
+/** The lines of a series, each in the row that shows its channel. */
+export function traceData(
   series: Series,
-  frame: Frame,
+  rows: TraceRow[],
   theme: Theme,
   units: Units,
   words: FigureWords,
-): Figure {
+): object[] {
   const moments = hoverMoments(series)
-  const data = frame.rows.flatMap((row, i) =>
+  return rows.flatMap((row, i) =>
     row.lines.flatMap((line) => {
       const channel = series.channels.find((c) => c.name === line.channel)
       if (!channel) return []
@@ -53,7 +48,16 @@ export function traceFigure(
       }
     }),
   )
-  return { data, layout: layoutOf(frame, theme, units, words) }
+}
+
+/** The part of the layout that a zoom changes; a figure is not built anew for it. */
+export function windowLayout(window: { from_s: number; to_s: number }, width: number) {
+  const ticks = timeTicks(window.from_s, window.to_s, Math.max(3, width / 110))
+  return {
+    'xaxis.range': [window.from_s, window.to_s],
+    'xaxis.tickvals': ticks.at,
+    'xaxis.ticktext': ticks.text,
+  }
 }
 
 function axisName(i: number): string {
@@ -69,15 +73,14 @@ function hoverMoments(series: Series): string[] {
   })
 }
 
-function layoutOf(
+/** Rows above each other with one time axis; `windowLayout` says which time. */
+export function traceLayout(
   frame: Frame,
   theme: Theme,
   units: Units,
   words: FigureWords,
 ): Record<string, unknown> {
   const { base, axis, font } = plotLook(theme)
-  const { from_s, to_s } = frame.window
-  const ticks = timeTicks(from_s, to_s, Math.max(3, frame.width / 110))
   const count = frame.rows.length
   const gap = ROW_GAP_PX / frame.height
   const height = (1 - gap * (count - 1)) / count
@@ -95,6 +98,8 @@ function layoutOf(
   ])
   return {
     ...base,
+    width: frame.width,
+    height: frame.height,
     ...Object.fromEntries(rows),
     margin: { l: 44, r: 10, t: 18, b: 26 },
     dragmode: 'zoom',
@@ -102,11 +107,8 @@ function layoutOf(
     hoverdistance: 30,
     xaxis: {
       ...axis,
-      range: [from_s, to_s],
       anchor: axisName(count - 1),
       tickmode: 'array',
-      tickvals: ticks.at,
-      ticktext: ticks.text,
       showspikes: true,
       spikemode: 'across',
       spikethickness: 1,

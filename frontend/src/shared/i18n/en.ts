@@ -66,7 +66,7 @@ export const en = {
   'simulation.title': 'Simulation',
   'simulation.explain': 'A simulated rider on a simulated road. A real drive unit has no such panel.',
   'simulation.runs': '{scenario} · {time}',
-  'simulation.free': 'free riding',
+  'simulation.free': 'no scenario runs',
   'simulation.none': 'none',
   'simulation.scenario': 'Scenario',
   'simulation.rider': 'Rider',

@@ -67,7 +67,7 @@ export const zh: Record<Key, string> = {
   'simulation.title': '模拟',
   'simulation.explain': '模拟的骑手和道路。真实的驱动单元没有此面板。',
   'simulation.runs': '{scenario} · {time}',
-  'simulation.free': '自由骑行',
+  'simulation.free': '没有运行场景',
   'simulation.none': '无',
   'simulation.scenario': '场景',
   'simulation.rider': '骑手',
