@@ -31,8 +31,8 @@ test: setup $(STAMP)/chromium lint ## every test there is, a real browser includ
 	$(BIN)/pytest
 
 .PHONY: test-fast
-test-fast: $(STAMP)/native ## unit and conformance tests
-	$(BIN)/pytest tests/unit tests/conformance tests/architecture
+test-fast: $(STAMP)/native ## unit and conformance tests without the slow ones
+	$(BIN)/pytest -m "not slow" tests/unit tests/conformance
 
 .PHONY: lint
 lint: $(STAMP)/native $(STAMP)/web-modules ## all static checks, Python, C and browser

@@ -16,6 +16,9 @@ from firmware_protocol import _generated as registry
 from firmware_protocol import codec, framing, parameters
 from sim_device.firmware.python import wire
 
+# Processes, compilers or hundreds of files: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 FRAMES = 4000
 
 

@@ -11,6 +11,9 @@ from pathlib import Path
 
 import pytest
 
+# Processes, compilers or hundreds of files: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = sorted((ROOT / "firmware_protocol" / "c").glob("*.c"))
 STRICT = ["-std=c99", "-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror"]

@@ -18,6 +18,9 @@ from backend.ingest.formats import read_file
 from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide, Outcome
 from tests.unit.ingest.fit_writer import START_S, commute, definition, enclosed, fit_file
 
+# Processes, compilers or hundreds of files: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 ROWS = 300
 WHOLE = fit_file(commute(ROWS))
 CODES = {

@@ -16,6 +16,9 @@ from backend.ingest.sandbox import decode, run_child
 from backend.ingest.worker import encode
 from tests.unit.ingest.fit_writer import commute, definition, enclosed, fit_file
 
+# Processes, compilers or hundreds of files: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 
 def test_the_child_s_answer_is_what_reading_here_gives(tmp_path: Path) -> None:
     data = fit_file(commute(120))

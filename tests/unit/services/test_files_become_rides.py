@@ -18,6 +18,9 @@ from backend.services.upload import Uploads, UploadSettings
 from backend.store import Store, open_store
 from tests.unit.ingest.fit_writer import START_S, commute, fit_file
 
+# Processes, compilers or hundreds of files: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 RECORDED = Path(__file__).resolve().parents[4] / "shared" / "data" / "rides"
 SOUND = fit_file(commute(200))
 

@@ -20,6 +20,9 @@ import serial
 from sim_device.serial_line import PtyLine
 from sim_device.simulator import FlashFile, Pace
 
+# Processes, compilers or hundreds of files: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[3]
 WAIT_S = 20.0
 POLL_S = 0.02

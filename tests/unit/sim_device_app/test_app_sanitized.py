@@ -28,6 +28,9 @@ from firmware_protocol._generated import (
 )
 from tests.fakes.bench_unit import BenchUnit, crc32
 
+# Processes, compilers or hundreds of files: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[3]
 HERE = Path(__file__).parent
 FOLDERS = [

@@ -22,6 +22,9 @@ from backend.store.database import Database
 from backend.store.objects import Disk
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
 
+# Processes, compilers or hundreds of files: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[3]
 ROWS = 2_000
 OpenStore = Callable[..., Store]

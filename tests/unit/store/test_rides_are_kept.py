@@ -25,6 +25,9 @@ from tests.unit.store.ride_data import (
     honest_ride,
 )
 
+# Processes, compilers or hundreds of files: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 CONTEXT = RideContext(device_id="u1", device_serial="SP-1", gear_ratio=GEAR_RATIO)
 
 
