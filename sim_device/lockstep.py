@@ -89,9 +89,9 @@ class LockstepUnit:
         """Bytes from the host to the unit; returns how many its line took."""
         return self.unit.receive(data)
 
-    def receive(self) -> bytes:
-        """Bytes the unit has sent to the host since the last call."""
-        return self.unit.transmit()
+    def receive(self, bytes_max: int = 8192) -> bytes:
+        """Bytes the unit has sent to the host since the last call, at most `bytes_max`."""
+        return self.unit.transmit(bytes_max)
 
     def observe(self) -> dict[str, Any]:
         """What an observer beside the bike sees (unit_observation in unit.h); missing is NaN."""

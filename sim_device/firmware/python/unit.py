@@ -144,9 +144,10 @@ class Unit:
         """Bytes from the host; returns how many the line took."""
         return int(lib.unit_receive(self._unit, data, len(data)))
 
-    def transmit(self) -> bytes:
-        """Takes everything the unit wants to send to the host."""
-        length = lib.unit_transmit(self._unit, self._transmit_buffer, _TRANSMIT_CAPACITY)
+    def transmit(self, bytes_max: int = _TRANSMIT_CAPACITY) -> bytes:
+        """Takes what the unit wants to send to the host, at most `bytes_max`."""
+        capacity = min(bytes_max, _TRANSMIT_CAPACITY)
+        length = lib.unit_transmit(self._unit, self._transmit_buffer, capacity)
         return bytes(self._transmitted[:length])
 
     def observe(self) -> dict[str, Any]:
@@ -189,6 +190,15 @@ class Unit:
     def select_mode(self, mode: int) -> None:
         """Selects a mode slot; MODE_NOT_SELECTED leaves the choice to the configuration."""
         lib.unit_select_mode(self._unit, mode)
+
+    def cut_power_after(self, flash_bytes: int) -> None:
+        """Brown-out after so many more bytes erased or programmed; 0 takes the battery out now."""
+        lib.unit_flash_cut_after(self._unit, flash_bytes)
+
+    @property
+    def powered(self) -> bool:
+        """Whether the supply still holds."""
+        return bool(lib.unit_is_powered(self._unit))
 
     def flash(self) -> bytes:
         """The flash as it is now, to be given to the unit's next life."""

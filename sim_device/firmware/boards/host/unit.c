@@ -15,6 +15,7 @@
 #define DEG_PER_RAD (180.0 / 3.14159265358979323846)
 #define RPM_PER_RAD_S (30.0 / 3.14159265358979323846)
 #define KMH_PER_MS 3.6
+#define FLASH_NEVER_CUT UINT32_MAX
 
 struct unit {
     app app;
@@ -28,6 +29,7 @@ struct unit {
     byte_queue from_host;
     byte_queue to_host;
     uint8_t flash[UNIT_FLASH_SIZE];
+    uint32_t flash_bytes_left; /* until the supply fails; FLASH_NEVER_CUT: it does not */
     uint8_t uid[UNIT_UID_LENGTH];
     unit_request request;
     void *request_context;
@@ -42,6 +44,7 @@ static size_t board_serial_read(void *context, uint8_t *bytes, size_t capacity)
 
 static size_t board_serial_write(void *context, const uint8_t *bytes, size_t length)
 {
+    if (!unit_is_powered(context)) return 0;
     return byte_queue_put(&((unit *)context)->to_host, bytes, length);
 }
 
@@ -74,6 +77,14 @@ static void board_motor_torque_set(void *context, float motor_torque_nm)
     ((unit *)context)->stimulus.motor_torque_nm = (double)motor_torque_nm;
 }
 
+/* Wears one byte. False once the supply has failed. */
+static int flash_wear(unit *self)
+{
+    if (self->flash_bytes_left == 0) return 0;
+    if (self->flash_bytes_left != FLASH_NEVER_CUT) self->flash_bytes_left--;
+    return 1;
+}
+
 static int flash_holds(size_t address, size_t length)
 {
     return address <= UNIT_FLASH_SIZE && length <= UNIT_FLASH_SIZE - address;
@@ -93,7 +104,11 @@ static int board_flash_erase(void *context, size_t address)
     if (address % UNIT_FLASH_BLOCK_SIZE != 0 || !flash_holds(address, UNIT_FLASH_BLOCK_SIZE)) {
         return -1;
     }
-    memset(((unit *)context)->flash + address, 0xFF, UNIT_FLASH_BLOCK_SIZE);
+    unit *self = context;
+    for (size_t k = 0; k < UNIT_FLASH_BLOCK_SIZE; k++) {
+        if (!flash_wear(self)) return -1;
+        self->flash[address + k] = 0xFF;
+    }
     return 0;
 }
 
@@ -102,8 +117,10 @@ static int board_flash_program(void *context, size_t address, const uint8_t *byt
     if (!flash_holds(address, length)) {
         return -1;
     }
-    uint8_t *flash = ((unit *)context)->flash + address;
+    unit *self = context;
+    uint8_t *flash = self->flash + address;
     for (size_t k = 0; k < length; k++) {
+        if (!flash_wear(self)) return -1;
         flash[k] = (uint8_t)(flash[k] & bytes[k]);
     }
     return 0;
@@ -151,6 +168,7 @@ unit *unit_create(const unit_setup *setup)
     if (setup->flash != NULL) {
         memcpy(self->flash, setup->flash, sizeof self->flash);
     }
+    self->flash_bytes_left = FLASH_NEVER_CUT;
     memcpy(self->uid, setup->uid, sizeof self->uid);
     self->request = setup->request;
     self->request_context = setup->request_context;
@@ -174,10 +192,10 @@ void unit_advance_us(unit *self, uint64_t duration_us)
 {
     self->target_us += duration_us;
     while (self->now_us + PHYSICS_PERIOD_US <= self->target_us) {
-        if (self->now_us % CONTROL_PERIOD_US == 0) {
-            app_control_step(&self->app);
+        if (unit_is_powered(self)) {
+            if (self->now_us % CONTROL_PERIOD_US == 0) app_control_step(&self->app);
+            app_poll(&self->app);
         }
-        app_poll(&self->app);
         physics_step(&self->bike, &self->state, &self->stimulus, PHYSICS_PERIOD_US * 1e-6);
         self->now_us += PHYSICS_PERIOD_US;
     }
@@ -243,5 +261,9 @@ void unit_place(unit *self, double speed_kmh, uint64_t seed)
 void unit_seed_noise(unit *self, uint64_t seed) { self->state.sensor.random = seed; }
 
 void unit_select_mode(unit *self, uint8_t mode) { self->mode_selected = mode; }
+
+void unit_flash_cut_after(unit *self, uint32_t bytes) { self->flash_bytes_left = bytes; }
+
+int unit_is_powered(const unit *self) { return self->flash_bytes_left != 0; }
 
 const uint8_t *unit_flash(const unit *self) { return self->flash; }

@@ -90,4 +90,9 @@ void unit_select_mode(unit *self, uint8_t mode);
 
 const uint8_t *unit_flash(const unit *self);
 
+/* Brown-out: the supply fails after `bytes` more bytes were erased or programmed, and with it the
+ * whole unit; what the flash holds then is for the next life. 0 takes the battery out now. */
+void unit_flash_cut_after(unit *self, uint32_t bytes);
+int unit_is_powered(const unit *self);
+
 #endif
