@@ -10,14 +10,16 @@ const venv = ['.venv/bin/python', '.venv/Scripts/python.exe'].map((path) => root
 const python = process.env.SPINDLE_PYTHON ?? venv.find(existsSync) ?? 'python3'
 
 const description = spawnSync(python, ['-m', 'backend.api.openapi'], {
-  cwd: root, encoding: 'utf8', maxBuffer: 1 << 26,
+  cwd: root,
+  encoding: 'utf8',
+  maxBuffer: 1 << 26,
 })
 if (description.status !== 0) {
   console.error(description.stderr)
   process.exit(1)
 }
 const types = astToString(await openapiTS(JSON.parse(description.stdout)))
-const text = `// Generated from the API's OpenAPI description by \`npm run gen\`; do not edit.\n\n${types}`
+const text = `// Generated from the API's description by \`npm run gen\`; do not edit.\n\n${types}`
 if (!process.argv.includes('--check')) writeFileSync(target, text)
 else if (!existsSync(target) || readFileSync(target, 'utf8') !== text) {
   console.error('src/generated/api.d.ts is not what the API says now: run `npm run gen`.')

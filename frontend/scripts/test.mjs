@@ -9,8 +9,12 @@ const report = join(folder, 'report.json')
 const run = spawnSync(
   process.execPath,
   [
-    'node_modules/vitest/vitest.mjs', 'run', '--reporter=default', '--reporter=json',
-    `--outputFile.json=${report}`, ...process.argv.slice(2),
+    'node_modules/vitest/vitest.mjs',
+    'run',
+    '--reporter=default',
+    '--reporter=json',
+    `--outputFile.json=${report}`,
+    ...process.argv.slice(2),
   ],
   { stdio: 'inherit', cwd: new URL('..', import.meta.url) },
 )

@@ -1,7 +1,7 @@
 // The address bar is the state: which page, which ride.
 
 export type PageName =
-  | 'bike' | 'live' | 'tune' | 'rides' | 'ride' | 'sensor' | 'service' | 'settings' | 'unknown'
+  'bike' | 'live' | 'tune' | 'rides' | 'ride' | 'sensor' | 'service' | 'settings' | 'unknown'
 
 export interface Route {
   page: PageName
@@ -9,7 +9,12 @@ export interface Route {
 }
 
 const pages: Record<string, PageName> = {
-  '': 'bike', live: 'live', tune: 'tune', rides: 'rides', sensor: 'sensor', service: 'service',
+  '': 'bike',
+  live: 'live',
+  tune: 'tune',
+  rides: 'rides',
+  sensor: 'sensor',
+  service: 'service',
   settings: 'settings',
 }
 

@@ -1,4 +1,4 @@
-// Generated from the API's OpenAPI description by `npm run gen`; do not edit.
+// Generated from the API's description by `npm run gen`; do not edit.
 
 export interface paths {
     "/api/v1/health": {

@@ -5,7 +5,7 @@ export interface TileSpec {
   unit: string
   token: string
   digits: number
-  /** Motor torque is sent as it is at the motor's shaft; at the crank it compares with the rider's. */
+  /** Motor torque is sent as at the motor's shaft; at the crank it compares with the rider's. */
   at_crank?: true
 }
 
@@ -23,5 +23,9 @@ export const tiles: TileSpec[] = [
 export const CHANNELS = [
   'rider_torque_nm',
   ...tiles.map((tile) => tile.channel),
-  'battery_current_a', 'torque_rate', 'limit_flags', 'fault_flags', 'motor_temperature_degc',
+  'battery_current_a',
+  'torque_rate',
+  'limit_flags',
+  'fault_flags',
+  'motor_temperature_degc',
 ]

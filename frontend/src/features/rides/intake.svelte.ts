@@ -1,4 +1,4 @@
-// Files on their way to becoming rides: one after the other, each with its own progress and verdict.
+// Files on their way to becoming rides, one after the other, each with progress and verdict.
 import type { Upload } from '$shared/api/types'
 import { uploadFile } from '$shared/api/upload'
 

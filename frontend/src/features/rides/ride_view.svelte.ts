@@ -54,7 +54,10 @@ export class RideView {
   /** Moves the window by a share of its width. */
   pan(share: number, px: number): void {
     const width = this.window.to_s - this.window.from_s
-    const from_s = Math.min(Math.max(0, this.window.from_s + share * width), this.duration_s - width)
+    const from_s = Math.min(
+      Math.max(0, this.window.from_s + share * width),
+      this.duration_s - width,
+    )
     this.show({ from_s, to_s: from_s + width }, px)
   }
 

@@ -1,4 +1,4 @@
-/* Goal: a ride's curve keeps every extreme and never crosses a gap; its time axis reads as a clock. */
+/* Goal: a ride's curve keeps every extreme and crosses no gap; its time axis reads as a clock. */
 import { expect, it } from 'vitest'
 import { binLine, moment, rowsFor, timeTicks } from './traces'
 
@@ -26,7 +26,17 @@ it('draws rows as they are when every row is its own bin', () => {
 it('marks a two-hour ride at round minutes', () => {
   const { text } = timeTicks(0, 7200, 10)
 
-  expect(text).toEqual(['0:00', '15:00', '30:00', '45:00', '1:00:00', '1:15:00', '1:30:00', '1:45:00', '2:00:00'])
+  expect(text).toEqual([
+    '0:00',
+    '15:00',
+    '30:00',
+    '45:00',
+    '1:00:00',
+    '1:15:00',
+    '1:30:00',
+    '1:45:00',
+    '2:00:00',
+  ])
 })
 
 it('shows tenths only where whole seconds would repeat', () => {

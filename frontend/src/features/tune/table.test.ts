@@ -2,10 +2,15 @@
 import { expect, it } from 'vitest'
 import { blockOf, blockText, mapBlock, nudged, pasteText, placeAmong, type Rules } from './table'
 
-const all = (label: Rules[number][number]): Rules => Array.from({ length: 5 }, () => Array(5).fill(label))
+const all = (label: Rules[number][number]): Rules =>
+  Array.from({ length: 5 }, () => Array(5).fill(label))
 
 it('copies a block as tab-separated lines and pastes it elsewhere', () => {
-  const rules = mapBlock(all('ZO'), blockOf({ row: 0, column: 0 }, { row: 1, column: 1 }), () => 'PB')
+  const rules = mapBlock(
+    all('ZO'),
+    blockOf({ row: 0, column: 0 }, { row: 1, column: 1 }),
+    () => 'PB',
+  )
   const text = blockText(rules, blockOf({ row: 1, column: 1 }, { row: 2, column: 2 }))
   expect(text).toBe('PB\tZO\nZO\tZO')
 
@@ -28,7 +33,9 @@ it('refuses a block that does not fit instead of cutting it', () => {
 })
 
 it('refuses words that are no labels', () => {
-  expect(pasteText(all('ZO'), { row: 0, column: 0 }, 'NB\thello')).toEqual({ trouble: 'not_labels' })
+  expect(pasteText(all('ZO'), { row: 0, column: 0 }, 'NB\thello')).toEqual({
+    trouble: 'not_labels',
+  })
 })
 
 it('nudges no further than the ends', () => {

@@ -121,7 +121,10 @@ export class ConfigDraft {
     await this.load()
     const old = change.changed.flatMap((c) => (c.old === null ? [] : [[c.name, c.old] as const]))
     const [result] = await this.server.writeConfig(
-      this.device_id, Object.fromEntries(old), reason, this.tag,
+      this.device_id,
+      Object.fromEntries(old),
+      reason,
+      this.tag,
     )
     await this.load()
     return result
@@ -164,7 +167,8 @@ function differing(a: ParameterValue, b: ParameterValue): number {
   if (!Array.isArray(a) || !Array.isArray(b)) return same(a, b) ? 0 : 1
   const others = b as ParameterValue[]
   return (a as ParameterValue[]).reduce<number>(
-    (sum, element, i) => sum + differing(element, others[i] as ParameterValue), 0,
+    (sum, element, i) => sum + differing(element, others[i] as ParameterValue),
+    0,
   )
 }
 

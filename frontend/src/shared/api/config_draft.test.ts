@@ -6,8 +6,19 @@ import type { Server } from './server'
 import type { Parameter, ParameterValue } from './types'
 
 const parameter = (name: string): Parameter => ({
-  id: 1, name, group: 'limits', type: 'f32', shape: [], unit: 'km/h', min: 0, max: 25, default: 25,
-  access: 'DEALER', value: 25, choices: null, description: '',
+  id: 1,
+  name,
+  group: 'limits',
+  type: 'f32',
+  shape: [],
+  unit: 'km/h',
+  min: 0,
+  max: 25,
+  default: 25,
+  access: 'DEALER',
+  value: 25,
+  choices: null,
+  description: '',
 })
 
 /** A server with one unit whose configuration can be changed behind the draft's back. */
@@ -22,16 +33,25 @@ class FakeServer {
     `"${this.generation}"`,
   ]
   writeConfig = async (
-    _id: string, changes: Record<string, ParameterValue>, reason: string, tag: string,
+    _id: string,
+    changes: Record<string, ParameterValue>,
+    reason: string,
+    tag: string,
   ) => {
     this.written.push([changes, reason, tag])
     const changed = Object.entries(changes).map(([name, value]) => ({
-      name, old: this.values[name] ?? null, new: value,
+      name,
+      old: this.values[name] ?? null,
+      new: value,
     }))
     Object.assign(this.values, changes)
     this.generation += 1
     const result = {
-      generation: this.generation, crc32: 0, state: 'committed', verified: true, changed,
+      generation: this.generation,
+      crc32: 0,
+      state: 'committed',
+      verified: true,
+      changed,
       expires_at: null,
     }
     return [result, `"${this.generation}"`]

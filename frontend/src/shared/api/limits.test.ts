@@ -5,8 +5,19 @@ import type { Parameter } from './types'
 
 const parameter = (name: string, type = 'f32', min: number | null = 0, max: number | null = 0.5) =>
   ({
-    id: 1, name, group: 'fuzzy', type, shape: [5], unit: '', min, max, default: 0,
-    access: 'DEALER', value: null, choices: null, description: '',
+    id: 1,
+    name,
+    group: 'fuzzy',
+    type,
+    shape: [5],
+    unit: '',
+    min,
+    max,
+    default: 0,
+    access: 'DEALER',
+    value: null,
+    choices: null,
+    description: '',
   }) as Parameter
 
 it('names the element that is out of range, with the bound', () => {

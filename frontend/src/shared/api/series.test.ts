@@ -21,12 +21,22 @@ it('gives physical values, missing as NaN', () => {
   new Int16Array(body, 32, 2).set([100, -32768])
   new Int16Array(body, 40, 2).set([9500, -32768])
   const channel = {
-    name: 'rider_torque_nm', unit: 'Nm', scale: 0.01, dtype: 'int16', missing: -32768,
-    min_offset: 32, max_offset: 40,
+    name: 'rider_torque_nm',
+    unit: 'Nm',
+    scale: 0.01,
+    dtype: 'int16',
+    missing: -32768,
+    min_offset: 32,
+    max_offset: 40,
   }
   const header = {
-    from_s: 0, to_s: 20, rows: 2000, bins: 2, kind: 'minmax',
-    t_first_s: { dtype: 'float64', offset: 0 }, t_last_s: { dtype: 'float64', offset: 16 },
+    from_s: 0,
+    to_s: 20,
+    rows: 2000,
+    bins: 2,
+    kind: 'minmax',
+    t_first_s: { dtype: 'float64', offset: 0 },
+    t_last_s: { dtype: 'float64', offset: 16 },
     channels: [channel],
   }
 

@@ -64,7 +64,12 @@ export function readSeries(bytes: ArrayBuffer): Series {
       }
       const min = values(channel.min_offset)
       const same = channel.min_offset === channel.max_offset
-      return { name: channel.name, unit: channel.unit, min, max: same ? min : values(channel.max_offset) }
+      return {
+        name: channel.name,
+        unit: channel.unit,
+        min,
+        max: same ? min : values(channel.max_offset),
+      }
     }),
   }
 }

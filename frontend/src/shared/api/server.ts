@@ -2,8 +2,19 @@
 import { body, bodyAndTag, type Http } from './client'
 import { readSeries, type Series } from './series'
 import type {
-  Config, ConfigChange, Device, FuzzyTable, LintReport, Parameter, ParameterValue, Port, Revision,
-  Ride, Simulation, SimulationChange, Surface,
+  Config,
+  ConfigChange,
+  Device,
+  FuzzyTable,
+  LintReport,
+  Parameter,
+  ParameterValue,
+  Port,
+  Revision,
+  Ride,
+  Simulation,
+  SimulationChange,
+  Surface,
 } from './types'
 
 export class Server {
@@ -34,7 +45,8 @@ export class Server {
   }
 
   async parameters(id: string): Promise<Parameter[]> {
-    return (await body(this.http.GET('/api/v1/devices/{device_id}/parameters', this.unit(id)))).items
+    return (await body(this.http.GET('/api/v1/devices/{device_id}/parameters', this.unit(id))))
+      .items
   }
 
   /** The configuration and its ETag. */
@@ -58,11 +70,14 @@ export class Server {
   }
 
   async revisions(id: string): Promise<Revision[]> {
-    return (await body(this.http.GET('/api/v1/devices/{device_id}/config/revisions', this.unit(id)))).items
+    return (
+      await body(this.http.GET('/api/v1/devices/{device_id}/config/revisions', this.unit(id)))
+    ).items
   }
 
   async channels(id: string): Promise<Record<string, number | null>> {
-    return (await body(this.http.GET('/api/v1/devices/{device_id}/snapshot', this.unit(id)))).channels
+    return (await body(this.http.GET('/api/v1/devices/{device_id}/snapshot', this.unit(id))))
+      .channels
   }
 
   async faults(id: string): Promise<{ name: string; description: string }[]> {
@@ -74,7 +89,9 @@ export class Server {
   }
 
   setSimulation(id: string, change: SimulationChange): Promise<Simulation> {
-    return body(this.http.PUT('/api/v1/devices/{device_id}/simulation', { ...this.unit(id), body: change }))
+    return body(
+      this.http.PUT('/api/v1/devices/{device_id}/simulation', { ...this.unit(id), body: change }),
+    )
   }
 
   /** The gain surface of a table, computed by the unit's own law. */

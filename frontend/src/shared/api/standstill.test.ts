@@ -13,7 +13,9 @@ function rollingBike() {
   const asked: SimulationChange[] = []
   const server = {
     simulation: async () => ({
-      running: true, brake: false, rider: { kind: 'legs', torque_nm: 24, cadence_rpm_max: 90 },
+      running: true,
+      brake: false,
+      rider: { kind: 'legs', torque_nm: 24, cadence_rpm_max: 90 },
     }),
     setSimulation: async (_: string, change: SimulationChange) => asked.push(change),
     channels: async () => {
@@ -32,7 +34,9 @@ it('acts only once the bike stands, and lets the rider go on', async () => {
   expect(speed).toBe(0)
   expect(bike.asked[0]).toEqual({ rider: { kind: 'off' }, brake: true })
   expect(bike.asked.at(-1)).toEqual({
-    rider: { kind: 'legs', torque_nm: 24, cadence_rpm_max: 90 }, brake: false, running: true,
+    rider: { kind: 'legs', torque_nm: 24, cadence_rpm_max: 90 },
+    brake: false,
+    running: true,
   })
 })
 

@@ -13,12 +13,7 @@ export interface PlotNode extends HTMLElement {
   on(event: string, handler: (change: Record<string, unknown>) => void): void
 }
 export interface Plotly {
-  newPlot(
-    node: HTMLElement,
-    data: object[],
-    layout: object,
-    config: object,
-  ): Promise<PlotNode>
+  newPlot(node: HTMLElement, data: object[], layout: object, config: object): Promise<PlotNode>
   react(node: HTMLElement, data: object[], layout: object, config: object): Promise<PlotNode>
   restyle(node: HTMLElement, change: object, traces?: number[]): Promise<PlotNode>
   relayout(node: HTMLElement, change: object): Promise<PlotNode>

@@ -13,7 +13,7 @@ export class StripClock {
   private anchor = { ms: 0, end_s: -Infinity }
   private drawn: number[] = []
 
-  /** Calls for a drawing on every animation frame until `stop`. `end_s` is the newest row's time. */
+  /** Calls for a drawing on every animation frame until `stop`. `end_s`: the newest row's time. */
   start(end_s: () => number, held: () => boolean): void {
     this.running = true
     const step = (now_ms: number) => {

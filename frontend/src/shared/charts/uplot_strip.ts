@@ -8,7 +8,12 @@ const AXIS_PX = 44
 export function uplotStrip(node: HTMLElement, spec: StripSpec, show_time: boolean): StripChart {
   let edge_s = 0
   const font = '12px -apple-system, "Segoe UI", Roboto, "Noto Sans", "Noto Sans CJK SC", sans-serif'
-  const line = { stroke: spec.ink, grid: { stroke: spec.grid, width: 1 }, ticks: { show: false }, font }
+  const line = {
+    stroke: spec.ink,
+    grid: { stroke: spec.grid, width: 1 },
+    ticks: { show: false },
+    font,
+  }
   const plot = new uPlot(
     {
       width: Math.max(50, node.clientWidth),
@@ -66,7 +71,8 @@ export function uplotStrip(node: HTMLElement, spec: StripSpec, show_time: boolea
 function timeMarks(edge_s: number, span_s: number): number[] {
   const step = niceStep(span_s / 6)
   const marks: number[] = []
-  for (let back = Math.floor(span_s / step) * step; back >= 0; back -= step) marks.push(edge_s - back)
+  for (let back = Math.floor(span_s / step) * step; back >= 0; back -= step)
+    marks.push(edge_s - back)
   return marks
 }
 

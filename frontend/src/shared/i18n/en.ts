@@ -28,13 +28,17 @@ export const en = {
   'state.closed': 'Closed',
   'state.unreachable': 'Offline',
   'state.none': 'No unit',
-  'banner.unreachable': "Spindle's server does not answer. Values on this page are old. Trying again every second.",
+  'banner.unreachable':
+    "Spindle's server does not answer. Values on this page are old. Trying again every " +
+    'second.',
   'banner.connecting': 'Connecting to the unit. {reason}',
   'banner.read_only': 'The unit can be read but not changed. {reason}',
-  'banner.lost': 'The link to the unit is lost; it comes back by itself when the unit does. {reason}',
+  'banner.lost':
+    'The link to the unit is lost; it comes back by itself when the unit does. {reason}',
   'banner.closed': 'The link to the unit is closed. {reason}',
   'no_unit.title': 'No drive unit is connected',
-  'no_unit.text': 'This page shows a connected unit. Connect one, or add a simulated one to look around.',
+  'no_unit.text':
+    'This page shows a connected unit. Connect one, or add a simulated one to look ' + 'around.',
   'no_unit.connect': 'Connect a unit',
 
   'bike.empty': 'Connect a drive unit by cable, or add a simulated one to look around.',
@@ -64,7 +68,8 @@ export const en = {
   'connect.no_ports': 'No serial port found. Plug the cable in, then look again.',
   'connect.add_simulated': 'Add a simulated unit',
   'simulation.title': 'Simulation',
-  'simulation.explain': 'A simulated rider on a simulated road. A real drive unit has no such panel.',
+  'simulation.explain':
+    'A simulated rider on a simulated road. A real drive unit has no such panel.',
   'simulation.runs': '{scenario} · {time}',
   'simulation.free': 'no scenario runs',
   'simulation.none': 'none',
@@ -111,10 +116,16 @@ export const en = {
   'tune.surface_summary': "Gain {least} to {most}, from the unit's own law",
   'tune.grid_label': 'Gain label for each speed (rows) and torque rate (columns)',
   'tune.cell': '{label} {gain}, gain at speed {speed} and torque rate {rate}',
-  'tune.cell_changed': '{label} {gain}, gain at speed {speed} and torque rate {rate}; changed from {old}',
-  'tune.keys': 'Arrows move · 1–5 set NB–PB · + and − nudge · Shift selects · Ctrl+C/V as text · Delete restores · Ctrl+Z undoes',
-  'tune.paste_not_labels': 'Nothing pasted: only the labels NB, NS, ZO, PS, PB or the numbers 1 to 5 go into the rules.',
-  'tune.paste_too_large': 'Nothing pasted: the text has more rows or columns than there are from this cell on.',
+  'tune.cell_changed':
+    '{label} {gain}, gain at speed {speed} and torque rate {rate}; changed from {old}',
+  'tune.keys':
+    'Arrows move · 1–5 set NB–PB · + and − nudge · Shift selects · Ctrl+C/V as text · ' +
+    'Delete restores · Ctrl+Z undoes',
+  'tune.paste_not_labels':
+    'Nothing pasted: only the labels NB, NS, ZO, PS, PB or the numbers 1 to 5 go into ' +
+    'the rules.',
+  'tune.paste_too_large':
+    'Nothing pasted: the text has more rows or columns than there are from this cell on.',
   'group.assist': 'Assist modes and ramps',
   'group.limits': 'Limits',
   'group.drivetrain': 'Drivetrain',
@@ -142,23 +153,34 @@ export const en = {
   'review.back': 'Back to editing',
   'review.write': 'Write to the unit',
   'review.writing': 'Writing…',
-  'review.verified': 'Written and read back, field by field: verified ({count} changed), generation {generation}.',
+  'review.verified':
+    'Written and read back, field by field: verified ({count} changed), generation ' +
+    '{generation}.',
   'review.undo': 'Undo',
   'review.undo_reason': 'Undo of the last change',
   'review.undone': 'Undone: the old values are back and verified, generation {generation}.',
   'review.not_undone': 'Not undone.',
   'review.stop_undo': 'Stop the simulated rider and undo',
   'review.stop_write': 'Stop the simulated rider, write, let the rider go on',
-  'review.stopping': 'The simulated rider stops; the change is written as soon as the bike stands still.',
-  'review.moving': 'Nothing was written: the wheel or the motor turns. A new configuration is taken only at standstill, so that assist cannot change under the rider. Stop the bike and write again.',
-  'review.conflict': 'Nothing was written: somebody else changed the unit in the meantime. The column "In the unit" now shows what it has; look again, then write.',
+  'review.stopping':
+    'The simulated rider stops; the change is written as soon as the bike stands still.',
+  'review.moving':
+    'Nothing was written: the wheel or the motor turns. A new configuration is taken ' +
+    'only at standstill, so that assist cannot change under the rider. Stop the bike and ' +
+    'write again.',
+  'review.conflict':
+    'Nothing was written: somebody else changed the unit in the meantime. The column "In ' +
+    'the unit" now shows what it has; look again, then write.',
   'review.refused': 'Nothing was written. The unit refuses:',
-  'review.not_connected': 'The unit is not connected, so nothing can be written. Your edits are kept.',
+  'review.not_connected':
+    'The unit is not connected, so nothing can be written. Your edits are kept.',
 
   'sensor.side_by_side': 'Raw counts and torque side by side',
   'sensor.parameters': 'Calibration in the unit',
   'zero.title': 'Zero',
-  'zero.explain': 'Take all load off the pedals and keep the cranks still. The mean of the last second becomes the proposed offset; nothing is written before you review it.',
+  'zero.explain':
+    'Take all load off the pedals and keep the cranks still. The mean of the last second ' +
+    'becomes the proposed offset; nothing is written before you review it.',
   'zero.mean': 'Mean of the last second (counts)',
   'zero.deviation': 'Scatter (counts)',
   'zero.steady': 'steady',
@@ -257,7 +279,9 @@ export const en = {
   'units.imperial': 'mph, lbf·ft, °F',
   'keys.title': 'Keyboard',
   'keys.live': 'Space pauses the strips.',
-  'keys.rules': 'Arrows move, 1 to 5 set NB to PB, + and − nudge, Shift with arrows selects, Ctrl+C and Ctrl+V copy and paste as text, Delete restores, Ctrl+Z and Ctrl+Y undo and redo.',
+  'keys.rules':
+    'Arrows move, 1 to 5 set NB to PB, + and − nudge, Shift with arrows selects, Ctrl+C ' +
+    'and Ctrl+V copy and paste as text, Delete restores, Ctrl+Z and Ctrl+Y undo and redo.',
   'keys.numbers': 'Numbers',
   'keys.numbers_text': 'Arrow up and down nudge; with Shift five times as far.',
 

@@ -1,4 +1,4 @@
-/* Goal: both languages say the same with the same values, and numbers read as the reader writes them.
+/* Goal: both languages say the same with the same values, and numbers look as readers write them.
    That no key is missing is checked by the compiler. */
 import { CHANNELS, FLAGS, PARAMETERS } from '$generated/registry'
 import { expect, it } from 'vitest'

@@ -113,7 +113,8 @@ export const zh: Record<Key, string> = {
   'tune.grid_label': '各速度（行）与扭矩变化率（列）的增益标签',
   'tune.cell': '{label} {gain}，增益，速度 {speed}，扭矩变化率 {rate}',
   'tune.cell_changed': '{label} {gain}，增益，速度 {speed}，扭矩变化率 {rate}；原为 {old}',
-  'tune.keys': '方向键移动 · 1–5 设为 NB–PB · + − 微调 · Shift 选择 · Ctrl+C/V 复制粘贴 · Delete 还原 · Ctrl+Z 撤销',
+  'tune.keys':
+    '方向键移动 · 1–5 设为 NB–PB · + − 微调 · Shift 选择 · Ctrl+C/V 复制粘贴 · Delete 还原 · Ctrl+Z 撤销',
   'tune.paste_not_labels': '未粘贴：规则只接受 NB、NS、ZO、PS、PB 或数字 1 至 5。',
   'tune.paste_too_large': '未粘贴：文本的行数或列数超出了此格之后的范围。',
   'group.assist': '助力模式与斜率',
@@ -151,7 +152,8 @@ export const zh: Record<Key, string> = {
   'review.stop_undo': '停下模拟骑手并撤销',
   'review.stop_write': '停下模拟骑手，写入，再让骑手继续',
   'review.stopping': '模拟骑手正在停下；车辆静止后立即写入。',
-  'review.moving': '没有写入：车轮或电机在转动。只有静止时才接受新配置，以免助力在骑手脚下突变。请停车后再写入。',
+  'review.moving':
+    '没有写入：车轮或电机在转动。只有静止时才接受新配置，以免助力在骑手脚下突变。请停车后再写入。',
   'review.conflict': '没有写入：期间有人修改了单元。“单元中”一列已更新，请再次核对后写入。',
   'review.refused': '没有写入。单元拒绝：',
   'review.not_connected': '单元未连接，无法写入。您的修改已保留。',
@@ -159,7 +161,8 @@ export const zh: Record<Key, string> = {
   'sensor.side_by_side': '原始计数与扭矩对照',
   'sensor.parameters': '单元中的标定',
   'zero.title': '归零',
-  'zero.explain': '卸去踏板上的一切载荷，保持曲柄静止。最近一秒的平均值将作为建议的零点；核对之前不会写入。',
+  'zero.explain':
+    '卸去踏板上的一切载荷，保持曲柄静止。最近一秒的平均值将作为建议的零点；核对之前不会写入。',
   'zero.mean': '最近一秒平均值（计数）',
   'zero.deviation': '离散（计数）',
   'zero.steady': '稳定',
@@ -258,7 +261,9 @@ export const zh: Record<Key, string> = {
   'units.imperial': 'mph、lbf·ft、°F',
   'keys.title': '键盘',
   'keys.live': '空格键暂停曲线。',
-  'keys.rules': '方向键移动，1 至 5 设为 NB 至 PB，+ − 微调，Shift 加方向键选择，Ctrl+C 与 Ctrl+V 复制粘贴，Delete 还原，Ctrl+Z 与 Ctrl+Y 撤销和重做。',
+  'keys.rules':
+    '方向键移动，1 至 5 设为 NB 至 PB，+ − 微调，Shift 加方向键选择，Ctrl+C 与 Ctrl+V 复' +
+    '制粘贴，Delete 还原，Ctrl+Z 与 Ctrl+Y 撤销和重做。',
   'keys.numbers': '数字',
   'keys.numbers_text': '上下方向键微调；按住 Shift 为五倍。',
 

@@ -5,7 +5,11 @@ import { readFrame, valueOf } from './frame'
 import { TraceBuffer } from './trace_buffer'
 
 export function frameBytes(
-  seq: number, lost: number, t0_us: number, channels: number, counts: number[],
+  seq: number,
+  lost: number,
+  t0_us: number,
+  channels: number,
+  counts: number[],
 ): ArrayBuffer {
   const view = new DataView(new ArrayBuffer(20 + 2 * counts.length))
   view.setUint32(0, seq, true)
@@ -18,7 +22,10 @@ export function frameBytes(
 }
 
 const header = {
-  type: 'stream' as const, epoch: 1, rate_hz: 100, period_us: 10_000,
+  type: 'stream' as const,
+  epoch: 1,
+  rate_hz: 100,
+  period_us: 10_000,
   channels: [
     { name: 'speed_kmh', unit: 'km/h', scale: 0.01 },
     { name: 'fuzzy_gain', unit: '', scale: 0.00005 },
