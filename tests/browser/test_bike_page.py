@@ -69,7 +69,7 @@ def test_a_port_that_cannot_be_opened_says_why(
 
 
 def test_without_a_unit_the_page_shows_the_way(desk: Desk) -> None:
-    nothing = {"items": [], "next": None}
+    nothing: dict[str, object] = {"items": [], "next": None}
     desk.page.route("**/api/v1/devices", lambda route: route.fulfill(json=nothing))
 
     page = desk.open("/live")

@@ -21,6 +21,13 @@ export interface StreamState {
   reason: string | null
 }
 
+/** The unit or a channel does not exist: asking again at once will not help. */
+export interface StreamError {
+  type: 'error'
+  code: string
+  detail: string
+}
+
 export interface StreamFrame {
   seq: number
   lost_rows: number

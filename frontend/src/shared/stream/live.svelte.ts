@@ -1,6 +1,13 @@
 // One device's live socket: rows into a buffer, the newest values ten times a second, and the
 // truth about age, gaps and reconnecting.
-import { readFrame, valueOf, type StreamFrame, type StreamHeader, type StreamState } from './frame'
+import {
+  readFrame,
+  valueOf,
+  type StreamError,
+  type StreamFrame,
+  type StreamHeader,
+  type StreamState,
+} from './frame'
 import { TraceBuffer } from './trace_buffer'
 
 const STALE_AFTER_MS = 1500 // a rider's glance: older than this must not look alive
@@ -112,7 +119,7 @@ export class LiveStream {
   }
 
   private receiveText(text: string): void {
-    const message = JSON.parse(text) as StreamHeader | StreamState
+    const message = JSON.parse(text) as StreamHeader | StreamState | StreamError
     if (message.type === 'stream') {
       this.buffer.reset(message)
       this.newest = null
@@ -120,6 +127,9 @@ export class LiveStream {
     } else if (message.type === 'state') {
       this.link_state = message.state
       this.reason = message.reason
+    } else {
+      this.reason = message.detail
+      this.retry_ms = RETRY_MS_MAX
     }
   }
 
