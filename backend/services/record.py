@@ -23,7 +23,7 @@ import numpy.typing as npt
 from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.stream import StreamBlock
 from backend.domain.channels import MISSING_INT16, ChannelSpec
-from backend.domain.ride import Ride, RideContext, iso_utc
+from backend.domain.ride import Ride, RideContext
 from backend.errors import SpindleError, StoreError
 from backend.store import RideStore
 
@@ -196,13 +196,7 @@ class UnitRecorder:
                 first = block
         started_us = block.wall_us - (block.t0_us - first.t0_us)
         context = self._context()
-        ride_id = self._rides.start_live(
-            self._channels,
-            self._period_us,
-            started_us,
-            context,
-            name=f"Ride of {iso_utc(started_us)[:16].replace('T', ' ')}",
-        )
+        ride_id = self._rides.start_live(self._channels, self._period_us, started_us, context)
         self._live = LiveRide(ride_id, first.t0_us, last_wall_us=block.wall_us, context=context)
         for lead in self._lead:
             self._append(self._live, lead.values)
