@@ -15,7 +15,11 @@ float torque_history_swap(const assist_config *config, assist_state *state)
     return earlier_nm;
 }
 
-/* Below the floor a relative change means nothing: any rise counts as the fastest the table knows,
+/* What counts as a rise below the floor. The sensor's noise (0.06 Nm) leaves 0.006 Nm after the
+ * average; without this a bike at rest would show the gain of a start now and then. */
+static const float START_RISE_NM = 0.05f;
+
+/* Below the floor a relative change means nothing: a rise counts as the fastest the table knows,
  * because it is a start. */
 float torque_rate_of(const assist_config *config, float torque_nm, float earlier_torque_nm)
 {
@@ -24,6 +28,8 @@ float torque_rate_of(const assist_config *config, float torque_nm, float earlier
     float rise_nm = torque_nm - earlier_torque_nm;
 
     if (rise_nm <= 0.0f) return first;
-    if (earlier_torque_nm < config->torque_rate_floor_nm) return last;
+    if (earlier_torque_nm < config->torque_rate_floor_nm) {
+        return rise_nm < START_RISE_NM ? first : last;
+    }
     return float32_clamp(rise_nm / earlier_torque_nm, first, last);
 }

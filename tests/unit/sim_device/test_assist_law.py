@@ -254,3 +254,15 @@ def test_missing_and_unequal_readings_are_named() -> None:
     del readings["brake"]
     with pytest.raises(LawRefused, match="brake"):
         run(readings)
+
+
+def test_the_noise_of_a_bike_at_rest_is_not_a_start() -> None:
+    """Sensor noise of 0.06 Nm: thesis_checks 6, twelve bits and table 5-1's scatter."""
+    noise_nm = np.random.default_rng(5).normal(0.0, 0.06, 6000)
+
+    rest = run(ride(noise_nm, speed_kmh=0.0, cadence_rpm=0.0))
+    start = run(ride(np.concatenate([noise_nm[:500], np.full(20, 10.0)]), speed_kmh=0.0))
+
+    assert rest["torque_rate"].max() == 0.0
+    assert np.ptp(rest["fuzzy_gain"]) == 0.0
+    assert start["torque_rate"][505] == pytest.approx(0.9)
