@@ -2,11 +2,15 @@
 
 #include <string.h>
 
-#include "dispatch.h"   // dispatch_frame
+#include "dispatch.h"   // dispatch_frame, requests_log_poll
 #include "float32.h"    // float32_missing
 #include "parameters.h" // parameters_to_assist
 
 #define RECEIVE_BLOCK_BYTES 64
+
+/* Above either the bike is being ridden, and a ride log is kept. */
+#define MOVING_KMH 1.0f
+#define MOVING_RPM 5.0f
 
 /* Bytes served in one poll: at 1 Mbaud the line brings 100 in a millisecond, and a flood must not
  * keep the unit from its other work. */
@@ -39,6 +43,9 @@ void app_init(app *unit, const hal *board)
     telemetry_init(&unit->telemetry);
     config_store_boot(&unit->store, board);
     app_config_apply(unit);
+    ride_log_init(&unit->ride_log, board);
+    unit->link.bulk = requests_log_bulk;
+    unit->link.bulk_context = unit;
     event_boot(&unit->events, &unit->link, board->now_us(board->context), board->boot_id);
     if (unit->store.slot == CONFIG_STORE_NO_SLOT) config_defaulted(unit);
 }
@@ -78,6 +85,8 @@ void app_poll(app *unit)
     transaction_poll(&unit->transaction, now_us);
     telemetry_poll(&unit->telemetry, &unit->events, &unit->link, now_us);
     receive(unit);
+    ride_log_poll(&unit->ride_log, unit->board, &unit->store, &unit->events, &unit->link);
+    requests_log_poll(unit);
     link_transmit(&unit->link, unit->board);
 }
 
@@ -107,8 +116,19 @@ static void faults_report(app *unit, const hal_inputs *inputs, uint64_t now_us)
     uint16_t cleared;
 
     faults_step(&unit->faults, inputs, unit->config.battery_voltage_v_min, &set, &cleared);
-    if (set != 0) event_faults_set(&unit->events, &unit->link, now_us, set);
-    if (cleared != 0) event_faults_cleared(&unit->events, &unit->link, now_us, cleared);
+    if (set != 0) {
+        event_faults_set(&unit->events, &unit->link, now_us, set);
+        ride_log_event_add(&unit->ride_log, EBL_EVENT_FAULT_SET, set, now_us);
+    }
+    if (cleared != 0) {
+        event_faults_cleared(&unit->events, &unit->link, now_us, cleared);
+        ride_log_event_add(&unit->ride_log, EBL_EVENT_FAULT_CLEARED, cleared, now_us);
+    }
+}
+
+static int is_moving(const hal_inputs *inputs)
+{
+    return inputs->speed_kmh > MOVING_KMH || inputs->cadence_rpm > MOVING_RPM;
 }
 
 void app_control_step(app *unit)
@@ -131,6 +151,7 @@ void app_control_step(app *unit)
     faults_report(unit, &inputs, now_us);
     sources.fault_flags = unit->faults.active;
     telemetry_step(&unit->telemetry, &sources, now_us, &unit->link);
+    ride_log_step(&unit->ride_log, unit->telemetry.row, now_us, is_moving(&inputs));
 }
 
 const assist_output *app_output(const app *unit) { return &unit->output; }

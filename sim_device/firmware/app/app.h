@@ -16,6 +16,9 @@
 #include "faults.h"             // fault_list
 #include "hal.h"                // hal
 #include "link.h"               // unit_link
+#include "ride_log.h"           // ride_log
+#include "ride_log_bulk.h"      // ride_log_bulk
+#include "ride_log_check.h"     // ride_log_check
 #include "telemetry.h"          // telemetry
 
 /* A response the host may ask for again because it was lost: executing twice is not an option. */
@@ -48,6 +51,9 @@ typedef struct {
 
     telemetry telemetry;
     fault_list faults;
+    ride_log ride_log;
+    ride_log_bulk bulk;
+    ride_log_check log_check;
 } app;
 
 /* Boots: configuration from flash, BOOT on the line. `hal` must outlive `app`. */

@@ -7,6 +7,7 @@
 #define STATUS_LENGTH 1
 #define REFUSAL_LENGTH 3 /* status u8, detail u16 */
 #define BOARD_MESSAGE_FIRST 0x7000
+#define LATE_ANSWER_LENGTH_MAX 8
 
 void reply_ok(reply *answer)
 {
@@ -85,7 +86,7 @@ static void request_execute(app *unit, const ebl_header *request, reply *answer)
 
     if (handler == NULL) handler = requests_config(request->word);
     if (handler == NULL) handler = requests_stream(request->word);
-    if (handler == NULL) handler = requests_log(request->word);
+    if (handler == NULL) handler = requests_log(unit, request->word);
     if (handler != NULL) {
         handler(unit, request, answer);
     } else if (request->word >= BOARD_MESSAGE_FIRST) {
@@ -144,6 +145,39 @@ static const answered_request *request_answer(app *unit, const ebl_header *reque
     return answered;
 }
 
+void dispatch_answer_later(app *unit, uint8_t tid, uint16_t message_id, const reply *answer)
+{
+    uint8_t frame[EBL_HEADER_LENGTH + LATE_ANSWER_LENGTH_MAX];
+    size_t length = EBL_HEADER_LENGTH + answer->length;
+
+    if (answer->length > LATE_ANSWER_LENGTH_MAX) return;
+    ebl_header_put(frame, EBL_KIND_RESPONSE, 0, tid, message_id);
+    memcpy(frame + EBL_HEADER_LENGTH, answer->bytes, answer->length);
+    for (size_t i = 0; i < EBL_MAX_OUTSTANDING; i++) {
+        answered_request *answered = &unit->answered[i];
+
+        if (answered->tid != tid || memcmp(answered->frame, frame, EBL_HEADER_LENGTH) != 0) {
+            continue;
+        }
+        memcpy(answered->frame, frame, length);
+        answered->length = (uint16_t)length;
+    }
+    (void)link_send(&unit->link, LINK_RESPONSE, frame, length);
+}
+
+/* The one request that may ask for no answer. It changes nothing when it is heard twice, so it
+ * takes no place among the answers that are kept. */
+static void acknowledgement(app *unit, const ebl_header *request)
+{
+    uint8_t frame[EBL_HEADER_LENGTH + LATE_ANSWER_LENGTH_MAX];
+    reply answer = {frame + EBL_HEADER_LENGTH, LATE_ANSWER_LENGTH_MAX, 0};
+
+    requests_log(unit, request->word)(unit, request, &answer);
+    if (request->tag == 0) return;
+    ebl_header_put(frame, EBL_KIND_RESPONSE, 0, request->tag, request->word);
+    (void)link_send(&unit->link, LINK_RESPONSE, frame, EBL_HEADER_LENGTH + answer.length);
+}
+
 void dispatch_frame(app *unit, const uint8_t *frame, size_t length)
 {
     ebl_header request;
@@ -152,8 +186,13 @@ void dispatch_frame(app *unit, const uint8_t *frame, size_t length)
     uint32_t crc32;
 
     if (readable != EBL_OK && readable != EBL_ERROR_VERSION) return;
+    if (request.kind != EBL_KIND_REQUEST) return;
+    if (readable == EBL_OK && request.word == EBL_MSG_LOG_ACK && request.flags == 0) {
+        acknowledgement(unit, &request);
+        return;
+    }
     /* tid 0 belongs to no request, so an answer to it could not be matched. */
-    if (request.kind != EBL_KIND_REQUEST || request.tag == 0) return;
+    if (request.tag == 0) return;
     crc32 = request_crc(frame, length);
     answered = answered_find(unit, request.tag, crc32);
     if (answered == NULL) answered = request_answer(unit, &request, readable, crc32);

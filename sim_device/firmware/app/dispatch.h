@@ -35,6 +35,13 @@ void dispatch_frame(app *unit, const uint8_t *frame, size_t length);
 request_handler requests_system(uint16_t message_id);
 request_handler requests_config(uint16_t message_id);
 request_handler requests_stream(uint16_t message_id);
-request_handler requests_log(uint16_t message_id);
+request_handler requests_log(const app *unit, uint16_t message_id);
+
+/* The response that a PENDING promised; it is remembered in its place. At most 8 bytes. */
+void dispatch_answer_later(app *unit, uint8_t tid, uint16_t message_id, const reply *answer);
+
+/* Goes on with what LOG requests began, and the source of bulk frames for the link. */
+void requests_log_poll(app *unit);
+size_t requests_log_bulk(void *context, uint8_t *frame, size_t capacity);
 
 #endif

@@ -77,3 +77,25 @@ void event_stream_stats(event_log *events, unit_link *link, uint64_t now_us, uin
     if (ebl_stream_stats_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
     event_send(events, link, now_us, EBL_EVENT_STREAM_STATS, fields, length);
 }
+
+void event_log_closed(event_log *events, unit_link *link, uint64_t now_us, uint32_t log_id,
+                      uint32_t generation, uint32_t length_bytes)
+{
+    ebl_log_closed_event event = {log_id, generation, length_bytes};
+    uint8_t fields[EBL_LOG_CLOSED_EVENT_LENGTH];
+    size_t length;
+
+    if (ebl_log_closed_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
+    event_send(events, link, now_us, EBL_EVENT_LOG_CLOSED, fields, length);
+}
+
+void event_log_overwritten(event_log *events, unit_link *link, uint64_t now_us, uint32_t log_id,
+                           uint32_t generation, uint32_t overwritten)
+{
+    ebl_log_overwritten_event event = {log_id, generation, overwritten};
+    uint8_t fields[EBL_LOG_OVERWRITTEN_EVENT_LENGTH];
+    size_t length;
+
+    if (ebl_log_overwritten_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
+    event_send(events, link, now_us, EBL_EVENT_LOG_OVERWRITTEN, fields, length);
+}

@@ -25,4 +25,11 @@ void event_config(event_log *events, unit_link *link, uint64_t now_us, uint8_t c
 void event_stream_stats(event_log *events, unit_link *link, uint64_t now_us, uint8_t stream_id,
                         uint32_t built, uint32_t dropped_tx);
 
+void event_log_closed(event_log *events, unit_link *link, uint64_t now_us, uint32_t log_id,
+                      uint32_t generation, uint32_t length_bytes);
+
+/* `overwritten`: how many unconfirmed logs were given up since boot, this one included. */
+void event_log_overwritten(event_log *events, unit_link *link, uint64_t now_us, uint32_t log_id,
+                           uint32_t generation, uint32_t overwritten);
+
 #endif

@@ -57,28 +57,41 @@ int link_send(unit_link *link, link_priority priority, const uint8_t *frame, siz
     return 1;
 }
 
+static void frame_encode(unit_link *link, size_t length)
+{
+    size_t wire_length = 0;
+
+    if (ebl_frame_encode(link->frame, length, link->wire, sizeof link->wire, &wire_length) !=
+        EBL_OK) {
+        link->dropped_tx++;
+    }
+    link->wire_sent = 0;
+    link->wire_length = (uint16_t)wire_length;
+}
+
 /* Encodes the most urgent waiting frame. False where none waits. */
 static int next_frame(unit_link *link)
 {
+    size_t bulk_length;
+
     for (int priority = 0; priority < LINK_PRIORITIES; priority++) {
         link_queue *queue = &link->queues[priority];
         uint8_t prefix[LENGTH_BYTES];
         size_t length;
-        size_t wire_length = 0;
 
         if (queue->used == 0) continue;
         queue_take(queue, prefix, sizeof prefix);
         length = (size_t)prefix[0] | (size_t)prefix[1] << 8;
         queue_take(queue, link->frame, length);
-        if (ebl_frame_encode(link->frame, length, link->wire, sizeof link->wire, &wire_length) !=
-            EBL_OK) {
-            link->dropped_tx++;
-        }
-        link->wire_sent = 0;
-        link->wire_length = (uint16_t)wire_length;
+        frame_encode(link, length);
         return 1;
     }
-    return 0;
+    bulk_length = link->bulk == NULL ? 0
+                                     : link->bulk(link->bulk_context, link->frame,
+                                                  sizeof link->frame - EBL_CHECK_LENGTH);
+    if (bulk_length == 0) return 0;
+    frame_encode(link, bulk_length);
+    return 1;
 }
 
 void link_transmit(unit_link *link, const hal *board)

@@ -1,6 +1,7 @@
 /* The unit's end of the serial line: bytes to frames, and three bounded queues of frames to bytes.
  *
- * A response overtakes an event, an event overtakes a stream; a frame once begun is finished. */
+ * A response overtakes an event, an event overtakes a stream, bulk gets what is left; a frame once
+ * begun is finished. */
 #ifndef SPINDLE_LINK_H
 #define SPINDLE_LINK_H
 
@@ -26,6 +27,10 @@ typedef enum {
 #define LINK_EVENT_QUEUE_BYTES 512
 #define LINK_STREAM_QUEUE_BYTES 2240
 
+/* Asked for a frame whenever nothing else waits and the line has room: fills in header and payload
+ * and returns their length, or 0. */
+typedef size_t (*link_source)(void *context, uint8_t *frame, size_t capacity);
+
 typedef struct {
     uint8_t *bytes;
     uint16_t capacity;
@@ -45,6 +50,8 @@ typedef struct {
     uint16_t wire_length;
     uint16_t wire_sent;
     uint32_t dropped_tx;
+    link_source bulk; /* NULL: none */
+    void *bulk_context;
 } unit_link;
 
 void link_init(unit_link *link);

@@ -1,8 +1,254 @@
 /* What the host asks about ride logs. */
-#include "dispatch.h"     // reply_refuse
-#include "ebl_registry.h" // EBL_MSG_LOG_LIST
+#include <string.h>
 
-/* A unit without memory for logs. */
+#include "dispatch.h"     // reply_ok, reply_with, dispatch_answer_later
+#include "ebl_bytes.h"    // EBL_OK, ebl_put_u32
+#include "ebl_registry.h" // ebl_log_list_request_get
+
+#define ENTRY_LENGTH 40
+#define ENTRIES_MAX 12 /* what a frame of the largest MTU holds */
+
+/* What LOG_CRC and LOG_CONFIRM are told to expect: 2 ms for each of the check's pieces. */
+#define CHECK_BYTES_PER_MS 1024u
+#define CHECK_MS_MIN 10u
+
+static uint64_t now_us(const app *unit) { return unit->board->now_us(unit->board->context); }
+
+static void entry_put(const ride_log_store *store, uint8_t place, uint8_t *bytes)
+{
+    const ride_log_entry *log = &store->logs[place];
+
+    memset(bytes, 0, ENTRY_LENGTH);
+    ebl_put_u32(bytes, log->id);
+    ebl_put_u32(bytes + 4, log->generation);
+    ebl_put_u32(bytes + 8, log->boot_id);
+    ebl_put_u64(bytes + 12, log->t0_us);
+    ebl_put_u64(bytes + 20, log->t1_us);
+    ebl_put_u32(bytes + 28, ride_log_store_length(store, place));
+    bytes[32] = log->flags;
+}
+
+static void list(app *unit, const ebl_header *request, reply *answer)
+{
+    const ride_log_store *store = &unit->ride_log.store;
+    uint8_t entries[ENTRIES_MAX * ENTRY_LENGTH];
+    size_t room = (reply_capacity(answer) - EBL_LOG_LIST_RESPONSE_LENGTH) / ENTRY_LENGTH;
+    ebl_log_list_request asked;
+    ebl_log_list_response response;
+    size_t count = 0;
+    size_t length = 0;
+    int put;
+
+    if (ebl_log_list_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LOG_LIST_REQUEST_LENGTH);
+        return;
+    }
+    if (room > ENTRIES_MAX) room = ENTRIES_MAX;
+    if (asked.count < room) room = asked.count;
+    response.total = ride_log_store_count(store);
+    while (count < room && asked.start + count < response.total) {
+        uint8_t place = ride_log_store_by_age(store, (uint16_t)(asked.start + count));
+
+        entry_put(store, place, entries + count * ENTRY_LENGTH);
+        count++;
+    }
+    response.overwritten = store->overwritten;
+    response.boot_id = unit->board->boot_id;
+    response.now_us = now_us(unit);
+    response.entries = entries;
+    response.entries_length = count * ENTRY_LENGTH;
+    put =
+        ebl_log_list_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
+    reply_with(answer, put, length);
+}
+
+/* The place of a log that is not being recorded; refuses otherwise. */
+static int find(const app *unit, uint32_t log_id, uint32_t generation, uint8_t *place,
+                reply *answer)
+{
+    const ride_log_store *store = &unit->ride_log.store;
+
+    *place = ride_log_store_find(store, log_id, generation);
+    if (*place == RIDE_LOG_NONE) {
+        reply_refuse(answer, EBL_STATUS_NOT_FOUND, (uint16_t)log_id);
+    } else if (store->logs[*place].flags & EBL_LOG_RECORDING) {
+        reply_refuse(answer, EBL_STATUS_STATE, (uint16_t)log_id);
+    } else {
+        return 1;
+    }
+    return 0;
+}
+
+static void open(app *unit, const ebl_header *request, reply *answer)
+{
+    const ride_log_store *store = &unit->ride_log.store;
+    ebl_log_open_request asked;
+    ebl_log_open_response response;
+    uint8_t place;
+    size_t length = 0;
+    int put;
+
+    if (ebl_log_open_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LOG_OPEN_REQUEST_LENGTH);
+        return;
+    }
+    if (!find(unit, asked.log_id, asked.generation, &place, answer)) return;
+    response.length = ride_log_store_length(store, place);
+    response.chunk = ride_log_bulk_chunk(unit->tx_mtu);
+    response.window =
+        asked.window < RIDE_LOG_WINDOW_MAX ? asked.window : (uint8_t)RIDE_LOG_WINDOW_MAX;
+    if (asked.session == 0 || asked.session > EBL_BULK_SESSION_MAX || asked.window == 0 ||
+        asked.offset > response.length || asked.offset % response.chunk != 0) {
+        reply_refuse(answer, EBL_STATUS_RANGE, response.chunk);
+        return;
+    }
+    ride_log_bulk_open(&unit->bulk, store, place, asked.offset, response.chunk, response.window,
+                       asked.session, now_us(unit));
+    put =
+        ebl_log_open_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
+    reply_with(answer, put, length);
+}
+
+static void acknowledge(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_log_ack_request asked;
+
+    if (ebl_log_ack_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LOG_ACK_REQUEST_LENGTH);
+    } else if (unit->bulk.session == 0 || asked.session != unit->bulk.session) {
+        reply_refuse(answer, EBL_STATUS_NOT_FOUND, asked.session);
+    } else if (!ride_log_bulk_ack(&unit->bulk, asked.base, asked.bitmap, now_us(unit))) {
+        reply_refuse(answer, EBL_STATUS_RANGE, asked.session);
+    } else {
+        reply_ok(answer);
+    }
+}
+
+static void close(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_log_close_request asked;
+
+    if (ebl_log_close_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LOG_CLOSE_REQUEST_LENGTH);
+        return;
+    }
+    if (asked.session == unit->bulk.session) ride_log_bulk_end(&unit->bulk);
+    reply_ok(answer);
+}
+
+/* Begins a check of [offset, offset + length) and asks for patience. */
+static void check_begin(app *unit, const ebl_header *request, uint8_t place, uint32_t offset,
+                        uint32_t length, reply *answer)
+{
+    ride_log_check *check = &unit->log_check;
+    uint32_t whole = ride_log_store_length(&unit->ride_log.store, place);
+    uint32_t wait_ms = length / CHECK_BYTES_PER_MS + CHECK_MS_MIN;
+
+    if (offset > whole || length > whole - offset) {
+        reply_refuse(answer, EBL_STATUS_RANGE, (uint16_t)(whole / RIDE_LOG_PAGE_BYTES));
+        return;
+    }
+    if (check->tid != 0) {
+        reply_refuse(answer, EBL_STATUS_BUSY, 1);
+        return;
+    }
+    check->tid = request->tag;
+    check->message_id = request->word;
+    check->place = place;
+    check->log_id = unit->ride_log.store.logs[place].id;
+    check->offset = offset;
+    check->end = offset + length;
+    check->crc32 = 0;
+    reply_refuse(answer, EBL_STATUS_PENDING, (uint16_t)wait_ms);
+}
+
+static void crc(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_log_crc_request asked;
+    uint8_t place;
+
+    if (ebl_log_crc_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LOG_CRC_REQUEST_LENGTH);
+        return;
+    }
+    if (!find(unit, asked.log_id, asked.generation, &place, answer)) return;
+    check_begin(unit, request, place, asked.offset, asked.length, answer);
+}
+
+static void confirm(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_log_confirm_request asked;
+    uint8_t place;
+
+    if (ebl_log_confirm_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LOG_CONFIRM_REQUEST_LENGTH);
+        return;
+    }
+    if (!find(unit, asked.log_id, asked.generation, &place, answer)) return;
+    if (unit->ride_log.store.logs[place].flags & EBL_LOG_CONFIRMED) {
+        reply_ok(answer);
+        return;
+    }
+    if (asked.length != ride_log_store_length(&unit->ride_log.store, place)) {
+        reply_refuse(answer, EBL_STATUS_RANGE, (uint16_t)asked.length);
+        return;
+    }
+    unit->log_check.expected = asked.crc32;
+    check_begin(unit, request, place, 0, asked.length, answer);
+}
+
+/* What the host is told once the check value is known. */
+static void check_answer(app *unit, reply *answer)
+{
+    ride_log_check *check = &unit->log_check;
+    ebl_log_crc_response response = {check->crc32};
+    size_t length = 0;
+    int put;
+
+    if (check->message_id == EBL_MSG_LOG_CRC) {
+        put = ebl_log_crc_response_put(&response, reply_fields(answer), reply_capacity(answer),
+                                       &length);
+        reply_with(answer, put, length);
+    } else if (check->crc32 != check->expected) {
+        reply_refuse(answer, EBL_STATUS_CRC_MISMATCH, (uint16_t)check->crc32);
+    } else if (ride_log_store_confirm(&unit->ride_log.store, unit->board, check->place) < 0) {
+        reply_refuse(answer, EBL_STATUS_FLASH_FAIL, 0);
+    } else {
+        reply_ok(answer);
+    }
+}
+
+void requests_log_poll(app *unit)
+{
+    ride_log_check *check = &unit->log_check;
+    uint8_t bytes[EBL_LOG_CRC_RESPONSE_LENGTH + 1];
+    reply answer = {bytes, sizeof bytes, 0};
+    int state;
+
+    ride_log_bulk_poll(&unit->bulk, &unit->ride_log.store, now_us(unit));
+    if (check->tid == 0) return;
+    state = ride_log_check_poll(check, &unit->ride_log.store, unit->board);
+    if (state == RIDE_LOG_CHECK_RUNNING) return;
+    if (state == RIDE_LOG_CHECK_GONE) {
+        reply_refuse(&answer, EBL_STATUS_NOT_FOUND, (uint16_t)check->log_id);
+    } else if (check->message_id == EBL_MSG_LOG_CONFIRM &&
+               unit->board->log_busy(unit->board->log_context)) {
+        return;
+    } else {
+        check_answer(unit, &answer);
+    }
+    dispatch_answer_later(unit, check->tid, check->message_id, &answer);
+    check->tid = 0;
+}
+
+size_t requests_log_bulk(void *context, uint8_t *frame, size_t capacity)
+{
+    app *unit = context;
+
+    return ride_log_bulk_frame(&unit->bulk, &unit->ride_log.store, unit->board, frame, capacity);
+}
+
+/* A unit without memory for logs answers what is well formed with UNSUPPORTED. */
 static void no_log(app *unit, const ebl_header *request, reply *answer)
 {
     const ebl_message *message = ebl_message_find(request->word);
@@ -15,15 +261,22 @@ static void no_log(app *unit, const ebl_header *request, reply *answer)
     reply_refuse(answer, EBL_STATUS_UNSUPPORTED, 0);
 }
 
-request_handler requests_log(uint16_t message_id)
+static request_handler handler_of(uint16_t message_id)
 {
     switch (message_id) {
-    case EBL_MSG_LOG_LIST:
-    case EBL_MSG_LOG_OPEN:
-    case EBL_MSG_LOG_ACK:
-    case EBL_MSG_LOG_CLOSE:
-    case EBL_MSG_LOG_CRC:
-    case EBL_MSG_LOG_CONFIRM: return no_log;
+    case EBL_MSG_LOG_LIST: return list;
+    case EBL_MSG_LOG_OPEN: return open;
+    case EBL_MSG_LOG_ACK: return acknowledge;
+    case EBL_MSG_LOG_CLOSE: return close;
+    case EBL_MSG_LOG_CRC: return crc;
+    case EBL_MSG_LOG_CONFIRM: return confirm;
     default: return NULL;
     }
+}
+
+request_handler requests_log(const app *unit, uint16_t message_id)
+{
+    request_handler handler = handler_of(message_id);
+
+    return handler != NULL && unit->ride_log.store.blocks == 0 ? no_log : handler;
 }

@@ -10,6 +10,12 @@
 
 static const uint16_t firmware_version[3] = {0, 1, 0};
 
+static void log_session_end(app *unit)
+{
+    ride_log_bulk_end(&unit->bulk);
+    unit->log_check.tid = 0;
+}
+
 /* The host that held streams and a transaction is not the one that says hello now. Its answered
  * requests go too: another host may number its own alike. */
 static void session_start(app *unit)
@@ -17,6 +23,7 @@ static void session_start(app *unit)
     unit->session_id++;
     telemetry_end_all(&unit->telemetry);
     transaction_drop(&unit->transaction);
+    log_session_end(unit);
     memset(unit->answered, 0, sizeof unit->answered);
 }
 
@@ -120,6 +127,7 @@ static void bye(app *unit, const ebl_header *request, reply *answer)
     (void)request;
     telemetry_end_all(&unit->telemetry);
     transaction_drop(&unit->transaction);
+    log_session_end(unit);
     reply_ok(answer);
 }
 

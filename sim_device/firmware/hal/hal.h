@@ -48,6 +48,17 @@ typedef struct {
     int (*flash_erase)(void *context, size_t address);
     int (*flash_program)(void *context, size_t address, const uint8_t *bytes, size_t length);
 
+    /* Flash for ride logs; log_size 0 where there is none. Blocks are whole multiples of 512 bytes.
+     * Erasing and programming only begin here: until log_busy is 0 again the bytes given must stay
+     * and log_read fails. At most 512 bytes within one page are programmed at once. */
+    void *log_context;
+    size_t log_block_size;
+    size_t log_size;
+    int (*log_busy)(void *log_context);
+    int (*log_read)(void *log_context, size_t address, uint8_t *bytes, size_t length);
+    int (*log_erase)(void *log_context, size_t address);
+    int (*log_program)(void *log_context, size_t address, const uint8_t *bytes, size_t length);
+
     /* Requests above service 0x70 belong to the board (a simulated unit's controls). Returns a
      * status and fills the response; NULL where the board has none. */
     int (*board_request)(void *context, uint16_t message_id, const uint8_t *request, size_t length,

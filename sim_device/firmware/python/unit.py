@@ -11,6 +11,7 @@ from typing import Any, Final
 from sim_device.firmware.python._native import ffi, lib
 
 FLASH_LENGTH: Final[int] = lib.UNIT_FLASH_SIZE
+LOG_LENGTH: Final[int] = lib.UNIT_LOG_SIZE
 UID_LENGTH: Final[int] = lib.UNIT_UID_LENGTH
 MODE_NOT_SELECTED: Final[int] = lib.UNIT_MODE_NOT_SELECTED
 
@@ -93,11 +94,12 @@ class Unit:
         bike: `part.name` -> value, over `default_bike()`.
         speed_kmh: the bike starts rolling at this speed.
         flash: `FLASH_LENGTH` bytes of an earlier life, or None for an erased flash.
+        log: `LOG_LENGTH` bytes of the flash for ride logs, or None for an erased one.
         request: answers SIM_GET and SIM_SET: (message id, request) -> (status, response).
 
     Raises:
         KeyError: a value of `bike` does not exist.
-        ValueError: `uid` or `flash` has another length.
+        ValueError: `uid`, `flash` or `log` has another length.
         MemoryError: the unit could not be allocated.
     """
 
@@ -110,12 +112,15 @@ class Unit:
         bike: dict[str, float] | None = None,
         speed_kmh: float = 0.0,
         flash: bytes | None = None,
+        log: bytes | None = None,
         request: BoardRequest | None = None,
     ) -> None:
         if len(uid) != UID_LENGTH:
             raise ValueError(f"uid has {len(uid)} bytes, not {UID_LENGTH}")
         if flash is not None and len(flash) != FLASH_LENGTH:
             raise ValueError(f"the flash image has {len(flash)} bytes, not {FLASH_LENGTH}")
+        if log is not None and len(log) != LOG_LENGTH:
+            raise ValueError(f"the log's image has {len(log)} bytes, not {LOG_LENGTH}")
         setup = ffi.new("unit_setup *")
         lib.physics_default(ffi.addressof(setup, "physics"))
         _change(setup.physics, bike or {})
@@ -124,6 +129,7 @@ class Unit:
         setup.uid = uid
         setup.boot_id = boot_id
         setup.flash = ffi.NULL if flash is None else ffi.from_buffer("uint8_t[]", flash)
+        setup.log = ffi.NULL if log is None else ffi.from_buffer("uint8_t[]", log)
         self._request = None if request is None else ffi.new_handle(request)
         if self._request is not None:
             setup.request = lib.unit_request_python
@@ -203,6 +209,15 @@ class Unit:
     def flash(self) -> bytes:
         """The flash as it is now, to be given to the unit's next life."""
         return bytes(ffi.buffer(lib.unit_flash(self._unit), FLASH_LENGTH))
+
+    def log(self) -> bytes:
+        """The flash for ride logs as it is now."""
+        return bytes(ffi.buffer(lib.unit_log(self._unit), LOG_LENGTH))
+
+    @property
+    def log_changes(self) -> int:
+        """How often the flash for ride logs was written; the same number means the same bytes."""
+        return int(lib.unit_log_changes(self._unit))
 
 
 def finite_or_none(value: float) -> float | None:

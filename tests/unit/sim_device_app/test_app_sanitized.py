@@ -40,7 +40,7 @@ FOLDERS = [
     "sim_device/firmware/hal",
     "sim_device/firmware/boards/host",
 ]
-BOARD = "sim_device/firmware/boards/host/bench_board.c"
+BOARD = ("bench_board.c", "log_flash.c")
 COMPILER = shutil.which("gcc") or shutil.which("clang")
 
 
@@ -54,7 +54,8 @@ def sanitized(tmp_path_factory: pytest.TempPathFactory) -> Path:
     command = [COMPILER, "-std=c99", "-g", "-O1", "-ffp-contract=off", "-fno-math-errno"]
     command += ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
     command += [f"-I{ROOT / folder}" for folder in FOLDERS]
-    command += [*map(str, sources), str(ROOT / BOARD), str(HERE / "sanitized_unit.c")]
+    sources += [ROOT / FOLDERS[4] / name for name in BOARD]
+    command += [*map(str, sources), str(HERE / "sanitized_unit.c")]
     built = subprocess.run(
         [*command, "-o", str(program)], capture_output=True, text=True, check=False
     )

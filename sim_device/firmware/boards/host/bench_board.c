@@ -3,11 +3,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app.h" // app
+#include "app.h"       // app
+#include "log_flash.h" // log_flash
 
 #define BENCH_POLL_US 1000u
 #define BENCH_CONTROL_US 10000u
 #define FLASH_NEVER UINT32_MAX
+#define LOG_BLOCK_SIZE 2048
+#define LOG_SIZE 16384
 
 typedef struct {
     uint8_t bytes[BENCH_LINE_BYTES];
@@ -27,6 +30,7 @@ struct bench_board {
     uint32_t flash_steps;
     uint32_t flash_steps_left;
     uint32_t flash_weak_bit_countdown;
+    log_flash log;
     uint8_t uid[12];
     uint8_t powered;
 };
@@ -173,6 +177,10 @@ bench_board *bench_create(size_t flash_block_size, size_t flash_size)
         return NULL;
     }
     memset(board->flash, 0xFF, flash_size);
+    if (bench_log_flash(board, LOG_BLOCK_SIZE, LOG_SIZE) < 0) {
+        bench_destroy(board);
+        return NULL;
+    }
     memcpy(board->uid, "bench-unit-1", sizeof board->uid);
     hal_fill(board, flash_block_size, flash_size);
     board->to_unit.capacity = BENCH_LINE_BYTES;
@@ -190,6 +198,7 @@ bench_board *bench_create(size_t flash_block_size, size_t flash_size)
 void bench_destroy(bench_board *board)
 {
     if (board == NULL) return;
+    log_flash_close(&board->log);
     free(board->flash);
     free(board);
 }
@@ -212,6 +221,7 @@ void bench_boot(bench_board *board, uint32_t boot_id)
     board->flash_steps_left = FLASH_NEVER;
     board->flash_weak_bit_countdown = FLASH_NEVER;
     board->hal.boot_id = boot_id;
+    log_flash_power_on(&board->log);
     app_init(&board->app, &board->hal);
     board->powered = 1;
 }
@@ -279,5 +289,30 @@ void bench_flash_weak_bit_after(bench_board *board, uint32_t count)
 uint8_t *bench_flash(bench_board *board) { return board->flash; }
 
 size_t bench_flash_size(const bench_board *board) { return board->hal.flash_size; }
+
+int bench_log_flash(bench_board *board, size_t block_size, size_t size)
+{
+    log_flash_close(&board->log);
+    if (log_flash_open(&board->log, block_size, size, NULL) < 0) return -1;
+    log_flash_connect(&board->log, &board->hal, &board->now_us);
+    return 0;
+}
+
+uint8_t *bench_log(bench_board *board) { return board->log.bytes; }
+
+size_t bench_log_size(const bench_board *board) { return board->log.size; }
+
+uint32_t bench_log_steps(const bench_board *board) { return board->log.steps; }
+
+void bench_log_cut_after(bench_board *board, uint32_t steps) { board->log.steps_left = steps; }
+
+void bench_log_stuck(bench_board *board, int stuck)
+{
+    board->log.busy_until_us = stuck ? UINT64_MAX : 0;
+}
+
+uint32_t bench_bulk_sent(const bench_board *board) { return board->app.bulk.frames_sent; }
+
+uint32_t bench_bulk_repeated(const bench_board *board) { return board->app.bulk.frames_repeated; }
 
 size_t bench_app_bytes(void) { return sizeof(app); }

@@ -62,6 +62,22 @@ void bench_flash_weak_bit_after(bench_board *board, uint32_t count);
 uint8_t *bench_flash(bench_board *board);
 size_t bench_flash_size(const bench_board *board);
 
+/* Flash for ride logs; gives up the one before. Without it the board has 8 blocks of 2 KB. */
+int bench_log_flash(bench_board *board, size_t block_size, size_t size);
+uint8_t *bench_log(bench_board *board);
+size_t bench_log_size(const bench_board *board);
+
+/* As for the other flash: bytes erased or programmed since the last boot, and the end of power. */
+uint32_t bench_log_steps(const bench_board *board);
+void bench_log_cut_after(bench_board *board, uint32_t steps);
+
+/* The flash stays busy for ever, or works again. */
+void bench_log_stuck(bench_board *board, int stuck);
+
+/* Frames of ride logs sent, and how many of them again, in the latest session. */
+uint32_t bench_bulk_sent(const bench_board *board);
+uint32_t bench_bulk_repeated(const bench_board *board);
+
 /* RAM that one application takes. */
 size_t bench_app_bytes(void);
 

@@ -7,6 +7,7 @@
 #include "byte_queue.h"   // byte_queue_put
 #include "ebl_registry.h" // EBL_DEVICE_CLASS_MID_DRIVE_SIMULATED
 #include "hal.h"          // hal
+#include "log_flash.h"    // log_flash_open
 
 #define PHYSICS_PERIOD_US 1000u
 #define CONTROL_PERIOD_US 10000u
@@ -29,6 +30,7 @@ struct unit {
     byte_queue from_host;
     byte_queue to_host;
     uint8_t flash[UNIT_FLASH_SIZE];
+    log_flash log;
     uint32_t flash_bytes_left; /* until the supply fails; FLASH_NEVER_CUT: it does not */
     uint8_t uid[UNIT_UID_LENGTH];
     unit_request request;
@@ -156,6 +158,7 @@ static void connect_board(unit *self, const unit_setup *setup)
         .boot_id = setup->boot_id,
     };
     self->hal = board;
+    log_flash_connect(&self->log, &self->hal, &self->now_us);
 }
 
 unit *unit_create(const unit_setup *setup)
@@ -175,18 +178,29 @@ unit *unit_create(const unit_setup *setup)
     self->bike = setup->physics;
     self->mode_selected = UNIT_MODE_NOT_SELECTED;
     unit_place(self, setup->speed_kmh, setup->seed);
+    if (log_flash_open(&self->log, UNIT_LOG_BLOCK_SIZE, UNIT_LOG_SIZE, setup->log) < 0) {
+        free(self);
+        return NULL;
+    }
     connect_board(self, setup);
     ebl_config factory;
     ebl_config_default(&factory);
     if (app_provision(&self->hal, &factory) < 0) {
-        free(self);
+        unit_destroy(self);
         return NULL;
     }
     app_init(&self->app, &self->hal);
     return self;
 }
 
-void unit_destroy(unit *self) { free(self); }
+void unit_destroy(unit *self)
+{
+    if (self == NULL) {
+        return;
+    }
+    log_flash_close(&self->log);
+    free(self);
+}
 
 void unit_advance_us(unit *self, uint64_t duration_us)
 {
@@ -267,3 +281,7 @@ void unit_flash_cut_after(unit *self, uint32_t bytes) { self->flash_bytes_left =
 int unit_is_powered(const unit *self) { return self->flash_bytes_left != 0; }
 
 const uint8_t *unit_flash(const unit *self) { return self->flash; }
+
+const uint8_t *unit_log(const unit *self) { return self->log.bytes; }
+
+uint32_t unit_log_changes(const unit *self) { return self->log.changes; }

@@ -13,6 +13,8 @@
 #define UNIT_UID_LENGTH 12
 #define UNIT_FLASH_BLOCK_SIZE 1024
 #define UNIT_FLASH_SIZE 8192 /* the data flash of the RX24T in eight blocks */
+#define UNIT_LOG_BLOCK_SIZE 4096
+#define UNIT_LOG_SIZE 4194304 /* a serial flash beside the chip: two and a half hours of rides */
 #define UNIT_MODE_NOT_SELECTED 255
 
 /* Answers board requests (SIM_GET, SIM_SET). Same meaning as hal.board_request. */
@@ -27,6 +29,7 @@ typedef struct {
     uint8_t uid[UNIT_UID_LENGTH];
     uint32_t boot_id;
     const uint8_t *flash; /* UNIT_FLASH_SIZE bytes, or NULL for an erased one */
+    const uint8_t *log;   /* UNIT_LOG_SIZE bytes, or NULL for an erased one */
     unit_request request; /* NULL: the unit knows no board requests */
     void *request_context;
 } unit_setup;
@@ -89,6 +92,10 @@ void unit_seed_noise(unit *self, uint64_t seed);
 void unit_select_mode(unit *self, uint8_t mode);
 
 const uint8_t *unit_flash(const unit *self);
+
+/* The flash for ride logs, and how often it was erased or programmed since the unit was made. */
+const uint8_t *unit_log(const unit *self);
+uint32_t unit_log_changes(const unit *self);
 
 /* Brown-out: the supply fails after `bytes` more bytes were erased or programmed, and with it the
  * whole unit; what the flash holds then is for the next life. 0 takes the battery out now. */
