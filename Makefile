@@ -69,7 +69,8 @@ lock: $(STAMP)/python ## pin versions and hashes again, without registry address
 
 .PHONY: native
 native: $(STAMP)/python ## the C extension, rebuilt in place
-	$(BIN)/python setup.py -q build_ext --inplace
+	$(BIN)/uv pip install -q --no-build-isolation --no-deps -e .
+	@touch $(STAMP)/native
 
 .PHONY: clean
 clean: ## everything built or installed here; rides in data/ stay

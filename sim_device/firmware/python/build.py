@@ -20,6 +20,8 @@ SOURCE_FOLDERS = (
     "sim_device/physics",
 )
 
+HAL_FOLDER = "sim_device/firmware/hal"
+
 # In order of dependence. A header that is not here cannot be called from Python.
 HEADERS: tuple[str, ...] = (
     "firmware_protocol/c/ebl_bytes.h",
@@ -74,6 +76,14 @@ def sources() -> list[str]:
     ]
 
 
+def included() -> list[str]:
+    """Every header of those folders: a change in one compiles the sources again."""
+    folders = (*SOURCE_FOLDERS, HAL_FOLDER)
+    return [
+        str(path.relative_to(ROOT)) for folder in folders for path in (ROOT / folder).glob("*.h")
+    ]
+
+
 ffibuilder = FFI()
 ffibuilder.cdef("\n".join(declarations(header) for header in HEADERS))
 ffibuilder.cdef(CALLBACKS)
@@ -81,6 +91,7 @@ ffibuilder.set_source(
     "sim_device.firmware.python._native",
     "\n".join(f'#include "{Path(header).name}"' for header in HEADERS),
     sources=sources(),
-    include_dirs=[*SOURCE_FOLDERS, "sim_device/firmware/hal"],
+    include_dirs=[*SOURCE_FOLDERS, HAL_FOLDER],
+    depends=sorted(included()),
     extra_compile_args=COMPILE_ARGUMENTS,
 )
