@@ -51,7 +51,7 @@ def test_the_firmware_is_ready_and_has_the_registry_s_defaults() -> None:
 
 
 def test_a_minute_of_stream_has_no_row_missing_and_none_made_up() -> None:
-    bench, _ = connected(StreamPlan())
+    bench, _ = connected(StreamPlan(batch=5))
     bench.split = bytewise
     bench.run(60.0)
 
@@ -64,7 +64,7 @@ def test_a_minute_of_stream_has_no_row_missing_and_none_made_up() -> None:
 
 
 def test_rows_lost_on_the_way_are_counted_as_the_firmware_counts_them() -> None:
-    bench, _ = connected(StreamPlan())
+    bench, _ = connected(StreamPlan(batch=5))
     noise = random.Random(5)
 
     def harm(data: bytes) -> bytes:
@@ -200,7 +200,7 @@ def test_each_lost_answer_is_repeated_and_the_change_done_once(lost: int) -> Non
 @pytest.mark.parametrize("seed", range(20))
 def test_on_a_bad_line_a_change_is_made_whole_or_not_at_all(seed: int) -> None:
     unit = LockstepUnit(seed=1)
-    bench = bench_with(unit, StreamPlan()).connect()
+    bench = bench_with(unit, StreamPlan(batch=5)).connect()
     base = bench.ask(read_config())
     changes: dict[str, Value] = {"pedal_stop_ms": 200, "mode_ratios": [0.0, 0.4, 0.8, 1.2, 1.6]}
     noise = random.Random(seed)
@@ -226,7 +226,7 @@ def test_the_firmware_s_own_description_is_read_and_proven(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(handshake, "SCHEMA_HASH", b"not this")
-    bench = bench_with(LockstepUnit(seed=1), StreamPlan()).connect()
+    bench = bench_with(LockstepUnit(seed=1), StreamPlan(batch=5)).connect()
     bench.run(1.0)
 
     assert bench.session.state is LinkState.READ_ONLY

@@ -30,7 +30,10 @@ _BIKE_PARTS: Final[tuple[str, ...]] = _fields("physics_config")
 
 
 # An exception in `answer` is printed by cffi; the host is told EBL_STATUS_INTERNAL.
-@ffi.def_extern(name="unit_request_python", error=lib.EBL_STATUS_INTERNAL)  # type: ignore[untyped-decorator]
+_answers = ffi.def_extern(name="unit_request_python", error=lib.EBL_STATUS_INTERNAL)
+
+
+@_answers  # type: ignore[untyped-decorator]
 def _answer(
     context: Any,
     message_id: int,
