@@ -34,6 +34,10 @@ test: setup $(STAMP)/chromium lint ## every test there is, a real browser includ
 test-fast: $(STAMP)/native ## unit and conformance tests without the slow ones
 	$(BIN)/pytest -m "not slow" tests/unit tests/conformance
 
+.PHONY: simulate
+simulate: $(STAMP)/native ## the story of one seed of the simulated link: make simulate SEED=123
+	$(BIN)/python -m tests.simulation $(or $(SEED),1) $(SEEDS)
+
 .PHONY: lint
 lint: $(STAMP)/native $(STAMP)/web-modules ## all static checks, Python, C and browser
 	$(BIN)/ruff format --check .

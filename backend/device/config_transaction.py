@@ -20,6 +20,7 @@ from backend.errors import (
     DeviceRefused,
     FieldError,
     LimitViolation,
+    LinkError,
     NoAnswer,
     NotStandingStill,
     PeerProtocolError,
@@ -28,6 +29,7 @@ from backend.errors import (
 from firmware_protocol._generated import (
     IMAGE_LENGTH,
     MTU,
+    MTU_BEFORE_HELLO,
     PARAMETERS,
     Bank,
     CfgAbortRequest,
@@ -51,6 +53,9 @@ from firmware_protocol.parameters import pack_image, set_items, unpack_image
 MESSAGE_OVERHEAD_BYTES = 24
 # Somebody else may commit between our reading of generation and image; thrice is no accident.
 READ_ATTEMPTS = 3
+# A unit that restarted, or that another tool greeted, in the middle of a commit no longer knows the
+# transaction when the commit is repeated, whether it was carried out or not.
+TRANSACTION_GONE = (Status.STATE, Status.SESSION)
 
 
 class CommitUnanswered(NoAnswer):
@@ -84,6 +89,9 @@ def read_config(mtu: int = MTU) -> Operation[ConfigImage]:
         ]
         parts = yield from ask_all(requests, CfgReadResponse)
         image = b"".join(part.data for part in parts)
+        if any(len(part.data) < asked.length for asked, part in zip(requests, parts, strict=True)):
+            # A unit that restarted since HELLO answers in short frames until it is greeted.
+            mtu = MTU_BEFORE_HELLO
         same = all(part.generation == info.generation for part in parts)
         if same and len(image) == IMAGE_LENGTH and zlib.crc32(image) == info.crc32:
             return ConfigImage(info.generation, info.crc32, unpack_image(image))
@@ -104,7 +112,15 @@ def write_config(
     """
     image = pack_image({**base.parameters, **changes})
     yield from _commit(base, changes, image, mtu)
-    found = yield from read_config(mtu)
+    try:
+        found = yield from read_config(mtu)
+    except PeerProtocolError:
+        raise
+    except SpindleError as error:
+        raise CommitUnanswered(
+            f"The unit took the change and could not be read back: {error.message} What it holds "
+            "is not known until it answers."
+        ) from error
     compare(unpack_image(image), found.parameters)
     return found
 
@@ -157,6 +173,13 @@ def _begin(base: ConfigImage) -> Operation[CfgBeginResponse]:
             f"The unit's configuration is no longer generation {base.generation}: somebody else "
             "changed it. Read it again, look at the difference, and write once more."
         )
+    if response.status == Status.BUSY:
+        raise DeviceRefused(
+            "Another change is open in the unit, perhaps one of ours whose answer was lost. It "
+            f"ends by itself in {response.detail} s; write once more then. Nothing was changed.",
+            status=Status.BUSY.name,
+            detail=response.detail,
+        )
     return expect(request, response, CfgBeginResponse)
 
 
@@ -177,10 +200,15 @@ def _finish(transaction: int, crc32: int) -> Operation[None]:
     request = CfgCommitRequest(transaction, crc32, flags=0, confirm_s=0)
     try:
         response = yield from attempt(request)
-    except NoAnswer as error:
+    except LinkError as error:
         raise CommitUnanswered(
             f"{error.message} Whether the change was made is not known until it answers."
         ) from error
+    if response.status in TRANSACTION_GONE:
+        raise CommitUnanswered(
+            f"{refused(request, response).message} It was restarted or taken over while it "
+            "committed; whether the change was made is not known until it is read again."
+        )
     done = expect(request, response, CfgCommitResponse)
     if done.crc32 != crc32:
         raise PeerProtocolError(
@@ -192,7 +220,7 @@ def _finish(transaction: int, crc32: int) -> Operation[None]:
 def _abort(transaction: int) -> Operation[None]:
     """Drop what is staged; if the unit does not hear it, its lease ends it in 30 s."""
     try:
-        yield from attempt(CfgAbortRequest(transaction), attempts=1)
+        yield from attempt(CfgAbortRequest(transaction))
     except SpindleError:
         return
 

@@ -23,6 +23,14 @@ def silent_reason(port_name: str) -> str:
     )
 
 
+def deaf_reason(port_name: str) -> str:
+    """It talks and does not hear us."""
+    return (
+        f"The unit on {port_name} is heard and answers nothing. Check the cable and its plug: one "
+        "direction seems broken. Spindle keeps trying."
+    )
+
+
 def restarted_reason() -> str:
     """It says it started again."""
     return "The unit was restarted; asking who it is again."

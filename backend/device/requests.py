@@ -33,6 +33,7 @@ class _UnderWay:
     question: Question
     on_answer: OnAnswer
     tid: int = 0
+    number: int = 0
     wire: bytes = b""
     attempts_left: int = 0
     sent_s: float = 0.0
@@ -54,6 +55,7 @@ class RequestTable:
         self.longest_answer = 128
         self._statistics = statistics
         self._next_tid = 1
+        self._started = 0
         self._smoothed_s: float | None = None
         self._shut: SpindleError | None = None
         self._waiting: deque[_UnderWay] = deque()
@@ -79,6 +81,9 @@ class RequestTable:
         """
         out = bytearray()
         for entry in [entry for entry in self._under_way.values() if entry.due_s <= now_s]:
+            if self._under_way.get(entry.tid) is not entry:
+                # Whoever got the answer before this one ended the conversation.
+                continue
             if entry.attempts_left > 0:
                 entry.repeated = True
                 self._statistics.requests_repeated += 1
@@ -87,7 +92,7 @@ class RequestTable:
                 del self._under_way[entry.tid]
                 self._statistics.requests_unanswered += 1
                 entry.on_answer(_no_answer(entry))
-        while self._waiting and len(self._under_way) < self.outstanding_max:
+        while self._waiting and self._may_start():
             entry = self._waiting.popleft()
             self._start(entry)
             out += self._send(entry, now_s)
@@ -133,6 +138,17 @@ class RequestTable:
             line_s = (request_bytes + self.longest_answer) * BITS_PER_BYTE / self.bits_per_second
         return max(TIMEOUT_S_MIN, 4.0 * (self._smoothed_s or 0.0) + line_s)
 
+    def _may_start(self) -> bool:
+        """Whether one more request keeps every repetition recognisable.
+
+        The unit remembers its last `outstanding_max` answers. A request whose answer was lost must
+        still be among them when it is repeated, so no more than that may start after the oldest.
+        """
+        if not self._under_way:
+            return True
+        oldest = next(iter(self._under_way.values()))
+        return self._started - oldest.number < self.outstanding_max
+
     def _start(self, entry: _UnderWay) -> None:
         while self._next_tid in self._under_way:
             self._next_tid = self._next_tid % 255 + 1
@@ -140,6 +156,8 @@ class RequestTable:
         self._next_tid = self._next_tid % 255 + 1
         entry.wire = encode_frame(encode(Request(entry.tid, entry.question.message)))
         entry.attempts_left = entry.question.attempts
+        entry.number = self._started
+        self._started += 1
         self._under_way[entry.tid] = entry
         self._statistics.requests_sent += 1
 

@@ -21,6 +21,7 @@ from typing import TypeVar
 from backend.device.handshake import Acquaintance, VersionRefused, become_acquainted
 from backend.device.operation import Operation, attempt
 from backend.device.reasons import (
+    deaf_reason,
     greeting_reason,
     newer_version,
     ready_reason,
@@ -31,11 +32,18 @@ from backend.device.requests import RequestTable
 from backend.device.runner import OnError, OnResult, OperationRunner
 from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.statistics import LinkStatistics
-from backend.device.stream import StreamBlock, StreamPlan, StreamStarted
-from backend.device.subscription import Subscription
+from backend.device.stream import RENEW_S, StreamBlock, StreamPlan, StreamStarted
+from backend.device.subscription import Subscription, UnitRestarted
 from backend.device.unit_notes import UnitNotes
 from backend.errors import LinkError, NoAnswer, SpindleError
-from firmware_protocol._generated import MTU, MTU_BEFORE_HELLO, ByeRequest, PingRequest, Status
+from firmware_protocol._generated import (
+    MTU,
+    MTU_BEFORE_HELLO,
+    BootEvent,
+    ByeRequest,
+    PingRequest,
+    Status,
+)
 from firmware_protocol.codec import (
     Event,
     Malformed,
@@ -59,6 +67,9 @@ REFUSED_PAUSE_S = 5.0
 # A caller that stops reading must not make the session grow: 1000 blocks are 50 s at 100 Hz.
 EVENTS_MAX = 1000
 BYE_TID = 255
+# Rows that come prove only one direction: after two renewals without an answer (5 s) we are not
+# heard.
+RENEWALS_UNANSWERED_MAX = 2
 
 
 class _Phase(Enum):
@@ -101,6 +112,10 @@ class Session:
         self._now_s = now_s
         self._port_name = ""
         self._nonce = bytes(8)
+        # The latest restart the unit told of since it was last asked who it is.
+        self._boot_heard: int | None = None
+        self._stream_due_s: float | None = None
+        self._renewals_unanswered = 0
         self._requests.shut(LinkError(self.reason))
 
     # ------------------------------------------------------------------ bytes and time
@@ -154,6 +169,7 @@ class Session:
         self._requests.bits_per_second = bits_per_second
         self._requests.start_from(nonce[0])
         self._bad_before = self._statistics.frames_bad
+        self._decoder = FrameDecoder(MTU)
         self._out = bytearray(FLUSH)
         self._phase = _Phase.FLUSHING
         self._until_s = now_s + FLUSH_S
@@ -237,20 +253,28 @@ class Session:
         told = self.notes.take(event, self._statistics)
         if told is not None:
             self._tell(told)
-        known = self.acquaintance.identity.boot_id if self.acquaintance else None
-        boot_id = self.notes.boot_id
-        if self._phase is _Phase.UP and boot_id is not None and boot_id != known:
+        if not isinstance(event.message, BootEvent):
+            return
+        self._boot_heard = event.message.boot_id
+        if self._phase is _Phase.UP and self._is_another_life():
             self._greet_again(restarted_reason())
+
+    def _is_another_life(self) -> bool:
+        """Whether a restart was heard since HELLO was asked and HELLO was answered before it."""
+        known = self.acquaintance.identity.boot_id if self.acquaintance else None
+        return self._boot_heard is not None and self._boot_heard != known
 
     def _greet(self) -> None:
         self._phase = _Phase.GREETING
-        self._bad_before = self._statistics.frames_bad
-        self._decoder = FrameDecoder(MTU)
+        self._boot_heard = None
         self._requests.open(outstanding_max=1)
         self._runner.start(become_acquainted(self._nonce), self._acquainted, self._not_acquainted)
 
     def _acquainted(self, acquaintance: Acquaintance) -> None:
         self.acquaintance = acquaintance
+        if self._is_another_life():
+            self._greet()
+            return
         self.failed_greetings = 0
         self.notes.begin(acquaintance)
         self._phase = _Phase.UP
@@ -263,10 +287,17 @@ class Session:
             self._stand(LinkState.READY, ready_reason(acquaintance.identity))
         else:
             self._stand(LinkState.READ_ONLY, acquaintance.read_only_reason)
-        if self._plan is not None and acquaintance.channels:
-            plan = replace(self._plan, channels=acquaintance.channels)
-            begin = self._subscription.begin(plan, acquaintance.identity.simulated)
-            self._runner.start(begin, self._tell, self._no_stream)
+        self._begin_stream()
+
+    def _begin_stream(self) -> None:
+        self._stream_due_s = None
+        known = self.acquaintance
+        if self._plan is None or known is None or not known.channels:
+            return
+        plan = replace(self._plan, channels=known.channels)
+        uptime_us = known.hello.uptime_us
+        begin = self._subscription.begin(plan, known.identity.simulated, uptime_us)
+        self._runner.start(begin, self._tell, self._no_stream)
 
     def _not_acquainted(self, error: BaseException) -> None:
         if self._phase is not _Phase.GREETING:
@@ -282,22 +313,38 @@ class Session:
             self._stand(self._absent(), greeting_reason(self._port_name, baud, error))
 
     def _no_stream(self, error: BaseException) -> None:
-        if self._phase is _Phase.UP and not isinstance(error, NoAnswer):
+        if isinstance(error, UnitRestarted):
+            self._greet_again(restarted_reason())
+        elif isinstance(error, LinkError):
+            # The line was bad just now, or too much was asked at once: neither lasts.
+            self._stream_due_s = self._now_s + RENEW_S
+        elif self._phase is _Phase.UP:
             self._stand(self.state, f"{self.reason} Live values are not available: {error}")
 
     def _keep_up(self) -> None:
         silent_s = self._now_s - self._heard_s
         if silent_s >= SILENCE_S:
-            self._break_off(NoAnswer(silent_reason(self._port_name)))
-            self._stand(LinkState.LOST, silent_reason(self._port_name))
-            self._out += FLUSH
-            self._greet()
+            self._lose(silent_reason(self._port_name))
+        elif self._renewals_unanswered >= RENEWALS_UNANSWERED_MAX:
+            self._lose(deaf_reason(self._port_name))
+        elif self._stream_due_s is not None and self._now_s >= self._stream_due_s:
+            self._begin_stream()
         elif self._subscription.renewal_due(self._now_s):
-            self._runner.start(self._subscription.renew(), self._renewed, lambda error: None)
+            self._runner.start(self._subscription.renew(), self._renewed, self._not_renewed)
         elif silent_s >= PING_S and self._requests.is_idle:
             self._runner.start(attempt(PingRequest()), lambda response: None, lambda error: None)
 
+    def _lose(self, reason: str) -> None:
+        self._break_off(NoAnswer(reason))
+        self._stand(LinkState.LOST, reason)
+        self._out += FLUSH
+        self._greet()
+
+    def _not_renewed(self, error: BaseException) -> None:
+        self._renewals_unanswered += isinstance(error, NoAnswer)
+
     def _renewed(self, known: bool) -> None:
+        self._renewals_unanswered = 0
         if not known and self._phase is _Phase.UP:
             self._greet_again("The unit forgot the live stream; asking who it is again.")
 
@@ -311,6 +358,8 @@ class Session:
         self._subscription.end()
         self.last_block = None
         self._requests.shut(error)
+        self._stream_due_s = None
+        self._renewals_unanswered = 0
 
     def _absent(self) -> LinkState:
         return LinkState.CONNECTING if self.acquaintance is None else LinkState.LOST

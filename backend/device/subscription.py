@@ -13,6 +13,7 @@ from backend.device.stream import (
     StreamReceiver,
     StreamStarted,
 )
+from backend.errors import NoAnswer
 from firmware_protocol._generated import (
     Status,
     StrRenewRequest,
@@ -28,8 +29,16 @@ ENCODING_PLAIN = 0
 SLOWER_ATTEMPTS = 6
 # Leases run on the unit's clock, and a simulated one may run a hundred times faster than ours.
 LEASE_SIMULATED_S = 250
+# A snapshot is the latest row, which is a little older than the question.
+ROW_AGE_US_MAX = 100_000
 # Part of a lease after which it is renewed, by whichever clock comes first.
 RENEW_PART = 0.4
+
+
+class UnitRestarted(NoAnswer):
+    """The unit's clock went back: it is not the one that was greeted."""
+
+    default_code = "unit_restarted"
 
 
 class Subscription:
@@ -48,11 +57,18 @@ class Subscription:
         """What is being streamed, None when nothing is."""
         return self._receiver.started if self._receiver else None
 
-    def begin(self, plan: StreamPlan, simulated: bool = False) -> Operation[StreamStarted]:
-        """Subscribe, more slowly where the line is too slow. Raises DeviceRefused, NoAnswer."""
+    def begin(
+        self, plan: StreamPlan, simulated: bool = False, greeted_us: int = 0
+    ) -> Operation[StreamStarted]:
+        """Subscribe, more slowly where the line is too slow.
+
+        greeted_us: unit time at HELLO. Raises DeviceRefused, NoAnswer, UnitRestarted.
+        """
         # The stream carries 32 bits of unit time; the snapshot gives the other 32.
         first = bytes([plan.channels[0].id])
         snapshot = yield from ask(StrSnapshotRequest(first), StrSnapshotResponse)
+        if snapshot.t_us + ROW_AGE_US_MAX < greeted_us:
+            raise UnitRestarted("The unit was restarted; asking who it is again.")
         self._lease_s = LEASE_SIMULATED_S if simulated else LEASE_S
         divider = plan.divider
         for _ in range(SLOWER_ATTEMPTS):

@@ -1,0 +1,260 @@
+"""The judge beside the bike: sees what the unit really sends, holds and does, and checks the host.
+
+It taps the line at the unit's own pins, before any fault, and after every change of the flash it
+boots a twin from a copy to learn what a restart would bring. Nothing of what it knows comes from
+the session under test.
+"""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from backend.device.config_transaction import ConfigImage
+from backend.device.live_values import LiveValues
+from backend.device.stream import StreamBlock
+from firmware_protocol._generated import (
+    CHANNELS,
+    Bank,
+    CfgInfoRequest,
+    CfgReadRequest,
+    StreamStatsEvent,
+    StrSnapshotResponse,
+    StrSubscribeResponse,
+)
+from firmware_protocol.codec import Event, Request, Response, Stream, decode, encode
+from firmware_protocol.framing import FrameDecoder, encode_frame
+from firmware_protocol.layout import MISSING, Message, Value
+from firmware_protocol.parameters import pack_image, unpack_image
+from sim_device.lockstep import LockstepUnit
+
+# The configuration's two slots; the rest of the flash is not about configuration.
+SLOTS_BYTES = 2048
+# Names the write in the image it makes: a text of its own for every write.
+MARKER = "fuzzy_table_name"
+# Float32 noise of the law; a demand above the limit by more than this is a violation.
+TORQUE_NOISE_NM = 1e-4
+SPEED_NOISE_KMH = 1e-3
+ANSWER_MS_MAX = 100
+NO_EPOCH = -1
+
+
+class Violation(AssertionError):
+    """A safety or liveness property does not hold."""
+
+
+@dataclass
+class Generation:
+    """A configuration the flash holds, as a restarted unit would report it."""
+
+    number: int
+    image: bytes
+
+    @cached_property
+    def values(self) -> dict[str, Value]:
+        """Parameters by name."""
+        return unpack_image(self.image)
+
+
+@dataclass
+class Intent:
+    """A write somebody asked for. outcome: None while it runs."""
+
+    marker: str
+    changes: Mapping[str, Value]
+    outcome: str | None = None
+
+
+@dataclass
+class _SentStream:
+    """Frames of one subscription at the unit's pins."""
+
+    sequence: set[int] = field(default_factory=set)
+    told: list[tuple[int, int]] = field(default_factory=list)
+
+
+class Watcher:
+    """Safety checkers. Every method raises Violation with what was seen."""
+
+    def __init__(self, unit: LockstepUnit) -> None:
+        self.generations: list[Generation] = [boot_twin(unit.unit.flash())]
+        self.intents: dict[str, Intent] = {}
+        self._unchanged_promised: set[str] = set()
+        self._slots = unit.unit.flash()[:SLOTS_BYTES]
+        self._decoder = FrameDecoder()
+        self._rows: dict[int, list[tuple[int, bytes]]] = {}
+        self._snapshots: set[tuple[int, bytes]] = set()
+        self._streams: dict[int, _SentStream] = {}
+        self._epoch = NO_EPOCH
+        self.frames_seen = 0
+        self.conservation_checks = 0
+
+    @property
+    def active(self) -> Generation:
+        """What a restart of the unit would bring."""
+        return self.generations[-1]
+
+    # ------------------------------------------------------------------ the unit's side
+
+    def restarted(self) -> None:
+        """A unit with a new RAM is on the line."""
+        self._decoder = FrameDecoder()
+        self._streams.clear()
+        self._epoch = NO_EPOCH
+
+    def said(self, data: bytes) -> None:
+        """Bytes the unit sent, as it sent them."""
+        for frame in self._decoder.feed(data):
+            self.frames_seen += 1
+            message = decode(frame)
+            if isinstance(message, Stream):
+                self._stream(message)
+            elif isinstance(message, Event) and isinstance(message.message, StreamStatsEvent):
+                stats = message.message
+                sent = self._streams.setdefault(self._epoch, _SentStream())
+                sent.told.append((stats.built, stats.dropped_tx))
+            elif isinstance(message, Response):
+                self._response(message.message)
+
+    def _response(self, answer: Message | None) -> None:
+        if isinstance(answer, StrSnapshotResponse):
+            self._snapshots.add((answer.t_us, bytes(answer.values)))
+        elif isinstance(answer, StrSubscribeResponse) and answer.epoch != self._epoch:
+            self._epoch = answer.epoch
+            self._streams[answer.epoch] = _SentStream()
+
+    def _stream(self, frame: Stream) -> None:
+        self._rows.setdefault(frame.t0_us, []).append((frame.seq, frame.values.tobytes()))
+        sent = self._streams[frame.epoch]
+        sent.sequence.add(frame.seq)
+        while sent.told and frame.seq >= sent.told[0][0]:
+            built, dropped = sent.told.pop(0)
+            missing = built - sum(1 for seq in sent.sequence if seq < built)
+            self.conservation_checks += 1
+            if missing != dropped:
+                raise Violation(
+                    f"The unit built {built} frames and says it dropped {dropped}; "
+                    f"{missing} never left it."
+                )
+
+    def looked(self, unit: LockstepUnit) -> Generation | None:
+        """Look at the flash; the new configuration if there is one."""
+        slots = unit.unit.flash()[:SLOTS_BYTES]
+        if slots == self._slots:
+            return None
+        self._slots = slots
+        found = boot_twin(unit.unit.flash())
+        before = self.active
+        if found.image == before.image and found.number == before.number:
+            return None
+        self._is_one_whole_write(before, found)
+        self.generations.append(found)
+        return found
+
+    def _is_one_whole_write(self, before: Generation, found: Generation) -> None:
+        if found.number != before.number + 1:
+            raise Violation(f"Generation {before.number} became {found.number}.")
+        marker = str(found.values[MARKER])
+        intent = self.intents.get(marker)
+        if intent is None:
+            raise Violation(f"Generation {found.number} carries {marker!r}, which nobody wrote.")
+        if found.image != pack_image({**before.values, **intent.changes}):
+            raise Violation(f"Generation {found.number} is not {marker} on {before.number}.")
+        if any(str(past.values[MARKER]) == marker for past in self.generations):
+            raise Violation(f"{marker} was applied twice.")
+        if marker in self._unchanged_promised:
+            raise Violation(
+                f"{marker} is in the unit; its author was told {intent.outcome!r}, "
+                "which says that nothing changed."
+            )
+
+    def assist_is_within_limits(self, seen: Mapping[str, Any]) -> None:
+        """The demand of this control step against the configurations it may be running on."""
+        running = [generation.values for generation in self.generations[-2:]]
+        demand_nm = seen["motor_demand_nm"]
+        limit_nm = max(float(values["motor_torque_nm_max"]) for values in running)  # type: ignore[arg-type]
+        cutoff_kmh = max(float(values["assist_cutoff_kmh"]) for values in running)  # type: ignore[arg-type]
+        if not 0.0 <= demand_nm <= limit_nm + TORQUE_NOISE_NM:
+            raise Violation(f"The motor is asked for {demand_nm} Nm; the limit is {limit_nm} Nm.")
+        if demand_nm > 0.0 and seen["speed_kmh"] > cutoff_kmh + 1.0:
+            raise Violation(
+                f"Assist of {demand_nm} Nm at {seen['speed_kmh']:.2f} km/h, cut off at "
+                f"{cutoff_kmh} km/h."
+            )
+
+    # ------------------------------------------------------------------ the host's side
+
+    def shown_block(self, block: StreamBlock) -> None:
+        """Rows that reached a listener: sent so by the unit, and counted exactly."""
+        values = block.values.tobytes()
+        sent = [seq for seq, rows in self._rows.get(block.t0_us, []) if rows == values]
+        if not sent:
+            raise Violation(f"Rows at {block.t0_us} us were shown that the unit never sent.")
+        if not any(block.first_index == seq * len(block.values) for seq in sent):
+            raise Violation(
+                f"The rows at {block.t0_us} us are number {block.first_index} to the host and "
+                f"frame {sent} of the unit: rows were lost and not counted, or counted twice."
+            )
+
+    def shown_values(self, values: LiveValues) -> None:
+        """A row somebody asked for."""
+        counts = bytearray()
+        for channel in CHANNELS:
+            value = values.channels[channel.name]
+            count = MISSING if value is None else round(value / float(channel.scale))
+            counts += count.to_bytes(2, "little", signed=True)
+        if (values.t_us, bytes(counts)) not in self._snapshots:
+            raise Violation(f"Values at {values.t_us} us were shown that the unit never sent.")
+
+    def shown_config(self, config: ConfigImage) -> None:
+        """A configuration somebody read: the unit had exactly this one."""
+        image = pack_image(config.parameters)
+        had = [past for past in self.generations if past.number == config.generation]
+        if not any(past.image == image for past in had) or zlib.crc32(image) != config.crc32:
+            raise Violation(f"Generation {config.generation} was shown; the unit never had it.")
+
+    def verified(self, intent: Intent, config: ConfigImage) -> None:
+        """A write that came back as done and proven."""
+        self.shown_config(config)
+        intent.outcome = "verified"
+        if config.parameters[MARKER] != intent.marker:
+            raise Violation(f"{intent.marker} was verified; the unit holds another one.")
+        if self.active.number < config.generation:
+            raise Violation(f"{intent.marker} was verified and would not survive a restart.")
+
+    def refused(self, intent: Intent, outcome: str) -> None:
+        """A write whose author was told that the unit is unchanged."""
+        intent.outcome = outcome
+        self._unchanged_promised.add(intent.marker)
+        if any(str(past.values[MARKER]) == intent.marker for past in self.generations):
+            raise Violation(
+                f"{intent.marker} is in the unit; its author was told {outcome!r}, which says "
+                "that nothing changed."
+            )
+
+
+def boot_twin(flash: bytes) -> Generation:
+    """What a unit with this flash reports after a restart, asked over a clean line."""
+    twin = LockstepUnit(seed=0, name="twin", flash=flash, boot_id=0xFFFF)
+    decoder = FrameDecoder()
+    info: Any = _asked(twin, decoder, CfgInfoRequest(), 1)
+    image = b""
+    while len(image) < info.image_length:
+        request = CfgReadRequest(Bank.ACTIVE, len(image), info.image_length - len(image))
+        part: Any = _asked(twin, decoder, request, 2 + len(image) % 200)
+        image += part.data
+    return Generation(info.generation, image)
+
+
+def _asked(twin: LockstepUnit, decoder: FrameDecoder, request: Message, tid: int) -> Message:
+    twin.send(encode_frame(encode(Request(tid, request))))
+    for _ in range(ANSWER_MS_MAX):
+        twin.advance(0.001)
+        for frame in decoder.feed(twin.receive()):
+            answer = decode(frame)
+            if isinstance(answer, Response) and answer.message is not None:
+                return answer.message
+    raise Violation(f"A unit restarted from this flash does not answer {request}.")
