@@ -175,8 +175,8 @@ class Watcher:
         """The demand of this control step against the configurations it may be running on."""
         running = [generation.values for generation in self.generations[-2:]]
         demand_nm = seen["motor_demand_nm"]
-        limit_nm = max(float(values["motor_torque_nm_max"]) for values in running)  # type: ignore[arg-type]
-        cutoff_kmh = max(float(values["assist_cutoff_kmh"]) for values in running)  # type: ignore[arg-type]
+        limit_nm = max(float(str(values["motor_torque_nm_max"])) for values in running)
+        cutoff_kmh = max(float(str(values["assist_cutoff_kmh"])) for values in running)
         if not 0.0 <= demand_nm <= limit_nm + TORQUE_NOISE_NM:
             raise Violation(f"The motor is asked for {demand_nm} Nm; the limit is {limit_nm} Nm.")
         if demand_nm > 0.0 and seen["speed_kmh"] > cutoff_kmh + 1.0:

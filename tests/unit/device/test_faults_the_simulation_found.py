@@ -54,13 +54,16 @@ class Line:
 class Mortal(LockstepAsUnit):
     """The firmware, which can be restarted."""
 
+    def __init__(self) -> None:
+        self.unit = LockstepUnit(seed=1)
+        super().__init__(self.unit)
+
     def restart(self) -> None:
-        old = self.lockstep
-        self.lockstep = LockstepUnit(seed=1, flash=old.unit.flash(), boot_id=2)  # type: ignore[attr-defined]
+        self.lockstep = self.unit = LockstepUnit(seed=1, flash=self.unit.unit.flash(), boot_id=2)
 
 
 def bench(plan: StreamPlan | None = None) -> Bench:
-    return Bench(Mortal(LockstepUnit(seed=1)), plan)
+    return Bench(Mortal(), plan)
 
 
 def is_answer_to(message: object, identity: MessageId) -> bool:
