@@ -13,7 +13,7 @@ MTU = 544
 MAX_OUTSTANDING = 4
 CONTROL_PERIOD_US = 10000
 IMAGE_LENGTH = 299
-SCHEMA_HASH = bytes.fromhex("1cf37cde55ff5064")
+SCHEMA_HASH = bytes.fromhex("3e4fb68e518721e9")
 
 
 class Status(IntEnum):
@@ -83,6 +83,25 @@ class ConfigState(IntEnum):
     PROVISIONAL = 3
 
 
+class SlotState(IntEnum):
+    """What a flash slot of the configuration holds."""
+
+    EMPTY = 0
+    CONFIRMED = 1
+    PROVISIONAL = 2
+    VOID = 3
+    DAMAGED = 4
+
+
+class RollbackCause(IntEnum):
+    """Why a configuration on trial was given up, since the unit was switched on."""
+
+    NONE = 0
+    ASKED = 1
+    TIME_OUT = 2
+    RESTART = 3
+
+
 class Violation(IntEnum):
     """Why a parameter's value is refused."""
 
@@ -137,8 +156,15 @@ class Event(IntEnum):
     CONFIG_ROLLED_BACK = 5
     CONFIG_DEFAULTED = 6
     STREAM_STATS = 7
+    CONFIG_PROVISIONAL = 16
     LOG_CLOSED = 20
     LOG_OVERWRITTEN = 21
+
+
+class CommitFlags(IntFlag):
+    """How CFG_COMMIT makes an image active."""
+
+    PROVISIONAL = 1
 
 
 class LimitFlags(IntFlag):
@@ -183,14 +209,21 @@ class MessageId(IntEnum):
     SCHEMA_READ = 0x0003
     STATS = 0x0005
     BYE = 0x0007
+    COUNTERS = 0x0008
     CFG_INFO = 0x0100
     CFG_READ = 0x0101
+    PARAM_GET = 0x0102
+    CFG_SLOTS = 0x0103
+    LIVE_SET = 0x0110
     CFG_BEGIN = 0x0120
     CFG_SET = 0x0121
     CFG_VALIDATE = 0x0122
     CFG_STAGED_CRC = 0x0123
     CFG_COMMIT = 0x0125
+    CFG_CONFIRM = 0x0126
+    CFG_ROLLBACK = 0x0127
     CFG_ABORT = 0x0128
+    CFG_STATUS = 0x0129
     STR_SUBSCRIBE = 0x0201
     STR_UNSUBSCRIBE = 0x0202
     STR_RENEW = 0x0203
@@ -363,6 +396,32 @@ class ByeResponse(Message):
 
 
 @dataclass(frozen=True, slots=True)
+class CountersRequest(Message):
+    """What the unit has learned of itself, outside the configuration and its CRC."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.COUNTERS
+
+
+@dataclass(frozen=True, slots=True)
+class CountersResponse(Message):
+    """What the unit has learned of itself, outside the configuration and its CRC."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.COUNTERS
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("distance_m", "u32"),
+        Field("operating_s", "u32"),
+        Field("saved_distance_m", "u32"),
+        Field("saved_operating_s", "u32"),
+    )
+    LENGTH: ClassVar[int] = 16
+
+    distance_m: int
+    operating_s: int
+    saved_distance_m: int
+    saved_operating_s: int
+
+
+@dataclass(frozen=True, slots=True)
 class CfgInfoRequest(Message):
     """Which configuration is active."""
 
@@ -420,6 +479,80 @@ class CfgReadResponse(Message):
     generation: int
     total_length: int
     data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class ParamGetRequest(Message):
+    """The values in force (live ones included) as items of id u16, first index 0, count u8, values."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.PARAM_GET
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("ids", "bytes"),
+    )
+    LENGTH: ClassVar[int] = 0
+
+    ids: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class ParamGetResponse(Message):
+    """The values in force (live ones included) as items of id u16, first index 0, count u8, values."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.PARAM_GET
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("items", "bytes"),
+    )
+    LENGTH: ClassVar[int] = 0
+
+    items: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class CfgSlotsRequest(Message):
+    """The two flash slots: what they hold and how often each was erased. active_slot 255: the default from code."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.CFG_SLOTS
+
+
+@dataclass(frozen=True, slots=True)
+class CfgSlotsResponse(Message):
+    """The two flash slots: what they hold and how often each was erased. active_slot 255: the default from code."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.CFG_SLOTS
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("active_slot", "u8"),
+        Field("states", "u8", 2),
+        Field("generations", "u32", 2),
+        Field("erases", "u32", 2),
+    )
+    LENGTH: ClassVar[int] = 19
+
+    active_slot: int
+    states: bytes
+    generations: tuple[int, int]
+    erases: tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class LiveSetRequest(Message):
+    """Values for the law in RAM alone, for ttl_s seconds (0 ends them now); never in flash, never in the CRC."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LIVE_SET
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("ttl_s", "u8"),
+        Field("items", "bytes"),
+    )
+    LENGTH: ClassVar[int] = 1
+
+    ttl_s: int
+    items: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class LiveSetResponse(Message):
+    """Values for the law in RAM alone, for ttl_s seconds (0 ends them now); never in flash, never in the CRC."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LIVE_SET
 
 
 @dataclass(frozen=True, slots=True)
@@ -557,6 +690,50 @@ class CfgCommitResponse(Message):
 
 
 @dataclass(frozen=True, slots=True)
+class CfgConfirmRequest(Message):
+    """Keeps the configuration on trial, which the host has read back."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.CFG_CONFIRM
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("generation", "u32"),
+        Field("crc32", "u32"),
+    )
+    LENGTH: ClassVar[int] = 8
+
+    generation: int
+    crc32: int
+
+
+@dataclass(frozen=True, slots=True)
+class CfgConfirmResponse(Message):
+    """Keeps the configuration on trial, which the host has read back."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.CFG_CONFIRM
+
+
+@dataclass(frozen=True, slots=True)
+class CfgRollbackRequest(Message):
+    """Gives up the configuration on trial and returns to the one before."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.CFG_ROLLBACK
+
+
+@dataclass(frozen=True, slots=True)
+class CfgRollbackResponse(Message):
+    """Gives up the configuration on trial and returns to the one before."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.CFG_ROLLBACK
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("generation", "u32"),
+        Field("crc32", "u32"),
+    )
+    LENGTH: ClassVar[int] = 8
+
+    generation: int
+    crc32: int
+
+
+@dataclass(frozen=True, slots=True)
 class CfgAbortRequest(Message):
     """Drops the staged image; the active one was never touched."""
 
@@ -574,6 +751,40 @@ class CfgAbortResponse(Message):
     """Drops the staged image; the active one was never touched."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.CFG_ABORT
+
+
+@dataclass(frozen=True, slots=True)
+class CfgStatusRequest(Message):
+    """Where the configuration stands: trial, live values, the last return, when the flash may be written again."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.CFG_STATUS
+
+
+@dataclass(frozen=True, slots=True)
+class CfgStatusResponse(Message):
+    """Where the configuration stands: trial, live values, the last return, when the flash may be written again."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.CFG_STATUS
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("state", "u8"),
+        Field("generation", "u32"),
+        Field("crc32", "u32"),
+        Field("confirm_left_ms", "u32"),
+        Field("live_left_ms", "u32"),
+        Field("commit_wait_ms", "u16"),
+        Field("rollback_cause", "u8"),
+        Field("rolled_back_generation", "u32"),
+    )
+    LENGTH: ClassVar[int] = 24
+
+    state: int
+    generation: int
+    crc32: int
+    confirm_left_ms: int
+    live_left_ms: int
+    commit_wait_ms: int
+    rollback_cause: int
+    rolled_back_generation: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -1036,6 +1247,23 @@ class StreamStatsEvent(Message):
 
 
 @dataclass(frozen=True, slots=True)
+class ConfigProvisionalEvent(Message):
+    """Fields of the event CONFIG_PROVISIONAL."""
+
+    CODE: ClassVar[Event] = Event.CONFIG_PROVISIONAL
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("generation", "u32"),
+        Field("crc32", "u32"),
+        Field("confirm_s", "u8"),
+    )
+    LENGTH: ClassVar[int] = 9
+
+    generation: int
+    crc32: int
+    confirm_s: int
+
+
+@dataclass(frozen=True, slots=True)
 class LogClosedEvent(Message):
     """Fields of the event LOG_CLOSED."""
 
@@ -1075,14 +1303,21 @@ REQUEST_BY_ID: dict[int, type[Message]] = {
     0x0003: SchemaReadRequest,
     0x0005: StatsRequest,
     0x0007: ByeRequest,
+    0x0008: CountersRequest,
     0x0100: CfgInfoRequest,
     0x0101: CfgReadRequest,
+    0x0102: ParamGetRequest,
+    0x0103: CfgSlotsRequest,
+    0x0110: LiveSetRequest,
     0x0120: CfgBeginRequest,
     0x0121: CfgSetRequest,
     0x0122: CfgValidateRequest,
     0x0123: CfgStagedCrcRequest,
     0x0125: CfgCommitRequest,
+    0x0126: CfgConfirmRequest,
+    0x0127: CfgRollbackRequest,
     0x0128: CfgAbortRequest,
+    0x0129: CfgStatusRequest,
     0x0201: StrSubscribeRequest,
     0x0202: StrUnsubscribeRequest,
     0x0203: StrRenewRequest,
@@ -1104,14 +1339,21 @@ RESPONSE_BY_ID: dict[int, type[Message]] = {
     0x0003: SchemaReadResponse,
     0x0005: StatsResponse,
     0x0007: ByeResponse,
+    0x0008: CountersResponse,
     0x0100: CfgInfoResponse,
     0x0101: CfgReadResponse,
+    0x0102: ParamGetResponse,
+    0x0103: CfgSlotsResponse,
+    0x0110: LiveSetResponse,
     0x0120: CfgBeginResponse,
     0x0121: CfgSetResponse,
     0x0122: CfgValidateResponse,
     0x0123: CfgStagedCrcResponse,
     0x0125: CfgCommitResponse,
+    0x0126: CfgConfirmResponse,
+    0x0127: CfgRollbackResponse,
     0x0128: CfgAbortResponse,
+    0x0129: CfgStatusResponse,
     0x0201: StrSubscribeResponse,
     0x0202: StrUnsubscribeResponse,
     0x0203: StrRenewResponse,
@@ -1135,6 +1377,7 @@ EVENT_BY_CODE: dict[int, type[Message]] = {
     Event.CONFIG_ROLLED_BACK: ConfigRolledBackEvent,
     Event.CONFIG_DEFAULTED: ConfigDefaultedEvent,
     Event.STREAM_STATS: StreamStatsEvent,
+    Event.CONFIG_PROVISIONAL: ConfigProvisionalEvent,
     Event.LOG_CLOSED: LogClosedEvent,
     Event.LOG_OVERWRITTEN: LogOverwrittenEvent,
 }
@@ -1145,6 +1388,8 @@ ENUM_BY_NAME: dict[str, type[IntEnum]] = {
     "access": Access,
     "bank": Bank,
     "config_state": ConfigState,
+    "slot_state": SlotState,
+    "rollback_cause": RollbackCause,
     "violation": Violation,
     "law": Law,
     "inference": Inference,

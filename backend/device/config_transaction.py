@@ -11,7 +11,14 @@ import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from backend.device.operation import Operation, ask, ask_all, attempt, expect
+from backend.device.operation import (
+    Operation,
+    ask,
+    ask_all,
+    attempt,
+    attempt_patiently,
+    expect,
+)
 from backend.device.refusals import refused
 from backend.device.violations import unit_violations
 from backend.errors import (
@@ -44,6 +51,7 @@ from firmware_protocol._generated import (
     CfgSetRequest,
     CfgSetResponse,
     CfgValidateRequest,
+    CommitFlags,
     Status,
 )
 from firmware_protocol.layout import Value
@@ -102,16 +110,18 @@ def read_config(mtu: int = MTU) -> Operation[ConfigImage]:
 
 
 def write_config(
-    base: ConfigImage, changes: Mapping[str, Value], mtu: int = MTU
+    base: ConfigImage, changes: Mapping[str, Value], mtu: int = MTU, confirm_s: int = 0
 ) -> Operation[ConfigImage]:
     """Change parameters on top of `base`, read everything back, compare, return what is active.
 
-    changes: checked values by registry name. Raises ConfigConflict, LimitViolation, AccessDenied,
-    NotStandingStill, DeviceRefused, NoAnswer with the unit unchanged; CommitUnanswered when that is
-    unknown; PeerProtocolError naming each field that reads back different.
+    changes: checked values by registry name. confirm_s: 0 for good, else the unit returns to `base`
+    by itself after so many seconds unless the change is confirmed. Raises ConfigConflict,
+    LimitViolation, AccessDenied, NotStandingStill, DeviceRefused, NoAnswer with the unit unchanged;
+    CommitUnanswered when that is unknown; PeerProtocolError naming each field that reads back
+    different.
     """
     image = pack_image({**base.parameters, **changes})
-    yield from _commit(base, changes, image, mtu)
+    yield from _commit(base, changes, image, mtu, confirm_s)
     try:
         found = yield from read_config(mtu)
     except PeerProtocolError:
@@ -147,14 +157,14 @@ def compare(intended: Mapping[str, Value], found: Mapping[str, Value]) -> None:
 
 
 def _commit(
-    base: ConfigImage, changes: Mapping[str, Value], image: bytes, mtu: int
+    base: ConfigImage, changes: Mapping[str, Value], image: bytes, mtu: int, confirm_s: int
 ) -> Operation[None]:
     begin = yield from _begin(base)
     try:
         for items in set_items(changes, mtu - MESSAGE_OVERHEAD_BYTES):
             yield from ask(CfgSetRequest(begin.transaction, items), CfgSetResponse)
         yield from _validate(begin.transaction)
-        yield from _finish(begin.transaction, zlib.crc32(image))
+        yield from _finish(begin.transaction, zlib.crc32(image), confirm_s)
     except CommitUnanswered:
         raise
     except SpindleError as error:
@@ -175,8 +185,9 @@ def _begin(base: ConfigImage) -> Operation[CfgBeginResponse]:
         )
     if response.status == Status.BUSY:
         raise DeviceRefused(
-            "Another change is open in the unit, perhaps one of ours whose answer was lost. It "
-            f"ends by itself in {response.detail} s; write once more then. Nothing was changed.",
+            "Another change is open or on trial in the unit, perhaps one of ours whose answer was "
+            f"lost. It ends by itself in {response.detail} s, or when what is on trial is kept or "
+            "reverted; write once more then. Nothing was changed.",
             status=Status.BUSY.name,
             detail=response.detail,
         )
@@ -196,10 +207,11 @@ def _validate(transaction: int) -> Operation[None]:
         raise refused(request, response)
 
 
-def _finish(transaction: int, crc32: int) -> Operation[None]:
-    request = CfgCommitRequest(transaction, crc32, flags=0, confirm_s=0)
+def _finish(transaction: int, crc32: int, confirm_s: int) -> Operation[None]:
+    flags = CommitFlags.PROVISIONAL if confirm_s else 0
+    request = CfgCommitRequest(transaction, crc32, flags, confirm_s)
     try:
-        response = yield from attempt(request)
+        response = yield from attempt_patiently(request)
     except LinkError as error:
         raise CommitUnanswered(
             f"{error.message} Whether the change was made is not known until it answers."

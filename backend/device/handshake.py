@@ -12,6 +12,7 @@ import zlib
 from dataclasses import dataclass
 from typing import Any
 
+from backend.device.config_trial import TrialStatus, trial_status
 from backend.device.identity import Identity
 from backend.device.operation import Operation, ask, attempt, expect
 from backend.device.refusals import refused
@@ -51,7 +52,7 @@ class Acquaintance:
     """What the handshake found out.
 
     read_only_reason: None when the unit may be written. channels: those of the registry that the
-    unit has with the same meaning.
+    unit has with the same meaning. trial: where its configuration stands, None when not asked.
     """
 
     hello: HelloResponse
@@ -59,10 +60,11 @@ class Acquaintance:
     read_only_reason: str | None
     channels: tuple[Channel, ...]
     fault_flags: int
+    trial: TrialStatus | None
 
 
 def become_acquainted(host_nonce: bytes) -> Operation[Acquaintance]:
-    """HELLO, version, schema, faults. Raises NoAnswer, VersionRefused, DeviceRefused."""
+    """HELLO, version, schema, faults, trial. Raises NoAnswer, VersionRefused, DeviceRefused."""
     hello = yield from _hello(host_nonce)
     reason: str | None = None
     channels: tuple[Channel, ...] = CHANNELS
@@ -82,10 +84,12 @@ def become_acquainted(host_nonce: bytes) -> Operation[Acquaintance]:
                 f"read from it: {error.message} Nothing is shown rather than something wrong."
             )
     faults = 0
+    trial = None
     if reason is None:
         listed = yield from ask(EvtFaultListRequest(), EvtFaultListResponse)
         faults = listed.fault_flags
-    return Acquaintance(hello, Identity.from_hello(hello), reason, channels, faults)
+        trial = yield from trial_status()
+    return Acquaintance(hello, Identity.from_hello(hello), reason, channels, faults, trial)
 
 
 def read_schema(hello: HelloResponse) -> Operation[dict[str, Any]]:

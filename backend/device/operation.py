@@ -29,20 +29,33 @@ Answer = TypeVar("Answer", bound=Message)
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """One request of an operation. attempts: sendings before NoAnswer."""
+    """One request of an operation. attempts: sendings before NoAnswer. after_s: not sent before."""
 
     message: Message
     attempts: int = ATTEMPTS
+    after_s: float = 0.0
 
 
 # Yields questions that may be on the way together, gets the responses in the same order.
 Operation: TypeAlias = Generator[Sequence[Question], Sequence[Response], Result]
 
 
-def attempt(message: Message, attempts: int = ATTEMPTS) -> Operation[Response]:
+def attempt(
+    message: Message, attempts: int = ATTEMPTS, after_s: float = 0.0
+) -> Operation[Response]:
     """Ask and return the response whatever its status. Raises NoAnswer."""
-    responses = yield (Question(message, attempts),)
+    responses = yield (Question(message, attempts, after_s),)
     return responses[0]
+
+
+def attempt_patiently(message: Message, waits_max: int = 3) -> Operation[Response]:
+    """Ask, and again when the unit says RATE_LIMIT, after the time it names. Raises NoAnswer."""
+    response = yield from attempt(message)
+    for _ in range(waits_max):
+        if response.status != Status.RATE_LIMIT:
+            break
+        response = yield from attempt(message, after_s=response.detail / 1000.0)
+    return response
 
 
 def ask(message: Message, answer: type[Answer], attempts: int = ATTEMPTS) -> Operation[Answer]:

@@ -27,7 +27,7 @@ MEANING = {
     Status.BANDWIDTH: "the line is too slow for this",
     Status.NOT_FOUND: "there is no such thing",
     Status.EXPIRED: "too much time went by; start again",
-    Status.RATE_LIMIT: "it was asked too often; wait two seconds",
+    Status.RATE_LIMIT: "its memory was written a moment ago; try again in two seconds",
     Status.UNSUPPORTED: "its firmware does not support this yet",
     Status.SESSION: "it was restarted meanwhile",
     Status.ABORTED: "the change was given up",

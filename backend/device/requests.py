@@ -28,10 +28,11 @@ BITS_PER_BYTE = 10
 OnAnswer = Callable[[Response | SpindleError], None]
 
 
-@dataclass
+@dataclass(eq=False)
 class _UnderWay:
     question: Question
     on_answer: OnAnswer
+    ready_s: float | None = None
     tid: int = 0
     number: int = 0
     wire: bytes = b""
@@ -63,8 +64,8 @@ class RequestTable:
 
     @property
     def is_idle(self) -> bool:
-        """Whether nothing waits and nothing is under way."""
-        return not self._waiting and not self._under_way
+        """Whether nothing is under way; what waits for its time does not keep the line busy."""
+        return not self._under_way and all(one.question.after_s > 0.0 for one in self._waiting)
 
     def submit(self, question: Question, on_answer: OnAnswer) -> None:
         """Queue a question; `on_answer` gets the response or the error, exactly once."""
@@ -92,8 +93,10 @@ class RequestTable:
                 del self._under_way[entry.tid]
                 self._statistics.requests_unanswered += 1
                 entry.on_answer(_no_answer(entry))
-        while self._waiting and self._may_start():
-            entry = self._waiting.popleft()
+        for entry in self._ready(now_s):
+            if not self._may_start():
+                break
+            self._waiting.remove(entry)
             self._start(entry)
             out += self._send(entry, now_s)
         return bytes(out)
@@ -148,6 +151,16 @@ class RequestTable:
             return True
         oldest = next(iter(self._under_way.values()))
         return self._started - oldest.number < self.outstanding_max
+
+    def _ready(self, now_s: float) -> list[_UnderWay]:
+        """What waits for nothing but its turn, in order."""
+        found = []
+        for entry in self._waiting:
+            if entry.ready_s is None:
+                entry.ready_s = now_s + entry.question.after_s
+            if entry.ready_s <= now_s:
+                found.append(entry)
+        return found
 
     def _start(self, entry: _UnderWay) -> None:
         while self._next_tid in self._under_way:

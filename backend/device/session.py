@@ -219,6 +219,12 @@ class Session:
         return min(MTU, hello.rx_mtu, hello.tx_mtu)
 
     @property
+    def trial_ends_unix_us(self) -> int | None:
+        """When the configuration on trial is given up, Unix time; None while none is on trial."""
+        ends_s = self.notes.trial_ends_s
+        return None if ends_s is None else round(ends_s * 1e6) + self.wall_offset_us
+
+    @property
     def streaming(self) -> StreamStarted | None:
         """What is being streamed, None when nothing is."""
         return self._subscription.started
@@ -250,7 +256,7 @@ class Session:
 
     def _unit_event(self, event: Event) -> None:
         self._statistics.unit_events += 1
-        told = self.notes.take(event, self._statistics)
+        told = self.notes.take(event, self._statistics, self._now_s)
         if told is not None:
             self._tell(told)
         if not isinstance(event.message, BootEvent):
@@ -276,7 +282,7 @@ class Session:
             self._greet()
             return
         self.failed_greetings = 0
-        self.notes.begin(acquaintance)
+        self.notes.begin(acquaintance, self._now_s)
         self._phase = _Phase.UP
         self._heard_s = self._now_s
         self._statistics.connections += 1

@@ -13,7 +13,10 @@ from backend.device.stream import StreamBlock, StreamStarted
 
 @dataclass(frozen=True)
 class DeviceStatus:
-    """A session's state, copied. mtu: the largest frame both sides take."""
+    """A session's state, copied. mtu: the largest frame both sides take.
+
+    trial_ends_unix_us: when the configuration on trial is given up; None while none is on trial.
+    """
 
     state: LinkState
     reason: str
@@ -21,6 +24,7 @@ class DeviceStatus:
     mtu: int
     config_generation: int | None
     config_crc32: int | None
+    trial_ends_unix_us: int | None
     faults_active: tuple[str, ...]
     streaming: StreamStarted | None
     last_block: StreamBlock | None
@@ -37,6 +41,7 @@ def status_of(session: Session) -> DeviceStatus:
         mtu=session.mtu,
         config_generation=session.notes.config_generation,
         config_crc32=session.notes.config_crc32,
+        trial_ends_unix_us=session.trial_ends_unix_us,
         faults_active=session.notes.faults_active,
         streaming=session.streaming,
         last_block=session.last_block,

@@ -9,6 +9,7 @@ from firmware_protocol._generated import (
     BootEvent,
     ConfigCommittedEvent,
     ConfigDefaultedEvent,
+    ConfigProvisionalEvent,
     ConfigRolledBackEvent,
     FaultClearedEvent,
     FaultFlags,
@@ -20,27 +21,34 @@ from firmware_protocol.codec import Event
 
 
 class UnitNotes:
-    """The unit's own word on its configuration and faults, kept fresh by its events."""
+    """The unit's own word on its configuration and faults, kept fresh by its events.
+
+    trial_ends_s: when the configuration on trial is given up, in the session's time; None while
+    none is on trial.
+    """
 
     def __init__(self) -> None:
         self.config_generation: int | None = None
         self.config_crc32: int | None = None
         self.fault_flags = 0
         self.boot_id: int | None = None
+        self.trial_ends_s: float | None = None
 
     @property
     def faults_active(self) -> tuple[str, ...]:
         """Names of the active faults; one of a newer firmware is `FAULT_n`."""
         return tuple(_fault_name(bit) for bit in range(16) if self.fault_flags >> bit & 1)
 
-    def begin(self, acquaintance: Acquaintance) -> None:
+    def begin(self, acquaintance: Acquaintance, now_s: float) -> None:
         """Start from what the handshake found."""
+        trial = acquaintance.trial
+        self.trial_ends_s = now_s + trial.left_s if trial and trial.on_trial else None
         self.config_generation = acquaintance.hello.config_generation
         self.config_crc32 = acquaintance.hello.config_crc32
         self.fault_flags = acquaintance.fault_flags
         self.boot_id = acquaintance.identity.boot_id
 
-    def take(self, event: Event, statistics: LinkStatistics) -> UnitEvent | None:
+    def take(self, event: Event, statistics: LinkStatistics, now_s: float) -> UnitEvent | None:
         """Note an event; what is worth telling people comes back."""
         message = event.message
         if isinstance(message, StreamStatsEvent):
@@ -52,12 +60,17 @@ class UnitNotes:
         elif isinstance(
             message, ConfigCommittedEvent | ConfigRolledBackEvent | ConfigDefaultedEvent
         ):
-            self.config_generation = message.generation
-            self.config_crc32 = message.crc32
+            self._config(message.generation, message.crc32, None)
+        elif isinstance(message, ConfigProvisionalEvent):
+            self._config(message.generation, message.crc32, now_s + message.confirm_s)
         elif isinstance(message, BootEvent):
             self.boot_id = message.boot_id
         name = event.code.name if isinstance(event.code, EventCode) else f"EVENT_{event.code}"
         return UnitEvent(name, event.t_us, event.fields)
+
+    def _config(self, generation: int, crc32: int, trial_ends_s: float | None) -> None:
+        self.config_generation, self.config_crc32 = generation, crc32
+        self.trial_ends_s = trial_ends_s
 
     def _fault(self, message: FaultSetEvent | FaultClearedEvent) -> None:
         if isinstance(message, FaultSetEvent):

@@ -41,7 +41,8 @@ class Change:
 class ConfigChange:
     """A change the unit took. verified: read back whole and equal field by field.
 
-    state: `committed`. expires_at: until when a provisional change waits to be confirmed.
+    state: `committed`, or `provisional`: the unit returns to what it had at `expires_at` unless the
+    change is confirmed.
     """
 
     generation: int
@@ -110,6 +111,7 @@ class RevisionLog(Protocol):
         author: str = "",
         generation: int | None = None,
         crc32: int | None = None,
+        state: str = "verified",
     ) -> Revision:
         """Add a configuration the device has. Raises StoreError."""
         ...

@@ -289,7 +289,9 @@ def _view(device: _Device) -> DeviceView:
     identity = status.identity
     config = None
     if status.config_generation is not None and status.config_crc32 is not None:
-        config = ConfigStamp(status.config_generation, status.config_crc32)
+        config = ConfigStamp.until(
+            status.config_generation, status.config_crc32, status.trial_ends_unix_us
+        )
     return DeviceView(
         id=device.id or _name_of(device.url),
         url=device.url,

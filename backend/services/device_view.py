@@ -3,16 +3,31 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from datetime import UTC, datetime
 
 from backend.device.identity import Identity
 
 
 @dataclass(frozen=True)
 class ConfigStamp:
-    """Which configuration a unit has: its generation and the CRC-32 of its image."""
+    """Which configuration a unit has: its generation and the CRC-32 of its image.
+
+    state: `committed`, or `provisional` until it is confirmed or, at `expires_at`, given up.
+    """
 
     generation: int
     crc32: int
+    state: str = "committed"
+    expires_at: datetime | None = None
+
+    @classmethod
+    def until(cls, generation: int, crc32: int, ends_unix_us: int | None) -> ConfigStamp:
+        """A stamp; ends_unix_us: when it is given up, None when it is not on trial."""
+        if ends_unix_us is None:
+            return cls(generation, crc32)
+        return cls(
+            generation, crc32, "provisional", datetime.fromtimestamp(ends_unix_us / 1e6, UTC)
+        )
 
 
 @dataclass(frozen=True)

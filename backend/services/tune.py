@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import logging
 import threading
+import time
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from datetime import UTC, datetime
 
@@ -20,6 +21,12 @@ from backend.device.config_transaction import (
     compare,
     read_config,
     write_config,
+)
+from backend.device.config_trial import (
+    NO_TRIAL,
+    confirm_config,
+    rollback_config,
+    trial_status,
 )
 from backend.device.parameters import (
     PARAMETER_ROWS,
@@ -45,6 +52,7 @@ from backend.services.config_view import (
     ConfigChange,
     ConfigView,
     ParameterView,
+    Revision,
     RevisionLog,
     RevisionView,
     TypedView,
@@ -69,14 +77,30 @@ WRITE_TIMEOUT_S = 30.0
 SETTLE_S = 8.0
 SETTLE_ATTEMPTS = 3
 FOUND_REASON = "Found in the unit before a change."
+GIVEN_UP_REASON = "Returned to by the unit itself: the trial before was not confirmed."
+RETURNED_REASON = "Returned to: the trial before was given up."
+KEPT_REASON = "Kept after its trial."
+# States of a revision: read back and for good, or read back and on trial.
+KEPT = "verified"
+TRIED = "provisional"
+CONFIRM_S_MAX = 255
 
 
 class Tuning:
-    """Reads and changes configurations. For any thread; one change at a time for each device."""
+    """Reads and changes configurations. For any thread; one change at a time for each device.
 
-    def __init__(self, devices: Devices, revisions: RevisionLog) -> None:
+    now_s: Unix time.
+    """
+
+    def __init__(
+        self,
+        devices: Devices,
+        revisions: RevisionLog,
+        now_s: Callable[[], float] = time.time,
+    ) -> None:
         self._devices = devices
         self._revisions = revisions
+        self._now_s = now_s
         self._lock = threading.Lock()
         self._writing: defaultdict[str, threading.Lock] = defaultdict(threading.Lock)
 
@@ -125,17 +149,15 @@ class Tuning:
     ) -> ConfigChange:
         """Write all of `changes` or none, read everything back and compare.
 
-        if_match: ETag of the configuration the change was made for. Raises InvalidRequest,
+        if_match: ETag of the configuration the change was made for. confirm_s: 0 for good; else the
+        change is on trial, and the unit returns to what it had unless `confirm_config` comes within
+        so many seconds. Raises InvalidRequest,
         LimitViolation with every fault named, AccessDenied, ConfigConflict, NotStandingStill,
         NoAnswer; after each of them the unit is unchanged, or the message says that it may not be.
         PeerProtocolError names the fields that read back different.
         """
-        if confirm_s != 0:
-            raise InvalidRequest(
-                "Changes on trial (confirm_s) are not supported by the unit's firmware yet; "
-                "write with confirm_s 0.",
-                "unsupported",
-            )
+        if not 0 <= confirm_s <= CONFIRM_S_MAX:
+            raise InvalidRequest(f"confirm_s is from 0 to {CONFIRM_S_MAX} seconds.")
         unknown = unknown_names(changes)
         if unknown:
             raise InvalidRequest(" ".join(fault.message for fault in unknown), fields=unknown)
@@ -147,10 +169,53 @@ class Tuning:
             serial_number = self._serial_number(self._devices.status(device_id))
             self._back_up(serial_number, base)
             if changed:
-                found = self._commit(device_id, base, intended, changed)
-                self._remember(serial_number, found, changed, reason, author)
+                found = self._commit(device_id, base, intended, changed, confirm_s)
+                state = TRIED if confirm_s else KEPT
+                self._remember(serial_number, found, changed, reason, author, state)
                 base = found
-        return ConfigChange(base.generation, base.crc32, "committed", True, changed, None)
+        if not changed or not confirm_s:
+            return ConfigChange(base.generation, base.crc32, "committed", True, changed, None)
+        expires_at = self._expires_at(device_id, base)
+        return ConfigChange(base.generation, base.crc32, "provisional", True, changed, expires_at)
+
+    def confirm_config(self, device_id: str, author: str = "") -> ConfigChange:
+        """Keep the change on trial, after reading it back and comparing it field by field.
+
+        Raises Conflict when nothing is on trial or what is on trial was not written by this
+        Spindle, PeerProtocolError naming fields that read back different, NotFound, NoAnswer.
+        """
+        with self._turn(device_id):
+            status = self._devices.status(device_id)
+            serial_number = self._serial_number(status)
+            trial = self._devices.run(device_id, trial_status())
+            if not trial.on_trial:
+                raise Conflict(NO_TRIAL, "no_trial")
+            meant = self._known(serial_number, trial.crc32)
+            if meant is None:
+                raise Conflict(
+                    "What is on trial was not written by this Spindle, so it does not know what "
+                    "was meant. Revert it, or keep it with the tool that wrote it.",
+                    "unknown_trial",
+                )
+            found = self._devices.run(device_id, confirm_config(meant.parameters, status.mtu))
+            reason = f"Kept after its trial: {meant.reason}" if meant.reason else KEPT_REASON
+            self._remember(serial_number, found, (), reason, author, KEPT)
+        return ConfigChange(found.generation, found.crc32, "committed", True, (), None)
+
+    def rollback_config(self, device_id: str, author: str = "") -> ConfigChange:
+        """Give up the change on trial; what the unit has then is read back.
+
+        changed: from what was on trial to what is active again. Raises Conflict without a trial,
+        NotFound, NoAnswer.
+        """
+        with self._turn(device_id):
+            tried = self._read(device_id)
+            mtu = self._devices.status(device_id).mtu
+            found = self._devices.run(device_id, rollback_config(mtu))
+            changed = differences(tried.parameters, found.parameters)
+            serial_number = self._serial_number(self._devices.status(device_id))
+            self._remember(serial_number, found, changed, RETURNED_REASON, author, KEPT)
+        return ConfigChange(found.generation, found.crc32, "committed", True, changed, None)
 
     # ------------------------------------------------------------------ typed views
 
@@ -232,11 +297,12 @@ class Tuning:
         base: ConfigImage,
         intended: Mapping[str, Value],
         changed: Sequence[Change],
+        confirm_s: int,
     ) -> ConfigImage:
         changes = {change.name: change.new for change in changed}
         mtu = self._devices.status(device_id).mtu
         try:
-            operation = write_config(base, changes, mtu)
+            operation = write_config(base, changes, mtu, confirm_s)
             return self._devices.run(device_id, operation, WRITE_TIMEOUT_S)
         except CommitUnanswered as error:
             return self._settle(device_id, base, intended, error)
@@ -276,10 +342,11 @@ class Tuning:
         """Keep what the unit has if the log does not know it; a write that cannot is refused."""
         newest = self._revisions.list(serial_number, 1)
         if not newest or newest[0].crc32 != base.crc32:
+            given_up = bool(newest) and newest[0].state == TRIED
             self._revisions.append(
                 serial_number,
                 base.parameters,
-                reason=FOUND_REASON,
+                reason=GIVEN_UP_REASON if given_up else FOUND_REASON,
                 generation=base.generation,
                 crc32=base.crc32,
             )
@@ -291,6 +358,7 @@ class Tuning:
         changed: Sequence[Change],
         reason: str,
         author: str,
+        state: str,
     ) -> None:
         try:
             self._revisions.append(
@@ -301,10 +369,26 @@ class Tuning:
                 author,
                 found.generation,
                 found.crc32,
+                state,
             )
         except StoreError as error:
             # The unit has the change and it is proven; the next write will keep it as found.
             LOG.error("%s: a proven change could not be noted: %s", serial_number, error.message)
+
+    def _known(self, serial_number: str, crc32: int) -> Revision | None:
+        """The newest configuration in the log, if it is the one with this checksum."""
+        newest = self._revisions.list(serial_number, 1)
+        return newest[0] if newest and newest[0].crc32 == crc32 else None
+
+    def _expires_at(self, device_id: str, written: ConfigImage) -> datetime:
+        """When the unit gives up what was just written on trial, by its own count."""
+        trial = self._devices.run(device_id, trial_status())
+        if not trial.on_trial or trial.crc32 != written.crc32:
+            raise NoAnswer(
+                "The unit gave the change up while it was read back: its time was too short for "
+                "this link. Write again with more time."
+            )
+        return datetime.fromtimestamp(self._now_s() + trial.left_s, UTC)
 
     @staticmethod
     def _serial_number(status: DeviceStatus) -> str:

@@ -168,6 +168,32 @@ int ebl_stats_response_put(const ebl_stats_response *message, uint8_t *bytes, si
     return EBL_OK;
 }
 
+int ebl_counters_response_get(ebl_counters_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 16) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->distance_m = ebl_get_u32(bytes + 0);
+    message->operating_s = ebl_get_u32(bytes + 4);
+    message->saved_distance_m = ebl_get_u32(bytes + 8);
+    message->saved_operating_s = ebl_get_u32(bytes + 12);
+    return EBL_OK;
+}
+
+int ebl_counters_response_put(const ebl_counters_response *message, uint8_t *bytes, size_t capacity,
+                             size_t *length)
+{
+    if (capacity < 16) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->distance_m);
+    ebl_put_u32(bytes + 4, message->operating_s);
+    ebl_put_u32(bytes + 8, message->saved_distance_m);
+    ebl_put_u32(bytes + 12, message->saved_operating_s);
+    *length = 16;
+    return EBL_OK;
+}
+
 int ebl_cfg_info_response_get(ebl_cfg_info_response *message, const uint8_t *bytes, size_t length)
 {
     if (length < 11) {
@@ -242,6 +268,105 @@ int ebl_cfg_read_response_put(const ebl_cfg_read_response *message, uint8_t *byt
         memcpy(bytes + 6, message->data, message->data_length);
     }
     *length = 6 + message->data_length;
+    return EBL_OK;
+}
+
+int ebl_param_get_request_get(ebl_param_get_request *message, const uint8_t *bytes, size_t length)
+{
+    message->ids = bytes + 0;
+    message->ids_length = length - 0;
+    return EBL_OK;
+}
+
+int ebl_param_get_request_put(const ebl_param_get_request *message, uint8_t *bytes, size_t capacity,
+                             size_t *length)
+{
+    if (capacity < message->ids_length) {
+        return EBL_ERROR_SPACE;
+    }
+    if (message->ids_length > 0) {
+        memcpy(bytes + 0, message->ids, message->ids_length);
+    }
+    *length = 0 + message->ids_length;
+    return EBL_OK;
+}
+
+int ebl_param_get_response_get(ebl_param_get_response *message, const uint8_t *bytes, size_t length)
+{
+    message->items = bytes + 0;
+    message->items_length = length - 0;
+    return EBL_OK;
+}
+
+int ebl_param_get_response_put(const ebl_param_get_response *message, uint8_t *bytes, size_t capacity,
+                              size_t *length)
+{
+    if (capacity < message->items_length) {
+        return EBL_ERROR_SPACE;
+    }
+    if (message->items_length > 0) {
+        memcpy(bytes + 0, message->items, message->items_length);
+    }
+    *length = 0 + message->items_length;
+    return EBL_OK;
+}
+
+int ebl_cfg_slots_response_get(ebl_cfg_slots_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 19) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->active_slot = ebl_get_u8(bytes + 0);
+    memcpy(message->states, bytes + 1, 2);
+    for (size_t i = 0; i < 2; i++) {
+        message->generations[i] = ebl_get_u32(bytes + 3 + 4 * i);
+    }
+    for (size_t i = 0; i < 2; i++) {
+        message->erases[i] = ebl_get_u32(bytes + 11 + 4 * i);
+    }
+    return EBL_OK;
+}
+
+int ebl_cfg_slots_response_put(const ebl_cfg_slots_response *message, uint8_t *bytes, size_t capacity,
+                              size_t *length)
+{
+    if (capacity < 19) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u8(bytes + 0, message->active_slot);
+    memcpy(bytes + 1, message->states, 2);
+    for (size_t i = 0; i < 2; i++) {
+        ebl_put_u32(bytes + 3 + 4 * i, message->generations[i]);
+    }
+    for (size_t i = 0; i < 2; i++) {
+        ebl_put_u32(bytes + 11 + 4 * i, message->erases[i]);
+    }
+    *length = 19;
+    return EBL_OK;
+}
+
+int ebl_live_set_request_get(ebl_live_set_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 1) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->ttl_s = ebl_get_u8(bytes + 0);
+    message->items = bytes + 1;
+    message->items_length = length - 1;
+    return EBL_OK;
+}
+
+int ebl_live_set_request_put(const ebl_live_set_request *message, uint8_t *bytes, size_t capacity,
+                            size_t *length)
+{
+    if (capacity < 1 || capacity - 1 < message->items_length) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u8(bytes + 0, message->ttl_s);
+    if (message->items_length > 0) {
+        memcpy(bytes + 1, message->items, message->items_length);
+    }
+    *length = 1 + message->items_length;
     return EBL_OK;
 }
 
@@ -424,6 +549,50 @@ int ebl_cfg_commit_response_put(const ebl_cfg_commit_response *message, uint8_t 
     return EBL_OK;
 }
 
+int ebl_cfg_confirm_request_get(ebl_cfg_confirm_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 8) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->generation = ebl_get_u32(bytes + 0);
+    message->crc32 = ebl_get_u32(bytes + 4);
+    return EBL_OK;
+}
+
+int ebl_cfg_confirm_request_put(const ebl_cfg_confirm_request *message, uint8_t *bytes, size_t capacity,
+                               size_t *length)
+{
+    if (capacity < 8) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->generation);
+    ebl_put_u32(bytes + 4, message->crc32);
+    *length = 8;
+    return EBL_OK;
+}
+
+int ebl_cfg_rollback_response_get(ebl_cfg_rollback_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 8) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->generation = ebl_get_u32(bytes + 0);
+    message->crc32 = ebl_get_u32(bytes + 4);
+    return EBL_OK;
+}
+
+int ebl_cfg_rollback_response_put(const ebl_cfg_rollback_response *message, uint8_t *bytes, size_t capacity,
+                                 size_t *length)
+{
+    if (capacity < 8) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->generation);
+    ebl_put_u32(bytes + 4, message->crc32);
+    *length = 8;
+    return EBL_OK;
+}
+
 int ebl_cfg_abort_request_get(ebl_cfg_abort_request *message, const uint8_t *bytes, size_t length)
 {
     if (length < 2) {
@@ -441,6 +610,40 @@ int ebl_cfg_abort_request_put(const ebl_cfg_abort_request *message, uint8_t *byt
     }
     ebl_put_u16(bytes + 0, message->transaction);
     *length = 2;
+    return EBL_OK;
+}
+
+int ebl_cfg_status_response_get(ebl_cfg_status_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 24) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->state = ebl_get_u8(bytes + 0);
+    message->generation = ebl_get_u32(bytes + 1);
+    message->crc32 = ebl_get_u32(bytes + 5);
+    message->confirm_left_ms = ebl_get_u32(bytes + 9);
+    message->live_left_ms = ebl_get_u32(bytes + 13);
+    message->commit_wait_ms = ebl_get_u16(bytes + 17);
+    message->rollback_cause = ebl_get_u8(bytes + 19);
+    message->rolled_back_generation = ebl_get_u32(bytes + 20);
+    return EBL_OK;
+}
+
+int ebl_cfg_status_response_put(const ebl_cfg_status_response *message, uint8_t *bytes, size_t capacity,
+                               size_t *length)
+{
+    if (capacity < 24) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u8(bytes + 0, message->state);
+    ebl_put_u32(bytes + 1, message->generation);
+    ebl_put_u32(bytes + 5, message->crc32);
+    ebl_put_u32(bytes + 9, message->confirm_left_ms);
+    ebl_put_u32(bytes + 13, message->live_left_ms);
+    ebl_put_u16(bytes + 17, message->commit_wait_ms);
+    ebl_put_u8(bytes + 19, message->rollback_cause);
+    ebl_put_u32(bytes + 20, message->rolled_back_generation);
+    *length = 24;
     return EBL_OK;
 }
 
@@ -1041,6 +1244,30 @@ int ebl_stream_stats_event_put(const ebl_stream_stats_event *message, uint8_t *b
     ebl_put_u8(bytes + 0, message->stream_id);
     ebl_put_u32(bytes + 1, message->built);
     ebl_put_u32(bytes + 5, message->dropped_tx);
+    *length = 9;
+    return EBL_OK;
+}
+
+int ebl_config_provisional_event_get(ebl_config_provisional_event *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 9) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->generation = ebl_get_u32(bytes + 0);
+    message->crc32 = ebl_get_u32(bytes + 4);
+    message->confirm_s = ebl_get_u8(bytes + 8);
+    return EBL_OK;
+}
+
+int ebl_config_provisional_event_put(const ebl_config_provisional_event *message, uint8_t *bytes, size_t capacity,
+                                    size_t *length)
+{
+    if (capacity < 9) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->generation);
+    ebl_put_u32(bytes + 4, message->crc32);
+    ebl_put_u8(bytes + 8, message->confirm_s);
     *length = 9;
     return EBL_OK;
 }

@@ -12,14 +12,14 @@
 #define EBL_MAX_OUTSTANDING 4
 #define EBL_CONTROL_PERIOD_US 10000
 #define EBL_IMAGE_LENGTH 299
-#define EBL_MESSAGE_COUNT 26
-#define EBL_EVENT_COUNT 9
+#define EBL_MESSAGE_COUNT 33
+#define EBL_EVENT_COUNT 10
 #define EBL_EVENT_HEAD_LENGTH 5
 #define EBL_PARAMETER_COUNT 34
 #define EBL_ORDER_COUNT 1
 #define EBL_CHANNEL_COUNT 20
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 3183
+#define EBL_SCHEMA_LENGTH 3447
 
 enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */
 
@@ -85,6 +85,23 @@ typedef enum {
     EBL_CONFIG_STATE_PROVISIONAL = 3,
 } ebl_config_state;
 
+/* What a flash slot of the configuration holds. */
+typedef enum {
+    EBL_SLOT_STATE_EMPTY = 0,
+    EBL_SLOT_STATE_CONFIRMED = 1,
+    EBL_SLOT_STATE_PROVISIONAL = 2,
+    EBL_SLOT_STATE_VOID = 3,
+    EBL_SLOT_STATE_DAMAGED = 4,
+} ebl_slot_state;
+
+/* Why a configuration on trial was given up, since the unit was switched on. */
+typedef enum {
+    EBL_ROLLBACK_CAUSE_NONE = 0,
+    EBL_ROLLBACK_CAUSE_ASKED = 1,
+    EBL_ROLLBACK_CAUSE_TIME_OUT = 2,
+    EBL_ROLLBACK_CAUSE_RESTART = 3,
+} ebl_rollback_cause;
+
 /* Why a parameter's value is refused. */
 typedef enum {
     EBL_VIOLATION_NOT_FINITE = 1,
@@ -133,9 +150,15 @@ typedef enum {
     EBL_EVENT_CONFIG_ROLLED_BACK = 5,
     EBL_EVENT_CONFIG_DEFAULTED = 6,
     EBL_EVENT_STREAM_STATS = 7,
+    EBL_EVENT_CONFIG_PROVISIONAL = 16,
     EBL_EVENT_LOG_CLOSED = 20,
     EBL_EVENT_LOG_OVERWRITTEN = 21,
 } ebl_event;
+
+/* How CFG_COMMIT makes an image active. */
+enum {
+    EBL_COMMIT_PROVISIONAL = 1,
+};
 
 /* Which steps of the assist pipeline held the motor back in this control step. */
 enum {
@@ -174,14 +197,21 @@ enum {
     EBL_MSG_SCHEMA_READ = 0x0003,
     EBL_MSG_STATS = 0x0005,
     EBL_MSG_BYE = 0x0007,
+    EBL_MSG_COUNTERS = 0x0008,
     EBL_MSG_CFG_INFO = 0x0100,
     EBL_MSG_CFG_READ = 0x0101,
+    EBL_MSG_PARAM_GET = 0x0102,
+    EBL_MSG_CFG_SLOTS = 0x0103,
+    EBL_MSG_LIVE_SET = 0x0110,
     EBL_MSG_CFG_BEGIN = 0x0120,
     EBL_MSG_CFG_SET = 0x0121,
     EBL_MSG_CFG_VALIDATE = 0x0122,
     EBL_MSG_CFG_STAGED_CRC = 0x0123,
     EBL_MSG_CFG_COMMIT = 0x0125,
+    EBL_MSG_CFG_CONFIRM = 0x0126,
+    EBL_MSG_CFG_ROLLBACK = 0x0127,
     EBL_MSG_CFG_ABORT = 0x0128,
+    EBL_MSG_CFG_STATUS = 0x0129,
     EBL_MSG_STR_SUBSCRIBE = 0x0201,
     EBL_MSG_STR_UNSUBSCRIBE = 0x0202,
     EBL_MSG_STR_RENEW = 0x0203,
@@ -430,6 +460,17 @@ int ebl_stats_response_get(ebl_stats_response *message, const uint8_t *bytes, si
 int ebl_stats_response_put(const ebl_stats_response *message, uint8_t *bytes, size_t capacity,
                           size_t *length);
 
+#define EBL_COUNTERS_RESPONSE_LENGTH 16
+typedef struct {
+    uint32_t distance_m;
+    uint32_t operating_s;
+    uint32_t saved_distance_m;
+    uint32_t saved_operating_s;
+} ebl_counters_response;
+int ebl_counters_response_get(ebl_counters_response *message, const uint8_t *bytes, size_t length);
+int ebl_counters_response_put(const ebl_counters_response *message, uint8_t *bytes, size_t capacity,
+                             size_t *length);
+
 #define EBL_CFG_INFO_RESPONSE_LENGTH 11
 typedef struct {
     uint32_t generation;
@@ -461,6 +502,45 @@ typedef struct {
 int ebl_cfg_read_response_get(ebl_cfg_read_response *message, const uint8_t *bytes, size_t length);
 int ebl_cfg_read_response_put(const ebl_cfg_read_response *message, uint8_t *bytes, size_t capacity,
                              size_t *length);
+
+#define EBL_PARAM_GET_REQUEST_LENGTH 0
+typedef struct {
+    const uint8_t *ids;
+    size_t ids_length;
+} ebl_param_get_request;
+int ebl_param_get_request_get(ebl_param_get_request *message, const uint8_t *bytes, size_t length);
+int ebl_param_get_request_put(const ebl_param_get_request *message, uint8_t *bytes, size_t capacity,
+                             size_t *length);
+
+#define EBL_PARAM_GET_RESPONSE_LENGTH 0
+typedef struct {
+    const uint8_t *items;
+    size_t items_length;
+} ebl_param_get_response;
+int ebl_param_get_response_get(ebl_param_get_response *message, const uint8_t *bytes, size_t length);
+int ebl_param_get_response_put(const ebl_param_get_response *message, uint8_t *bytes, size_t capacity,
+                              size_t *length);
+
+#define EBL_CFG_SLOTS_RESPONSE_LENGTH 19
+typedef struct {
+    uint8_t active_slot;
+    uint8_t states[2];
+    uint32_t generations[2];
+    uint32_t erases[2];
+} ebl_cfg_slots_response;
+int ebl_cfg_slots_response_get(ebl_cfg_slots_response *message, const uint8_t *bytes, size_t length);
+int ebl_cfg_slots_response_put(const ebl_cfg_slots_response *message, uint8_t *bytes, size_t capacity,
+                              size_t *length);
+
+#define EBL_LIVE_SET_REQUEST_LENGTH 1
+typedef struct {
+    uint8_t ttl_s;
+    const uint8_t *items;
+    size_t items_length;
+} ebl_live_set_request;
+int ebl_live_set_request_get(ebl_live_set_request *message, const uint8_t *bytes, size_t length);
+int ebl_live_set_request_put(const ebl_live_set_request *message, uint8_t *bytes, size_t capacity,
+                            size_t *length);
 
 #define EBL_CFG_BEGIN_REQUEST_LENGTH 8
 typedef struct {
@@ -535,6 +615,24 @@ int ebl_cfg_commit_response_get(ebl_cfg_commit_response *message, const uint8_t 
 int ebl_cfg_commit_response_put(const ebl_cfg_commit_response *message, uint8_t *bytes, size_t capacity,
                                size_t *length);
 
+#define EBL_CFG_CONFIRM_REQUEST_LENGTH 8
+typedef struct {
+    uint32_t generation;
+    uint32_t crc32;
+} ebl_cfg_confirm_request;
+int ebl_cfg_confirm_request_get(ebl_cfg_confirm_request *message, const uint8_t *bytes, size_t length);
+int ebl_cfg_confirm_request_put(const ebl_cfg_confirm_request *message, uint8_t *bytes, size_t capacity,
+                               size_t *length);
+
+#define EBL_CFG_ROLLBACK_RESPONSE_LENGTH 8
+typedef struct {
+    uint32_t generation;
+    uint32_t crc32;
+} ebl_cfg_rollback_response;
+int ebl_cfg_rollback_response_get(ebl_cfg_rollback_response *message, const uint8_t *bytes, size_t length);
+int ebl_cfg_rollback_response_put(const ebl_cfg_rollback_response *message, uint8_t *bytes, size_t capacity,
+                                 size_t *length);
+
 #define EBL_CFG_ABORT_REQUEST_LENGTH 2
 typedef struct {
     uint16_t transaction;
@@ -542,6 +640,21 @@ typedef struct {
 int ebl_cfg_abort_request_get(ebl_cfg_abort_request *message, const uint8_t *bytes, size_t length);
 int ebl_cfg_abort_request_put(const ebl_cfg_abort_request *message, uint8_t *bytes, size_t capacity,
                              size_t *length);
+
+#define EBL_CFG_STATUS_RESPONSE_LENGTH 24
+typedef struct {
+    uint8_t state;
+    uint32_t generation;
+    uint32_t crc32;
+    uint32_t confirm_left_ms;
+    uint32_t live_left_ms;
+    uint16_t commit_wait_ms;
+    uint8_t rollback_cause;
+    uint32_t rolled_back_generation;
+} ebl_cfg_status_response;
+int ebl_cfg_status_response_get(ebl_cfg_status_response *message, const uint8_t *bytes, size_t length);
+int ebl_cfg_status_response_put(const ebl_cfg_status_response *message, uint8_t *bytes, size_t capacity,
+                               size_t *length);
 
 #define EBL_STR_SUBSCRIBE_REQUEST_LENGTH 6
 typedef struct {
@@ -793,6 +906,16 @@ typedef struct {
 int ebl_stream_stats_event_get(ebl_stream_stats_event *message, const uint8_t *bytes, size_t length);
 int ebl_stream_stats_event_put(const ebl_stream_stats_event *message, uint8_t *bytes, size_t capacity,
                               size_t *length);
+
+#define EBL_CONFIG_PROVISIONAL_EVENT_LENGTH 9
+typedef struct {
+    uint32_t generation;
+    uint32_t crc32;
+    uint8_t confirm_s;
+} ebl_config_provisional_event;
+int ebl_config_provisional_event_get(ebl_config_provisional_event *message, const uint8_t *bytes, size_t length);
+int ebl_config_provisional_event_put(const ebl_config_provisional_event *message, uint8_t *bytes, size_t capacity,
+                                    size_t *length);
 
 #define EBL_LOG_CLOSED_EVENT_LENGTH 12
 typedef struct {

@@ -1,7 +1,7 @@
 """`python -m firmware_protocol.generate.vectors`: writes the golden vectors, all but seed.json.
 
-They are written when the registry grows and then stay: a difference in an old vector is a change
-of the wire. `make gen` therefore never touches them.
+They are written when the registry grows and then stay: a case that is in a file already is kept as
+it stands, so that a changed wire shows as a test that fails. `make gen` never touches them.
 """
 
 import json
@@ -25,10 +25,20 @@ def files() -> dict[str, str]:
         "verdicts.json": vector_frames.verdict_cases(registry),
         "images.json": vector_images.cases(registry),
     }
-    return {
-        name: '{"cases": [\n' + ",\n".join(json.dumps(case) for case in cases) + "\n]}\n"
-        for name, cases in sets.items()
-    }
+    return {name: _text(grown(FOLDER / "vectors" / name, cases)) for name, cases in sets.items()}
+
+
+def grown(path: Path, cases: list[Any]) -> list[Any]:
+    """The cases with those of the file at `path` kept to the byte, in their place."""
+    old = json.loads(path.read_text(encoding="utf-8"))["cases"] if path.exists() else []
+    names = {case["name"] for case in cases}
+    kept = [case for case in old if case["name"] in names]
+    known = {case["name"] for case in kept}
+    return kept + [case for case in cases if case["name"] not in known]
+
+
+def _text(cases: list[Any]) -> str:
+    return '{"cases": [\n' + ",\n".join(json.dumps(case) for case in cases) + "\n]}\n"
 
 
 if __name__ == "__main__":

@@ -20,6 +20,7 @@ from firmware_protocol._generated import (
     CfgReadResponse,
     CfgSetRequest,
     CfgValidateRequest,
+    CommitFlags,
     HelloRequest,
     HelloResponse,
     Status,
@@ -174,11 +175,17 @@ class BenchUnit:
         assert self.ask(CfgValidateRequest(transaction)).status == Status.OK
         return parameters.pack_image(self.config() | changes)
 
-    def write(self, changes: dict[str, Value]) -> codec.Response:
-        """A whole transaction; the response to its commit."""
+    def write(self, changes: dict[str, Value], confirm_s: int = 0) -> codec.Response:
+        """A whole transaction; the response to its commit. confirm_s: on trial for so long."""
         transaction = self.begin()
         image = self.stage(transaction, changes)
-        return self.ask(CfgCommitRequest(transaction, crc32(image), 0, 0))
+        flags = CommitFlags.PROVISIONAL if confirm_s else 0
+        commit = CfgCommitRequest(transaction, crc32(image), flags, confirm_s)
+        response = self.ask(commit)
+        if response.status == Status.RATE_LIMIT:
+            self.advance(response.detail / 1000)
+            response = self.ask(commit)
+        return response
 
 
 def crc32(image: bytes) -> int:

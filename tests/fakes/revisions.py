@@ -38,6 +38,7 @@ class MemoryRevisions:
         author: str = "",
         generation: int | None = None,
         crc32: int | None = None,
+        state: str = "verified",
     ) -> KeptRevision:
         if self.full:
             raise StoreError("The disk is full.")
@@ -47,7 +48,7 @@ class MemoryRevisions:
             1_700_000_000_000_000,
             author,
             reason,
-            "verified",
+            state,
             generation,
             crc32,
             changed,

@@ -23,7 +23,11 @@ from firmware_protocol._generated import (
     CfgCommitResponse,
     CfgInfoResponse,
     CfgReadResponse,
+    CfgRollbackResponse,
+    CfgStatusResponse,
     ConfigCommittedEvent,
+    ConfigProvisionalEvent,
+    ConfigRolledBackEvent,
     EvtFaultListResponse,
     HelloResponse,
     MessageId,
@@ -78,6 +82,9 @@ class FakeUnit:
         self._out = bytearray()
         self._staged: bytearray | None = None
         self._transaction = 0
+        self._before_trial: tuple[int, bytes] | None = None
+        self._trial_ends_us = 0
+        self.commits_too_soon = 0  # so many commits are answered with RATE_LIMIT
         self._stream: dict[str, Any] | None = None
         self._epoch = 0
         self._seq = 65530  # soon over the edge of 16 bits
@@ -100,8 +107,17 @@ class FakeUnit:
         """Let time pass in control steps of 10 ms."""
         for _ in range(round(seconds * 100)):
             self.time_us += CONTROL_PERIOD_US
+            if self._before_trial is not None and self.time_us >= self._trial_ends_us:
+                self.give_up_trial()
             if self._stream is not None:
                 self._step_stream(self._stream)
+
+    def give_up_trial(self) -> None:
+        """Return to the configuration before the trial."""
+        assert self._before_trial is not None
+        self.generation, self.image = self._before_trial
+        self._before_trial = None
+        self.tell(ConfigRolledBackEvent(self.generation, zlib.crc32(self.image)))
 
     def restart(self, tell: bool = True) -> None:
         """Switch off and on: streams, transactions and caches are gone."""
@@ -231,10 +247,38 @@ class FakeUnit:
             raise Refusal(Status.NOT_STOPPED)
         if zlib.crc32(staged) != request.staged_crc32:
             raise Refusal(Status.CRC_MISMATCH)
+        if self.commits_too_soon:
+            self.commits_too_soon -= 1
+            raise Refusal(Status.RATE_LIMIT, 1500)
+        if request.confirm_s:
+            self._before_trial = self.generation, self.image
+            self._trial_ends_us = self.time_us + request.confirm_s * 1_000_000
         self.image, self._staged = staged, None
         self.generation += 1
-        self.tell(ConfigCommittedEvent(self.generation, zlib.crc32(staged)))
-        return CfgCommitResponse(self.generation, zlib.crc32(staged), 0)
+        crc32 = zlib.crc32(staged)
+        if request.confirm_s:
+            self.tell(ConfigProvisionalEvent(self.generation, crc32, request.confirm_s))
+        else:
+            self.tell(ConfigCommittedEvent(self.generation, crc32))
+        return CfgCommitResponse(self.generation, crc32, 3 if request.confirm_s else 0)
+
+    def _on_cfg_status(self, request: Any) -> Message:
+        on_trial = self._before_trial is not None
+        left_ms = (self._trial_ends_us - self.time_us) // 1000 if on_trial else 0
+        crc32 = zlib.crc32(self.image)
+        return CfgStatusResponse(3 if on_trial else 0, self.generation, crc32, left_ms, 0, 0, 0, 0)
+
+    def _on_cfg_confirm(self, request: Any) -> None:
+        if (request.generation, request.crc32) != (self.generation, zlib.crc32(self.image)):
+            raise Refusal(Status.STALE_BASE, self.generation)
+        self._before_trial = None
+        self.tell(ConfigCommittedEvent(request.generation, request.crc32))
+
+    def _on_cfg_rollback(self, request: Any) -> Message:
+        if self._before_trial is None:
+            raise Refusal(Status.STATE)
+        self.give_up_trial()
+        return CfgRollbackResponse(self.generation, zlib.crc32(self.image))
 
     def _on_cfg_abort(self, request: Any) -> None:
         self._open(request.transaction)

@@ -13,6 +13,7 @@ import pytest
 
 from backend.device import handshake
 from backend.device.config_transaction import ConfigImage, read_config, write_config
+from backend.device.config_trial import confirm_config, rollback_config, trial_status
 from backend.device.live_values import ask_values
 from backend.device.simulation import simulation_get, simulation_set
 from backend.device.states import LinkState
@@ -22,7 +23,9 @@ from backend.errors import (
     ConfigConflict,
     InvalidRequest,
     LimitViolation,
+    LinkError,
     NotStandingStill,
+    PeerProtocolError,
 )
 from firmware_protocol._generated import CHANNELS, PARAMETERS
 from firmware_protocol.layout import Value
@@ -51,7 +54,7 @@ def test_the_firmware_is_ready_and_has_the_registry_s_defaults() -> None:
 
 
 def test_a_minute_of_stream_has_no_row_missing_and_none_made_up() -> None:
-    bench, _ = connected(StreamPlan(batch=5))
+    bench, _ = connected(StreamPlan())
     bench.split = bytewise
     bench.run(60.0)
 
@@ -64,7 +67,7 @@ def test_a_minute_of_stream_has_no_row_missing_and_none_made_up() -> None:
 
 
 def test_rows_lost_on_the_way_are_counted_as_the_firmware_counts_them() -> None:
-    bench, _ = connected(StreamPlan(batch=5))
+    bench, _ = connected(StreamPlan())
     noise = random.Random(5)
 
     def harm(data: bytes) -> bytes:
@@ -200,7 +203,7 @@ def test_each_lost_answer_is_repeated_and_the_change_done_once(lost: int) -> Non
 @pytest.mark.parametrize("seed", range(20))
 def test_on_a_bad_line_a_change_is_made_whole_or_not_at_all(seed: int) -> None:
     unit = LockstepUnit(seed=1)
-    bench = bench_with(unit, StreamPlan(batch=5)).connect()
+    bench = bench_with(unit, StreamPlan()).connect()
     base = bench.ask(read_config())
     changes: dict[str, Value] = {"pedal_stop_ms": 200, "mode_ratios": [0.0, 0.4, 0.8, 1.2, 1.6]}
     noise = random.Random(seed)
@@ -226,7 +229,7 @@ def test_the_firmware_s_own_description_is_read_and_proven(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(handshake, "SCHEMA_HASH", b"not this")
-    bench = bench_with(LockstepUnit(seed=1), StreamPlan(batch=5)).connect()
+    bench = bench_with(LockstepUnit(seed=1), StreamPlan()).connect()
     bench.run(1.0)
 
     assert bench.session.state is LinkState.READ_ONLY
@@ -259,3 +262,62 @@ def test_a_wrong_setting_of_the_simulation_is_refused_in_its_own_words() -> None
 
     with pytest.raises(InvalidRequest, match="rocket"):
         bench.ask(simulation_set({"rider": {"kind": "rocket"}}))
+
+
+def test_the_firmware_gives_up_a_trial_and_the_host_knows() -> None:
+    bench, base = connected()
+    bench.ask(write_config(base, {"pedal_stop_ms": 250}, confirm_s=5))
+    assert bench.ask(trial_status()).left_s <= 5.0
+
+    bench.run(5.5)
+
+    status = bench.ask(trial_status())
+    assert (status.on_trial, status.rollback_cause) == (False, "time_out")
+    assert bench.ask(read_config()) == base
+    assert bench.session.notes.trial_ends_s is None
+
+
+def test_the_firmware_keeps_what_was_read_back_and_confirmed() -> None:
+    bench, base = connected()
+    tried = bench.ask(write_config(base, {"pedal_stop_ms": 250}, confirm_s=5))
+
+    kept = bench.ask(confirm_config(base.parameters | {"pedal_stop_ms": 250}))
+
+    bench.run(6.0)
+    assert kept == tried == bench.ask(read_config())
+
+
+def test_what_is_not_what_was_meant_is_not_confirmed() -> None:
+    bench, base = connected()
+    bench.ask(write_config(base, {"pedal_stop_ms": 250}, confirm_s=5))
+
+    with pytest.raises(PeerProtocolError, match="pedal_stop_ms should be 260"):
+        bench.ask(confirm_config(base.parameters | {"pedal_stop_ms": 260}))
+
+    bench.run(5.5)
+    assert bench.ask(read_config()) == base
+
+
+def test_a_trial_survives_a_pulled_cable_and_the_host_finds_it_again() -> None:
+    bench, base = connected()
+    bench.ask(write_config(base, {"pedal_stop_ms": 250}, confirm_s=60))
+    bench.session.port_failed(bench.now_s, LinkError("The cable is out."))
+    bench.run(3.0)
+
+    bench.connect()
+
+    ends_s = bench.session.notes.trial_ends_s
+    assert ends_s is not None
+    assert 50.0 < ends_s - bench.now_s < 58.0
+    assert bench.ask(rollback_config()) == base
+
+
+def test_two_writes_in_a_row_wait_for_the_flash() -> None:
+    bench, base = connected()
+    after = bench.ask(write_config(base, {"pedal_stop_ms": 250}))
+    began_s = bench.now_s
+
+    again = bench.ask(write_config(after, {"pedal_stop_ms": 300}))
+
+    assert again.parameters["pedal_stop_ms"] == 300
+    assert 1.8 <= bench.now_s - began_s <= 2.5

@@ -53,7 +53,11 @@ class ConfigPatch(Question):
     parameters: Parameters = Field(min_length=1, max_length=400)
     reason: str = Field(default="", max_length=400)
     confirm_s: int = Field(
-        default=0, ge=0, le=255, description="0 commits for good; else the time to confirm."
+        default=0,
+        ge=0,
+        le=255,
+        description="0 commits for good; else the unit returns to what it had after so many "
+        "seconds, at a restart or power loss, unless `POST .../config/confirm` comes first.",
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
@@ -60,8 +61,12 @@ class Identity(Answer):
 
 
 class ConfigStamp(Answer):
+    """Which configuration is active. A provisional one is given up at `expires_at`."""
+
     generation: int
     crc32: int
+    state: Literal["committed", "provisional"]
+    expires_at: datetime | None
 
 
 class Device(Answer):

@@ -60,6 +60,18 @@ def patch_config(
     return change
 
 
+@router.post("/config/confirm", operation_id="confirm_config", response_model=ConfigChange)
+def confirm_config(device_id: str, services: Provided, response: Response) -> Any:
+    """Keeps the change on trial, once it was read back and compared field by field."""
+    return _stamped(services.tuning.confirm_config(device_id), response)
+
+
+@router.post("/config/rollback", operation_id="rollback_config", response_model=ConfigChange)
+def rollback_config(device_id: str, services: Provided, response: Response) -> Any:
+    """Gives up the change on trial: the unit has what it had before."""
+    return _stamped(services.tuning.rollback_config(device_id), response)
+
+
 @router.get("/config/revisions", operation_id="list_revisions", response_model=RevisionList)
 def list_revisions(device_id: str, services: Provided) -> dict[str, Any]:
     """Who changed what, when and why, newest first."""

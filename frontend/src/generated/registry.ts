@@ -86,6 +86,19 @@ export const ENUMS = {
     VALID: 2,
     PROVISIONAL: 3,
   },
+  slot_state: {
+    EMPTY: 0,
+    CONFIRMED: 1,
+    PROVISIONAL: 2,
+    VOID: 3,
+    DAMAGED: 4,
+  },
+  rollback_cause: {
+    NONE: 0,
+    ASKED: 1,
+    TIME_OUT: 2,
+    RESTART: 3,
+  },
   violation: {
     NOT_FINITE: 1,
     BELOW_MIN: 2,
@@ -123,6 +136,7 @@ export const ENUMS = {
     CONFIG_ROLLED_BACK: 5,
     CONFIG_DEFAULTED: 6,
     STREAM_STATS: 7,
+    CONFIG_PROVISIONAL: 16,
     LOG_CLOSED: 20,
     LOG_OVERWRITTEN: 21,
   },
@@ -130,6 +144,9 @@ export const ENUMS = {
 
 /** Bit numbers. */
 export const FLAGS = {
+  commit_flags: {
+    PROVISIONAL: 0,
+  },
   limit_flags: {
     TAPER: 0,
     SPEED_CUTOFF: 1,

@@ -18,9 +18,17 @@
 
 void app_config_apply(app *unit)
 {
-    ebl_config_unpack(&unit->config, unit->store.image);
+    ebl_config_unpack(&unit->config, live_image(&unit->live, &unit->store));
     parameters_to_assist(&unit->config, &unit->assist_config_next);
     unit->assist_config_pending = 1;
+}
+
+void app_config_changed(app *unit, uint8_t event_code)
+{
+    unit->live.active = 0;
+    app_config_apply(unit);
+    event_config(&unit->events, &unit->link, unit->board->now_us(unit->board->context), event_code,
+                 unit->store.generation, unit->store.crc32);
 }
 
 static void config_defaulted(app *unit)
@@ -42,11 +50,17 @@ void app_init(app *unit, const hal *board)
     link_init(&unit->link);
     telemetry_init(&unit->telemetry);
     config_store_boot(&unit->store, board);
-    app_config_apply(unit);
+    trial_boot(&unit->trial, &unit->store);
+    counters_boot(&unit->counters, board, config_store_flash_bytes(board));
     ride_log_init(&unit->ride_log, board);
     unit->link.bulk = requests_log_bulk;
     unit->link.bulk_context = unit;
     event_boot(&unit->events, &unit->link, board->now_us(board->context), board->boot_id);
+    if (unit->store.returned_generation != 0) {
+        app_config_changed(unit, EBL_EVENT_CONFIG_ROLLED_BACK);
+    } else {
+        app_config_apply(unit);
+    }
     if (unit->store.slot == CONFIG_STORE_NO_SLOT) config_defaulted(unit);
 }
 
@@ -83,6 +97,12 @@ void app_poll(app *unit)
     uint64_t now_us = unit->board->now_us(unit->board->context);
 
     transaction_poll(&unit->transaction, now_us);
+    if (trial_is_over(&unit->trial, &unit->store, now_us)) {
+        trial_return(&unit->trial, &unit->store, unit->board, EBL_ROLLBACK_CAUSE_TIME_OUT);
+        app_config_changed(unit, EBL_EVENT_CONFIG_ROLLED_BACK);
+    }
+    if (live_expire(&unit->live, now_us)) app_config_apply(unit);
+    counters_poll(&unit->counters, unit->board, now_us);
     telemetry_poll(&unit->telemetry, &unit->events, &unit->link, now_us);
     receive(unit);
     ride_log_poll(&unit->ride_log, unit->board, &unit->store, &unit->events, &unit->link);
@@ -148,6 +168,7 @@ void app_control_step(app *unit)
     (void)assist_step(&unit->assist_config, &unit->assist_state, &input, &unit->output);
     unit->board->motor_torque_set(unit->board->context, unit->output.motor_torque_nm);
 
+    counters_step(&unit->counters, inputs.speed_kmh);
     faults_report(unit, &inputs, now_us);
     sources.fault_flags = unit->faults.active;
     telemetry_step(&unit->telemetry, &sources, now_us, &unit->link);

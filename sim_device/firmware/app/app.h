@@ -9,8 +9,11 @@
 #include <stdint.h>
 
 #include "assist.h"             // assist_config, assist_state, assist_output
+#include "config_live.h"        // config_live
 #include "config_store.h"       // config_store
 #include "config_transaction.h" // config_transaction
+#include "config_trial.h"       // config_trial
+#include "counters.h"           // counters
 #include "ebl_registry.h"       // ebl_config
 #include "events.h"             // event_log
 #include "faults.h"             // fault_list
@@ -41,7 +44,10 @@ typedef struct {
 
     config_store store;
     config_transaction transaction;
-    ebl_config config; /* the active one */
+    config_trial trial;
+    config_live live;
+    ebl_config config; /* the one in force */
+    counters counters;
 
     assist_config assist_config_next;
     uint8_t assist_config_pending;
@@ -72,7 +78,11 @@ const assist_output *app_output(const app *unit);
  * first configuration. Any other flash is left alone. 0, or a negative CONFIG_STORE_ result. */
 int app_provision(const hal *board, const ebl_config *config);
 
-/* For the rooms of this folder: the store's image becomes the law's at the next control step. */
+/* For the rooms of this folder: the image in force becomes the law's at the next control step. */
 void app_config_apply(app *unit);
+
+/* A new configuration is active: live values end, the law gets it, the host is told with this
+ * event. */
+void app_config_changed(app *unit, uint8_t event_code);
 
 #endif

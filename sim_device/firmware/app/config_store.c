@@ -2,27 +2,31 @@
 
 #include <string.h>
 
-#include "ebl_bytes.h"  // ebl_get_u32, ebl_put_u32
-#include "ebl_frame.h"  // ebl_crc32
-#include "parameters.h" // parameters_default_image, parameters_image_is_valid
+#include "ebl_bytes.h"    // ebl_get_u32, ebl_put_u32
+#include "ebl_frame.h"    // ebl_crc32
+#include "flash_verify.h" // flash_program_verified
+#include "parameters.h"   // parameters_default_image, parameters_layout_crc32
 
-#define SLOT_MAGIC 0x534C4245u /* "EBLS" */
+#define SLOT_MAGIC 0x324C4245u /* "EBL2" */
 
 enum {
     AT_MAGIC = 0,
     AT_CRC = 4,
-    AT_SCHEMA_HASH = 8,
-    AT_GENERATION = 16,
-    AT_LENGTH = 20,
+    AT_LAYOUT = 8,
+    AT_GENERATION = 12,
+    AT_LENGTH = 16,
+    AT_ERASES = 20,
     HEADER_LENGTH = 24,
-    AT_CONFIRMED = 24,
-    AT_VOID = 28,
-    AT_IMAGE = 32,
+    AT_PROVISIONAL = 24,
+    AT_CONFIRMED = 28,
+    AT_VOID = 32,
+    AT_IMAGE = 36,
     SLOT_LENGTH = AT_IMAGE + EBL_IMAGE_LENGTH
 };
 
 #define WORD_ERASED 0xFFFFFFFFu
 #define WORD_WRITTEN 0u
+#define WORD_LENGTH 4
 
 /* Bytes from one slot to the next: whole blocks. 0 where the flash cannot hold two slots. */
 static size_t slot_stride(const hal *board)
@@ -35,159 +39,206 @@ static size_t slot_stride(const hal *board)
     return blocks * board->flash_block_size;
 }
 
-static uint32_t slot_crc(const uint8_t *slot)
+size_t config_store_flash_bytes(const hal *board)
 {
-    uint32_t crc = ebl_crc32(0, slot + AT_SCHEMA_HASH, HEADER_LENGTH - AT_SCHEMA_HASH);
-
-    return ebl_crc32(crc, slot + AT_IMAGE, EBL_IMAGE_LENGTH);
+    return CONFIG_STORE_SLOTS * slot_stride(board);
 }
 
-static int slot_is_good(const uint8_t *slot)
+static uint32_t slot_crc(const uint8_t *header, const uint8_t *image)
+{
+    uint32_t crc = ebl_crc32(0, header + AT_LAYOUT, HEADER_LENGTH - AT_LAYOUT);
+
+    return ebl_crc32(crc, image, EBL_IMAGE_LENGTH);
+}
+
+static int slot_is_whole(const uint8_t *slot)
 {
     return ebl_get_u32(slot + AT_MAGIC) == SLOT_MAGIC &&
-           memcmp(slot + AT_SCHEMA_HASH, ebl_schema_hash, EBL_SCHEMA_HASH_LENGTH) == 0 &&
+           ebl_get_u32(slot + AT_LAYOUT) == parameters_layout_crc32() &&
            ebl_get_u16(slot + AT_LENGTH) == EBL_IMAGE_LENGTH &&
-           ebl_get_u32(slot + AT_CONFIRMED) == WORD_WRITTEN &&
-           ebl_get_u32(slot + AT_VOID) == WORD_ERASED &&
-           ebl_get_u32(slot + AT_CRC) == slot_crc(slot) &&
+           ebl_get_u32(slot + AT_CRC) == slot_crc(slot, slot + AT_IMAGE) &&
            parameters_image_is_valid(slot + AT_IMAGE);
 }
 
-/* True with the image and generation of a good slot. */
-static int slot_read(const hal *board, uint8_t slot_index, uint8_t *image, uint32_t *generation)
+/* A state word that was cut in half says as little as one that was never written, but for void:
+ * whoever began to take a slot back meant it. */
+static uint8_t slot_state(const uint8_t *slot)
 {
-    uint8_t slot[SLOT_LENGTH];
-    size_t stride = slot_stride(board);
-
-    if (stride == 0) return 0;
-    if (board->flash_read(board->context, slot_index * stride, slot, SLOT_LENGTH) < 0) return 0;
-    if (!slot_is_good(slot)) return 0;
-    memcpy(image, slot + AT_IMAGE, EBL_IMAGE_LENGTH);
-    *generation = ebl_get_u32(slot + AT_GENERATION);
-    return 1;
+    if (ebl_get_u32(slot + AT_MAGIC) == WORD_ERASED) return EBL_SLOT_STATE_EMPTY;
+    if (!slot_is_whole(slot)) return EBL_SLOT_STATE_DAMAGED;
+    if (ebl_get_u32(slot + AT_VOID) != WORD_ERASED) return EBL_SLOT_STATE_VOID;
+    if (ebl_get_u32(slot + AT_CONFIRMED) == WORD_WRITTEN) return EBL_SLOT_STATE_CONFIRMED;
+    if (ebl_get_u32(slot + AT_PROVISIONAL) == WORD_WRITTEN) return EBL_SLOT_STATE_PROVISIONAL;
+    return EBL_SLOT_STATE_DAMAGED;
 }
 
-void config_store_boot(config_store *store, const hal *board)
+/* The slot's bytes and its state. */
+static uint8_t slot_read(const hal *board, uint8_t slot_index, uint8_t *slot)
 {
+    size_t stride = slot_stride(board);
+
+    if (stride == 0) return EBL_SLOT_STATE_EMPTY;
+    if (board->flash_read(board->context, slot_index * stride, slot, SLOT_LENGTH) < 0) {
+        return EBL_SLOT_STATE_DAMAGED;
+    }
+    return slot_state(slot);
+}
+
+static int word_write(const hal *board, uint8_t slot_index, size_t at)
+{
+    uint8_t word[WORD_LENGTH];
+
+    ebl_put_u32(word, WORD_WRITTEN);
+    return flash_program_verified(board, slot_index * slot_stride(board) + at, word, sizeof word);
+}
+
+/* The confirmed slot of the highest generation, or the factory default. */
+static void slot_choose(config_store *store, const hal *board)
+{
+    uint8_t slot[SLOT_LENGTH];
+
     parameters_default_image(store->image);
     store->generation = 0;
     store->slot = CONFIG_STORE_NO_SLOT;
-    for (uint8_t slot = 0; slot < CONFIG_STORE_SLOTS; slot++) {
-        uint8_t image[EBL_IMAGE_LENGTH];
+    store->on_trial = 0;
+    for (uint8_t index = 0; index < CONFIG_STORE_SLOTS; index++) {
         uint32_t generation;
 
-        if (!slot_read(board, slot, image, &generation)) continue;
+        if (slot_read(board, index, slot) != EBL_SLOT_STATE_CONFIRMED) continue;
+        generation = ebl_get_u32(slot + AT_GENERATION);
         if (store->slot != CONFIG_STORE_NO_SLOT && generation <= store->generation) continue;
-        memcpy(store->image, image, EBL_IMAGE_LENGTH);
+        memcpy(store->image, slot + AT_IMAGE, EBL_IMAGE_LENGTH);
         store->generation = generation;
-        store->slot = slot;
+        store->slot = index;
     }
     store->crc32 = ebl_crc32(0, store->image, EBL_IMAGE_LENGTH);
 }
 
-/* Programs and reads back, a piece at a time so that the stack stays small. */
-static int program_and_verify(const hal *board, size_t address, const uint8_t *bytes, size_t length)
+void config_store_boot(config_store *store, const hal *board)
 {
-    uint8_t piece[32];
+    store->returned_generation = 0;
+    for (uint8_t index = 0; index < CONFIG_STORE_SLOTS; index++) {
+        config_slot seen;
 
-    if (board->flash_program(board->context, address, bytes, length) < 0) {
-        return CONFIG_STORE_FLASH_FAIL;
+        config_store_slot(board, index, &seen);
+        if (seen.state != EBL_SLOT_STATE_PROVISIONAL) continue;
+        store->returned_generation = seen.generation;
+        (void)word_write(board, index, AT_VOID);
     }
-    for (size_t at = 0; at < length; at += sizeof piece) {
-        size_t count = length - at < sizeof piece ? length - at : sizeof piece;
-
-        if (board->flash_read(board->context, address + at, piece, count) < 0) {
-            return CONFIG_STORE_FLASH_FAIL;
-        }
-        if (memcmp(piece, bytes + at, count) != 0) return CONFIG_STORE_VERIFY_FAIL;
-    }
-    return CONFIG_STORE_OK;
+    slot_choose(store, board);
 }
 
-static int slot_erase(const hal *board, size_t address, size_t stride)
+static int slot_erase(const hal *board, uint8_t slot_index)
 {
+    size_t stride = slot_stride(board);
+
     for (size_t at = 0; at < stride; at += board->flash_block_size) {
-        if (board->flash_erase(board->context, address + at) < 0) return CONFIG_STORE_FLASH_FAIL;
+        if (board->flash_erase(board->context, slot_index * stride + at) < 0) {
+            return CONFIG_STORE_FLASH_FAIL;
+        }
     }
     return CONFIG_STORE_OK;
 }
 
 /* Image, then header, then the one word that makes the slot count. */
-static int slot_write(const hal *board, size_t address, const uint8_t *header, const uint8_t *image)
+static int slot_write(const hal *board, uint8_t slot_index, const uint8_t *header,
+                      const uint8_t *image, size_t state_word)
 {
-    uint8_t word[4];
-    int result = program_and_verify(board, address + AT_IMAGE, image, EBL_IMAGE_LENGTH);
+    size_t address = slot_index * slot_stride(board);
+    int result = slot_erase(board, slot_index);
 
+    if (result != CONFIG_STORE_OK) return result;
+    result = flash_program_verified(board, address + AT_IMAGE, image, EBL_IMAGE_LENGTH);
     if (result == CONFIG_STORE_OK) {
-        result = program_and_verify(board, address, header, HEADER_LENGTH);
+        result = flash_program_verified(board, address, header, HEADER_LENGTH);
     }
-    ebl_put_u32(word, WORD_WRITTEN);
-    if (result == CONFIG_STORE_OK) {
-        result = program_and_verify(board, address + AT_CONFIRMED, word, sizeof word);
-    }
+    if (result == CONFIG_STORE_OK) result = word_write(board, slot_index, state_word);
     if (result != CONFIG_STORE_OK) {
         /* The host is told that nothing changed, so a half-confirmed slot must not boot later. */
-        (void)board->flash_program(board->context, address + AT_VOID, word, sizeof word);
+        (void)word_write(board, slot_index, AT_VOID);
     }
     return result;
 }
 
-int config_store_write(config_store *store, const hal *board, const uint8_t *image)
+/* How often the slot was erased so far; a damaged one cannot tell and is taken for its twin. */
+static uint32_t erases_so_far(const hal *board, uint8_t slot_index)
+{
+    config_slot seen;
+
+    config_store_slot(board, slot_index, &seen);
+    if (seen.state == EBL_SLOT_STATE_DAMAGED)
+        config_store_slot(board, slot_index == 0 ? 1 : 0, &seen);
+    return seen.erases;
+}
+
+int config_store_write(config_store *store, const hal *board, const uint8_t *image, int on_trial)
 {
     uint8_t header[HEADER_LENGTH];
     uint8_t target = store->slot == 0 ? 1 : 0;
-    uint32_t crc;
-    size_t stride = slot_stride(board);
     int result;
 
-    if (stride == 0) return CONFIG_STORE_NO_SPACE;
+    if (slot_stride(board) == 0) return CONFIG_STORE_NO_SPACE;
     memset(header, 0xFF, sizeof header);
     ebl_put_u32(header + AT_MAGIC, SLOT_MAGIC);
-    memcpy(header + AT_SCHEMA_HASH, ebl_schema_hash, EBL_SCHEMA_HASH_LENGTH);
+    ebl_put_u32(header + AT_LAYOUT, parameters_layout_crc32());
     ebl_put_u32(header + AT_GENERATION, store->generation + 1);
     ebl_put_u16(header + AT_LENGTH, EBL_IMAGE_LENGTH);
-    crc = ebl_crc32(0, header + AT_SCHEMA_HASH, HEADER_LENGTH - AT_SCHEMA_HASH);
-    ebl_put_u32(header + AT_CRC, ebl_crc32(crc, image, EBL_IMAGE_LENGTH));
-
-    result = slot_erase(board, target * stride, stride);
-    if (result == CONFIG_STORE_OK) result = slot_write(board, target * stride, header, image);
+    ebl_put_u32(header + AT_ERASES, erases_so_far(board, target) + 1);
+    ebl_put_u32(header + AT_CRC, slot_crc(header, image));
+    result = slot_write(board, target, header, image, on_trial ? AT_PROVISIONAL : AT_CONFIRMED);
     if (result != CONFIG_STORE_OK) return result;
 
     memcpy(store->image, image, EBL_IMAGE_LENGTH);
     store->crc32 = ebl_crc32(0, image, EBL_IMAGE_LENGTH);
     store->generation++;
     store->slot = target;
+    store->on_trial = on_trial ? 1 : 0;
     return CONFIG_STORE_OK;
 }
 
-static int flash_is_blank(const hal *board, size_t length)
+int config_store_confirm(config_store *store, const hal *board)
 {
-    uint8_t piece[32];
+    int result = word_write(board, store->slot, AT_CONFIRMED);
 
-    for (size_t at = 0; at < length; at += sizeof piece) {
-        size_t count = length - at < sizeof piece ? length - at : sizeof piece;
+    if (result == CONFIG_STORE_OK) store->on_trial = 0;
+    return result;
+}
 
-        if (board->flash_read(board->context, at, piece, count) < 0) return 0;
-        for (size_t i = 0; i < count; i++) {
-            if (piece[i] != 0xFF) return 0;
-        }
-    }
-    return 1;
+void config_store_return(config_store *store, const hal *board)
+{
+    (void)word_write(board, store->slot, AT_VOID);
+    slot_choose(store, board);
 }
 
 int config_store_provision(const hal *board, const uint8_t *image)
 {
     config_store store;
 
-    if (!flash_is_blank(board, CONFIG_STORE_SLOTS * slot_stride(board))) return CONFIG_STORE_OK;
+    if (!flash_is_blank(board, 0, config_store_flash_bytes(board))) return CONFIG_STORE_OK;
     config_store_boot(&store, board);
-    return config_store_write(&store, board, image);
+    return config_store_write(&store, board, image, 0);
 }
 
 int config_store_previous(const config_store *store, const hal *board, uint8_t *image,
                           uint32_t *generation)
 {
+    uint8_t slot[SLOT_LENGTH];
+
     if (store->slot == CONFIG_STORE_NO_SLOT) return 0;
-    return slot_read(board, store->slot == 0 ? 1 : 0, image, generation) &&
-           *generation < store->generation;
+    if (slot_read(board, store->slot == 0 ? 1 : 0, slot) != EBL_SLOT_STATE_CONFIRMED) return 0;
+    *generation = ebl_get_u32(slot + AT_GENERATION);
+    memcpy(image, slot + AT_IMAGE, EBL_IMAGE_LENGTH);
+    return *generation < store->generation;
+}
+
+void config_store_slot(const hal *board, uint8_t slot_index, config_slot *seen)
+{
+    uint8_t slot[SLOT_LENGTH];
+
+    seen->state = slot_read(board, slot_index, slot);
+    seen->generation = 0;
+    seen->erases = 0;
+    if (seen->state == EBL_SLOT_STATE_EMPTY || seen->state == EBL_SLOT_STATE_DAMAGED) return;
+    seen->generation = ebl_get_u32(slot + AT_GENERATION);
+    seen->erases = ebl_get_u32(slot + AT_ERASES);
 }

@@ -120,7 +120,9 @@ static uint8_t commit_check(config_transaction *transaction, const hal *board,
     uint32_t crc32;
 
     if (status != EBL_STATUS_OK) return status;
-    if (request->flags != 0 || request->confirm_s != 0) return EBL_STATUS_UNSUPPORTED;
+    if ((request->flags & ~EBL_COMMIT_PROVISIONAL) != 0) return EBL_STATUS_UNSUPPORTED;
+    /* A trial without an end, and an end without a trial, are both mistakes. */
+    if ((request->flags != 0) != (request->confirm_s != 0)) return EBL_STATUS_RANGE;
     if (transaction->state != EBL_CONFIG_STATE_VALID) return EBL_STATUS_STATE;
     crc32 = ebl_crc32(0, transaction->image, EBL_IMAGE_LENGTH);
     if (crc32 != request->staged_crc32) {
@@ -147,7 +149,11 @@ uint8_t transaction_commit(config_transaction *transaction, config_store *store,
 
     if (status != EBL_STATUS_OK) return status;
     if (memcmp(transaction->image, store->image, EBL_IMAGE_LENGTH) != 0) {
-        status = store_status(config_store_write(store, board, transaction->image));
+        *detail = transaction_commit_wait_ms(transaction, now_us);
+        if (*detail > 0) return EBL_STATUS_RATE_LIMIT;
+        transaction->commit_free_us = now_us + (uint64_t)TRANSACTION_COMMIT_PERIOD_MS * US_PER_MS;
+        status =
+            store_status(config_store_write(store, board, transaction->image, request->flags != 0));
     }
     if (status != EBL_STATUS_OK) return status;
     transaction->state = EBL_CONFIG_STATE_IDLE;
@@ -161,6 +167,12 @@ uint8_t transaction_abort(config_transaction *transaction, uint16_t id, uint64_t
 
     if (status == EBL_STATUS_OK) transaction_drop(transaction);
     return status;
+}
+
+uint16_t transaction_commit_wait_ms(const config_transaction *transaction, uint64_t now_us)
+{
+    if (transaction->commit_free_us <= now_us) return 0;
+    return (uint16_t)((transaction->commit_free_us - now_us + US_PER_MS - 1) / US_PER_MS);
 }
 
 void transaction_poll(config_transaction *transaction, uint64_t now_us)

@@ -13,11 +13,15 @@
 
 #define TRANSACTION_LEASE_MS 30000
 
+/* An erased block takes its time, and a script gone wrong must not wear the flash out. */
+#define TRANSACTION_COMMIT_PERIOD_MS 2000
+
 typedef struct {
     uint8_t state;   /* ebl_config_state */
     uint16_t id;     /* of the open transaction; the latest one while idle */
     uint8_t expired; /* the latest one ended by its lease */
     uint64_t lease_end_us;
+    uint64_t commit_free_us; /* not before this is the flash written again */
     uint8_t image[EBL_IMAGE_LENGTH];
 } config_transaction;
 
@@ -34,12 +38,16 @@ uint8_t transaction_validate(config_transaction *transaction, uint16_t id, uint6
 uint8_t transaction_staged_crc(config_transaction *transaction, uint16_t id, uint64_t now_us,
                                uint32_t *crc32, uint16_t *detail);
 
-/* OK: the store holds the new image and the transaction is over. Else both are as they were. */
+/* OK: the store holds the new image, on trial where the request's flags say so, and the transaction
+ * is over. Else both are as they were. */
 uint8_t transaction_commit(config_transaction *transaction, config_store *store, const hal *board,
                            const ebl_cfg_commit_request *request, uint64_t now_us,
                            uint16_t *detail);
 uint8_t transaction_abort(config_transaction *transaction, uint16_t id, uint64_t now_us,
                           uint16_t *detail);
+
+/* Milliseconds until a commit may write the flash again. */
+uint16_t transaction_commit_wait_ms(const config_transaction *transaction, uint64_t now_us);
 
 /* Ends the transaction when its lease is over. */
 void transaction_poll(config_transaction *transaction, uint64_t now_us);

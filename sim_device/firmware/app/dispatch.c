@@ -6,6 +6,7 @@
 
 #define STATUS_LENGTH 1
 #define REFUSAL_LENGTH 3 /* status u8, detail u16 */
+#define REFUSAL_BYTES 4  /* of one violation: id u16, index u8, code u8 */
 #define BOARD_MESSAGE_FIRST 0x7000
 #define LATE_ANSWER_LENGTH_MAX 8
 
@@ -44,6 +45,21 @@ void reply_with(reply *answer, int put, size_t length)
 uint8_t *reply_fields(const reply *answer) { return answer->bytes + STATUS_LENGTH; }
 
 size_t reply_capacity(const reply *answer) { return answer->capacity - STATUS_LENGTH; }
+
+void reply_refusals(reply *answer, const ebl_refusal *found, uint16_t detail)
+{
+    size_t count = detail < REFUSALS_MAX ? detail : REFUSALS_MAX;
+
+    reply_refuse(answer, EBL_STATUS_INVALID_CONFIG, detail);
+    for (size_t i = 0; i < count && answer->length + REFUSAL_BYTES <= answer->capacity; i++) {
+        uint8_t *bytes = answer->bytes + answer->length;
+
+        ebl_put_u16(bytes, found[i].id);
+        bytes[2] = found[i].index;
+        bytes[3] = found[i].code;
+        answer->length += REFUSAL_BYTES;
+    }
+}
 
 /* What a board gives with a refusal are its words for it: they follow the detail, as far as they
  * fit. */
@@ -85,6 +101,7 @@ static void request_execute(app *unit, const ebl_header *request, reply *answer)
     request_handler handler = requests_system(request->word);
 
     if (handler == NULL) handler = requests_config(request->word);
+    if (handler == NULL) handler = requests_trial(request->word);
     if (handler == NULL) handler = requests_stream(request->word);
     if (handler == NULL) handler = requests_log(unit, request->word);
     if (handler != NULL) {

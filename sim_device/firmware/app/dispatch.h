@@ -5,8 +5,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "app.h"       // app
-#include "ebl_frame.h" // ebl_header
+#include "app.h"        // app
+#include "ebl_frame.h"  // ebl_header
+#include "ebl_values.h" // ebl_refusal
 
 /* Where a handler puts its answer: the status byte, then the detail or the fields. */
 typedef struct {
@@ -28,12 +29,20 @@ void reply_with(reply *answer, int put, size_t length);
 uint8_t *reply_fields(const reply *answer);
 size_t reply_capacity(const reply *answer);
 
+/* What REFUSALS_MAX violations of an image leave behind an INVALID_CONFIG: as many as the MTU
+ * carries, `detail` says how many there are. */
+void reply_refusals(reply *answer, const ebl_refusal *found, uint16_t detail);
+
+/* More than there are elements in the image, so that none is left unsaid. */
+#define REFUSALS_MAX 96
+
 /* Answers a frame that the line brought. What is not a request is ignored. */
 void dispatch_frame(app *unit, const uint8_t *frame, size_t length);
 
 /* NULL where the message is not one of the folder's. */
 request_handler requests_system(uint16_t message_id);
 request_handler requests_config(uint16_t message_id);
+request_handler requests_trial(uint16_t message_id);
 request_handler requests_stream(uint16_t message_id);
 request_handler requests_log(const app *unit, uint16_t message_id);
 

@@ -67,6 +67,17 @@ void event_config(event_log *events, unit_link *link, uint64_t now_us, uint8_t c
     event_send(events, link, now_us, code, fields, length);
 }
 
+void event_config_provisional(event_log *events, unit_link *link, uint64_t now_us,
+                              uint32_t generation, uint32_t crc32, uint8_t confirm_s)
+{
+    ebl_config_provisional_event event = {generation, crc32, confirm_s};
+    uint8_t fields[EBL_CONFIG_PROVISIONAL_EVENT_LENGTH];
+    size_t length;
+
+    if (ebl_config_provisional_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
+    event_send(events, link, now_us, EBL_EVENT_CONFIG_PROVISIONAL, fields, length);
+}
+
 void event_stream_stats(event_log *events, unit_link *link, uint64_t now_us, uint8_t stream_id,
                         uint32_t built, uint32_t dropped_tx)
 {

@@ -18,9 +18,12 @@ void event_faults_set(event_log *events, unit_link *link, uint64_t now_us, uint1
 void event_faults_cleared(event_log *events, unit_link *link, uint64_t now_us,
                           uint16_t fault_flags);
 
-/* `code`: EBL_EVENT_CONFIG_COMMITTED or EBL_EVENT_CONFIG_DEFAULTED. */
+/* `code`: EBL_EVENT_CONFIG_COMMITTED, _ROLLED_BACK or _DEFAULTED. */
 void event_config(event_log *events, unit_link *link, uint64_t now_us, uint8_t code,
                   uint32_t generation, uint32_t crc32);
+
+void event_config_provisional(event_log *events, unit_link *link, uint64_t now_us,
+                              uint32_t generation, uint32_t crc32, uint8_t confirm_s);
 
 void event_stream_stats(event_log *events, unit_link *link, uint64_t now_us, uint8_t stream_id,
                         uint32_t built, uint32_t dropped_tx);

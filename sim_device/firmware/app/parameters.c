@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "ebl_bytes.h"  // ebl_get_u16, ebl_get_f32
+#include "ebl_frame.h"  // ebl_crc32
 #include "ebl_values.h" // ebl_image_violations
 
 #define ITEM_HEADER_LENGTH 4
@@ -62,6 +63,24 @@ void parameters_default_image(uint8_t *image)
 
     ebl_config_default(&config);
     ebl_config_pack(&config, image);
+}
+
+uint32_t parameters_layout_crc32(void)
+{
+    uint32_t crc = 0;
+
+    for (size_t i = 0; i < EBL_PARAMETER_COUNT; i++) {
+        const ebl_parameter *parameter = &ebl_parameters[i];
+        uint8_t bytes[8];
+
+        ebl_put_u16(bytes, parameter->id);
+        bytes[2] = parameter->type;
+        bytes[3] = parameter->count;
+        ebl_put_u16(bytes + 4, parameter->length);
+        ebl_put_u16(bytes + 6, parameter->image_offset);
+        crc = ebl_crc32(crc, bytes, sizeof bytes);
+    }
+    return crc;
 }
 
 /* True if a value of this parameter may stand alone; order between values is VALIDATE's. */
@@ -127,6 +146,33 @@ uint8_t parameters_set(uint8_t *image, const uint8_t *items, size_t length, uint
         at += used;
     }
     memcpy(image, changed, sizeof changed);
+    *detail = 0;
+    return EBL_STATUS_OK;
+}
+
+uint8_t parameters_get(const uint8_t *image, const uint8_t *ids, size_t ids_length, uint8_t *items,
+                       size_t capacity, size_t *items_length, uint16_t *detail)
+{
+    *items_length = 0;
+    *detail = 0;
+    if (ids_length % 2 != 0) return EBL_STATUS_LENGTH;
+    for (size_t at = 0; at < ids_length; at += 2) {
+        const ebl_parameter *parameter = ebl_parameter_find(ebl_get_u16(ids + at));
+        uint8_t *next = items + *items_length;
+        size_t values_length;
+
+        *detail = ebl_get_u16(ids + at);
+        if (parameter == NULL) return EBL_STATUS_UNKNOWN_ID;
+        values_length = (size_t)parameter->count * parameter->length;
+        if (capacity - *items_length < ITEM_HEADER_LENGTH + values_length) {
+            return EBL_STATUS_NO_SPACE;
+        }
+        ebl_put_u16(next, parameter->id);
+        next[2] = 0;
+        next[3] = parameter->count;
+        memcpy(next + ITEM_HEADER_LENGTH, image + parameter->image_offset, values_length);
+        *items_length += ITEM_HEADER_LENGTH + values_length;
+    }
     *detail = 0;
     return EBL_STATUS_OK;
 }

@@ -14,6 +14,9 @@ void parameters_to_assist(const ebl_config *config, assist_config *assist);
 /* The factory default as an image. */
 void parameters_default_image(uint8_t *image);
 
+/* Tells images apart whose bytes mean different parameters. A slot of another layout is not read. */
+uint32_t parameters_layout_crc32(void);
+
 /* True if every value is within its range and the law accepts the whole. */
 int parameters_image_is_valid(const uint8_t *image);
 
@@ -22,5 +25,10 @@ int parameters_image_is_valid(const uint8_t *image);
  * is needed. */
 uint8_t parameters_set(uint8_t *image, const uint8_t *items, size_t length, uint8_t access,
                        uint16_t *detail);
+
+/* The items of the parameters whose ids (u16) are listed, whole. NO_SPACE where they do not fit;
+ * `detail` then is the id. */
+uint8_t parameters_get(const uint8_t *image, const uint8_t *ids, size_t ids_length, uint8_t *items,
+                       size_t capacity, size_t *items_length, uint16_t *detail);
 
 #endif

@@ -2,20 +2,19 @@
 #include <string.h>
 
 #include "dispatch.h"     // reply_ok, reply_with
-#include "ebl_bytes.h"    // EBL_OK, ebl_put_u16
+#include "ebl_bytes.h"    // EBL_OK
 #include "ebl_registry.h" // ebl_cfg_read_request_get
 #include "parameters.h"   // parameters_default_image
 
-/* More than there are elements in the image, so that none is left unsaid. */
-#define REFUSALS_MAX 96
-#define REFUSAL_BYTES 4
+#define MS_PER_S 1000u
 
 static uint64_t now(const app *unit) { return unit->board->now_us(unit->board->context); }
 
 static void info(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_cfg_info_response response = {unit->store.generation, unit->store.crc32, EBL_IMAGE_LENGTH,
-                                      unit->transaction.state};
+                                      unit->store.on_trial ? EBL_CONFIG_STATE_PROVISIONAL
+                                                           : unit->transaction.state};
     size_t length = 0;
     int put;
 
@@ -90,6 +89,13 @@ static void begin(app *unit, const ebl_header *request, reply *answer)
         reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_BEGIN_REQUEST_LENGTH);
         return;
     }
+    if (unit->store.on_trial) {
+        /* What it would overwrite is where a return leads to. */
+        uint32_t left_ms = trial_left_ms(&unit->trial, &unit->store, now(unit));
+
+        reply_refuse(answer, EBL_STATUS_BUSY, (uint16_t)((left_ms + MS_PER_S - 1) / MS_PER_S));
+        return;
+    }
     status = transaction_begin(&unit->transaction, &unit->store, &asked, now(unit), &detail);
     if (status != EBL_STATUS_OK) {
         reply_refuse(answer, status, detail);
@@ -116,19 +122,6 @@ static void set(app *unit, const ebl_header *request, reply *answer)
     reply_status(answer, status, detail);
 }
 
-/* The list goes behind the detail, as much of it as the MTU carries. */
-static void refusals_append(reply *answer, const ebl_refusal *found, size_t count)
-{
-    for (size_t i = 0; i < count && answer->length + REFUSAL_BYTES <= answer->capacity; i++) {
-        uint8_t *bytes = answer->bytes + answer->length;
-
-        ebl_put_u16(bytes, found[i].id);
-        bytes[2] = found[i].index;
-        bytes[3] = found[i].code;
-        answer->length += REFUSAL_BYTES;
-    }
-}
-
 static void validate(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_cfg_validate_request asked;
@@ -142,9 +135,10 @@ static void validate(app *unit, const ebl_header *request, reply *answer)
     }
     status = transaction_validate(&unit->transaction, asked.transaction, now(unit), found,
                                   REFUSALS_MAX, &detail);
-    reply_status(answer, status, detail);
     if (status == EBL_STATUS_INVALID_CONFIG) {
-        refusals_append(answer, found, detail < REFUSALS_MAX ? detail : REFUSALS_MAX);
+        reply_refusals(answer, found, detail);
+    } else {
+        reply_status(answer, status, detail);
     }
 }
 
@@ -173,12 +167,18 @@ static void staged_crc(app *unit, const ebl_header *request, reply *answer)
     reply_with(answer, put, length);
 }
 
-/* A new generation is active: the law gets it, the host is told, a defaulted unit is well again. */
-static void committed(app *unit)
+/* A new generation is active; a defaulted unit is well again. */
+static void committed(app *unit, uint8_t confirm_s)
 {
-    app_config_apply(unit);
-    event_config(&unit->events, &unit->link, now(unit), EBL_EVENT_CONFIG_COMMITTED,
-                 unit->store.generation, unit->store.crc32);
+    if (unit->store.on_trial) {
+        trial_begin(&unit->trial, confirm_s, now(unit));
+        unit->live.active = 0;
+        app_config_apply(unit);
+        event_config_provisional(&unit->events, &unit->link, now(unit), unit->store.generation,
+                                 unit->store.crc32, confirm_s);
+        return;
+    }
+    app_config_changed(unit, EBL_EVENT_CONFIG_COMMITTED);
     if (!faults_clear(&unit->faults, EBL_FAULT_CONFIG_DEFAULTED)) return;
     event_faults_cleared(&unit->events, &unit->link, now(unit), EBL_FAULT_CONFIG_DEFAULTED);
 }
@@ -203,10 +203,10 @@ static void commit(app *unit, const ebl_header *request, reply *answer)
         reply_refuse(answer, status, detail);
         return;
     }
-    if (unit->store.generation != generation_before) committed(unit);
+    if (unit->store.generation != generation_before) committed(unit, asked.confirm_s);
     response.generation = unit->store.generation;
     response.crc32 = unit->store.crc32;
-    response.state = unit->transaction.state;
+    response.state = unit->store.on_trial ? EBL_CONFIG_STATE_PROVISIONAL : unit->transaction.state;
     put = ebl_cfg_commit_response_put(&response, reply_fields(answer), reply_capacity(answer),
                                       &length);
     reply_with(answer, put, length);

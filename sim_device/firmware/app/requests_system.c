@@ -122,6 +122,20 @@ static void stats(app *unit, const ebl_header *request, reply *answer)
     reply_with(answer, put, length);
 }
 
+static void counters_get(app *unit, const ebl_header *request, reply *answer)
+{
+    const counters *learned = &unit->counters;
+    ebl_counters_response response = {learned->distance_m, learned->operating_s,
+                                      learned->saved_distance_m, learned->saved_operating_s};
+    size_t length = 0;
+    int put;
+
+    (void)request;
+    put =
+        ebl_counters_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
+    reply_with(answer, put, length);
+}
+
 static void bye(app *unit, const ebl_header *request, reply *answer)
 {
     (void)request;
@@ -151,6 +165,7 @@ request_handler requests_system(uint16_t message_id)
     case EBL_MSG_SCHEMA_READ: return schema_read;
     case EBL_MSG_STATS: return stats;
     case EBL_MSG_BYE: return bye;
+    case EBL_MSG_COUNTERS: return counters_get;
     case EBL_MSG_EVT_FAULT_LIST: return fault_list_get;
     default: return NULL;
     }

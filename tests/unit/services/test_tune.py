@@ -6,8 +6,10 @@ firmware does the same in tests/simulation.
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
 
 import pytest
 
@@ -32,6 +34,7 @@ from tests.fakes.unit import FakeUnit
 from tests.fakes.unit_link import UnitOpener
 
 URL = "socket://bench:1"
+NOW_S = 1_700_000_000.0
 
 
 @dataclass
@@ -52,7 +55,7 @@ def bench() -> Iterator[Bench]:
     unit, revisions = FakeUnit(), MemoryRevisions()
     devices = Devices(opener=lambda url: UnitOpener(unit, url))
     device = devices.add(URL)
-    yield Bench(unit, Tuning(devices, revisions), revisions, device.id)
+    yield Bench(unit, Tuning(devices, revisions, lambda: NOW_S), revisions, device.id)
     devices.close()
 
 
@@ -153,9 +156,91 @@ def test_a_moving_bike_is_left_alone(bench: Bench) -> None:
     assert bench.held == default_config()
 
 
-def test_a_change_on_trial_is_refused_in_words(bench: Bench) -> None:
-    with pytest.raises(InvalidRequest, match="not supported by the unit's firmware yet"):
-        bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, confirm_s=10)
+def test_a_change_on_trial_is_proven_and_says_until_when(bench: Bench) -> None:
+    change = bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, "try", confirm_s=60)
+
+    assert (change.state, change.verified, change.generation) == ("provisional", True, 8)
+    assert change.expires_at is not None
+    left_s = (change.expires_at - datetime.fromtimestamp(NOW_S, UTC)).total_seconds()
+    assert 50.0 < left_s <= 60.0
+    assert bench.tuning.revisions(bench.id)[0].state == "provisional"
+
+
+def test_a_kept_trial_stays_and_is_remembered_with_its_reason(bench: Bench) -> None:
+    bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, "try", confirm_s=60)
+
+    kept = bench.tuning.confirm_config(bench.id)
+
+    assert (kept.state, kept.verified, kept.generation) == ("committed", True, 8)
+    bench.unit.advance(61.0)
+    assert bench.held["pedal_stop_ms"] == 200
+    newest = bench.tuning.revisions(bench.id)[0]
+    assert (newest.state, newest.reason) == ("verified", "Kept after its trial: try")
+
+
+def test_a_trial_that_is_given_up_brings_back_what_was_there(bench: Bench) -> None:
+    bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, confirm_s=60)
+
+    back = bench.tuning.rollback_config(bench.id)
+
+    assert bench.held == default_config()
+    assert [(one.name, one.old, one.new) for one in back.changed] == [("pedal_stop_ms", 200, 150)]
+    assert bench.tuning.revisions(bench.id)[0].reason.startswith("Returned to")
+
+
+def test_nothing_is_kept_that_reads_back_different_from_what_was_meant(bench: Bench) -> None:
+    bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, confirm_s=60)
+    crc32 = zlib.crc32(bench.unit.image)
+    log = bench.revisions.kept[bench.id]
+    log[-1] = replace(log[-1], parameters=default_config() | {"pedal_stop_ms": 201})
+    assert log[-1].crc32 == crc32
+
+    with pytest.raises(PeerProtocolError, match="pedal_stop_ms should be 201"):
+        bench.tuning.confirm_config(bench.id)
+
+    assert MessageId.CFG_CONFIRM not in bench.unit.executed
+
+
+def test_a_trial_of_another_tool_is_not_kept_unseen(bench: Bench) -> None:
+    bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, confirm_s=60)
+    bench.revisions.kept.clear()
+
+    with pytest.raises(Conflict) as caught:
+        bench.tuning.confirm_config(bench.id)
+
+    assert caught.value.code == "unknown_trial"
+
+
+@pytest.mark.parametrize("ending", ["confirm_config", "rollback_config"])
+def test_without_a_trial_there_is_nothing_to_end(bench: Bench, ending: str) -> None:
+    with pytest.raises(Conflict) as caught:
+        getattr(bench.tuning, ending)(bench.id)
+
+    assert caught.value.code == "no_trial"
+
+
+def test_a_trial_that_ran_out_is_noted_as_given_up_before_the_next_change(bench: Bench) -> None:
+    bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, confirm_s=60)
+    bench.unit.give_up_trial()
+
+    bench.tuning.write_config(bench.id, {"pedal_stop_ms": 300})
+
+    reasons = [revision.reason for revision in bench.tuning.revisions(bench.id)]
+    assert "not confirmed" in reasons[1]
+
+
+def test_a_commit_too_soon_waits_as_long_as_the_unit_says(bench: Bench) -> None:
+    bench.unit.commits_too_soon = 1
+
+    change = bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200})
+
+    assert change.verified
+    assert bench.unit.executed.count(MessageId.CFG_COMMIT) == 2
+
+
+def test_a_time_no_unit_can_count_is_refused(bench: Bench) -> None:
+    with pytest.raises(InvalidRequest, match="from 0 to 255"):
+        bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, confirm_s=256)
 
 
 def test_a_silent_unit_is_no_answer_and_unchanged(bench: Bench) -> None:

@@ -234,16 +234,21 @@ def test_a_commit_of_something_else_than_the_host_believes_is_refused(unit: Benc
     assert (response.status, response.detail) == (Status.CRC_MISMATCH, crc32(staged) & 0xFFFF)
 
 
-@pytest.mark.parametrize("provisional", [(1, 0), (0, 10)])
-def test_a_provisional_commit_is_not_pretended(
-    unit: BenchUnit, provisional: tuple[int, int]
+@pytest.mark.parametrize(
+    ("flags", "confirm_s", "status"),
+    [(1, 0, Status.RANGE), (0, 10, Status.RANGE), (2, 0, Status.UNSUPPORTED)],
+)
+def test_a_commit_that_contradicts_itself_is_refused(
+    unit: BenchUnit, flags: int, confirm_s: int, status: Status
 ) -> None:
+    active = unit.read_image()
     transaction = unit.begin()
     staged = unit.stage(transaction, CHANGES)
 
-    response = unit.ask(CfgCommitRequest(transaction, crc32(staged), *provisional))
+    response = unit.ask(CfgCommitRequest(transaction, crc32(staged), flags, confirm_s))
 
-    assert response.status == Status.UNSUPPORTED
+    assert response.status == status
+    assert unit.read_image() == active
 
 
 @pytest.mark.parametrize(

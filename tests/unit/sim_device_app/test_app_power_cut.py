@@ -10,16 +10,16 @@ import pytest
 from sim_device.firmware.python._native import lib
 
 from firmware_protocol import parameters
-from firmware_protocol._generated import Event, Status
-from tests.fakes.bench_unit import FLASH_BLOCK_BYTES, BenchUnit
+from firmware_protocol._generated import CfgConfirmRequest, CfgRollbackRequest, Event, Status
+from tests.fakes.bench_unit import FLASH_BLOCK_BYTES, BenchUnit, crc32
 
 OLD_CUTOFF_KMH = 21.0
 NEW_CUTOFF_KMH = 19.0
 BLOCK_BYTES = 512
 """Small blocks: fewer dull steps of erasing."""
 
-AT_CONFIRMED, AT_VOID = 24, 28
-BIT_OF_MAGIC, BIT_OF_GENERATION, BIT_OF_IMAGE = 0, 16 * 8, (32 + 100) * 8
+AT_CONFIRMED, AT_VOID, WORD_BYTES = 28, 32, 4
+BIT_OF_MAGIC, BIT_OF_GENERATION, BIT_OF_IMAGE = 0, 12 * 8, (36 + 100) * 8
 
 
 def commit_with_power_for(unit: BenchUnit, steps: int) -> Status | int:
@@ -61,6 +61,78 @@ def test_power_lost_after_any_byte_leaves_the_old_or_the_new_configuration(
     assert booted[-1] == new
     assert booted == sorted(booted, key=lambda image: image[0])
     assert steps > BLOCK_BYTES + len(new[1])
+
+
+@pytest.mark.parametrize("commits_before", [0, 1, 2])
+def test_power_lost_anywhere_in_a_trial_brings_back_the_old_configuration(
+    commits_before: int,
+) -> None:
+    unit = BenchUnit(flash_block_bytes=BLOCK_BYTES, flash_bytes=2 * BLOCK_BYTES)
+    for i in range(commits_before):
+        unit.write({"assist_cutoff_kmh": OLD_CUTOFF_KMH - i})
+    old = unit.read_image()
+    flash_before = unit.flash().copy()
+    steps = 0
+
+    while True:
+        unit.flash()[:] = flash_before
+        unit.boot()
+        lib.bench_flash_cut_after(unit.board, steps)
+        status = unit.write({"assist_cutoff_kmh": NEW_CUTOFF_KMH}, confirm_s=30).status
+
+        # Twice: the first start writes a word of its own where it finds a trial.
+        for _ in range(2):
+            unit.boot()
+            assert unit.read_image() == old
+            assert Event.CONFIG_DEFAULTED not in [event.code for event in unit.events]
+        if status == Status.OK:
+            break
+        assert status == Status.FLASH_FAIL
+        steps += 1
+
+    assert steps > BLOCK_BYTES + len(old[1])
+
+
+@pytest.mark.parametrize("ending", [CfgConfirmRequest, CfgRollbackRequest])
+def test_power_lost_anywhere_in_the_end_of_a_trial_leaves_the_old_or_the_new(
+    ending: type[CfgConfirmRequest | CfgRollbackRequest],
+) -> None:
+    unit = BenchUnit(flash_block_bytes=BLOCK_BYTES, flash_bytes=2 * BLOCK_BYTES)
+    old = unit.read_image()
+    new = (old[0] + 1, parameters.pack_image(unit.config() | {"assist_cutoff_kmh": 19.0}))
+    booted = []
+
+    for steps in range(WORD_BYTES + 1):
+        if steps > 0:
+            unit = BenchUnit(flash_block_bytes=BLOCK_BYTES, flash_bytes=2 * BLOCK_BYTES)
+        unit.write({"assist_cutoff_kmh": 19.0}, confirm_s=30)
+        lib.bench_flash_cut_after(unit.board, steps)
+        if ending is CfgConfirmRequest:
+            response = unit.ask(CfgConfirmRequest(new[0], crc32(new[1])))
+            assert response.status == (Status.OK if steps == WORD_BYTES else Status.FLASH_FAIL)
+        else:
+            assert unit.ask(CfgRollbackRequest()).status == Status.OK
+            assert unit.read_image() == old
+        unit.boot()
+        booted.append(unit.read_image())
+        unit.boot()
+        assert unit.read_image() == booted[-1]
+
+    kept = new if ending is CfgConfirmRequest else old
+    assert booted == [old] * WORD_BYTES + [kept]
+
+
+def test_power_lost_while_a_trial_is_taken_back_at_the_start_is_taken_back_at_the_next() -> None:
+    unit = BenchUnit(flash_block_bytes=BLOCK_BYTES, flash_bytes=2 * BLOCK_BYTES)
+    old = unit.read_image()
+    for cut in range(WORD_BYTES + 1):
+        unit.write({"assist_cutoff_kmh": NEW_CUTOFF_KMH}, confirm_s=30)
+        void = slice(BLOCK_BYTES + AT_VOID, BLOCK_BYTES + AT_VOID + cut)
+        unit.flash()[void] = 0
+
+        unit.boot()
+
+        assert unit.read_image() == old
 
 
 def test_a_commit_that_failed_can_be_repeated_when_the_flash_works_again() -> None:

@@ -1,0 +1,101 @@
+"""A configuration on trial, from the host's side: where it stands, keeping it, giving it up.
+
+It is kept only after it was read back whole and every field compared with what was meant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from backend.device.config_transaction import ConfigImage, compare, read_config
+from backend.device.operation import Operation, ask, attempt, expect
+from backend.errors import Conflict
+from firmware_protocol._generated import (
+    MTU,
+    CfgConfirmRequest,
+    CfgConfirmResponse,
+    CfgRollbackRequest,
+    CfgRollbackResponse,
+    CfgStatusRequest,
+    CfgStatusResponse,
+    ConfigState,
+    RollbackCause,
+    Status,
+)
+from firmware_protocol.layout import Value
+
+NO_TRIAL = (
+    "No change is on trial in this unit: it was kept, given up or its time ran out. Read the "
+    "configuration again to see what is active."
+)
+
+
+@dataclass(frozen=True)
+class TrialStatus:
+    """Where the active configuration stands.
+
+    left_s: until it is given up, 0 when it is not on trial. rollback_cause: why the latest trial
+    since the unit was switched on was given up: none, asked, time_out or restart.
+    """
+
+    on_trial: bool
+    generation: int
+    crc32: int
+    left_s: float
+    rollback_cause: str
+    rolled_back_generation: int
+
+
+def trial_status() -> Operation[TrialStatus]:
+    """Ask the unit. Raises NoAnswer, DeviceRefused."""
+    status = yield from ask(CfgStatusRequest(), CfgStatusResponse)
+    return trial_status_of(status)
+
+
+def trial_status_of(status: CfgStatusResponse) -> TrialStatus:
+    """The unit's answer in our words."""
+    known = status.rollback_cause in set(RollbackCause)
+    return TrialStatus(
+        on_trial=status.state == ConfigState.PROVISIONAL,
+        generation=status.generation,
+        crc32=status.crc32,
+        left_s=status.confirm_left_ms / 1000.0,
+        rollback_cause=RollbackCause(status.rollback_cause).name.lower() if known else "unknown",
+        rolled_back_generation=status.rolled_back_generation,
+    )
+
+
+def confirm_config(intended: Mapping[str, Value], mtu: int = MTU) -> Operation[ConfigImage]:
+    """Read back what is on trial, compare every field with `intended`, keep it, and look again.
+
+    Raises Conflict when nothing is on trial (any more), PeerProtocolError naming each field that
+    differs, with the trial still running out, NoAnswer, DeviceRefused.
+    """
+    status = yield from trial_status()
+    if not status.on_trial:
+        raise Conflict(NO_TRIAL, "no_trial")
+    found = yield from read_config(mtu)
+    compare(intended, found.parameters)
+    request = CfgConfirmRequest(found.generation, found.crc32)
+    response = yield from attempt(request)
+    if response.status in (Status.STALE_BASE, Status.CRC_MISMATCH):
+        raise Conflict(NO_TRIAL, "no_trial")
+    expect(request, response, CfgConfirmResponse)
+    status = yield from trial_status()
+    if (status.generation, status.crc32) != (found.generation, found.crc32) or status.on_trial:
+        raise Conflict(
+            "The unit did not keep the change: its time ran out meanwhile. Write it again.",
+            "no_trial",
+        )
+    return found
+
+
+def rollback_config(mtu: int = MTU) -> Operation[ConfigImage]:
+    """Give up what is on trial; what is active then, read back. Raises Conflict without a trial."""
+    request = CfgRollbackRequest()
+    response = yield from attempt(request)
+    if response.status == Status.STATE:
+        raise Conflict(NO_TRIAL, "no_trial")
+    expect(request, response, CfgRollbackResponse)
+    return (yield from read_config(mtu))

@@ -1,0 +1,39 @@
+/* What the unit learns of itself while it is used: distance and operating time.
+ *
+ * Kept in a log of its own behind the configuration's slots and outside its CRC: two areas of whole
+ * blocks, records of 16 bytes one after the other (sequence u32, distance u32, operating time u32,
+ * CRC-32 of the three). The newest whole record counts, so a power cut costs what was counted since
+ * the one before. An area is erased when the other is full, and only at a standstill. */
+#ifndef SPINDLE_COUNTERS_H
+#define SPINDLE_COUNTERS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "hal.h" // hal
+
+typedef struct {
+    uint32_t distance_m;
+    uint32_t operating_s;
+    float distance_rest_m; /* below a metre */
+    uint8_t steps;         /* of the second that has begun */
+    float speed_kmh;       /* the latest */
+    uint32_t saved_distance_m;
+    uint32_t saved_operating_s;
+    uint32_t sequence; /* of the newest record */
+    size_t address;    /* of the first area; both end at the flash's end or earlier */
+    size_t area_bytes; /* 0: no flash is left for counters */
+    size_t next;       /* place of the next record, counted through both areas */
+    uint64_t save_due_us;
+} counters;
+
+/* Reads the newest record. The log begins at `address`. */
+void counters_boot(counters *state, const hal *board, size_t address);
+
+/* One control step at this speed; what is no speed counts as no distance. */
+void counters_step(counters *state, float speed_kmh);
+
+/* Saves once a minute, if anything changed. */
+void counters_poll(counters *state, const hal *board, uint64_t now_us);
+
+#endif

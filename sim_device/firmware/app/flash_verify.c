@@ -1,0 +1,41 @@
+#include "flash_verify.h"
+
+#include <string.h>
+
+#include "config_store.h" // CONFIG_STORE_OK
+
+#define PIECE_BYTES 32 /* so that the stack stays small */
+#define BYTE_ERASED 0xFF
+
+int flash_program_verified(const hal *board, size_t address, const uint8_t *bytes, size_t length)
+{
+    uint8_t piece[PIECE_BYTES];
+
+    if (board->flash_program(board->context, address, bytes, length) < 0) {
+        return CONFIG_STORE_FLASH_FAIL;
+    }
+    for (size_t at = 0; at < length; at += sizeof piece) {
+        size_t count = length - at < sizeof piece ? length - at : sizeof piece;
+
+        if (board->flash_read(board->context, address + at, piece, count) < 0) {
+            return CONFIG_STORE_FLASH_FAIL;
+        }
+        if (memcmp(piece, bytes + at, count) != 0) return CONFIG_STORE_VERIFY_FAIL;
+    }
+    return CONFIG_STORE_OK;
+}
+
+int flash_is_blank(const hal *board, size_t address, size_t length)
+{
+    uint8_t piece[PIECE_BYTES];
+
+    for (size_t at = 0; at < length; at += sizeof piece) {
+        size_t count = length - at < sizeof piece ? length - at : sizeof piece;
+
+        if (board->flash_read(board->context, address + at, piece, count) < 0) return 0;
+        for (size_t i = 0; i < count; i++) {
+            if (piece[i] != BYTE_ERASED) return 0;
+        }
+    }
+    return 1;
+}

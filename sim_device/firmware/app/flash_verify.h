@@ -1,0 +1,16 @@
+/* Flash that is believed only after it was read back. */
+#ifndef SPINDLE_FLASH_VERIFY_H
+#define SPINDLE_FLASH_VERIFY_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "hal.h" // hal
+
+/* CONFIG_STORE_OK, CONFIG_STORE_FLASH_FAIL or CONFIG_STORE_VERIFY_FAIL. */
+int flash_program_verified(const hal *board, size_t address, const uint8_t *bytes, size_t length);
+
+/* True if every byte reads as erased. */
+int flash_is_blank(const hal *board, size_t address, size_t length);
+
+#endif
