@@ -1,0 +1,112 @@
+"""Builds and runs the libFuzzer harnesses of this folder.
+
+They need clang with libFuzzer and its sanitizers; on Debian and Ubuntu that is
+`apt-get install clang libclang-rt-14-dev` (the number is clang's). Nothing else here needs clang.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+HERE = Path(__file__).resolve().parent
+TARGETS = ("receive", "unit", "flash")
+INCLUDES = (
+    "firmware_protocol/c",
+    "sim_device/firmware/control",
+    "sim_device/firmware/app",
+    "sim_device/firmware/hal",
+    "sim_device/firmware/boards/host",
+    "sim_device/physics",
+)
+SOURCE_FOLDERS = ("firmware_protocol/c", "sim_device/firmware/app", "sim_device/firmware/control")
+BOARD = ("bench_board.c", "log_flash.c")
+COMPILERS = ("clang", *(f"clang-{version}" for version in range(22, 12, -1)))
+OPTIONS = (
+    "-std=c99",
+    "-g",
+    "-O1",
+    "-ffp-contract=off",
+    "-fsanitize=fuzzer,address,undefined",
+    "-fno-sanitize-recover=all",
+)
+EMPTY = "int LLVMFuzzerTestOneInput(const char *d, unsigned long n);\n"
+EMPTY += "int LLVMFuzzerTestOneInput(const char *d, unsigned long n) { return !d && n; }\n"
+LENGTH_MAX = 4096
+
+
+def compiler(folder: Path) -> str | None:
+    """A clang that can build fuzzers, tried on an empty one in `folder`; None where there is none."""
+    probe = folder / "probe.c"
+    probe.write_text(EMPTY)
+    for name in COMPILERS:
+        if shutil.which(name) is None:
+            continue
+        command = [name, *OPTIONS, str(probe), "-o", str(folder / "probe")]
+        if subprocess.run(command, capture_output=True, check=False).returncode == 0:
+            return name
+    return None
+
+
+def build(name: str, target: str, folder: Path) -> Path:
+    """The program of a target."""
+    program = folder / f"fuzz_{target}"
+    sources = [path for part in SOURCE_FOLDERS for path in sorted((ROOT / part).glob("*.c"))]
+    sources += [ROOT / "sim_device/firmware/boards/host" / file for file in BOARD]
+    command = [name, *OPTIONS, *(f"-I{ROOT / part}" for part in INCLUDES)]
+    command += [str(HERE / f"fuzz_{target}.c"), *map(str, sources), "-o", str(program)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise RuntimeError(done.stderr)
+    return program
+
+
+def write_corpus(target: str, folder: Path) -> Path:
+    """The golden vectors as first inputs, in the form the target takes."""
+    corpus = folder / f"corpus_{target}"
+    corpus.mkdir(exist_ok=True)
+    cases = json.loads((ROOT / "firmware_protocol/vectors/messages.json").read_text())["cases"]
+    for index, case in enumerate(cases):
+        frame, wire = bytes.fromhex(case["frame"]), bytes.fromhex(case["wire"])
+        if target == "unit" and len(frame) < 256:
+            (corpus / f"{index:03}").write_bytes(
+                b"\x00" + bytes([len(frame)]) + frame + b"\x02\x08"
+            )
+        elif target == "receive":
+            (corpus / f"{index:03}").write_bytes(b"\x00" + wire)
+    if target == "flash":
+        (corpus / "blank").write_bytes(b"\xff" * 512)
+        (corpus / "forged").write_bytes(bytes(range(1, 65)))
+    return corpus
+
+
+def run(
+    program: Path, corpus: Path, seconds: int, folder: Path
+) -> subprocess.CompletedProcess[str]:
+    """Fuzz for so long; return code 0 means that nothing was found."""
+    return subprocess.run(
+        [
+            str(program),
+            f"-max_total_time={seconds}",
+            f"-max_len={LENGTH_MAX}",
+            "-seed=1",
+            "-print_final_stats=1",
+            f"-artifact_prefix={folder}/",
+            str(corpus),
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=seconds + 120,
+    )
+
+
+def executions(output: str) -> int:
+    """How many inputs a run has tried."""
+    for line in output.splitlines():
+        if line.startswith("stat::number_of_executed_units:"):
+            return int(line.split(":")[-1])
+    return 0

@@ -1,0 +1,65 @@
+"""Goal: no input makes the unit's C break a rule of C, nor the host's Python fail unexpectedly.
+
+Method: coverage-guided fuzzing. Here each target runs for a few seconds from the golden vectors;
+`make fuzz SECONDS=3600` runs them as long as one likes. Without clang's libFuzzer the C targets are
+skipped; the seeded storm of tests/conformance/wire_storm.c runs everywhere.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.fuzz import harness
+
+pytestmark = pytest.mark.slow
+
+SECONDS = 4
+PYTHON_SECONDS = 4
+
+
+@pytest.fixture(scope="module")
+def clang(tmp_path_factory: pytest.TempPathFactory) -> str:
+    found = harness.compiler(tmp_path_factory.mktemp("probe"))
+    if found is None:
+        pytest.skip("no clang with libFuzzer here: apt-get install clang libclang-rt-14-dev")
+    return found
+
+
+@pytest.mark.parametrize("target", harness.TARGETS)
+def test_no_input_found_breaks_the_unit(clang: str, target: str, tmp_path: Path) -> None:
+    program = harness.build(clang, target, tmp_path)
+    corpus = harness.write_corpus(target, tmp_path)
+
+    done = harness.run(program, corpus, SECONDS, tmp_path)
+
+    assert done.returncode == 0, done.stderr[-4000:]
+    assert harness.executions(done.stderr) > 100
+
+
+@pytest.mark.parametrize("target", ["wire", "csv", "fit"])
+def test_no_input_found_breaks_the_host(target: str, tmp_path: Path) -> None:
+    pytest.importorskip("atheris", reason="atheris has no wheel for this machine")
+
+    done = subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "tests.fuzz.host",
+            target,
+            f"-max_total_time={PYTHON_SECONDS}",
+            "-seed=1",
+            f"-artifact_prefix={tmp_path}/",
+        ],
+        cwd=harness.ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=PYTHON_SECONDS + 120,
+    )
+
+    assert done.returncode == 0, done.stderr[-4000:]
+    assert "Done " in done.stderr
