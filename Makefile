@@ -38,6 +38,10 @@ test-fast: $(STAMP)/native ## unit and conformance tests without the slow ones
 simulate: $(STAMP)/native ## the story of one seed of the simulated link: make simulate SEED=123
 	$(BIN)/python -m tests.simulation $(or $(SEED),1) $(SEEDS)
 
+.PHONY: fuzz
+fuzz: $(STAMP)/native ## every fuzzer for SECONDS each, 60 unless told; C needs clang (libFuzzer)
+	$(BIN)/python -m tests.fuzz $(or $(SECONDS),60)
+
 .PHONY: lint
 lint: $(STAMP)/native $(STAMP)/web-modules ## all static checks, Python, C and browser
 	$(BIN)/ruff format --check .
