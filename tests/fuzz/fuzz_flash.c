@@ -1,8 +1,8 @@
 /* libFuzzer on what a boot reads: the configuration's slots and the blocks of ride logs.
  *
- * The input lies in both flashes. Where the first byte is odd the slots' check values are made good,
+ * The input lies in both flashes. Where its first byte is odd the slot's check value is made good,
  * because behind a CRC the interesting mistakes begin. Whatever lies there: the unit boots, runs,
- * and its configuration breaks no rule. */
+ * and the configuration it reports breaks no rule. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,8 +1,8 @@
 /* libFuzzer on the whole unit: dispatcher, transaction, streams, logs, law, flash.
  *
  * The input is a script: an operation byte, then what it needs. Frames get their check value here,
- * because no fuzzer guesses a CRC; raw bytes go as they are. What must hold: the motor's demand is a
- * number within the absolute limit, and the active configuration breaks no rule. */
+ * because no fuzzer guesses a CRC; raw bytes go as they are. What must hold: the motor's demand
+ * is a number within reason, and nothing is read or written where it may not be. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

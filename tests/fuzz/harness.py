@@ -11,6 +11,8 @@ import shutil
 import subprocess
 from pathlib import Path
 
+from firmware_protocol.framing import encode_frame
+
 ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).resolve().parent
 TARGETS = ("receive", "unit", "flash")
@@ -39,7 +41,7 @@ LENGTH_MAX = 4096
 
 
 def compiler(folder: Path) -> str | None:
-    """A clang that can build fuzzers, tried on an empty one in `folder`; None where there is none."""
+    """A clang that can build fuzzers, tried on an empty one in `folder`, or None."""
     probe = folder / "probe.c"
     probe.write_text(EMPTY)
     for name in COMPILERS:
@@ -70,7 +72,8 @@ def write_corpus(target: str, folder: Path) -> Path:
     corpus.mkdir(exist_ok=True)
     cases = json.loads((ROOT / "firmware_protocol/vectors/messages.json").read_text())["cases"]
     for index, case in enumerate(cases):
-        frame, wire = bytes.fromhex(case["frame"]), bytes.fromhex(case["wire"])
+        frame = bytes.fromhex(case["frame"])
+        wire = encode_frame(frame)
         if target == "unit" and len(frame) < 256:
             (corpus / f"{index:03}").write_bytes(
                 b"\x00" + bytes([len(frame)]) + frame + b"\x02\x08"

@@ -14,7 +14,7 @@ void parameters_to_assist(const ebl_config *config, assist_config *assist);
 /* The factory default as an image. */
 void parameters_default_image(uint8_t *image);
 
-/* Tells images apart whose bytes mean different parameters. A slot of another layout is not read. */
+/* Tells images apart whose bytes mean other parameters: a slot of another layout is not read. */
 uint32_t parameters_layout_crc32(void);
 
 /* True if every value is within its range and the law accepts the whole. */
