@@ -1,7 +1,9 @@
 """What a ride costs: on disk, to close, and to look at."""
 
+import sqlite3
 import tempfile
 import time
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -43,6 +45,7 @@ def measure(store: Store, root: Path) -> list[Figure]:
     finish_s = time.perf_counter() - start
     stored = sum(path.stat().st_size for path in (root / "objects").rglob("*") if path.is_file())
     per_row = stored / SAMPLES
+    overview_per_row = overview_bytes(root / "spindle.db") / SAMPLES
 
     reader = store.rides.reader(ride_id)
     names = [channel.name for channel in channels]
@@ -57,6 +60,8 @@ def measure(store: Store, root: Path) -> list[Figure]:
         Figure("bytes a row on disk, 12 channels", f"{per_row:.2f}", "<= 6.5", per_row <= 6.5,
                f"CSV {csv:.1f} ({csv / per_row:.0f} times), FIT {FIT_BYTES_PER_ROW:.0f} "
                f"({FIT_BYTES_PER_ROW / per_row:.0f} times; figure from the format study)"),
+        Figure("bytes a row of its overview, kept beside it in SQL", f"{overview_per_row:.2f}", "",
+               None, f"together {per_row + overview_per_row:.2f}"),
         Figure("2000 points of 12 channels x 720,000 samples, warm", f"{whole_ms:.2f} ms",
                "<= 5 ms, every extreme kept", whole_ms <= 5 and kept,
                f"one-sample spike of 95 Nm kept: {'yes' if kept else 'no'}"),
@@ -65,6 +70,11 @@ def measure(store: Store, root: Path) -> list[Figure]:
         Figure("recording it: a commit a second", f"{1e3 * tail_s * HZ / SAMPLES:.2f} ms each",
                "", None, f"{SAMPLES / HZ / tail_s:,.0f} units could be recorded at once"),
     ]  # fmt: skip
+
+
+def overview_bytes(database: Path) -> int:
+    with closing(sqlite3.connect(database)) as connection:
+        return int(connection.execute("SELECT sum(length(payload)) FROM ride_lod").fetchone()[0])
 
 
 def counts() -> tuple[list[ChannelSpec], np.ndarray]:
