@@ -16,6 +16,7 @@ from concurrent.futures import Future
 from concurrent.futures import TimeoutError as FutureTimeout
 from typing import Protocol, TypeVar
 
+from backend.device.log_download import LogReceiver
 from backend.device.operation import Operation
 from backend.device.session import Session
 from backend.device.snapshot import DeviceStatus, status_of
@@ -112,6 +113,11 @@ class Driver:
         """Where the device stands now; callable from any thread."""
         with self._lock:
             return status_of(self._session)
+
+    def receive_log(self, receiver: LogReceiver | None) -> None:
+        """Give a ride log's frames to `receiver` from now on; None for nobody."""
+        with self._lock:
+            self._session.receive_log(receiver)
 
     def run(self, operation: Operation[Result], timeout_s: float) -> Result:
         """Run an operation and wait for its result; for any thread but the driver's own.

@@ -19,6 +19,7 @@ from enum import Enum, auto
 from typing import TypeVar
 
 from backend.device.handshake import Acquaintance, VersionRefused, become_acquainted
+from backend.device.log_download import LogReceiver
 from backend.device.operation import Operation, attempt
 from backend.device.reasons import (
     deaf_reason,
@@ -45,6 +46,7 @@ from firmware_protocol._generated import (
     Status,
 )
 from firmware_protocol.codec import (
+    Bulk,
     Event,
     Malformed,
     Reason,
@@ -67,6 +69,8 @@ REFUSED_PAUSE_S = 5.0
 # A caller that stops reading must not make the session grow: 1000 blocks are 50 s at 100 Hz.
 EVENTS_MAX = 1000
 BYE_TID = 255
+# Of a request that wants no answer.
+NO_TID = 0
 # Rows that come prove only one direction: after two renewals without an answer (5 s) we are not
 # heard.
 RENEWALS_UNANSWERED_MAX = 2
@@ -102,6 +106,7 @@ class Session:
         self._subscription = Subscription(self._statistics)
         self._requests = RequestTable(self._statistics)
         self._runner = OperationRunner(self._requests)
+        self._log: LogReceiver | None = None
         self._decoder = FrameDecoder(MTU)
         self._bad_before = 0
         self._events: deque[DeviceEvent] = deque()
@@ -133,6 +138,7 @@ class Session:
         stats = self._decoder.stats
         bad = stats.crc_errors + stats.cobs_errors + stats.overflows
         self._statistics.frames_bad = self._bad_before + bad
+        self._acknowledge_log()
         self._out += self._requests.frames_due(now_s)
 
     def tick(self, now_s: float) -> None:
@@ -142,6 +148,7 @@ class Session:
             self._greet()
         elif self._phase is _Phase.UP:
             self._keep_up()
+        self._acknowledge_log()
         self._out += self._requests.frames_due(now_s)
 
     def bytes_to_send(self) -> bytes:
@@ -205,10 +212,16 @@ class Session:
             return
         self._runner.start(operation, on_result, on_error)
 
+    def receive_log(self, receiver: LogReceiver | None) -> None:
+        """Give a ride log's frames to `receiver` from now on; None for nobody."""
+        self._log = receiver
+        if receiver is not None and self._phase is not _Phase.UP:
+            self._end_log(self.reason)
+
     @property
     def is_busy(self) -> bool:
-        """Whether answers are awaited, so that reading soon pays."""
-        return not self._requests.is_idle
+        """Whether answers or a log are awaited, so that reading soon pays."""
+        return self._log is not None or not self._requests.is_idle
 
     @property
     def mtu(self) -> int:
@@ -248,6 +261,9 @@ class Session:
                 self._greet_again(restarted_reason())
         elif isinstance(message, Event):
             self._unit_event(message)
+        elif isinstance(message, Bulk):
+            if self._log is not None:
+                self._log.take(message, self._now_s)
         else:
             self._statistics.frames_malformed += 1
             other_major = isinstance(message, Malformed) and message.reason is Reason.VERSION
@@ -363,9 +379,21 @@ class Session:
         """End the stream and fail everything that waits for the unit."""
         self._subscription.end()
         self.last_block = None
+        self._end_log(error.message)
         self._requests.shut(error)
         self._stream_due_s = None
         self._renewals_unanswered = 0
+
+    def _acknowledge_log(self) -> None:
+        """Acknowledgements are not answered: the next one says everything again."""
+        acknowledgement = self._log.acknowledgement(self._now_s) if self._log else None
+        if acknowledgement is not None:
+            self._out += encode_frame(encode(Request(NO_TID, acknowledgement)))
+
+    def _end_log(self, reason: str) -> None:
+        if self._log is not None:
+            self._log.break_off(reason)
+            self._log = None
 
     def _absent(self) -> LinkState:
         return LinkState.CONNECTING if self.acquaintance is None else LinkState.LOST

@@ -84,7 +84,11 @@ class RideSummary:
 
 @dataclass(frozen=True, slots=True)
 class RideContext:
-    """What was true of the bike while the ride was made; None where nobody knows."""
+    """What was true of the bike while the ride was made; None where nobody knows.
+
+    boot_id, unit_t0_us: which start of the unit, and its clock at the ride's first row: together
+    with the serial number they tell one ride from every other, whichever way it came.
+    """
 
     device_id: str | None = None
     device_serial: str | None = None
@@ -93,6 +97,8 @@ class RideContext:
     config_generation: int | None = None
     config_crc32: int | None = None
     gear_ratio: float | None = None
+    boot_id: int | None = None
+    unit_t0_us: int | None = None
 
 
 @dataclass(frozen=True)

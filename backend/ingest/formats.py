@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from backend.ingest.blocks import BLOCKS_SUFFIX, looks_like_blocks
 from backend.ingest.csv_rows import looks_like_rows, read_csv
 from backend.ingest.fit import HEADER_SIZES, MAGIC, read_fit
 from backend.ingest.outcome import Outcome, rejected
+from backend.ingest.ride_logs import read_blocks
 
 SNIFFED_BYTES = 4096
 
@@ -33,7 +35,7 @@ MARKUP: tuple[tuple[bytes, str], ...] = (
     (b"<html", "an HTML page: perhaps an error page saved instead of the file"),
     (b"<?xml", "an XML document"),
 )
-ADVICE = "Spindle reads FIT and CSV; export the ride as one of these."
+ADVICE = "Spindle reads FIT, CSV and its units' own logs; export the ride as one of these."
 
 Reader = Callable[[bytes, bool], Outcome]
 
@@ -63,6 +65,8 @@ def reader_for(name: str, data: bytes) -> Reader | None:
     if data[8:12] == MAGIC:
         return read_fit
     head = data[:SNIFFED_BYTES]
+    if looks_like_blocks(head) or name.lower().endswith(BLOCKS_SUFFIX):
+        return read_blocks
     if known_kind(data) is None:
         if looks_like_rows(head):
             return read_csv

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from backend.domain.ride import RideRows
+from backend.domain.ride import RideContext, RideRows
 
 COMPLETE = "complete"
 PARTIAL = "partial"
@@ -21,13 +21,18 @@ REJECTED = "rejected"
 
 @dataclass(frozen=True)
 class ImportedRide:
-    """One ride of a file. started_us: Unix time of its first row. notes: what was put right."""
+    """One ride of a file. started_us: Unix time of its first row. notes: what was put right.
+
+    context: what the file knows of the bike. start_known: False where `started_us` means nothing.
+    """
 
     started_us: int
     period_us: int | None
     rows: RideRows
     sport: str | None = None
     notes: tuple[str, ...] = ()
+    context: RideContext = RideContext()  # noqa: RUF009 - frozen
+    start_known: bool = True
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from backend.domain.channels import Counts, channel_from_json
-from backend.domain.ride import RideRows
+from backend.domain.ride import RideContext, RideRows
 from backend.ingest.outcome import REJECTED, ImportedRide, Outcome, rejected
 from backend.ingest.worker import CPU_S, DATA_BYTES, OUT_OF_MEMORY
 
@@ -115,5 +115,7 @@ def decode_ride(entry: dict[str, Any], answer: bytes, at: int) -> tuple[Imported
         rows=RideRows(channels, times_us, counts),
         sport=entry["sport"],
         notes=tuple(str(note) for note in entry["notes"]),
+        context=RideContext(**entry["context"]),
+        start_known=bool(entry["start_known"]),
     )
     return ride, at

@@ -53,6 +53,8 @@ def encode(outcome: Outcome) -> bytes:
                 "period_us": ride.period_us,
                 "sport": ride.sport,
                 "notes": ride.notes,
+                "context": asdict(ride.context),
+                "start_known": ride.start_known,
                 "rows": len(ride.rows.times_us),
                 "channels": [channel_to_json(channel) for channel in ride.rows.channels],
             }

@@ -16,6 +16,7 @@ from typing import Any, TypeVar
 from backend.device.driver import Driver, LinkOpener
 from backend.device.faults import fault_description
 from backend.device.live_values import LiveValues, ask_values, last_values
+from backend.device.log_download import LogReceiver
 from backend.device.operation import Operation
 from backend.device.ports import Opener, PortInfo, kind_of, list_ports
 from backend.device.simulation import simulation_get, simulation_set
@@ -197,6 +198,10 @@ class Devices:
     ) -> Result:
         """Run an operation on the unit. Raises NotFound, NoAnswer and what the operation raises."""
         return self._find(device_id).driver.run(operation, timeout_s)
+
+    def receive_log(self, device_id: str, receiver: LogReceiver | None) -> None:
+        """Give a ride log's frames to `receiver` from now on; None for nobody. Raises NotFound."""
+        self._find(device_id).driver.receive_log(receiver)
 
     def wait_connected(self, device_id: str, timeout_s: float) -> bool:
         """Wait until the unit can be asked; False when it cannot after `timeout_s`."""

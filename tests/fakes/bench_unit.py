@@ -32,7 +32,7 @@ FLASH_BYTES = 8 * FLASH_BLOCK_BYTES
 
 
 class BenchUnit:
-    """One unit. `events` and `streams` gather what it says without being asked."""
+    """One unit. `events`, `streams` and `bulks` gather what it says without being asked."""
 
     def __init__(
         self,
@@ -50,6 +50,7 @@ class BenchUnit:
         self._decoder = framing.FrameDecoder()
         self.events: list[codec.Event] = []
         self.streams: list[codec.Stream] = []
+        self.bulks: list[codec.Bulk] = []
         self.boot()
 
     def boot(self) -> None:
@@ -58,6 +59,7 @@ class BenchUnit:
         self._decoder = framing.FrameDecoder()
         self.events.clear()
         self.streams.clear()
+        self.bulks.clear()
         lib.bench_boot(self.board, self._boot_id)
         self.hear()
 
@@ -84,6 +86,8 @@ class BenchUnit:
                 self.events.append(decoded)
             elif isinstance(decoded, codec.Stream):
                 self.streams.append(decoded)
+            elif isinstance(decoded, codec.Bulk):
+                self.bulks.append(decoded)
             elif isinstance(decoded, codec.Response):
                 responses.append(decoded)
             else:

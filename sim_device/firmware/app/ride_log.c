@@ -78,18 +78,37 @@ void ride_log_event_add(ride_log *log, uint8_t code, uint16_t flags, uint64_t no
 
 /* ---------------------------------------------------------------- room in flash */
 
-/* Only a log that waits for room lets an older one go. */
-static void spare_begin(ride_log *log, const hal *board, int needed)
+/* The block for what comes next, of an older log if there is no other. A log's blocks follow each
+ * other once around the ring: where that cannot go on it is closed, and the next one begins. */
+static uint16_t spare_choose(ride_log *log)
 {
-    uint16_t block = ride_log_store_free_block(&log->store);
-    int no_place =
-        log->state == STARTING && ride_log_store_free_place(&log->store) == RIDE_LOG_NONE;
+    int starting = log->state == STARTING;
+    uint16_t limit = starting ? RIDE_LOG_NO_BLOCK : log->store.logs[log->place].first_block;
+    uint16_t block = ride_log_store_free_block(&log->store, limit);
 
-    if (block == RIDE_LOG_NO_BLOCK || no_place) {
-        if (!needed) return;
-        log->victim = ride_log_store_victim(&log->store);
-        if (log->victim == RIDE_LOG_NONE) return;
+    if (starting && ride_log_store_free_place(&log->store) == RIDE_LOG_NONE) {
+        block = RIDE_LOG_NO_BLOCK;
+    }
+    if (block != RIDE_LOG_NO_BLOCK) return block;
+    log->victim = ride_log_store_victim(&log->store);
+    if (log->victim != RIDE_LOG_NONE) {
         block = log->store.logs[log->victim].first_block;
+        if (starting || ride_log_store_is_before(&log->store, block, limit)) return block;
+    }
+    log->victim = RIDE_LOG_NONE;
+    return RIDE_LOG_NO_BLOCK;
+}
+
+static void spare_begin(ride_log *log, const hal *board)
+{
+    uint16_t block = spare_choose(log);
+
+    if (block == RIDE_LOG_NO_BLOCK) {
+        if (log->state == STARTING) return;
+        log->state = CLOSING;
+        log->reason = REASON_FULL;
+        log->no_room = 1;
+        return;
     }
     log->spare = block;
     if (board->log_erase(board->log_context, (size_t)block * board->log_block_size) < 0) {
@@ -155,6 +174,7 @@ static void log_end(ride_log *log, event_log *events, unit_link *link, uint64_t 
     event_log_closed(events, link, now_us, entry->id, entry->generation,
                      ride_log_store_length(&log->store, log->place));
     log->place = RIDE_LOG_NONE;
+    log->no_room = 0;
     log->state = IDLE;
     log->filling.rows = 0;
     log->full.rows = 0;
@@ -195,6 +215,7 @@ static int block_choose(ride_log *log, const config_store *config, const hal *bo
                (log->state == CLOSING && log->filling.rows > 0)) {
         rows_put(log, &log->filling, header);
     } else if (log->state == CLOSING) {
+        header->t0_us = log->store.logs[log->place].t1_us;
         ride_log_end_put(payload, log->rows_written, log->rows_lost, log->reason, header);
     } else {
         return 0;
@@ -260,7 +281,11 @@ static void log_write(ride_log *log, const hal *board, const config_store *confi
         log->repeat_us = now_us + REPEAT_US;
     }
     repeat_check(log, config, now_us);
-    if (log->seq % log->store.pages_per_block == 0 && log->spare_state != SPARE_READY) return;
+    if (log->seq % log->store.pages_per_block == 0 && log->spare_state != SPARE_READY) {
+        /* What is left, its END included, has no place any more. */
+        if (log->no_room) log_end(log, events, link, now_us);
+        return;
+    }
     header.t0_us = log->seq == 0 ? log->store.logs[log->place].t0_us : now_us;
     if (!block_choose(log, config, board, now_us, &header)) return;
     if (log->seq % log->store.pages_per_block == 0) block_take(log);
@@ -272,12 +297,13 @@ void ride_log_poll(ride_log *log, const hal *board, const config_store *config, 
                    unit_link *link)
 {
     uint64_t now_us = board->now_us(board->context);
-    int needed = log->state != IDLE;
 
     if (log->store.blocks == 0 || board->log_busy(board->log_context)) return;
     if (log->spare_state == SPARE_ERASING) spare_finish(log, events, link, now_us);
-    if (needed) log_write(log, board, config, events, link, now_us);
+    if (log->state == IDLE) return;
+    log_write(log, board, config, events, link, now_us);
+    if (log->state == IDLE || log->no_room) return;
     if (log->spare_state == SPARE_NONE && !board->log_busy(board->log_context)) {
-        spare_begin(log, board, needed);
+        spare_begin(log, board);
     }
 }

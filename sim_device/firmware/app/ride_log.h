@@ -39,9 +39,10 @@ typedef struct {
     uint8_t due; /* blocks to be written before the next rows */
     uint8_t steps_left;
     uint8_t spare_state;
-    uint8_t victim; /* log whose first block is being erased */
-    uint16_t spare; /* erased block for what comes next */
-    uint16_t block; /* being written */
+    uint8_t no_room; /* for another block of this log */
+    uint8_t victim;  /* log whose first block is being erased */
+    uint16_t spare;  /* erased block for what comes next */
+    uint16_t block;  /* being written */
     uint32_t seq;
     uint32_t rows_written;
     uint32_t rows_lost; /* since boot, like write_errors */

@@ -75,15 +75,23 @@ uint8_t ride_log_store_by_age(const ride_log_store *store, uint16_t number)
     return RIDE_LOG_NONE;
 }
 
-uint16_t ride_log_store_free_block(const ride_log_store *store)
+uint16_t ride_log_store_free_block(const ride_log_store *store, uint16_t limit)
 {
     uint16_t block = store->head;
 
-    for (uint16_t i = 0; i < store->blocks; i++) {
+    for (uint16_t i = 0; i < store->blocks && block != limit; i++) {
         if (store->owner[block] == RIDE_LOG_NONE) return block;
         block = block_next(store, block);
     }
     return RIDE_LOG_NO_BLOCK;
+}
+
+int ride_log_store_is_before(const ride_log_store *store, uint16_t block, uint16_t limit)
+{
+    uint16_t to_block = (uint16_t)((block + store->blocks - store->head) % store->blocks);
+    uint16_t to_limit = (uint16_t)((limit + store->blocks - store->head) % store->blocks);
+
+    return to_block < to_limit;
 }
 
 uint8_t ride_log_store_victim(const ride_log_store *store)
@@ -177,20 +185,34 @@ uint32_t ride_log_store_length(const ride_log_store *store, uint8_t place)
     return store->logs[place].pages * RIDE_LOG_PAGE_BYTES;
 }
 
-/* Every log whose beginning is there. What is left of others was given up and may be reused. */
+/* Every log whose beginning is there, whole. What is left of others was given up and may be
+ * reused, but its numbers may not: half-programmed ones do not count. */
 static void logs_find(ride_log_store *store, const hal *board)
 {
     for (uint16_t block = 0; block < store->blocks; block++) {
+        uint8_t page[RIDE_LOG_PAGE_BYTES];
         ride_log_header header;
+        ride_log_entry *log;
+        uint32_t crc32;
         uint8_t place;
 
-        if (!header_read(store, board, block, &header)) continue;
+        if (board->log_read(board->log_context, ride_log_store_address(store, board, block, 0),
+                            page, sizeof page) < 0 ||
+            !ride_log_block_get(&header, &crc32, page)) {
+            continue;
+        }
         if (header.log_id >= store->next_id) store->next_id = header.log_id + 1;
         if (header.seq != 0) continue;
         place = ride_log_store_free_place(store);
-        if (place == RIDE_LOG_NONE) return;
-        store->logs[place].id = header.log_id;
-        store->logs[place].first_block = block;
+        if (place == RIDE_LOG_NONE) continue;
+        log = &store->logs[place];
+        log->id = header.log_id;
+        log->generation = crc32;
+        log->boot_id = header.boot_id;
+        log->t0_us = header.t0_us;
+        log->t1_us = header.t0_us;
+        log->first_block = block;
+        if (ebl_get_u32(page + RIDE_LOG_AT_STATE) == WORD_WRITTEN) log->flags |= EBL_LOG_CONFIRMED;
     }
 }
 
@@ -206,35 +228,17 @@ static void owners_find(ride_log_store *store, const hal *board, uint32_t *last)
 
         if (!header_read(store, board, block, &header)) continue;
         place = place_of_id(store, header.log_id);
-        if (place == RIDE_LOG_NONE) continue;
-        store->owner[block] = place;
+        if (place == RIDE_LOG_NONE || header.boot_id != store->logs[place].boot_id) continue;
         number = header.seq / store->pages_per_block;
+        /* A header that lost its power: its number ends in ones. */
+        if (number >= store->blocks || header.seq % store->pages_per_block != 0) continue;
+        store->owner[block] = place;
         if (number < last[place]) continue;
         last[place] = number;
         if (header.log_id < newest_id) continue;
         newest_id = header.log_id;
         store->head = block_next(store, block);
     }
-}
-
-/* Identity and state from the first block, which must be whole. */
-static int first_page_read(ride_log_store *store, const hal *board, uint8_t place)
-{
-    ride_log_entry *log = &store->logs[place];
-    uint8_t page[RIDE_LOG_PAGE_BYTES];
-    ride_log_header header;
-
-    if (board->log_read(board->log_context,
-                        ride_log_store_address(store, board, log->first_block, 0), page,
-                        sizeof page) < 0) {
-        return 0;
-    }
-    if (!ride_log_block_get(&header, &log->generation, page)) return 0;
-    log->boot_id = header.boot_id;
-    log->t0_us = header.t0_us;
-    log->t1_us = header.t0_us;
-    if (ebl_get_u32(page + RIDE_LOG_AT_STATE) == WORD_WRITTEN) log->flags |= EBL_LOG_CONFIRMED;
-    return 1;
 }
 
 /* How far the log goes: to its last whole block. */
@@ -278,10 +282,6 @@ void ride_log_store_boot(ride_log_store *store, const hal *board, uint32_t row_p
     owners_find(store, board, last);
     for (uint8_t place = 0; place < RIDE_LOG_LOGS_MAX; place++) {
         if (store->logs[place].id == 0) continue;
-        if (first_page_read(store, board, place)) {
-            end_find(store, board, place, last[place], row_period_us);
-        } else {
-            ride_log_store_release(store, place);
-        }
+        end_find(store, board, place, last[place], row_period_us);
     }
 }

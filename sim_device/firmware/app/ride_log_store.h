@@ -48,7 +48,13 @@ uint8_t ride_log_store_by_age(const ride_log_store *store, uint16_t number);
 uint16_t ride_log_store_count(const ride_log_store *store);
 
 uint8_t ride_log_store_free_place(const ride_log_store *store);
-uint16_t ride_log_store_free_block(const ride_log_store *store);
+
+/* The next free block from the head on, before it comes round to `limit` (RIDE_LOG_NO_BLOCK: the
+ * whole ring); RIDE_LOG_NO_BLOCK where there is none. */
+uint16_t ride_log_store_free_block(const ride_log_store *store, uint16_t limit);
+
+/* True if the block comes before `limit` when going round from the head. */
+int ride_log_store_is_before(const ride_log_store *store, uint16_t block, uint16_t limit);
 
 /* The log to be given up next: the oldest confirmed one, else the oldest; never one that is being
  * recorded. RIDE_LOG_NONE where there is none. */

@@ -1,0 +1,133 @@
+"""The ride logs a unit keeps in its flash: which there are, and what is asked about one."""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+
+from backend.device.log_download import LogReceiver
+from backend.device.operation import Operation, ask, attempt
+from backend.errors import PeerProtocolError, SpindleError
+from firmware_protocol._generated import (
+    LogCloseRequest,
+    LogConfirmRequest,
+    LogConfirmResponse,
+    LogCrcRequest,
+    LogCrcResponse,
+    LogFlags,
+    LogListRequest,
+    LogListResponse,
+    LogOpenRequest,
+    LogOpenResponse,
+)
+
+ENTRY = struct.Struct("<IIIQQIB7x")
+# More than a unit's directory holds; a list that never ends is a broken unit.
+LOGS_MAX = 256
+LOG_BYTES_MAX = 256 * 1024 * 1024
+WINDOW = 32
+
+
+@dataclass(frozen=True)
+class RideLog:
+    """One log in a unit's flash.
+
+    generation: tells it from another log of the same id. t0_us, t1_us: unit time of its first and
+    behind its last row, in the boot `boot_id`. ended: closed by the unit and not by a power loss.
+    """
+
+    log_id: int
+    generation: int
+    boot_id: int
+    t0_us: int
+    t1_us: int
+    length: int
+    recording: bool
+    confirmed: bool
+    ended: bool
+
+
+@dataclass(frozen=True)
+class RideLogs:
+    """Every log of a unit, the oldest first.
+
+    overwritten: logs given up unconfirmed since the unit started. boot_id, now_us: of the unit.
+    """
+
+    logs: tuple[RideLog, ...]
+    overwritten: int
+    boot_id: int
+    now_us: int
+
+
+def list_logs() -> Operation[RideLogs]:
+    """Read the directory. Raises DeviceRefused (UNSUPPORTED by a unit without logs), NoAnswer."""
+    logs: list[RideLog] = []
+    while True:
+        part = yield from ask(LogListRequest(len(logs), 255), LogListResponse)
+        found = [_log_of(fields) for fields in ENTRY.iter_unpack(_whole(part.entries))]
+        logs += found
+        if not found or len(logs) >= part.total:
+            return RideLogs(tuple(logs), part.overwritten, part.boot_id, part.now_us)
+        if len(logs) > LOGS_MAX:
+            raise PeerProtocolError(f"The unit lists more than {LOGS_MAX} ride logs.")
+
+
+def log_crc(log: RideLog, length: int) -> Operation[int]:
+    """The unit's CRC-32 over the first `length` bytes of a log."""
+    request = LogCrcRequest(log.log_id, log.generation, 0, length)
+    return (yield from ask(request, LogCrcResponse)).crc32
+
+
+def confirm_log(log: RideLog, crc32: int) -> Operation[None]:
+    """Tell the unit that the log is safe here: it may free it. DeviceRefused on another CRC-32."""
+    request = LogConfirmRequest(log.log_id, log.generation, log.length, crc32)
+    yield from ask(request, LogConfirmResponse)
+
+
+def receive_log(
+    log: RideLog, receiver: LogReceiver, offset: int, window: int = WINDOW
+) -> Operation[None]:
+    """Have the unit send a log from `offset` on to a receiver that the session has."""
+    request = LogOpenRequest(log.log_id, log.generation, offset, window, receiver.session)
+    opened = yield from ask(request, LogOpenResponse)
+    if opened.length != log.length or opened.chunk == 0 or opened.length % opened.chunk:
+        raise PeerProtocolError(
+            f"The unit listed ride log {log.log_id} with {log.length} bytes and opens it with "
+            f"{opened.length} in pieces of {opened.chunk}. Read the list again."
+        )
+    receiver.begin(offset, opened.length, opened.chunk)
+
+
+def close_log(session: int) -> Operation[None]:
+    """End a session; a unit that does not hear it ends it by itself."""
+    try:
+        yield from attempt(LogCloseRequest(session), attempts=1)
+    except SpindleError:
+        return
+
+
+def _whole(entries: bytes) -> bytes:
+    if len(entries) % ENTRY.size:
+        raise PeerProtocolError(
+            f"The unit's list of ride logs has {len(entries)} bytes, not a multiple of "
+            f"{ENTRY.size}; its firmware does not keep the protocol."
+        )
+    return entries
+
+
+def _log_of(fields: tuple[int, ...]) -> RideLog:
+    log_id, generation, boot_id, t0_us, t1_us, length, flags = fields
+    if length > LOG_BYTES_MAX:
+        raise PeerProtocolError(f"The unit lists ride log {log_id} with {length} bytes.")
+    return RideLog(
+        log_id,
+        generation,
+        boot_id,
+        t0_us,
+        t1_us,
+        length,
+        recording=bool(flags & LogFlags.RECORDING),
+        confirmed=bool(flags & LogFlags.CONFIRMED),
+        ended=bool(flags & LogFlags.ENDED),
+    )

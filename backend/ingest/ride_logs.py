@@ -1,0 +1,257 @@
+"""From the blocks of a unit's log to a ride.
+
+A ride is the DATA of one log of one boot, put in order by block number, on a grid of its period:
+what is missing is missing, never filled in. Its completeness is the share of its blocks that are
+here; a log that the unit did not end has lost its last second or so with the power.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from backend.domain.channels import MISSING_INT16, ChannelSpec
+from backend.domain.ride import RideContext, RideRows
+from backend.ingest.blocks import (
+    CONFIG,
+    DATA,
+    END,
+    HOST_SEQ,
+    SCHEMA,
+    SYNC,
+    SYNC_FIELDS,
+    VERSION,
+    Block,
+    Scan,
+    scan,
+)
+from backend.ingest.columns import EPOCH_S, LATEST_S, SPAN_S_MAX
+from backend.ingest.outcome import COMPLETE, PARTIAL, ImportedRide, Outcome, rejected
+from firmware_protocol._generated import CHANNELS, IMAGE_LENGTH, SCHEMA_HASH
+from firmware_protocol.parameters import unpack_image
+
+CONFIG_HEAD = struct.Struct("<12s8sII")
+SCHEMA_HEAD = struct.Struct("<IB")
+SCHEMA_CHANNEL = struct.Struct("<Bf")
+END_FIELDS = struct.Struct("<IIB")
+# A day and more of 10 Hz, and the bound of every other format.
+ROWS_MAX = 2_000_000
+LOGS_MAX = 64
+PERIOD_US_MIN = 1_000
+PERIOD_US_MAX = 60_000_000
+REGISTERED = {channel.id: channel for channel in CHANNELS}
+
+Rows16 = npt.NDArray[np.int16]
+
+
+@dataclass(frozen=True)
+class Group:
+    """A SCHEMA: channels that are recorded together, and how often."""
+
+    period_us: int
+    channels: tuple[ChannelSpec, ...]
+
+
+@dataclass(frozen=True)
+class LogRide:
+    """What one log became. whole: share of its blocks that are here; ended: by the unit."""
+
+    ride: ImportedRide | None
+    whole: float
+    ended: bool
+
+
+def read_blocks(data: bytes, _fast: bool = True) -> Outcome:
+    """A file of blocks -> what came of it. Never raises on any bytes."""
+    found = scan(data)
+    logs: dict[tuple[int, int], dict[int, Block]] = {}
+    for block in found.blocks:
+        if block.version == VERSION and block.log_id:
+            # The first of equals: a log fetched twice into one file is one log.
+            logs.setdefault((block.boot_id, block.log_id), {}).setdefault(block.seq, block)
+    if len(logs) > LOGS_MAX:
+        return rejected("damaged", f"The file names {len(logs)} logs; at most {LOGS_MAX} are read.")
+    results = [ride_of_log([blocks[key] for key in sorted(blocks)]) for blocks in logs.values()]
+    rides = tuple(result.ride for result in results if result.ride is not None)
+    if not rides:
+        return rejected("no_records", "No block of the file holds rows that can be read.", 0)
+    return concluded(found, results, rides)
+
+
+def concluded(found: Scan, results: Sequence[LogRide], rides: tuple[ImportedRide, ...]) -> Outcome:
+    """The outcome of the logs of a file."""
+    whole = min(result.whole for result in results)
+    if found.damaged or whole < 1.0:
+        detail = f"{whole:.1%} of the log's blocks are here"
+        if found.damaged:
+            detail += f"; {found.damaged} bytes from byte {found.first_damage} on are damaged"
+        return Outcome(PARTIAL, rides, "damaged", f"{detail}.", found.first_damage, whole)
+    if not all(result.ended for result in results):
+        detail = "The unit lost its power before the log was closed: at most a second is missing."
+        return Outcome(PARTIAL, rides, "truncated", detail, None, whole)
+    return Outcome(COMPLETE, rides, completeness=1.0)
+
+
+def ride_of_log(blocks: Sequence[Block]) -> LogRide:
+    """One log's blocks in the order of their numbers -> its ride."""
+    own = [block for block in blocks if block.seq != HOST_SEQ]
+    ends = [block for block in own if block.type == END and len(block.payload) >= END_FIELDS.size]
+    highest = max((block.seq for block in own), default=0)
+    whole = len(own) / (highest + 1)
+    notes: list[str] = []
+    context = context_of(own, notes)
+    read = [(group, block) for block, group in grouped(own, notes) if group is not None]
+    if not read:
+        return LogRide(None, whole, bool(ends))
+    group = most_rows(read, notes)
+    mine = [block for one, block in read if one == group]
+    laid = laid_out(group, mine, notes)
+    if laid is None:
+        return LogRide(None, whole, bool(ends))
+    t0_us, rows = laid
+    if ends and (lost := END_FIELDS.unpack_from(ends[-1].payload)[1]):
+        notes.append(f"the unit's flash was too slow for {lost} rows since it was switched on")
+    started_us = start_of(blocks, t0_us)
+    if started_us is None:
+        notes.append("the unit had no clock: when it was ridden is not known")
+    ride = ImportedRide(
+        started_us=started_us or 0,
+        period_us=group.period_us,
+        rows=rows,
+        notes=tuple(notes),
+        context=replace(context, boot_id=mine[0].boot_id, unit_t0_us=t0_us),
+        start_known=started_us is not None,
+    )
+    return LogRide(ride, whole, bool(ends))
+
+
+def context_of(blocks: Sequence[Block], notes: list[str]) -> RideContext:
+    """Unit and configuration from the first CONFIG block; empty where there is none."""
+    configs = [b for b in blocks if b.type == CONFIG and len(b.payload) >= CONFIG_HEAD.size]
+    if not configs:
+        notes.append("which unit it was is not known: no configuration block is whole")
+        return RideContext()
+    payload = configs[0].payload
+    uid, schema_hash, generation, crc32 = CONFIG_HEAD.unpack_from(payload)
+    image = payload[CONFIG_HEAD.size :]
+    gear_ratio: float | None = None
+    if schema_hash == SCHEMA_HASH and len(image) == IMAGE_LENGTH and zlib.crc32(image) == crc32:
+        found = unpack_image(image)["gear_ratio"]
+        if isinstance(found, float) and math.isfinite(found) and found > 0:
+            gear_ratio = found
+    return RideContext(
+        device_serial=uid.hex(),
+        config_generation=generation,
+        config_crc32=crc32,
+        gear_ratio=gear_ratio,
+    )
+
+
+def grouped(blocks: Sequence[Block], notes: list[str]) -> list[tuple[Block, Group | None]]:
+    """Each DATA block with the SCHEMA before it, or the next one where that is lost."""
+    schemas: dict[int, list[tuple[int, Group]]] = {}
+    for block in blocks:
+        if block.type == SCHEMA and (group := group_of(block.payload)) is not None:
+            schemas.setdefault(block.schema_id, []).append((block.seq, group))
+    pairs: list[tuple[Block, Group | None]] = []
+    unread = 0
+    for block in blocks:
+        if block.type != DATA:
+            continue
+        known = schemas.get(block.schema_id, [])
+        before = [group for seq, group in known if seq < block.seq]
+        group = before[-1] if before else (known[0][1] if known else None)
+        if group is not None and len(block.payload) != 2 * block.n * len(group.channels):
+            group = None
+        unread += group is None
+        pairs.append((block, group))
+    if unread:
+        notes.append(f"{unread} blocks of rows cannot be read: what they hold is not described")
+    return pairs
+
+
+def group_of(payload: bytes) -> Group | None:
+    """The SCHEMA in a payload, None when it makes no sense."""
+    if len(payload) < SCHEMA_HEAD.size:
+        return None
+    period_us, count = SCHEMA_HEAD.unpack_from(payload)
+    body = payload[SCHEMA_HEAD.size : SCHEMA_HEAD.size + count * SCHEMA_CHANNEL.size]
+    if not PERIOD_US_MIN <= period_us <= PERIOD_US_MAX or count == 0:
+        return None
+    if len(body) != count * SCHEMA_CHANNEL.size:
+        return None
+    rows = list(SCHEMA_CHANNEL.iter_unpack(body))
+    ids = [channel_id for channel_id, _ in rows]
+    scales = [scale for _, scale in rows]
+    if len(set(ids)) != len(ids) or not all(math.isfinite(s) and s > 0 for s in scales):
+        return None
+    return Group(period_us, tuple(channel_of(*row) for row in rows))
+
+
+def channel_of(channel_id: int, scale: float) -> ChannelSpec:
+    """A channel by its id: names never change, a scale is the one the counts were made with."""
+    shortest = float(str(np.float32(scale)))
+    known = REGISTERED.get(channel_id)
+    if known is None:
+        return ChannelSpec(f"channel_{channel_id}", "", shortest)
+    return ChannelSpec(known.name, known.unit, shortest)
+
+
+def most_rows(read: Sequence[tuple[Group, Block]], notes: list[str]) -> Group:
+    """The group with the most rows; a ride has one."""
+    rows: dict[Group, int] = {}
+    for group, block in read:
+        rows[group] = rows.get(group, 0) + block.n
+    if len(rows) > 1:
+        notes.append(f"{len(rows) - 1} other groups of channels are kept in the original only")
+    return max(rows, key=lambda group: rows[group])
+
+
+def laid_out(
+    group: Group, blocks: Sequence[Block], notes: list[str]
+) -> tuple[int, RideRows] | None:
+    """Blocks on a grid of the group's period -> unit time of the first row, and rows.
+
+    None when nothing believable is left.
+    """
+    middle_us = int(np.median(np.array([block.t0_us for block in blocks], dtype=np.float64)))
+    span_us = int(SPAN_S_MAX * 1e6)
+    kept = [b for b in blocks if b.n > 0 and abs(b.t0_us - middle_us) < span_us]
+    if len(kept) < len(blocks):
+        notes.append(f"{len(blocks) - len(kept)} blocks without a believable time were left out")
+    if not kept:
+        return None
+    t0_us = min(block.t0_us for block in kept)
+    firsts = [round((block.t0_us - t0_us) / group.period_us) for block in kept]
+    count = max(first + block.n for first, block in zip(firsts, kept, strict=True))
+    if count > ROWS_MAX:
+        notes.append(f"rows after the first {ROWS_MAX} were left out")
+        count = ROWS_MAX
+    width = len(group.channels)
+    grid: Rows16 = np.full((count, width), MISSING_INT16, np.int16)
+    for first, block in zip(firsts, kept, strict=True):
+        rows = np.frombuffer(block.payload, "<i2").reshape(block.n, width)[: max(0, count - first)]
+        grid[first : first + len(rows)] = rows
+    times_us = np.arange(count, dtype=np.int64) * group.period_us
+    counts = {
+        channel.name: np.ascontiguousarray(grid[:, index])
+        for index, channel in enumerate(group.channels)
+    }
+    return t0_us, RideRows(group.channels, times_us, counts)
+
+
+def start_of(blocks: Sequence[Block], t0_us: int) -> int | None:
+    """Unix time of unit time `t0_us` from the first believable SYNC, None without one."""
+    for block in blocks:
+        if block.type == SYNC and len(block.payload) >= SYNC_FIELDS.size:
+            unix_us, _ = SYNC_FIELDS.unpack_from(block.payload)
+            started_us = int(unix_us) - (block.t0_us - t0_us)
+            if EPOCH_S * 1e6 < started_us < LATEST_S * 1e6:
+                return started_us
+    return None
