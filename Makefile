@@ -42,6 +42,10 @@ simulate: $(STAMP)/native ## the story of one seed of the simulated link: make s
 fuzz: $(STAMP)/native ## every fuzzer for SECONDS each, 60 unless told; C needs clang (libFuzzer)
 	$(BIN)/python -m tests.fuzz $(or $(SECONDS),60)
 
+.PHONY: mutate
+mutate: $(STAMP)/native ## break the codec and the transaction in every known way; a test must notice
+	$(BIN)/python -m tests.mutation
+
 .PHONY: lint
 lint: $(STAMP)/native $(STAMP)/web-modules ## all static checks, Python, C and browser
 	$(BIN)/ruff format --check .

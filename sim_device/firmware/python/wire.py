@@ -3,6 +3,7 @@
 The conformance tests use it and nothing else: the backend speaks through firmware_protocol.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -30,6 +31,19 @@ def encode_frame(frame: bytes) -> bytes:
     length = ffi.new("size_t *")
     _must(lib.ebl_frame_encode(frame, len(frame), wire, capacity, length))
     return bytes(ffi.buffer(wire, length[0]))
+
+
+def encode_frames(frames: Iterable[bytes]) -> bytes:
+    """The wire bytes of many frames one after the other, with one buffer for all of them."""
+    capacity = lib.ebl_wire_length_max(lib.EBL_MTU)
+    wire = ffi.new("uint8_t[]", capacity)
+    length = ffi.new("size_t *")
+    encode, everything = lib.ebl_frame_encode, ffi.buffer(wire)
+    out = bytearray()
+    for frame in frames:
+        _must(encode(frame, len(frame), wire, capacity, length))
+        out += everything[: length[0]]
+    return bytes(out)
 
 
 class FrameDecoder:
