@@ -13,7 +13,7 @@ MTU = 544
 MAX_OUTSTANDING = 4
 CONTROL_PERIOD_US = 10000
 IMAGE_LENGTH = 299
-SCHEMA_HASH = bytes.fromhex("3e4fb68e518721e9")
+SCHEMA_HASH = bytes.fromhex("6723292f62388c34")
 
 
 class Status(IntEnum):
@@ -157,6 +157,7 @@ class Event(IntEnum):
     CONFIG_DEFAULTED = 6
     STREAM_STATS = 7
     CONFIG_PROVISIONAL = 16
+    STREAM_COUNTS = 17
     LOG_CLOSED = 20
     LOG_OVERWRITTEN = 21
 
@@ -227,8 +228,13 @@ class MessageId(IntEnum):
     STR_SUBSCRIBE = 0x0201
     STR_UNSUBSCRIBE = 0x0202
     STR_RENEW = 0x0203
+    STR_LIST = 0x0204
     STR_SNAPSHOT = 0x0205
     EVT_FAULT_LIST = 0x0302
+    EVT_FAULT_FREEZE = 0x0303
+    EVT_FAULT_CLEAR = 0x0304
+    TIM_SYNC = 0x0501
+    TIM_SET = 0x0502
     LOG_LIST = 0x0401
     LOG_OPEN = 0x0402
     LOG_ACK = 0x0403
@@ -874,6 +880,28 @@ class StrRenewResponse(Message):
 
 
 @dataclass(frozen=True, slots=True)
+class StrListRequest(Message):
+    """What is streamed now: entries of stream u8, epoch u8, divider u16, batch u8, channels u8, lease left ms u32, bytes/s u32. budget 0: no line limits it."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.STR_LIST
+
+
+@dataclass(frozen=True, slots=True)
+class StrListResponse(Message):
+    """What is streamed now: entries of stream u8, epoch u8, divider u16, batch u8, channels u8, lease left ms u32, bytes/s u32. budget 0: no line limits it."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.STR_LIST
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("budget_bytes_per_s", "u32"),
+        Field("entries", "bytes"),
+    )
+    LENGTH: ClassVar[int] = 4
+
+    budget_bytes_per_s: int
+    entries: bytes
+
+
+@dataclass(frozen=True, slots=True)
 class StrSnapshotRequest(Message):
     """One row of the channels, now."""
 
@@ -919,6 +947,120 @@ class EvtFaultListResponse(Message):
     LENGTH: ClassVar[int] = 2
 
     fault_flags: int
+
+
+@dataclass(frozen=True, slots=True)
+class EvtFaultFreezeRequest(Message):
+    """The latest row of every channel, in the order of their ids, when this fault (its bit) was last set. NOT_FOUND: not since boot or FAULT_CLEAR."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.EVT_FAULT_FREEZE
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("fault_bit", "u8"),
+    )
+    LENGTH: ClassVar[int] = 1
+
+    fault_bit: int
+
+
+@dataclass(frozen=True, slots=True)
+class EvtFaultFreezeResponse(Message):
+    """The latest row of every channel, in the order of their ids, when this fault (its bit) was last set. NOT_FOUND: not since boot or FAULT_CLEAR."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.EVT_FAULT_FREEZE
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("active", "u8"),
+        Field("count", "u16"),
+        Field("t_us", "u64"),
+        Field("values", "bytes"),
+    )
+    LENGTH: ClassVar[int] = 11
+
+    active: int
+    count: int
+    t_us: int
+    values: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class EvtFaultClearRequest(Message):
+    """Forgets freeze frames and counts of these faults; one that is active stays, with its frame."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.EVT_FAULT_CLEAR
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("fault_flags", "u16"),
+    )
+    LENGTH: ClassVar[int] = 2
+
+    fault_flags: int
+
+
+@dataclass(frozen=True, slots=True)
+class EvtFaultClearResponse(Message):
+    """Forgets freeze frames and counts of these faults; one that is active stays, with its frame."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.EVT_FAULT_CLEAR
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("fault_flags", "u16"),
+    )
+    LENGTH: ClassVar[int] = 2
+
+    fault_flags: int
+
+
+@dataclass(frozen=True, slots=True)
+class TimSyncRequest(Message):
+    """What time it is in the unit: the host's time comes back, with the unit's at hearing and answering."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.TIM_SYNC
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("host_us", "u64"),
+    )
+    LENGTH: ClassVar[int] = 8
+
+    host_us: int
+
+
+@dataclass(frozen=True, slots=True)
+class TimSyncResponse(Message):
+    """What time it is in the unit: the host's time comes back, with the unit's at hearing and answering."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.TIM_SYNC
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("host_us", "u64"),
+        Field("heard_us", "u64"),
+        Field("answered_us", "u64"),
+        Field("unix_us", "u64"),
+    )
+    LENGTH: ClassVar[int] = 32
+
+    host_us: int
+    heard_us: int
+    answered_us: int
+    unix_us: int
+
+
+@dataclass(frozen=True, slots=True)
+class TimSetRequest(Message):
+    """What time it is in the world, for what the unit stores. Kept until it is switched off."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.TIM_SET
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("unix_us", "u64"),
+        Field("utc_offset_min", "i16"),
+        Field("uncertainty_us", "u32"),
+    )
+    LENGTH: ClassVar[int] = 14
+
+    unix_us: int
+    utc_offset_min: int
+    uncertainty_us: int
+
+
+@dataclass(frozen=True, slots=True)
+class TimSetResponse(Message):
+    """What time it is in the world, for what the unit stores. Kept until it is switched off."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.TIM_SET
 
 
 @dataclass(frozen=True, slots=True)
@@ -1264,6 +1406,27 @@ class ConfigProvisionalEvent(Message):
 
 
 @dataclass(frozen=True, slots=True)
+class StreamCountsEvent(Message):
+    """Fields of the event STREAM_COUNTS."""
+
+    CODE: ClassVar[Event] = Event.STREAM_COUNTS
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("stream_id", "u8"),
+        Field("epoch", "u8"),
+        Field("built", "u32"),
+        Field("dropped_tx", "u32"),
+        Field("missed", "u32"),
+    )
+    LENGTH: ClassVar[int] = 14
+
+    stream_id: int
+    epoch: int
+    built: int
+    dropped_tx: int
+    missed: int
+
+
+@dataclass(frozen=True, slots=True)
 class LogClosedEvent(Message):
     """Fields of the event LOG_CLOSED."""
 
@@ -1321,8 +1484,13 @@ REQUEST_BY_ID: dict[int, type[Message]] = {
     0x0201: StrSubscribeRequest,
     0x0202: StrUnsubscribeRequest,
     0x0203: StrRenewRequest,
+    0x0204: StrListRequest,
     0x0205: StrSnapshotRequest,
     0x0302: EvtFaultListRequest,
+    0x0303: EvtFaultFreezeRequest,
+    0x0304: EvtFaultClearRequest,
+    0x0501: TimSyncRequest,
+    0x0502: TimSetRequest,
     0x0401: LogListRequest,
     0x0402: LogOpenRequest,
     0x0403: LogAckRequest,
@@ -1357,8 +1525,13 @@ RESPONSE_BY_ID: dict[int, type[Message]] = {
     0x0201: StrSubscribeResponse,
     0x0202: StrUnsubscribeResponse,
     0x0203: StrRenewResponse,
+    0x0204: StrListResponse,
     0x0205: StrSnapshotResponse,
     0x0302: EvtFaultListResponse,
+    0x0303: EvtFaultFreezeResponse,
+    0x0304: EvtFaultClearResponse,
+    0x0501: TimSyncResponse,
+    0x0502: TimSetResponse,
     0x0401: LogListResponse,
     0x0402: LogOpenResponse,
     0x0403: LogAckResponse,
@@ -1378,6 +1551,7 @@ EVENT_BY_CODE: dict[int, type[Message]] = {
     Event.CONFIG_DEFAULTED: ConfigDefaultedEvent,
     Event.STREAM_STATS: StreamStatsEvent,
     Event.CONFIG_PROVISIONAL: ConfigProvisionalEvent,
+    Event.STREAM_COUNTS: StreamCountsEvent,
     Event.LOG_CLOSED: LogClosedEvent,
     Event.LOG_OVERWRITTEN: LogOverwrittenEvent,
 }

@@ -44,6 +44,7 @@ from firmware_protocol._generated import (
     ByeRequest,
     PingRequest,
     Status,
+    StreamCountsEvent,
 )
 from firmware_protocol.codec import (
     Bulk,
@@ -272,6 +273,8 @@ class Session:
 
     def _unit_event(self, event: Event) -> None:
         self._statistics.unit_events += 1
+        if isinstance(event.message, StreamCountsEvent):
+            self._subscription.counted(event.message)
         told = self.notes.take(event, self._statistics, self._now_s)
         if told is not None:
             self._tell(told)

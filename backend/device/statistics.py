@@ -13,7 +13,9 @@ class LinkStatistics:
     protocol. responses_unexpected: to nothing we asked. stream_frames_foreign: of an earlier
     subscription, dropped instead of misread. stream_frames_repeated: a sequence number that does
     not go forward. round_trip_ms: smoothed, None before the first answer. unit_*: the unit's own
-    count of stream frames since its subscription.
+    count of stream frames since its subscription. balance_*: stream frames over all subscriptions,
+    up to the unit's latest count that the stream has passed: built = received + lost on the line +
+    dropped by the unit, exactly. unit_steps_missed: control steps that came too late for a row.
     """
 
     bytes_received: int = 0
@@ -31,6 +33,11 @@ class LinkStatistics:
     stream_frames_foreign: int = 0
     stream_frames_repeated: int = 0
     unit_events: int = 0
+    balance_built: int = 0
+    balance_received: int = 0
+    balance_lost: int = 0
+    balance_dropped: int = 0
+    unit_steps_missed: int = 0
     unit_frames_built: int | None = None
     unit_frames_dropped: int | None = None
     connections: int = 0

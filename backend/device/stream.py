@@ -13,8 +13,9 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.device.statistics import LinkStatistics
+from backend.device.stream_account import StreamAccount
 from backend.domain.channels import ChannelSpec
-from firmware_protocol._generated import CHANNELS, StrSubscribeResponse
+from firmware_protocol._generated import CHANNELS, StreamCountsEvent, StrSubscribeResponse
 from firmware_protocol.codec import Stream
 from firmware_protocol.layout import Channel
 
@@ -98,7 +99,9 @@ class StreamReceiver:
         self._wire_epoch = reply.epoch & WIRE_EPOCH_MASK
         self._next_sequence = reply.start_seq
         self._next_index = 0
+        self._frames = 0
         self.time_us = unit_time_us
+        self.account = StreamAccount()
         self._statistics = statistics
 
     @property
@@ -119,6 +122,8 @@ class StreamReceiver:
         lost_rows = skipped * self._batch
         first_index = self._next_index + lost_rows
         values = frame.values
+        self.account.frame(self._frames + skipped)
+        self._frames += skipped + 1
         self._next_sequence = (frame.seq + 1) % SEQUENCE_MODULUS
         self._next_index = first_index + len(values)
         self.time_us = unwrap_us(frame.t0_us, self.time_us)
@@ -135,6 +140,13 @@ class StreamReceiver:
             wall_us=wall_us,
             channels=self.channels,
         )
+
+    def counted(self, counts: StreamCountsEvent) -> bool:
+        """The unit told its counts; False when they are of another subscription."""
+        if (counts.stream_id, counts.epoch) != (STREAM_ID, self._wire_epoch):
+            return False
+        self.account.counted(counts.built, counts.dropped_tx, counts.missed)
+        return True
 
 
 def unwrap_us(low_us: int, near_us: int) -> int:

@@ -13,9 +13,12 @@ from backend.device.stream import (
     StreamReceiver,
     StreamStarted,
 )
+from backend.device.stream_account import Balance
 from backend.errors import NoAnswer
 from firmware_protocol._generated import (
+    CONTROL_PERIOD_US,
     Status,
+    StreamCountsEvent,
     StrRenewRequest,
     StrSnapshotRequest,
     StrSnapshotResponse,
@@ -29,6 +32,7 @@ ENCODING_PLAIN = 0
 SLOWER_ATTEMPTS = 6
 # Leases run on the unit's clock, and a simulated one may run a hundred times faster than ours.
 LEASE_SIMULATED_S = 250
+STEPS_PER_S = 1_000_000 // CONTROL_PERIOD_US
 # A snapshot is the latest row, which is a little older than the question.
 ROW_AGE_US_MAX = 100_000
 # Part of a lease after which it is renewed, by whichever clock comes first.
@@ -51,6 +55,7 @@ class Subscription:
         self._lease_s = LEASE_S
         self._renewed_s: float | None = None
         self._renewed_unit_us = 0
+        self._closed = Balance()
 
     @property
     def started(self) -> StreamStarted | None:
@@ -78,8 +83,9 @@ class Subscription:
             response = yield from attempt(request)
             if response.status != Status.BANDWIDTH:
                 break
-            divider *= 2
+            divider = _slower(divider, response.detail)
         reply = expect(request, response, StrSubscribeResponse)
+        self._close_account()
         self._epoch += 1
         self._receiver = StreamReceiver(plan, reply, self._epoch, snapshot.t_us, self._statistics)
         return self._receiver.started
@@ -106,9 +112,42 @@ class Subscription:
         if self._receiver is None:
             self._statistics.stream_frames_foreign += 1
             return None
-        return self._receiver.take(frame, wall_us)
+        block = self._receiver.take(frame, wall_us)
+        self._publish()
+        return block
+
+    def counted(self, counts: StreamCountsEvent) -> None:
+        """The unit told its counts of a stream; those of another subscription are not ours."""
+        if self._receiver is not None and self._receiver.counted(counts):
+            self._publish()
 
     def end(self) -> None:
         """The unit or the port is gone; frames that still come are foreign."""
+        self._close_account()
         self._receiver = None
         self._renewed_s = None
+
+    def _close_account(self) -> None:
+        """Add the books of the subscription that ends to those of all before."""
+        if self._receiver is not None:
+            self._receiver.account.ended()
+            self._closed += self._receiver.account.balance
+            self._receiver = None
+            self._publish()
+
+    def _publish(self) -> None:
+        balance = self._closed
+        if self._receiver is not None:
+            balance += self._receiver.account.balance
+        self._statistics.balance_built = balance.built
+        self._statistics.balance_received = balance.received
+        self._statistics.balance_lost = balance.lost
+        self._statistics.balance_dropped = balance.dropped
+        self._statistics.unit_steps_missed = balance.missed
+
+
+def _slower(divider: int, rate_hz_max: int) -> int:
+    """The next divider to try; rate_hz_max: what the unit says would fit, 0 when it does not."""
+    if rate_hz_max == 0:
+        return 2 * divider
+    return max(divider + 1, -(-STEPS_PER_S // rate_hz_max))

@@ -14,7 +14,7 @@ from firmware_protocol._generated import (
     FaultClearedEvent,
     FaultFlags,
     FaultSetEvent,
-    StreamStatsEvent,
+    StreamCountsEvent,
 )
 from firmware_protocol._generated import Event as EventCode
 from firmware_protocol.codec import Event
@@ -51,7 +51,7 @@ class UnitNotes:
     def take(self, event: Event, statistics: LinkStatistics, now_s: float) -> UnitEvent | None:
         """Note an event; what is worth telling people comes back."""
         message = event.message
-        if isinstance(message, StreamStatsEvent):
+        if isinstance(message, StreamCountsEvent):
             statistics.unit_frames_built = message.built
             statistics.unit_frames_dropped = message.dropped_tx
             return None

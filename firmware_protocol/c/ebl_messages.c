@@ -750,6 +750,31 @@ int ebl_str_renew_request_put(const ebl_str_renew_request *message, uint8_t *byt
     return EBL_OK;
 }
 
+int ebl_str_list_response_get(ebl_str_list_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 4) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->budget_bytes_per_s = ebl_get_u32(bytes + 0);
+    message->entries = bytes + 4;
+    message->entries_length = length - 4;
+    return EBL_OK;
+}
+
+int ebl_str_list_response_put(const ebl_str_list_response *message, uint8_t *bytes, size_t capacity,
+                             size_t *length)
+{
+    if (capacity < 4 || capacity - 4 < message->entries_length) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->budget_bytes_per_s);
+    if (message->entries_length > 0) {
+        memcpy(bytes + 4, message->entries, message->entries_length);
+    }
+    *length = 4 + message->entries_length;
+    return EBL_OK;
+}
+
 int ebl_str_snapshot_request_get(ebl_str_snapshot_request *message, const uint8_t *bytes, size_t length)
 {
     message->channel_ids = bytes + 0;
@@ -812,6 +837,165 @@ int ebl_evt_fault_list_response_put(const ebl_evt_fault_list_response *message, 
     }
     ebl_put_u16(bytes + 0, message->fault_flags);
     *length = 2;
+    return EBL_OK;
+}
+
+int ebl_evt_fault_freeze_request_get(ebl_evt_fault_freeze_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 1) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->fault_bit = ebl_get_u8(bytes + 0);
+    return EBL_OK;
+}
+
+int ebl_evt_fault_freeze_request_put(const ebl_evt_fault_freeze_request *message, uint8_t *bytes, size_t capacity,
+                                    size_t *length)
+{
+    if (capacity < 1) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u8(bytes + 0, message->fault_bit);
+    *length = 1;
+    return EBL_OK;
+}
+
+int ebl_evt_fault_freeze_response_get(ebl_evt_fault_freeze_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 11) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->active = ebl_get_u8(bytes + 0);
+    message->count = ebl_get_u16(bytes + 1);
+    message->t_us = ebl_get_u64(bytes + 3);
+    message->values = bytes + 11;
+    message->values_length = length - 11;
+    return EBL_OK;
+}
+
+int ebl_evt_fault_freeze_response_put(const ebl_evt_fault_freeze_response *message, uint8_t *bytes, size_t capacity,
+                                     size_t *length)
+{
+    if (capacity < 11 || capacity - 11 < message->values_length) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u8(bytes + 0, message->active);
+    ebl_put_u16(bytes + 1, message->count);
+    ebl_put_u64(bytes + 3, message->t_us);
+    if (message->values_length > 0) {
+        memcpy(bytes + 11, message->values, message->values_length);
+    }
+    *length = 11 + message->values_length;
+    return EBL_OK;
+}
+
+int ebl_evt_fault_clear_request_get(ebl_evt_fault_clear_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 2) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->fault_flags = ebl_get_u16(bytes + 0);
+    return EBL_OK;
+}
+
+int ebl_evt_fault_clear_request_put(const ebl_evt_fault_clear_request *message, uint8_t *bytes, size_t capacity,
+                                   size_t *length)
+{
+    if (capacity < 2) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u16(bytes + 0, message->fault_flags);
+    *length = 2;
+    return EBL_OK;
+}
+
+int ebl_evt_fault_clear_response_get(ebl_evt_fault_clear_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 2) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->fault_flags = ebl_get_u16(bytes + 0);
+    return EBL_OK;
+}
+
+int ebl_evt_fault_clear_response_put(const ebl_evt_fault_clear_response *message, uint8_t *bytes, size_t capacity,
+                                    size_t *length)
+{
+    if (capacity < 2) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u16(bytes + 0, message->fault_flags);
+    *length = 2;
+    return EBL_OK;
+}
+
+int ebl_tim_sync_request_get(ebl_tim_sync_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 8) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->host_us = ebl_get_u64(bytes + 0);
+    return EBL_OK;
+}
+
+int ebl_tim_sync_request_put(const ebl_tim_sync_request *message, uint8_t *bytes, size_t capacity,
+                            size_t *length)
+{
+    if (capacity < 8) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u64(bytes + 0, message->host_us);
+    *length = 8;
+    return EBL_OK;
+}
+
+int ebl_tim_sync_response_get(ebl_tim_sync_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 32) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->host_us = ebl_get_u64(bytes + 0);
+    message->heard_us = ebl_get_u64(bytes + 8);
+    message->answered_us = ebl_get_u64(bytes + 16);
+    message->unix_us = ebl_get_u64(bytes + 24);
+    return EBL_OK;
+}
+
+int ebl_tim_sync_response_put(const ebl_tim_sync_response *message, uint8_t *bytes, size_t capacity,
+                             size_t *length)
+{
+    if (capacity < 32) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u64(bytes + 0, message->host_us);
+    ebl_put_u64(bytes + 8, message->heard_us);
+    ebl_put_u64(bytes + 16, message->answered_us);
+    ebl_put_u64(bytes + 24, message->unix_us);
+    *length = 32;
+    return EBL_OK;
+}
+
+int ebl_tim_set_request_get(ebl_tim_set_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 14) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->unix_us = ebl_get_u64(bytes + 0);
+    message->utc_offset_min = ebl_get_i16(bytes + 8);
+    message->uncertainty_us = ebl_get_u32(bytes + 10);
+    return EBL_OK;
+}
+
+int ebl_tim_set_request_put(const ebl_tim_set_request *message, uint8_t *bytes, size_t capacity,
+                           size_t *length)
+{
+    if (capacity < 14) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u64(bytes + 0, message->unix_us);
+    ebl_put_i16(bytes + 8, message->utc_offset_min);
+    ebl_put_u32(bytes + 10, message->uncertainty_us);
+    *length = 14;
     return EBL_OK;
 }
 
@@ -1269,6 +1453,34 @@ int ebl_config_provisional_event_put(const ebl_config_provisional_event *message
     ebl_put_u32(bytes + 4, message->crc32);
     ebl_put_u8(bytes + 8, message->confirm_s);
     *length = 9;
+    return EBL_OK;
+}
+
+int ebl_stream_counts_event_get(ebl_stream_counts_event *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 14) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->stream_id = ebl_get_u8(bytes + 0);
+    message->epoch = ebl_get_u8(bytes + 1);
+    message->built = ebl_get_u32(bytes + 2);
+    message->dropped_tx = ebl_get_u32(bytes + 6);
+    message->missed = ebl_get_u32(bytes + 10);
+    return EBL_OK;
+}
+
+int ebl_stream_counts_event_put(const ebl_stream_counts_event *message, uint8_t *bytes, size_t capacity,
+                               size_t *length)
+{
+    if (capacity < 14) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u8(bytes + 0, message->stream_id);
+    ebl_put_u8(bytes + 1, message->epoch);
+    ebl_put_u32(bytes + 2, message->built);
+    ebl_put_u32(bytes + 6, message->dropped_tx);
+    ebl_put_u32(bytes + 10, message->missed);
+    *length = 14;
     return EBL_OK;
 }
 

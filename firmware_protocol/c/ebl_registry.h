@@ -12,14 +12,14 @@
 #define EBL_MAX_OUTSTANDING 4
 #define EBL_CONTROL_PERIOD_US 10000
 #define EBL_IMAGE_LENGTH 299
-#define EBL_MESSAGE_COUNT 33
-#define EBL_EVENT_COUNT 10
+#define EBL_MESSAGE_COUNT 38
+#define EBL_EVENT_COUNT 11
 #define EBL_EVENT_HEAD_LENGTH 5
 #define EBL_PARAMETER_COUNT 34
 #define EBL_ORDER_COUNT 1
 #define EBL_CHANNEL_COUNT 20
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 3447
+#define EBL_SCHEMA_LENGTH 3613
 
 enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */
 
@@ -151,6 +151,7 @@ typedef enum {
     EBL_EVENT_CONFIG_DEFAULTED = 6,
     EBL_EVENT_STREAM_STATS = 7,
     EBL_EVENT_CONFIG_PROVISIONAL = 16,
+    EBL_EVENT_STREAM_COUNTS = 17,
     EBL_EVENT_LOG_CLOSED = 20,
     EBL_EVENT_LOG_OVERWRITTEN = 21,
 } ebl_event;
@@ -215,8 +216,13 @@ enum {
     EBL_MSG_STR_SUBSCRIBE = 0x0201,
     EBL_MSG_STR_UNSUBSCRIBE = 0x0202,
     EBL_MSG_STR_RENEW = 0x0203,
+    EBL_MSG_STR_LIST = 0x0204,
     EBL_MSG_STR_SNAPSHOT = 0x0205,
     EBL_MSG_EVT_FAULT_LIST = 0x0302,
+    EBL_MSG_EVT_FAULT_FREEZE = 0x0303,
+    EBL_MSG_EVT_FAULT_CLEAR = 0x0304,
+    EBL_MSG_TIM_SYNC = 0x0501,
+    EBL_MSG_TIM_SET = 0x0502,
     EBL_MSG_LOG_LIST = 0x0401,
     EBL_MSG_LOG_OPEN = 0x0402,
     EBL_MSG_LOG_ACK = 0x0403,
@@ -699,6 +705,16 @@ int ebl_str_renew_request_get(ebl_str_renew_request *message, const uint8_t *byt
 int ebl_str_renew_request_put(const ebl_str_renew_request *message, uint8_t *bytes, size_t capacity,
                              size_t *length);
 
+#define EBL_STR_LIST_RESPONSE_LENGTH 4
+typedef struct {
+    uint32_t budget_bytes_per_s;
+    const uint8_t *entries;
+    size_t entries_length;
+} ebl_str_list_response;
+int ebl_str_list_response_get(ebl_str_list_response *message, const uint8_t *bytes, size_t length);
+int ebl_str_list_response_put(const ebl_str_list_response *message, uint8_t *bytes, size_t capacity,
+                             size_t *length);
+
 #define EBL_STR_SNAPSHOT_REQUEST_LENGTH 0
 typedef struct {
     const uint8_t *channel_ids;
@@ -725,6 +741,71 @@ typedef struct {
 int ebl_evt_fault_list_response_get(ebl_evt_fault_list_response *message, const uint8_t *bytes, size_t length);
 int ebl_evt_fault_list_response_put(const ebl_evt_fault_list_response *message, uint8_t *bytes, size_t capacity,
                                    size_t *length);
+
+#define EBL_EVT_FAULT_FREEZE_REQUEST_LENGTH 1
+typedef struct {
+    uint8_t fault_bit;
+} ebl_evt_fault_freeze_request;
+int ebl_evt_fault_freeze_request_get(ebl_evt_fault_freeze_request *message, const uint8_t *bytes, size_t length);
+int ebl_evt_fault_freeze_request_put(const ebl_evt_fault_freeze_request *message, uint8_t *bytes, size_t capacity,
+                                    size_t *length);
+
+#define EBL_EVT_FAULT_FREEZE_RESPONSE_LENGTH 11
+typedef struct {
+    uint8_t active;
+    uint16_t count;
+    uint64_t t_us;
+    const uint8_t *values;
+    size_t values_length;
+} ebl_evt_fault_freeze_response;
+int ebl_evt_fault_freeze_response_get(ebl_evt_fault_freeze_response *message, const uint8_t *bytes, size_t length);
+int ebl_evt_fault_freeze_response_put(const ebl_evt_fault_freeze_response *message, uint8_t *bytes, size_t capacity,
+                                     size_t *length);
+
+#define EBL_EVT_FAULT_CLEAR_REQUEST_LENGTH 2
+typedef struct {
+    uint16_t fault_flags;
+} ebl_evt_fault_clear_request;
+int ebl_evt_fault_clear_request_get(ebl_evt_fault_clear_request *message, const uint8_t *bytes, size_t length);
+int ebl_evt_fault_clear_request_put(const ebl_evt_fault_clear_request *message, uint8_t *bytes, size_t capacity,
+                                   size_t *length);
+
+#define EBL_EVT_FAULT_CLEAR_RESPONSE_LENGTH 2
+typedef struct {
+    uint16_t fault_flags;
+} ebl_evt_fault_clear_response;
+int ebl_evt_fault_clear_response_get(ebl_evt_fault_clear_response *message, const uint8_t *bytes, size_t length);
+int ebl_evt_fault_clear_response_put(const ebl_evt_fault_clear_response *message, uint8_t *bytes, size_t capacity,
+                                    size_t *length);
+
+#define EBL_TIM_SYNC_REQUEST_LENGTH 8
+typedef struct {
+    uint64_t host_us;
+} ebl_tim_sync_request;
+int ebl_tim_sync_request_get(ebl_tim_sync_request *message, const uint8_t *bytes, size_t length);
+int ebl_tim_sync_request_put(const ebl_tim_sync_request *message, uint8_t *bytes, size_t capacity,
+                            size_t *length);
+
+#define EBL_TIM_SYNC_RESPONSE_LENGTH 32
+typedef struct {
+    uint64_t host_us;
+    uint64_t heard_us;
+    uint64_t answered_us;
+    uint64_t unix_us;
+} ebl_tim_sync_response;
+int ebl_tim_sync_response_get(ebl_tim_sync_response *message, const uint8_t *bytes, size_t length);
+int ebl_tim_sync_response_put(const ebl_tim_sync_response *message, uint8_t *bytes, size_t capacity,
+                             size_t *length);
+
+#define EBL_TIM_SET_REQUEST_LENGTH 14
+typedef struct {
+    uint64_t unix_us;
+    int16_t utc_offset_min;
+    uint32_t uncertainty_us;
+} ebl_tim_set_request;
+int ebl_tim_set_request_get(ebl_tim_set_request *message, const uint8_t *bytes, size_t length);
+int ebl_tim_set_request_put(const ebl_tim_set_request *message, uint8_t *bytes, size_t capacity,
+                           size_t *length);
 
 #define EBL_LOG_LIST_REQUEST_LENGTH 3
 typedef struct {
@@ -916,6 +997,18 @@ typedef struct {
 int ebl_config_provisional_event_get(ebl_config_provisional_event *message, const uint8_t *bytes, size_t length);
 int ebl_config_provisional_event_put(const ebl_config_provisional_event *message, uint8_t *bytes, size_t capacity,
                                     size_t *length);
+
+#define EBL_STREAM_COUNTS_EVENT_LENGTH 14
+typedef struct {
+    uint8_t stream_id;
+    uint8_t epoch;
+    uint32_t built;
+    uint32_t dropped_tx;
+    uint32_t missed;
+} ebl_stream_counts_event;
+int ebl_stream_counts_event_get(ebl_stream_counts_event *message, const uint8_t *bytes, size_t length);
+int ebl_stream_counts_event_put(const ebl_stream_counts_event *message, uint8_t *bytes, size_t capacity,
+                               size_t *length);
 
 #define EBL_LOG_CLOSED_EVENT_LENGTH 12
 typedef struct {

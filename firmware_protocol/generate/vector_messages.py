@@ -61,4 +61,6 @@ def _number(field: Field, size: str, position: int) -> int:
     """Zero, a number whose every byte differs from its neighbours, or all bits set."""
     width = struct.calcsize("<" + STRUCT_CODES[field.type])
     usual = int.from_bytes(bytes((16 * position + at + 1) % 256 for at in range(width)), "little")
-    return (0, usual, (1 << 8 * width) - 1)[SIZES[size]]
+    found = (0, usual, (1 << 8 * width) - 1)[SIZES[size]]
+    signed = field.type.startswith("i") and found >= 1 << (8 * width - 1)
+    return found - (1 << 8 * width) if signed else found

@@ -111,6 +111,10 @@ class BenchUnit:
         """How many bytes the line takes until it is read; 0 is a host that does not listen."""
         lib.bench_line_capacity(self.board, length)
 
+    def line_baud(self, baud: int) -> None:
+        """What the line carries in bits per second, as the unit knows it; 0 is no limit."""
+        lib.bench_line_baud(self.board, baud)
+
     def ask_frame(self, frame: bytes) -> codec.Response:
         """One request frame, and its one response."""
         self.hear()

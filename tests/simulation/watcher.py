@@ -21,7 +21,7 @@ from firmware_protocol._generated import (
     Bank,
     CfgInfoRequest,
     CfgReadRequest,
-    StreamStatsEvent,
+    StreamCountsEvent,
     StrSnapshotResponse,
     StrSubscribeResponse,
 )
@@ -112,7 +112,7 @@ class Watcher:
             message = decode(frame)
             if isinstance(message, Stream):
                 self._stream(message)
-            elif isinstance(message, Event) and isinstance(message.message, StreamStatsEvent):
+            elif isinstance(message, Event) and isinstance(message.message, StreamCountsEvent):
                 stats = message.message
                 sent = self._streams.setdefault(self._epoch, _SentStream())
                 sent.told.append((stats.built, stats.dropped_tx))

@@ -38,6 +38,7 @@ static void config_defaulted(app *unit)
     event_config(&unit->events, &unit->link, now_us, EBL_EVENT_CONFIG_DEFAULTED,
                  unit->store.generation, unit->store.crc32);
     if (!faults_latch(&unit->faults, EBL_FAULT_CONFIG_DEFAULTED)) return;
+    faults_freeze(&unit->faults, EBL_FAULT_CONFIG_DEFAULTED, now_us, unit->telemetry.row);
     event_faults_set(&unit->events, &unit->link, now_us, EBL_FAULT_CONFIG_DEFAULTED);
 }
 
@@ -136,6 +137,7 @@ static void faults_report(app *unit, const hal_inputs *inputs, uint64_t now_us)
     uint16_t cleared;
 
     faults_step(&unit->faults, inputs, unit->config.battery_voltage_v_min, &set, &cleared);
+    unit->faults_new = set;
     if (set != 0) {
         event_faults_set(&unit->events, &unit->link, now_us, set);
         ride_log_event_add(&unit->ride_log, EBL_EVENT_FAULT_SET, set, now_us);
@@ -172,6 +174,7 @@ void app_control_step(app *unit)
     faults_report(unit, &inputs, now_us);
     sources.fault_flags = unit->faults.active;
     telemetry_step(&unit->telemetry, &sources, now_us, &unit->link);
+    faults_freeze(&unit->faults, unit->faults_new, now_us, unit->telemetry.row);
     ride_log_step(&unit->ride_log, unit->telemetry.row, now_us, is_moving(&inputs));
 }
 

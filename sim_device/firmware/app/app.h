@@ -57,6 +57,8 @@ typedef struct {
 
     telemetry telemetry;
     fault_list faults;
+    uint16_t faults_new;     /* set in this control step */
+    uint64_t unix_offset_us; /* Unix time minus the unit's; 0: nobody told */
     ride_log ride_log;
     ride_log_bulk bulk;
     ride_log_check log_check;

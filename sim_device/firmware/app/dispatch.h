@@ -44,6 +44,8 @@ request_handler requests_system(uint16_t message_id);
 request_handler requests_config(uint16_t message_id);
 request_handler requests_trial(uint16_t message_id);
 request_handler requests_stream(uint16_t message_id);
+request_handler requests_faults(uint16_t message_id);
+request_handler requests_time(uint16_t message_id);
 request_handler requests_log(const app *unit, uint16_t message_id);
 
 /* The response that a PENDING promised; it is remembered in its place. At most 8 bytes. */

@@ -78,15 +78,14 @@ void event_config_provisional(event_log *events, unit_link *link, uint64_t now_u
     event_send(events, link, now_us, EBL_EVENT_CONFIG_PROVISIONAL, fields, length);
 }
 
-void event_stream_stats(event_log *events, unit_link *link, uint64_t now_us, uint8_t stream_id,
-                        uint32_t built, uint32_t dropped_tx)
+void event_stream_counts(event_log *events, unit_link *link, uint64_t now_us,
+                         const ebl_stream_counts_event *counts)
 {
-    ebl_stream_stats_event event = {stream_id, built, dropped_tx};
-    uint8_t fields[EBL_STREAM_STATS_EVENT_LENGTH];
+    uint8_t fields[EBL_STREAM_COUNTS_EVENT_LENGTH];
     size_t length;
 
-    if (ebl_stream_stats_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
-    event_send(events, link, now_us, EBL_EVENT_STREAM_STATS, fields, length);
+    if (ebl_stream_counts_event_put(counts, fields, sizeof fields, &length) != EBL_OK) return;
+    event_send(events, link, now_us, EBL_EVENT_STREAM_COUNTS, fields, length);
 }
 
 void event_log_closed(event_log *events, unit_link *link, uint64_t now_us, uint32_t log_id,

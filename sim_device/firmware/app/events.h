@@ -25,8 +25,8 @@ void event_config(event_log *events, unit_link *link, uint64_t now_us, uint8_t c
 void event_config_provisional(event_log *events, unit_link *link, uint64_t now_us,
                               uint32_t generation, uint32_t crc32, uint8_t confirm_s);
 
-void event_stream_stats(event_log *events, unit_link *link, uint64_t now_us, uint8_t stream_id,
-                        uint32_t built, uint32_t dropped_tx);
+void event_stream_counts(event_log *events, unit_link *link, uint64_t now_us,
+                         const ebl_stream_counts_event *counts);
 
 void event_log_closed(event_log *events, unit_link *link, uint64_t now_us, uint32_t log_id,
                       uint32_t generation, uint32_t length_bytes);

@@ -1,5 +1,7 @@
 #include "faults.h"
 
+#include <string.h>
+
 /* The converter's word has 16 bits: at its ends a broken bridge arm looks like a strong rider. */
 #define TORQUE_RAW_COUNTS_MAX 32767.0f
 
@@ -74,4 +76,23 @@ int faults_clear(fault_list *faults, uint16_t flag)
 
     faults->active &= (uint16_t)~flag;
     return was_set;
+}
+
+void faults_freeze(fault_list *faults, uint16_t set, uint64_t t_us, const int16_t *row)
+{
+    for (size_t bit = 0; bit < FAULT_KINDS; bit++) {
+        fault_frame *frame = &faults->frames[bit];
+
+        if (!(set >> bit & 1u)) continue;
+        if (frame->count < UINT16_MAX) frame->count++;
+        frame->t_us = t_us;
+        memcpy(frame->row, row, sizeof frame->row);
+    }
+}
+
+void faults_forget(fault_list *faults, uint16_t flags)
+{
+    for (size_t bit = 0; bit < FAULT_KINDS; bit++) {
+        if ((uint32_t)(flags & ~faults->active) >> bit & 1u) faults->frames[bit].count = 0;
+    }
 }

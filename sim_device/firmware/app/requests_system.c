@@ -145,18 +145,6 @@ static void bye(app *unit, const ebl_header *request, reply *answer)
     reply_ok(answer);
 }
 
-static void fault_list_get(app *unit, const ebl_header *request, reply *answer)
-{
-    ebl_evt_fault_list_response response = {unit->faults.active};
-    size_t length = 0;
-    int put;
-
-    (void)request;
-    put = ebl_evt_fault_list_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                          &length);
-    reply_with(answer, put, length);
-}
-
 request_handler requests_system(uint16_t message_id)
 {
     switch (message_id) {
@@ -166,7 +154,6 @@ request_handler requests_system(uint16_t message_id)
     case EBL_MSG_STATS: return stats;
     case EBL_MSG_BYE: return bye;
     case EBL_MSG_COUNTERS: return counters_get;
-    case EBL_MSG_EVT_FAULT_LIST: return fault_list_get;
     default: return NULL;
     }
 }

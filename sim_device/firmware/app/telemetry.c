@@ -2,14 +2,14 @@
 
 #include <string.h>
 
+#include "admission.h"  // admission_bytes_per_s
 #include "ebl_bytes.h"  // ebl_put_i16, ebl_put_u32
 #include "ebl_frame.h"  // EBL_HEADER_LENGTH, ebl_header_put
 #include "ebl_values.h" // ebl_channel_counts
 #include "float32.h"    // float32_missing
 
-#define COUNT_MAX 32767      /* what a value beyond the range of its channel becomes */
-#define STREAM_HEAD_LENGTH 6 /* t0_us u32, rows u8, flags u8 */
-#define STREAM_OVERHEAD (EBL_HEADER_LENGTH + STREAM_HEAD_LENGTH)
+#define COUNT_MAX 32767 /* what a value beyond the range of its channel becomes */
+#define STREAM_OVERHEAD (EBL_HEADER_LENGTH + ADMISSION_STREAM_HEAD_LENGTH)
 #define FLAG_OVERRUN 0x08
 #define FLAG_CLIPPED 0x10
 #define EPOCH_MASK 0x07
@@ -94,9 +94,26 @@ static void row_add(telemetry_stream *stream, const telemetry *state, unit_link 
     if (stream->rows == stream->batch) frame_send(stream, link);
 }
 
+/* A step that came late leaves a hole: the rows before it go out, so that every frame's rows are a
+ * period apart. */
+static void steps_missed(telemetry *state, uint64_t now_us, unit_link *link)
+{
+    uint64_t late_us = now_us - state->row_us;
+
+    if (state->row_us == 0 || late_us < 2 * EBL_CONTROL_PERIOD_US) return;
+    for (size_t i = 0; i < TELEMETRY_STREAMS; i++) {
+        telemetry_stream *stream = &state->streams[i];
+
+        if (!stream->active) continue;
+        stream->missed += (uint32_t)(late_us / EBL_CONTROL_PERIOD_US) - 1;
+        if (stream->rows > 0) frame_send(stream, link);
+    }
+}
+
 void telemetry_step(telemetry *state, const telemetry_sources *sources, uint64_t now_us,
                     unit_link *link)
 {
+    steps_missed(state, now_us, link);
     state->row_us = now_us;
     state->clipped = 0;
     for (size_t i = 0; i < EBL_CHANNEL_COUNT; i++) {
@@ -115,6 +132,15 @@ void telemetry_step(telemetry *state, const telemetry_sources *sources, uint64_t
     }
 }
 
+static void counts_tell(const telemetry_stream *stream, event_log *events, unit_link *link,
+                        uint64_t now_us)
+{
+    ebl_stream_counts_event counts = {stream->stream_id, stream->epoch, stream->built,
+                                      stream->dropped_tx, stream->missed};
+
+    event_stream_counts(events, link, now_us, &counts);
+}
+
 void telemetry_poll(telemetry *state, event_log *events, unit_link *link, uint64_t now_us)
 {
     for (size_t i = 0; i < TELEMETRY_STREAMS; i++) {
@@ -123,10 +149,10 @@ void telemetry_poll(telemetry *state, event_log *events, unit_link *link, uint64
         if (!stream->active) continue;
         if (now_us >= stream->lease_end_us) {
             stream->active = 0;
+            counts_tell(stream, events, link, now_us);
         } else if (now_us >= stream->stats_due_us) {
             stream->stats_due_us = now_us + STATS_PERIOD_US;
-            event_stream_stats(events, link, now_us, stream->stream_id, stream->built,
-                               stream->dropped_tx);
+            counts_tell(stream, events, link, now_us);
         }
     }
 }
@@ -174,13 +200,31 @@ static uint16_t batch_max(uint16_t tx_mtu, size_t channel_count)
     return (uint16_t)(room / (channel_count * 2));
 }
 
-static uint32_t bytes_per_s(const telemetry_stream *stream)
+uint32_t telemetry_bytes_per_s(const telemetry_stream *stream)
 {
-    size_t frame = STREAM_OVERHEAD + stream->batch * row_bytes(stream);
-    uint64_t wire = ebl_wire_length_max(frame);
-    uint64_t period_us = (uint64_t)stream->divider * EBL_CONTROL_PERIOD_US * stream->batch;
+    return admission_bytes_per_s(stream->channel_count, stream->batch, stream->divider);
+}
 
-    return (uint32_t)((wire * US_PER_S + period_us - 1) / period_us);
+/* What the line has left for the stream of this id, and whether that is enough. */
+static uint8_t bandwidth_check(const telemetry *state, const ebl_str_subscribe_request *request,
+                               uint32_t baud, uint16_t *detail)
+{
+    uint32_t left = admission_budget_bytes_per_s(baud);
+    size_t channels = request->channel_ids_length;
+
+    if (baud == 0) return EBL_STATUS_OK;
+    for (size_t i = 0; i < TELEMETRY_STREAMS; i++) {
+        const telemetry_stream *other = &state->streams[i];
+        uint32_t needed = telemetry_bytes_per_s(other);
+
+        if (!other->active || other->stream_id == request->stream_id) continue;
+        left = left > needed ? left - needed : 0;
+    }
+    if (admission_bytes_per_s(channels, request->batch, request->divider) <= left) {
+        return EBL_STATUS_OK;
+    }
+    *detail = admission_rate_hz_max(left, channels, request->batch);
+    return EBL_STATUS_BANDWIDTH;
 }
 
 static uint8_t subscription_check(const ebl_str_subscribe_request *request, uint16_t tx_mtu,
@@ -195,21 +239,23 @@ static uint8_t subscription_check(const ebl_str_subscribe_request *request, uint
         return EBL_STATUS_LENGTH;
     }
     *detail = batch_max(tx_mtu, request->channel_ids_length);
-    if (request->batch > *detail) return EBL_STATUS_BANDWIDTH;
+    if (request->batch > *detail) return EBL_STATUS_RANGE;
     *detail = 0;
     return EBL_STATUS_OK;
 }
 
 uint8_t telemetry_subscribe(telemetry *state, const ebl_str_subscribe_request *request,
-                            uint16_t tx_mtu, uint64_t now_us, ebl_str_subscribe_response *response,
-                            uint16_t *detail)
+                            const telemetry_line *line, uint64_t now_us,
+                            ebl_str_subscribe_response *response, uint16_t *detail)
 {
     uint8_t places[EBL_CHANNEL_COUNT];
     telemetry_stream *stream = stream_find(state, request->stream_id);
-    uint8_t status = subscription_check(request, tx_mtu, detail);
+    uint8_t status = subscription_check(request, line->tx_mtu, detail);
 
     if (status != EBL_STATUS_OK) return status;
     status = places_find(request->channel_ids, request->channel_ids_length, places, detail);
+    if (status != EBL_STATUS_OK) return status;
+    status = bandwidth_check(state, request, line->baud, detail);
     if (status != EBL_STATUS_OK) return status;
     if (stream == NULL) stream = stream_free(state);
     if (stream == NULL) return EBL_STATUS_NO_SPACE;
@@ -231,16 +277,18 @@ uint8_t telemetry_subscribe(telemetry *state, const ebl_str_subscribe_request *r
     response->batch = stream->batch;
     response->epoch = stream->epoch;
     response->start_seq = stream->seq;
-    response->bytes_per_s = bytes_per_s(stream);
+    response->bytes_per_s = telemetry_bytes_per_s(stream);
     return EBL_STATUS_OK;
 }
 
-uint8_t telemetry_unsubscribe(telemetry *state, uint8_t stream_id)
+uint8_t telemetry_unsubscribe(telemetry *state, event_log *events, unit_link *link, uint64_t now_us,
+                              uint8_t stream_id)
 {
     telemetry_stream *stream = stream_find(state, stream_id);
 
     if (stream == NULL) return EBL_STATUS_NOT_FOUND;
     stream->active = 0;
+    counts_tell(stream, events, link, now_us);
     return EBL_STATUS_OK;
 }
 

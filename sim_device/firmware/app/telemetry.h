@@ -33,6 +33,7 @@ typedef struct {
     uint16_t seq;   /* of the frame being built */
     uint32_t built; /* since the subscription, like dropped_tx */
     uint32_t dropped_tx;
+    uint32_t missed; /* control steps that came too late for a row of their own */
     uint8_t rows;    /* in the frame being built */
     uint8_t flags;   /* of the frame being built, without the epoch */
     uint8_t overrun; /* the frame before this one was dropped */
@@ -58,12 +59,24 @@ void telemetry_step(telemetry *state, const telemetry_sources *sources, uint64_t
 /* Ends streams whose lease is over, and reports each stream once a second. */
 void telemetry_poll(telemetry *state, event_log *events, unit_link *link, uint64_t now_us);
 
-/* Starts or changes a stream. Returns an ebl_status. */
-uint8_t telemetry_subscribe(telemetry *state, const ebl_str_subscribe_request *request,
-                            uint16_t tx_mtu, uint64_t now_us, ebl_str_subscribe_response *response,
-                            uint16_t *detail);
+/* What frames go out on: `baud` 0 is a line without a limit. */
+typedef struct {
+    uint16_t tx_mtu;
+    uint32_t baud;
+} telemetry_line;
 
-uint8_t telemetry_unsubscribe(telemetry *state, uint8_t stream_id);
+/* Starts or changes a stream, if all streams together then leave the line its reserve. Returns an
+ * ebl_status. */
+uint8_t telemetry_subscribe(telemetry *state, const ebl_str_subscribe_request *request,
+                            const telemetry_line *line, uint64_t now_us,
+                            ebl_str_subscribe_response *response, uint16_t *detail);
+
+/* Ends a stream and tells its last counts. */
+uint8_t telemetry_unsubscribe(telemetry *state, event_log *events, unit_link *link, uint64_t now_us,
+                              uint8_t stream_id);
+
+/* Bytes a second that the stream needs at most. */
+uint32_t telemetry_bytes_per_s(const telemetry_stream *stream);
 uint8_t telemetry_renew(telemetry *state, uint8_t stream_id, uint8_t lease_s, uint64_t now_us);
 void telemetry_end_all(telemetry *state);
 

@@ -36,6 +36,7 @@ typedef struct {
     size_t (*serial_read)(void *context, uint8_t *bytes, size_t capacity);
     size_t (*serial_write)(void *context, const uint8_t *bytes, size_t length);
     size_t (*serial_writable)(void *context);
+    uint32_t serial_baud; /* bits per second of the line now; 0: nothing limits it, or not known */
 
     void (*inputs_read)(void *context, hal_inputs *inputs);
     void (*motor_torque_set)(void *context, float motor_torque_nm);

@@ -22,7 +22,7 @@ from firmware_protocol._generated import (
     FaultSetEvent,
     MessageId,
     Status,
-    StreamStatsEvent,
+    StreamCountsEvent,
     StrSubscribeResponse,
 )
 from firmware_protocol.codec import Stream
@@ -169,7 +169,7 @@ def test_faults_and_the_unit_s_own_frame_count_are_noted() -> None:
 
     unit.tell(FaultSetEvent(0b101))
     unit.tell(FaultClearedEvent(0b001))
-    unit.tell(StreamStatsEvent(1, 500, 3))
+    unit.tell(StreamCountsEvent(1, 1, 500, 3, 0))
     bench.run(0.1)
 
     assert bench.session.notes.faults_active == ("BATTERY_LOW",)

@@ -61,7 +61,7 @@ def stats(unit: BenchUnit, stream_id: int) -> tuple[int, int]:
     latest = [
         event.fields
         for event in unit.events
-        if event.code == Event.STREAM_STATS and event.fields["stream_id"] == stream_id
+        if event.code == Event.STREAM_COUNTS and event.fields["stream_id"] == stream_id
     ][-1]
     return int(str(latest["built"])), int(str(latest["dropped_tx"]))
 
@@ -278,7 +278,7 @@ def test_a_frame_beyond_the_agreed_size_is_refused_with_the_batch_that_fits(
 
     refused = unit.ask(StrSubscribeRequest(1, 1, fits + 1, 0, 5, every_channel))
 
-    assert (refused.status, refused.detail) == (Status.BANDWIDTH, fits)
+    assert (refused.status, refused.detail) == (Status.RANGE, fits)
     assert unit.ask(StrSubscribeRequest(1, 1, fits, 0, 5, every_channel)).status == Status.OK
 
 

@@ -259,6 +259,8 @@ void bench_line_capacity(bench_board *board, size_t bytes)
     board->to_host.capacity = bytes < BENCH_LINE_BYTES ? bytes : BENCH_LINE_BYTES;
 }
 
+void bench_line_baud(bench_board *board, uint32_t baud) { board->hal.serial_baud = baud; }
+
 void bench_inputs_get(const bench_board *board, hal_inputs *inputs) { *inputs = board->inputs; }
 
 void bench_inputs_set(bench_board *board, const hal_inputs *inputs) { board->inputs = *inputs; }

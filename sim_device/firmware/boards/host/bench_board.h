@@ -40,6 +40,9 @@ size_t bench_receive(bench_board *board, uint8_t *bytes, size_t capacity);
 /* Bytes the unit may write before the host reads: a full line takes nothing. */
 void bench_line_capacity(bench_board *board, size_t bytes);
 
+/* What the unit believes the line carries, bits per second; 0: no limit. */
+void bench_line_baud(bench_board *board, uint32_t baud);
+
 void bench_inputs_get(const bench_board *board, hal_inputs *inputs);
 void bench_inputs_set(bench_board *board, const hal_inputs *inputs);
 

@@ -1,0 +1,75 @@
+/* What the host asks about faults: which there are, and what the bike did when they came. */
+#include "dispatch.h"     // reply_refuse, reply_with
+#include "ebl_bytes.h"    // EBL_OK, ebl_put_i16
+#include "ebl_registry.h" // ebl_evt_fault_freeze_request_get
+
+static void fault_list_get(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_evt_fault_list_response response = {unit->faults.active};
+    size_t length = 0;
+    int put;
+
+    (void)request;
+    put = ebl_evt_fault_list_response_put(&response, reply_fields(answer), reply_capacity(answer),
+                                          &length);
+    reply_with(answer, put, length);
+}
+
+static void freeze_get(app *unit, const ebl_header *request, reply *answer)
+{
+    uint8_t values[2 * EBL_CHANNEL_COUNT];
+    ebl_evt_fault_freeze_request asked;
+    ebl_evt_fault_freeze_response response;
+    const fault_frame *frame;
+    size_t length = 0;
+    int put;
+
+    if (ebl_evt_fault_freeze_request_get(&asked, request->payload, request->payload_length) !=
+        EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_EVT_FAULT_FREEZE_REQUEST_LENGTH);
+        return;
+    }
+    if (asked.fault_bit >= FAULT_KINDS || unit->faults.frames[asked.fault_bit].count == 0) {
+        reply_refuse(answer, EBL_STATUS_NOT_FOUND, asked.fault_bit);
+        return;
+    }
+    frame = &unit->faults.frames[asked.fault_bit];
+    for (size_t i = 0; i < EBL_CHANNEL_COUNT; i++) ebl_put_i16(values + 2 * i, frame->row[i]);
+    response.active = unit->faults.active >> asked.fault_bit & 1u;
+    response.count = frame->count;
+    response.t_us = frame->t_us;
+    response.values = values;
+    response.values_length = sizeof values;
+    put = ebl_evt_fault_freeze_response_put(&response, reply_fields(answer), reply_capacity(answer),
+                                            &length);
+    reply_with(answer, put, length);
+}
+
+static void faults_clear_request(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_evt_fault_clear_request asked;
+    ebl_evt_fault_clear_response response;
+    size_t length = 0;
+    int put;
+
+    if (ebl_evt_fault_clear_request_get(&asked, request->payload, request->payload_length) !=
+        EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_EVT_FAULT_CLEAR_REQUEST_LENGTH);
+        return;
+    }
+    faults_forget(&unit->faults, asked.fault_flags);
+    response.fault_flags = unit->faults.active;
+    put = ebl_evt_fault_clear_response_put(&response, reply_fields(answer), reply_capacity(answer),
+                                           &length);
+    reply_with(answer, put, length);
+}
+
+request_handler requests_faults(uint16_t message_id)
+{
+    switch (message_id) {
+    case EBL_MSG_EVT_FAULT_LIST: return fault_list_get;
+    case EBL_MSG_EVT_FAULT_FREEZE: return freeze_get;
+    case EBL_MSG_EVT_FAULT_CLEAR: return faults_clear_request;
+    default: return NULL;
+    }
+}
