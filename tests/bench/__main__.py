@@ -3,13 +3,14 @@
 import sys
 from pathlib import Path
 
-from tests.bench import law, rides, server, wire
+from tests.bench import law, link, rides, server, wire
 from tests.bench.figures import Figure, mark, write
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "benchmarks.md"
 SECTIONS = {
     "The law": law.run,
     "The wire": wire.run,
+    "The link": link.run,
     "Rides": rides.run,
     "The server": server.run,
 }
