@@ -26,6 +26,7 @@ from backend.api.safety import AllowedHosts
 from backend.api.services import Services
 from backend.errors import LinkError, SpindleError
 from backend.link import kind_of
+from backend.services.collect import Collect
 from backend.services.connect import Devices
 from backend.services.preview import Preview
 from backend.services.record import Recorder
@@ -71,6 +72,8 @@ def open_services(settings: Settings) -> Iterator[Services]:
         in_background("uploads", uploads.recover)
         # Units close first: their last rows still find the recorder.
         closing.callback(devices.close)
+        collect = Collect(devices, uploads, settings.data / "collecting")
+        closing.callback(collect.close)
 
         devices.watch(memory.follow)
         devices.watch(recorder.watch)
@@ -86,6 +89,7 @@ def open_services(settings: Settings) -> Iterator[Services]:
             preview=preview,
             rides=Rides(store, RideReplay(preview, memory.ride_config)),
             uploads=uploads,
+            collect=collect,
         )
 
 

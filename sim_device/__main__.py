@@ -13,6 +13,7 @@ from typing import Any
 
 from sim_device.controls import SPEED_FACTOR_MAX, SPEED_FACTOR_MIN
 from sim_device.lockstep import LockstepUnit
+from sim_device.log_file import LogFile
 from sim_device.scenario import list_scenarios, run
 from sim_device.scenario_file import ScenarioError, load, names
 from sim_device.serial_line import PtyLine, SerialLine, TcpLine
@@ -51,7 +52,9 @@ def _add_unit(unit: argparse.ArgumentParser) -> None:
     )
     unit.add_argument("--speed", type=_speed, default=1.0, metavar="X", help="times real time")
     unit.add_argument("--seed", type=int, default=0, help="makes noise and serial number")
-    unit.add_argument("--flash", type=Path, metavar="FILE", help="keeps the unit's configuration")
+    unit.add_argument(
+        "--flash", type=Path, metavar="FILE", help="keeps its configuration, FILE.log its ride logs"
+    )
 
 
 def _port(text: str) -> tuple[str, int]:
@@ -80,11 +83,13 @@ def _live_names() -> list[str]:
 def _serve(arguments: argparse.Namespace) -> None:
     stop = Stop()
     flash = FlashFile(arguments.flash) if arguments.flash is not None else None
+    log = LogFile(Path(f"{arguments.flash}.log")) if arguments.flash is not None else None
     unit = LockstepUnit(
         arguments.seed,
         name="process",
         scenario=None if arguments.scenario == "none" else arguments.scenario,
         flash=flash.load() if flash is not None else None,
+        log=log.load() if log is not None else None,
         boot_id=new_boot_id(),
         speed_factor=arguments.speed,
     )
@@ -92,7 +97,7 @@ def _serve(arguments: argparse.Namespace) -> None:
     line: SerialLine = PtyLine(pty) if pty is not None else TcpLine(*arguments.tcp)
     try:
         print(f"ready {line.address}", flush=True)
-        serve(unit, line, stop, flash)
+        serve(unit, line, stop, flash, log)
     finally:
         line.close()
 

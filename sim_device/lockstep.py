@@ -32,7 +32,7 @@ class LockstepUnit:
         name: tells units with equal seeds apart.
         scenario: a live scenario to ride from the start.
         bike: `part.name` -> value, over the pinned bike W1.
-        flash: the flash of an earlier life.
+        flash: the flash of an earlier life. log: that for ride logs.
         boot_id: another one tells the host that the unit was restarted.
         speed_factor: kept for the process that paces the unit; virtual time does not need it.
 
@@ -50,6 +50,7 @@ class LockstepUnit:
         scenario: str | None = None,
         bike: dict[str, float] | None = None,
         flash: bytes | None = None,
+        log: bytes | None = None,
         boot_id: int = 1,
         speed_factor: float = 1.0,
     ) -> None:
@@ -67,6 +68,7 @@ class LockstepUnit:
             seed=seed,
             bike=self._bike,
             flash=flash,
+            log=log,
             request=self._answer,
         )
         if config_overrides:

@@ -15,6 +15,7 @@ from types import FrameType
 
 from sim_device.firmware.python.unit import FLASH_LENGTH
 from sim_device.lockstep import US_PER_S, LockstepUnit
+from sim_device.log_file import LogFile
 from sim_device.serial_line import SerialLine
 
 SLEEP_S = 0.008
@@ -100,6 +101,7 @@ def serve(
     line: SerialLine,
     stop: Callable[[], bool],
     flash: FlashFile | None = None,
+    log: LogFile | None = None,
 ) -> None:
     """Runs the unit against the clock until `stop()`."""
     pace = Pace(time.monotonic(), unit.speed_factor)
@@ -115,10 +117,14 @@ def serve(
             waiting = waiting[line.write(waiting) :]
         if flash is not None and now_s >= save_due_s:
             flash.save(unit.unit.flash())
+            if log is not None:
+                log.save(unit.unit)
             save_due_s = now_s + HOUSEKEEPING_S
         time.sleep(SLEEP_S)
     if flash is not None:
         flash.save(unit.unit.flash())
+    if log is not None:
+        log.save(unit.unit)
 
 
 def new_boot_id() -> int:

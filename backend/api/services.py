@@ -9,6 +9,7 @@ from fastapi import Depends
 from starlette.requests import HTTPConnection
 
 if TYPE_CHECKING:
+    from backend.services.collect import Collect
     from backend.services.connect import Devices
     from backend.services.preview import Preview
     from backend.services.review import Rides
@@ -28,6 +29,7 @@ class Services:
     preview: Preview
     rides: Rides
     uploads: Uploads
+    collect: Collect
 
 
 def services_of(connection: HTTPConnection) -> Services:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from backend import __version__
-from backend.cli import device, law, ride, serve
+from backend.cli import device, device_log, law, ride, serve
 
 
 def build_parser() -> argparse.ArgumentParser:
@@ -56,7 +56,7 @@ def _group(verbs: Any, name: str, words: str) -> Any:
 
 
 def _add_device(verbs: Any) -> None:
-    group = _group(verbs, "device", "units: list, show, get, set, backup, restore, diff")
+    group = _group(verbs, "device", "units: list, show, get, set, backup, restore, diff, logs")
     unit = "id or serial number; may be left out when there is only one unit"
     _asking(group, "list", device.list_devices, help="every unit and its state")
     _asking(group, "add", device.add, help="open a unit").add_argument("url")
@@ -78,6 +78,11 @@ def _add_device(verbs: Any) -> None:
     command = _asking(group, "diff", device.diff, help="a backup against the unit, or another")
     command.add_argument("file", type=Path)
     command.add_argument("other", nargs="?", help="another backup's file, or a unit")
+    command = _asking(group, "logs", device_log.list_logs, help="rides in the unit's own flash")
+    command.add_argument("unit", nargs="?", help=unit)
+    command = _asking(group, "download", device_log.download, help="make a log of the unit a ride")
+    command.add_argument("log", type=int, help="its number in `device logs`")
+    command.add_argument("unit", nargs="?", help=unit)
 
 
 def _add_ride(verbs: Any) -> None:

@@ -15,7 +15,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -195,7 +195,7 @@ class UnitRecorder:
                 self._lead.clear()
                 first = block
         started_us = block.wall_us - (block.t0_us - first.t0_us)
-        context = self._context()
+        context = replace(self._context(), unit_t0_us=first.t0_us)
         ride_id = self._rides.start_live(self._channels, self._period_us, started_us, context)
         self._live = LiveRide(ride_id, first.t0_us, last_wall_us=block.wall_us, context=context)
         for lead in self._lead:
@@ -275,7 +275,7 @@ class UnitRecorder:
         self._live = None
         if live.context.gear_ratio is None:
             # The unit may have told its configuration only after the bike began to move.
-            context = self._context()
+            context = replace(self._context(), unit_t0_us=live.t0_us)
             if context.gear_ratio is not None:
                 self._rides.set_context(live.ride_id, context)
         finished: Future[Ride | None] = self._rides.finish_later(live.ride_id)

@@ -67,6 +67,7 @@ class UnitMemory:
             config_generation=stamp.generation if stamp else None,
             config_crc32=stamp.crc32 if stamp else None,
             gear_ratio=_number(config.parameters, "gear_ratio") if config else None,
+            boot_id=identity.boot_id if identity else None,
         )
 
     def ride_config(self, ride: Ride) -> tuple[Mapping[str, Any], str]:

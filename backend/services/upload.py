@@ -14,9 +14,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from backend.domain.ride import Ride, RideContext, iso_utc
+from backend.domain.ride import Ride, iso_utc
 from backend.errors import Conflict, InvalidRequest, StoreError
 from backend.ingest import ImportedRide, Outcome, read_in_child
+from backend.services.same_ride import same_ride
 from backend.store import Store, Upload
 
 LOG = logging.getLogger(__name__)
@@ -126,13 +127,14 @@ class Uploads:
         if (twin := self._twin(upload)) is not None:
             return twin
         outcome = self._read(upload)
+        fresh, known = self._sorted_out(upload, outcome)
         try:
-            for number, imported in enumerate(outcome.rides):
+            for number, imported in enumerate(fresh):
                 if number < len(upload.ride_ids):
                     # A crash came between this ride and the conclusion.
                     continue
                 self._store.rides.add(
-                    ride_of(upload, imported, number, len(outcome.rides), outcome.completeness),
+                    ride_of(upload, imported, number, len(fresh), outcome.completeness),
                     imported.rows,
                     upload_id,
                 )
@@ -140,9 +142,33 @@ class Uploads:
             # The original is kept and the upload waits: the next start looks at it again.
             LOG.warning("Upload %s is kept but not read: %s", upload_id, error.message)
             raise
+        if known and not fresh:
+            return uploads.conclude(
+                upload_id,
+                outcome.state,
+                "duplicate",
+                f"This is ride {known[0].id} of {iso_utc(known[0].started_us)[:10]}, which is here "
+                "already; the file is kept beside it and nothing is stored twice.",
+                outcome.completeness,
+                duplicate_of=known[0].id,
+            )
         return uploads.conclude(
             upload_id, outcome.state, outcome.code, outcome.detail, outcome.completeness
         )
+
+    def _sorted_out(
+        self, upload: Upload, outcome: Outcome
+    ) -> tuple[list[ImportedRide], list[Ride]]:
+        """The rides of a file that are new, and those here that the others are."""
+        fresh: list[ImportedRide] = []
+        known: list[Ride] = []
+        for imported in outcome.rides:
+            twin = same_ride(self._store.rides, imported, upload.id)
+            if twin is None:
+                fresh.append(imported)
+            else:
+                known.append(twin)
+        return fresh, known
 
     def _read(self, upload: Upload) -> Outcome:
         if upload.object_key is None:
@@ -170,17 +196,19 @@ def ride_of(
 ) -> Ride:
     """The ride of one part of a file, not yet in the store."""
     name = upload.name.rsplit(".", 1)[0] if "." in upload.name else upload.name
+    # A unit without a clock: the ride was over when its log came.
+    over_us = upload.created_us - int(imported.rows.times_us[-1])
     return Ride(
         id=0,
         state="live",
         origin="imported",
         name=name if count == 1 else f"{name} ({number + 1} of {count})",
         notes="; ".join(imported.notes),
-        started_us=imported.started_us,
+        started_us=imported.started_us if imported.start_known else over_us,
         row_count=len(imported.rows.times_us),
         period_us=imported.period_us,
         channels=imported.rows.channels,
         derived=(),
-        context=RideContext(),
+        context=imported.context,
         completeness=completeness,
     )

@@ -153,6 +153,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/devices/{device_id}/logs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Logs
+         * @description Rides the unit has recorded by itself; 409 for a unit that keeps none.
+         */
+        get: operations["list_logs"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/devices/{device_id}/logs/{log_id}/download": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Log Download
+         * @description How far a download is, and what became of it.
+         */
+        get: operations["get_log_download"];
+        put?: never;
+        /**
+         * Start Log Download
+         * @description Fetches a log in the background and makes it a ride; goes on where an earlier try ended.
+         */
+        post: operations["start_log_download"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/devices/{device_id}/parameters": {
         parameters: {
             query?: never;
@@ -1003,6 +1047,42 @@ export interface components {
             limits?: components["schemas"]["Limits"] | null;
         };
         /**
+         * LogDownload
+         * @description From `waiting` to `done` or `failed`; only then the unit may free the log.
+         */
+        LogDownload: {
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "waiting" | "fetching" | "checking" | "keeping" | "done" | "failed";
+            /** Received */
+            received: number;
+            /** Length */
+            length: number;
+            /** Bytes Per S */
+            bytes_per_s: number | null;
+            /** Detail */
+            detail: string | null;
+            /** Upload Id */
+            upload_id: string | null;
+            /**
+             * Ride Id
+             * @description The ride it became or was already.
+             */
+            ride_id: number | null;
+            /**
+             * Duplicate Of
+             * @description The ride that was here before; null if new.
+             */
+            duplicate_of: number | null;
+            /**
+             * Confirmed
+             * @description Whether the unit knows that the log is safe.
+             */
+            confirmed: boolean;
+        };
+        /**
          * Parameter
          * @description What a parameter is, and its value in the unit now.
          *
@@ -1502,6 +1582,45 @@ export interface components {
             deviation: number;
             /** Range */
             range: number;
+        };
+        /** UnitLog */
+        UnitLog: {
+            /** Log Id */
+            log_id: number;
+            /**
+             * Generation
+             * @description Tells a log from another of the same number.
+             */
+            generation: number;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "recording" | "closed" | "cut_off";
+            /**
+             * Started At
+             * @description Null when the unit was restarted since.
+             */
+            started_at: string | null;
+            /** Duration S */
+            duration_s: number;
+            /** Length */
+            length: number;
+            /** Confirmed */
+            confirmed: boolean;
+            download: components["schemas"]["LogDownload"] | null;
+        };
+        /**
+         * UnitLogs
+         * @description The oldest first. overwritten: given up by the unit before anybody fetched them.
+         */
+        UnitLogs: {
+            /** Items */
+            items: components["schemas"]["UnitLog"][];
+            /** Overwritten */
+            overwritten: number;
+            /** Next */
+            next: string | null;
         };
         /**
          * Upload
@@ -2160,6 +2279,209 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Simulation"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_logs: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UnitLogs"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_log_download: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                device_id: string;
+                log_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LogDownload"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    start_log_download: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                device_id: string;
+                log_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LogDownload"];
                 };
             };
             /** @description Not Found */

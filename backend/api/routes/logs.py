@@ -1,0 +1,43 @@
+"""Rides in a unit's own flash: list them, fetch one, see how far it is."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Path, Response, status
+
+from backend.api.models.log import LogDownload, UnitLogs
+from backend.api.problem import refusals
+from backend.api.services import Provided
+
+router = APIRouter(tags=["devices"], responses=refusals(404, 409, 503, 504))
+
+LogId = Annotated[int, Path(ge=1, lt=2**32)]
+DOWNLOAD = "/devices/{device_id}/logs/{log_id}/download"
+
+
+@router.get("/devices/{device_id}/logs", operation_id="list_logs", response_model=UnitLogs)
+def list_logs(device_id: str, services: Provided) -> Any:
+    """Rides the unit has recorded by itself; 409 for a unit that keeps none."""
+    return services.collect.logs(device_id)
+
+
+@router.post(
+    DOWNLOAD,
+    operation_id="start_log_download",
+    response_model=LogDownload,
+    status_code=status.HTTP_202_ACCEPTED,
+)
+def start_log_download(
+    device_id: str, log_id: LogId, services: Provided, response: Response
+) -> Any:
+    """Fetches a log in the background and makes it a ride; goes on where an earlier try ended."""
+    download = services.collect.start(device_id, log_id)
+    response.headers["location"] = f"/api/v1/devices/{device_id}/logs/{log_id}/download"
+    return download
+
+
+@router.get(DOWNLOAD, operation_id="get_log_download", response_model=LogDownload)
+def get_log_download(device_id: str, log_id: LogId, services: Provided) -> Any:
+    """How far a download is, and what became of it."""
+    return services.collect.get(device_id, log_id)

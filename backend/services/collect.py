@@ -1,0 +1,394 @@
+"""Collecting rides from a unit's flash: list, fetch, keep, and only then let the unit free them.
+
+    waiting -> fetching -> checking -> keeping -> done
+    any -> failed, with the reason; what is here stays, and the next try goes on from it
+
+A log is written to `.part` in order, so whatever is in that file is a beginning of the log; the
+unit's check value over it decides whether it may be gone on with. The log is confirmed to the unit
+when its bytes are in the store, never before.
+"""
+
+from __future__ import annotations
+
+import logging
+import os
+import threading
+import time
+import zlib
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import BinaryIO, TypeVar
+
+from backend.device.log_download import LogReceiver
+from backend.device.operation import Operation
+from backend.device.ride_logs import (
+    RideLog,
+    RideLogs,
+    close_log,
+    confirm_log,
+    list_logs,
+    log_crc,
+    receive_log,
+)
+from backend.domain.ride import iso_utc
+from backend.errors import (
+    Conflict,
+    DeviceRefused,
+    LinkError,
+    NoAnswer,
+    NotFound,
+    PeerProtocolError,
+    SpindleError,
+    StoreError,
+)
+from backend.ingest.blocks import BLOCKS_SUFFIX, PAGE_BYTES, sync_block
+from backend.services.connect import Devices
+from backend.services.upload import Uploads
+
+LOG = logging.getLogger(__name__)
+
+Result = TypeVar("Result")
+
+SESSIONS = 15
+TAKE_EVERY_S = 0.050
+# The unit's own check of a log of 4 MB takes seconds.
+CHECK_TIMEOUT_S = 60.0
+# How long a unit that was unplugged is waited for, and how often that may happen without a byte.
+RECONNECT_S = 600.0
+FRUITLESS_MAX = 5
+RUNNING = ("waiting", "fetching", "checking", "keeping")
+
+
+@dataclass(frozen=True)
+class Download:
+    """How far a log is. received, length: bytes. detail: what happened, for people, or None.
+
+    upload_id, ride_id: what it became; duplicate_of: the ride that was here before.
+    """
+
+    state: str = "waiting"
+    received: int = 0
+    length: int = 0
+    bytes_per_s: float | None = None
+    detail: str | None = None
+    upload_id: str | None = None
+    ride_id: int | None = None
+    duplicate_of: int | None = None
+    confirmed: bool = False
+
+
+@dataclass(frozen=True)
+class UnitLog:
+    """A log in a unit as people see it. state: recording, closed, or cut_off by a lost supply.
+
+    started_at: None where the unit was started again since, so that nobody knows.
+    """
+
+    log_id: int
+    generation: int
+    state: str
+    started_at: str | None
+    duration_s: float
+    length: int
+    confirmed: bool
+    download: Download | None
+
+
+@dataclass(frozen=True)
+class UnitLogs:
+    """Every log of a unit; overwritten: how many it gave up before anybody fetched them."""
+
+    items: tuple[UnitLog, ...]
+    overwritten: int
+
+
+class Stopping(SpindleError):
+    """Spindle is closing; the download goes on at the next try."""
+
+    default_code = "stopping"
+
+
+class Collect:
+    """Downloads of ride logs, one at a time for each unit. For any thread.
+
+    folder: where unfinished downloads stay.
+    """
+
+    def __init__(self, devices: Devices, uploads: Uploads, folder: Path) -> None:
+        self._devices = devices
+        self._uploads = uploads
+        self._folder = folder
+        self._lock = threading.Lock()
+        self._stopping = threading.Event()
+        self._workers: dict[str, ThreadPoolExecutor] = {}
+        self._downloads: dict[tuple[str, int], Download] = {}
+        self._session = 0
+
+    def logs(self, device_id: str) -> UnitLogs:
+        """What a unit has. Raises NotFound, NoAnswer, Conflict for a unit that keeps no logs."""
+        unit_id = self._devices.get(device_id).id
+        found = self._listed(unit_id)
+        now_us = time.time_ns() // 1000
+        items = []
+        for log in found.logs:
+            same_boot = log.boot_id == found.boot_id
+            started_us = now_us - (found.now_us - log.t0_us)
+            with self._lock:
+                download = self._downloads.get((unit_id, log.log_id))
+            items.append(
+                UnitLog(
+                    log_id=log.log_id,
+                    generation=log.generation,
+                    state=state_of(log),
+                    started_at=iso_utc(started_us) if same_boot else None,
+                    duration_s=(log.t1_us - log.t0_us) / 1e6,
+                    length=log.length,
+                    confirmed=log.confirmed,
+                    download=download,
+                )
+            )
+        return UnitLogs(tuple(items), found.overwritten)
+
+    def start(self, device_id: str, log_id: int) -> Download:
+        """Begin to fetch a log, or go on; the same download if one is running.
+
+        Raises NotFound, NoAnswer, Conflict while the log is still being written.
+        """
+        unit_id = self._devices.get(device_id).id
+        with self._lock:
+            running = self._downloads.get((unit_id, log_id))
+            if running is not None and running.state in RUNNING:
+                return running
+        log = self._find(unit_id, log_id)
+        if log.recording:
+            raise Conflict(
+                f"Ride log {log_id} is still being written. It is closed after the bike has stood "
+                "for twenty seconds.",
+                code="recording",
+            )
+        download = Download(length=log.length)
+        with self._lock:
+            if self._stopping.is_set():
+                raise Stopping("Spindle is closing.")
+            self._downloads[unit_id, log_id] = download
+            worker = self._workers.get(unit_id)
+            if worker is None:
+                worker = ThreadPoolExecutor(1, thread_name_prefix=f"collect {unit_id}")
+                self._workers[unit_id] = worker
+        worker.submit(self._run, unit_id, log)
+        return download
+
+    def get(self, device_id: str, log_id: int) -> Download:
+        """How far a download is. Raises NotFound when none was begun."""
+        unit_id = self._devices.get(device_id).id
+        with self._lock:
+            found = self._downloads.get((unit_id, log_id))
+        if found is None:
+            raise NotFound(f"Nobody has begun to fetch ride log {log_id} of {unit_id}.")
+        return found
+
+    def close(self) -> None:
+        """Break off; what has come stays on the disk."""
+        with self._lock:
+            self._stopping.set()
+            workers = list(self._workers.values())
+        for worker in workers:
+            worker.shutdown(wait=True, cancel_futures=True)
+
+    # ------------------------------------------------------------------ one download
+
+    def _run(self, unit_id: str, log: RideLog) -> None:
+        try:
+            serial = self._serial(unit_id)
+            path = self._fetch(unit_id, serial, log)
+            self._keep(unit_id, log, path)
+        except SpindleError as error:
+            self._note(unit_id, log, state="failed", detail=error.message)
+        except Exception as error:
+            LOG.exception("Ride log %d of %s was not fetched.", log.log_id, unit_id)
+            self._note(unit_id, log, state="failed", detail=f"A fault in Spindle: {error}")
+
+    def _fetch(self, unit_id: str, serial: str, log: RideLog) -> Path:
+        """The whole log on the disk, checked by the unit."""
+        self._folder.mkdir(parents=True, exist_ok=True)
+        stem = f"{serial}-{log.boot_id:08x}-{log.log_id}-{log.generation:08x}"
+        part, whole = self._folder / f"{stem}.part", self._folder / f"{stem}{BLOCKS_SUFFIX}"
+        with storing(part), part.open("a+b") as file:
+            fruitless = 0
+            while True:
+                before = file.seek(0, os.SEEK_END)
+                try:
+                    self._continue(unit_id, log, file)
+                    break
+                except LinkError as error:
+                    fruitless = 0 if file.seek(0, os.SEEK_END) > before else fruitless + 1
+                    if fruitless > FRUITLESS_MAX:
+                        raise
+                    self._note(unit_id, log, detail=f"{error.message} Waiting to go on.")
+                    self._wait_connected(unit_id)
+            file.flush()
+            os.fsync(file.fileno())
+        part.replace(whole)
+        return whole
+
+    def _continue(self, unit_id: str, log: RideLog, file: BinaryIO) -> None:
+        """From what is in the file to the whole log. Raises LinkError where that breaks off."""
+        have = self._proven_prefix(unit_id, log, file)
+        if have < log.length:
+            self._note(unit_id, log, state="fetching", received=have, detail=None)
+            with self._session_of(unit_id) as receiver:
+                self._devices.run(unit_id, receive_log(log, receiver, have))
+                self._take(unit_id, log, receiver, file)
+        self._note(unit_id, log, state="checking", received=log.length, bytes_per_s=None)
+        if self._proven_prefix(unit_id, log, file) != log.length:
+            raise PeerProtocolError(
+                f"Ride log {log.log_id} does not have the check value the unit gives for it. Fetch "
+                "it again; if it stays so, the unit's flash is defective."
+            )
+
+    def _proven_prefix(self, unit_id: str, log: RideLog, file: BinaryIO) -> int:
+        """How much of the file is the beginning of the log; anything else is cut away."""
+        size = file.seek(0, os.SEEK_END)
+        have = min(size - size % PAGE_BYTES, log.length)
+        if have > 0:
+            file.seek(0)
+            local = zlib.crc32(file.read(have))
+            if self._devices.run(unit_id, log_crc(log, have), CHECK_TIMEOUT_S) != local:
+                have = 0
+        file.truncate(have)
+        return have
+
+    def _take(self, unit_id: str, log: RideLog, receiver: LogReceiver, file: BinaryIO) -> None:
+        """Write pieces as they come, until the last."""
+        began_s, had = time.monotonic(), receiver.received
+        while True:
+            over = receiver.done or receiver.failure is not None
+            file.writelines(receiver.take_pieces())
+            received = receiver.received
+            taken_s = time.monotonic() - began_s
+            rate = (received - had) / taken_s if taken_s > 0 else None
+            self._note(unit_id, log, received=received, bytes_per_s=rate)
+            if over:
+                break
+            if self._stopping.wait(TAKE_EVERY_S):
+                raise Stopping("Spindle was closed; fetching goes on at the next try.")
+        if receiver.failure is not None:
+            raise NoAnswer(receiver.failure)
+
+    @contextmanager
+    def _session_of(self, unit_id: str) -> Iterator[LogReceiver]:
+        with self._lock:
+            self._session = self._session % SESSIONS + 1
+            receiver = LogReceiver(self._session, time.monotonic())
+        self._devices.receive_log(unit_id, receiver)
+        try:
+            yield receiver
+        finally:
+            self._quietly(lambda: self._devices.receive_log(unit_id, None))
+            self._quietly(lambda: self._devices.run(unit_id, close_log(receiver.session)))
+
+    def _keep(self, unit_id: str, log: RideLog, path: Path) -> None:
+        """Into the store, and then the unit may free it."""
+        self._note(unit_id, log, state="keeping")
+        with storing(path):
+            crc32 = zlib.crc32(path.read_bytes())
+            with path.open("ab") as file:
+                file.write(self._wall_time(unit_id, log))
+        upload = self._uploads.receive_file(f"log {log.log_id}{BLOCKS_SUFFIX}", path)
+        if upload.object_key is None:
+            raise StoreError(f"Ride log {log.log_id} was not kept: {upload.detail}")
+        path.unlink(missing_ok=True)
+        self._note(
+            unit_id,
+            log,
+            upload_id=upload.id,
+            ride_id=upload.ride_ids[0] if upload.ride_ids else None,
+            duplicate_of=upload.duplicate_of,
+            detail=upload.detail,
+        )
+        try:
+            self._again(unit_id, lambda: confirm_log(log, crc32))
+            self._note(unit_id, log, state="done", confirmed=True)
+        except (LinkError, DeviceRefused) as error:
+            told = f"The ride is kept; the unit does not know it yet: {error.message}"
+            self._note(unit_id, log, state="done", detail=told)
+
+    def _wall_time(self, unit_id: str, log: RideLog) -> bytes:
+        """When it was ridden, for a file that does not say: known for the unit's present start."""
+        try:
+            found = self._listed(unit_id)
+        except SpindleError:
+            return b""
+        if found.boot_id != log.boot_id:
+            return b""
+        started_us = time.time_ns() // 1000 - (found.now_us - log.t0_us)
+        return sync_block(log.log_id, log.boot_id, log.t0_us, started_us)
+
+    # ------------------------------------------------------------------ inside
+
+    def _again(self, unit_id: str, operation: Callable[[], Operation[Result]]) -> Result:
+        """Run an operation; once more when the unit was away."""
+        try:
+            return self._devices.run(unit_id, operation(), CHECK_TIMEOUT_S)
+        except LinkError:
+            self._wait_connected(unit_id)
+            return self._devices.run(unit_id, operation(), CHECK_TIMEOUT_S)
+
+    def _listed(self, unit_id: str) -> RideLogs:
+        try:
+            return self._devices.run(unit_id, list_logs())
+        except DeviceRefused as error:
+            if error.status in ("UNSUPPORTED", "UNKNOWN_MSG"):
+                raise Conflict(f"{unit_id} keeps no ride logs.", code="no_logs") from None
+            raise
+
+    def _find(self, unit_id: str, log_id: int) -> RideLog:
+        for log in self._listed(unit_id).logs:
+            if log.log_id == log_id:
+                return log
+        raise NotFound(f"{unit_id} has no ride log {log_id}; it may have been overwritten.")
+
+    def _serial(self, unit_id: str) -> str:
+        identity = self._devices.get(unit_id).identity
+        if identity is None:
+            raise NoAnswer(f"{unit_id} has not said who it is.")
+        return identity.serial_number
+
+    def _wait_connected(self, unit_id: str) -> None:
+        """Wait for the unit to come back. Raises NoAnswer when it does not, Stopping."""
+        until_s = time.monotonic() + RECONNECT_S
+        while not self._devices.wait_connected(unit_id, 0.5):
+            if self._stopping.is_set():
+                raise Stopping("Spindle was closed; fetching goes on at the next try.")
+            if time.monotonic() > until_s:
+                raise NoAnswer(f"{unit_id} did not come back. Fetch the log again when it is here.")
+
+    def _note(self, unit_id: str, log: RideLog, **changes: object) -> None:
+        with self._lock:
+            before = self._downloads[unit_id, log.log_id]
+            self._downloads[unit_id, log.log_id] = replace(before, **changes)  # type: ignore[arg-type]
+
+    def _quietly(self, work: Callable[[], object]) -> None:
+        try:
+            work()
+        except SpindleError as error:
+            LOG.debug("%s", error.message)
+
+
+def state_of(log: RideLog) -> str:
+    """Where a log stands, in a word."""
+    if log.recording:
+        return "recording"
+    return "closed" if log.ended else "cut_off"
+
+
+@contextmanager
+def storing(path: Path) -> Iterator[None]:
+    """Say which file a disk refused. Raises StoreError."""
+    try:
+        yield
+    except OSError as error:
+        raise StoreError(f"{path} cannot be written: {error.strerror or error}.") from None

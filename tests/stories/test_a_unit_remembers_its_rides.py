@@ -1,0 +1,153 @@
+"""Goal: a ride is not lost when no Spindle was there, and not there twice when one was.
+
+A simulated unit rides with and without the server watching; its own log is fetched over the wire.
+What is fetched must agree with what was recorded live, sample by sample where both have one.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.fakes.server import SpindleServer, eventually
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def workshop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
+    """A server with one unit in fast motion, standing."""
+    running = SpindleServer(
+        tmp_path_factory.mktemp("memory"), ["sim:logger?seed=31&speed=5&scenario=none"]
+    ).start()
+    running.ready_device(0)
+    yield running
+    running.stop()
+
+
+def logs(server: SpindleServer, device: str) -> list[dict[str, Any]]:
+    items: list[dict[str, Any]] = server.get(f"/devices/{device}/logs")["items"]
+    return items
+
+
+def closed(items: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    return [item for item in items if item["state"] == "closed"]
+
+
+def ride_a_bit(server: SpindleServer, device: str) -> None:
+    """Ten seconds and more of the unit's time, until the unit has closed its log."""
+    before = len(closed(logs(server, device)))
+    rider = {"kind": "legs", "torque_nm": 25.0, "cadence_rpm_max": 80.0}
+    server.simulate(device, scenario=None, brake=False, rider=rider)
+    eventually(
+        lambda: logs(server, device),
+        lambda items: any(i["state"] == "recording" and i["duration_s"] > 12 for i in items),
+    )
+    server.simulate(device, scenario=None, brake=True, rider={"kind": "off"})
+    eventually(lambda: closed(logs(server, device)), lambda items: len(items) > before)
+
+
+def fetched(server: SpindleServer, device: str, log_id: int) -> dict[str, Any]:
+    path = f"/devices/{device}/logs/{log_id}/download"
+    begun = server.client.post(path)
+    assert begun.status_code == 202
+    assert begun.headers["location"].endswith(path)
+    done: dict[str, Any] = eventually(
+        lambda: server.get(path), lambda seen: seen["state"] in ("done", "failed")
+    )
+    assert done["state"] == "done", done
+    return done
+
+
+def test_a_ride_that_was_recorded_live_is_found_to_be_the_same_and_not_stored_twice(
+    workshop: SpindleServer,
+) -> None:
+    device = workshop.ready_device(0)
+    ride_a_bit(workshop, device)
+    ride = eventually(
+        lambda: workshop.get("/rides")["items"],
+        lambda items: items and all(item["state"] == "done" for item in items),
+    )[0]
+    log = closed(logs(workshop, device))[-1]
+    assert log["confirmed"] is False
+    assert abs(log["duration_s"] - ride["summary"]["duration_s"]) < 5.0
+
+    done = fetched(workshop, device, log["log_id"])
+
+    assert done["duplicate_of"] == done["ride_id"] == ride["id"]
+    assert f"ride {ride['id']}" in done["detail"]
+    assert done["received"] == done["length"] == log["length"]
+    assert [item["id"] for item in workshop.get("/rides")["items"]] == [ride["id"]]
+    assert done["confirmed"] is True
+    assert logs(workshop, device)[-1]["confirmed"] is True
+    upload = workshop.get(f"/uploads/{done['upload_id']}")
+    assert (upload["state"], upload["code"]) == ("complete", "duplicate")
+
+
+def test_a_ride_nobody_watched_comes_from_the_unit_s_log_with_what_it_was_made_with(
+    tmp_path: Path,
+) -> None:
+    flash = tmp_path / "flash"
+    unit = f"sim:alone?seed=32&speed=5&scenario=none&flash={flash}"
+    first = SpindleServer(tmp_path / "first", [unit]).start()
+    device = first.ready_device(0)
+    ride_a_bit(first, device)
+    eventually(lambda: Path(f"{flash}.log").stat().st_size)
+    first.stop()
+
+    second = SpindleServer(tmp_path / "second", [unit]).start()
+    try:
+        device = second.ready_device(0)
+        waiting = closed(logs(second, device))
+        assert waiting
+        assert all(log["started_at"] is None for log in waiting)
+        assert second.get("/rides")["items"] == []
+        done = fetched(second, device, waiting[-1]["log_id"])
+
+        assert done["duplicate_of"] is None
+        ride = second.get(f"/rides/{done['ride_id']}")
+        assert ride["origin"] == "imported"
+        assert ride["device"]["device_serial"] == device
+        assert ride["device"]["gear_ratio"] == pytest.approx(40.34)
+        assert ride["completeness"] == 1.0
+        assert ride["period_us"] == 100_000
+        assert ride["summary"]["rider_wh"] > 0
+        assert ride["summary"]["distance_km"] > 0.01
+        assert "no clock" in ride["notes"]
+
+        again = fetched(second, device, waiting[-1]["log_id"])
+        assert again["duplicate_of"] == ride["id"]
+        assert len(second.get("/rides")["items"]) == 1
+    finally:
+        second.stop()
+
+
+def test_what_cannot_be_fetched_is_refused_with_the_reason(workshop: SpindleServer) -> None:
+    device = workshop.ready_device(0)
+
+    unknown = workshop.client.post(f"/devices/{device}/logs/4711/download")
+    never = workshop.client.get(f"/devices/{device}/logs/4711/download")
+    nowhere = workshop.client.get("/devices/nobody/logs")
+
+    assert [answer.status_code for answer in (unknown, never, nowhere)] == [404, 404, 404]
+    assert "4711" in unknown.json()["detail"]
+
+
+def test_the_command_lists_and_fetches(workshop: SpindleServer) -> None:
+    device = workshop.ready_device(0)
+    ride_a_bit(workshop, device)
+    newest = closed(logs(workshop, device))[-1]["log_id"]
+
+    def spindle(*words: str) -> str:
+        command = [sys.executable, "-m", "backend.cli", *words, "--server", workshop.url]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+    assert str(newest) in spindle("device", "logs")
+    assert "ride" in spindle("device", "download", str(newest))
