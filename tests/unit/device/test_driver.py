@@ -80,6 +80,17 @@ def test_many_threads_can_ask_at_once(driver: Driver, heard: Heard) -> None:
     assert generations == [7] * 12
 
 
+def test_a_result_that_is_late_is_not_called_undone(
+    driver: Driver, opener: UnitOpener, heard: Heard
+) -> None:
+    driver.start()
+    heard.wait_for(StateChanged, state=LinkState.READY)
+    opener.unit.silent = True  # type: ignore[attr-defined]
+
+    with pytest.raises(NoAnswer, match="may still be done"):
+        driver.run(read_config(), 0.05)
+
+
 def test_asking_a_unit_that_is_not_there_gives_the_reason(
     driver: Driver, opener: UnitOpener
 ) -> None:
