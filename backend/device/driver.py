@@ -142,8 +142,8 @@ class Driver:
         except FutureTimeout:
             future.cancel()
             raise NoAnswer(
-                f"{self._opener.url}: no result within {timeout_s:g} s. What was asked may still be "
-                "done; look again before you repeat it."
+                f"{self._opener.url}: no result within {timeout_s:g} s. What was asked may still "
+                "be done; look again before you repeat it."
             ) from None
 
     # ------------------------------------------------------------------ the thread
