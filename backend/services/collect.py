@@ -368,8 +368,9 @@ class Collect:
 
     def _note(self, unit_id: str, log: RideLog, **changes: object) -> None:
         with self._lock:
-            before = self._downloads[unit_id, log.log_id]
-            self._downloads[unit_id, log.log_id] = replace(before, **changes)  # type: ignore[arg-type]
+            key = (unit_id, log.log_id)
+            changed = replace(self._downloads[key], **changes)  # type: ignore[arg-type]
+            self._downloads[key] = changed
 
     def _quietly(self, work: Callable[[], object]) -> None:
         try:

@@ -39,6 +39,7 @@ static void set(app *unit, const ebl_header *request, reply *answer)
         return;
     }
     unit->unix_offset_us = asked.unix_us - now(unit);
+    ride_log_clock_set(&unit->ride_log, unit->unix_offset_us);
     reply_ok(answer);
 }
 

@@ -13,7 +13,7 @@
 
 enum { IDLE = 0, STARTING, RECORDING, CLOSING };
 enum { SPARE_NONE = 0, SPARE_ERASING, SPARE_READY };
-enum { DUE_CONFIG = 1, DUE_SCHEMA = 2 };
+enum { DUE_CONFIG = 1, DUE_SCHEMA = 2, DUE_SYNC = 4, DUE_ALL = 7 };
 enum { REASON_STANDSTILL = 0, REASON_FULL = 1 };
 
 void ride_log_init(ride_log *log, const hal *board)
@@ -52,7 +52,7 @@ void ride_log_step(ride_log *log, const int16_t *row, uint64_t now_us, int movin
         log->moved_us = now_us;
         if (log->state == IDLE) {
             log->state = STARTING;
-            log->due = DUE_CONFIG | DUE_SCHEMA;
+            log->due = DUE_ALL;
             log->steps_left = 1;
         }
     } else if (log->state == RECORDING && now_us - log->moved_us >= STANDSTILL_US) {
@@ -74,6 +74,12 @@ void ride_log_event_add(ride_log *log, uint8_t code, uint16_t flags, uint64_t no
     event->code = code;
     event->flags = flags;
     log->event_count++;
+}
+
+void ride_log_clock_set(ride_log *log, uint64_t unix_offset_us)
+{
+    log->unix_offset_us = unix_offset_us;
+    log->due |= DUE_SYNC;
 }
 
 /* ---------------------------------------------------------------- room in flash */
@@ -198,6 +204,7 @@ static int block_choose(ride_log *log, const config_store *config, const hal *bo
 {
     uint8_t *payload = log->page + RIDE_LOG_AT_PAYLOAD;
 
+    if (log->unix_offset_us == 0) log->due &= (uint8_t)~DUE_SYNC;
     if (log->due & DUE_CONFIG) {
         ride_log_config_put(payload, config, board, header);
         log->config_generation = config->generation;
@@ -205,6 +212,9 @@ static int block_choose(ride_log *log, const config_store *config, const hal *bo
     } else if (log->due & DUE_SCHEMA) {
         ride_log_schema_put(payload, header);
         log->due &= (uint8_t)~DUE_SCHEMA;
+    } else if (log->due & DUE_SYNC) {
+        ride_log_sync_put(payload, now_us + log->unix_offset_us, header);
+        log->due &= (uint8_t)~DUE_SYNC;
     } else if (log->event_count > 0 && (now_us >= log->events_us || log->state == CLOSING)) {
         ride_log_events_put(payload, log->events, log->event_count, header);
         log->event_count = 0;
@@ -257,7 +267,7 @@ static void repeat_check(ride_log *log, const config_store *config, uint64_t now
 {
     if (now_us >= log->repeat_us) {
         log->repeat_us = now_us + REPEAT_US;
-        log->due |= DUE_CONFIG | DUE_SCHEMA;
+        log->due |= DUE_ALL;
     }
     if (config->generation != log->config_generation) log->due |= DUE_CONFIG;
     if (log->state == RECORDING && log->seq + 3u >= pages_max(log)) {

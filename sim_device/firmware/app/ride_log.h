@@ -48,6 +48,7 @@ typedef struct {
     uint32_t rows_lost; /* since boot, like write_errors */
     uint32_t write_errors;
     uint32_t config_generation; /* as last written */
+    uint64_t unix_offset_us;    /* Unix time minus the unit's, as last told; 0: not known */
     uint64_t moved_us;
     uint64_t repeat_us; /* when CONFIG and SCHEMA are due again */
     uint64_t events_us; /* when events may be written again */
@@ -65,6 +66,9 @@ void ride_log_step(ride_log *log, const int16_t *row, uint64_t now_us, int movin
 
 /* `code`: EBL_EVENT_FAULT_SET or EBL_EVENT_FAULT_CLEARED. */
 void ride_log_event_add(ride_log *log, uint8_t code, uint16_t flags, uint64_t now_us);
+
+/* What time it is in the world, as soon as somebody has told the unit. */
+void ride_log_clock_set(ride_log *log, uint64_t unix_offset_us);
 
 /* Begins at most one flash operation; tells of logs that ended or were given up. */
 void ride_log_poll(ride_log *log, const hal *board, const config_store *config, event_log *events,

@@ -7,6 +7,7 @@
 
 #define ROW_PERIOD_US 100000u
 #define UID_LENGTH 12
+#define SYNC_UNCERTAINTY_MS 1000 /* hosts set the clock of a bike, not of a laboratory */
 
 enum {
     CONFIG_AT_SCHEMA_HASH = UID_LENGTH,
@@ -18,6 +19,7 @@ enum {
     SCHEMA_CHANNEL_LENGTH = 5,
     SCHEMA_LENGTH = SCHEMA_HEAD_LENGTH + SCHEMA_CHANNEL_LENGTH * EBL_CHANNEL_COUNT,
     EVENT_LENGTH = 11,
+    SYNC_LENGTH = 12,
     END_LENGTH = 9
 };
 
@@ -69,6 +71,15 @@ void ride_log_events_put(uint8_t *payload, const ride_log_event *events, uint8_t
     header->type = RIDE_LOG_EVENT;
     header->n = count;
     header->length = (uint16_t)(count * EVENT_LENGTH);
+}
+
+void ride_log_sync_put(uint8_t *payload, uint64_t unix_us, ride_log_header *header)
+{
+    ebl_put_u64(payload, unix_us);
+    ebl_put_u32(payload + 8, SYNC_UNCERTAINTY_MS);
+    header->type = RIDE_LOG_SYNC;
+    header->n = 1;
+    header->length = SYNC_LENGTH;
 }
 
 void ride_log_end_put(uint8_t *payload, uint32_t rows_written, uint32_t rows_lost, uint8_t reason,

@@ -25,6 +25,7 @@ from firmware_protocol._generated import (
     LogFlags,
     LogOpenRequest,
     Status,
+    TimSetRequest,
 )
 from firmware_protocol.parameters import default_config, pack_image
 from tests.fakes.bench_logs import (
@@ -121,6 +122,23 @@ def test_faults_are_in_the_log_with_their_time() -> None:
     told = [block.payload for block in blocks if block.type == EVENT]
     assert [int(payload[8]) for payload in told] == [Event.FAULT_SET, Event.FAULT_CLEARED]
     assert int.from_bytes(told[0][:8], "little") / 1e6 == pytest.approx(3.1, abs=0.05)
+
+
+@pytest.mark.parametrize("told_after_s", [0.0, 4.0], ids=["before", "meanwhile"])
+def test_a_unit_that_was_told_the_time_writes_it_into_its_log(told_after_s: float) -> None:
+    unit = unit_with_room()
+    unix_us = 1_780_000_000_000_000
+    unit.inputs(speed_kmh=18.0 if told_after_s else 0.0)
+    unit.advance(told_after_s or 3.0)
+    assert unit.ask(TimSetRequest(unix_us, 0, 1000)).status == Status.OK
+    told_us = unit.hello().uptime_us
+
+    ride(unit, 5.0)
+
+    (found,) = read_blocks(fetch(unit, logs(unit)[0])).rides
+    assert found.start_known
+    assert found.context.unit_t0_us is not None
+    assert found.started_us == pytest.approx(unix_us + found.context.unit_t0_us - told_us, abs=2000)
 
 
 def test_power_lost_in_the_middle_leaves_a_log_that_says_it_was_not_ended() -> None:
