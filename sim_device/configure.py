@@ -84,7 +84,10 @@ class _Exchange:
             self._unit.advance_us(1000)
             for frame in self._decoder.feed(self._unit.transmit()):
                 answer = decode(frame)
-                if isinstance(answer, Response) and answer.tid == self._tid:
+                if not isinstance(answer, Response) or answer.tid != self._tid:
+                    continue
+                # A host before us may have asked under the same number and left.
+                if answer.message_id == message.MESSAGE_ID:
                     return self._accepted(answer)
         raise ConfigureError(f"{type(message).__name__}: no answer in {ANSWER_MS_MAX} ms")
 

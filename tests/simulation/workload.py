@@ -28,6 +28,7 @@ STANDING_KMH = 0.3
 SETTLED_S = 8.0
 LAST_CHANGE_S = 3.0
 LEASE_S = 31.0
+FLUSH_STEPS = 6
 
 
 class Workload:
@@ -191,8 +192,13 @@ class Workload:
             return
         world.unplug(1.0)
         intent = self._intend()
+        tapped = _Tapped(world)
+        for _ in range(FLUSH_STEPS):
+            # As every host does: what was meant for another one is dropped.
+            tapped.advance_us(10_000)
+            tapped.transmit()
         try:
-            write_as_rival(_Tapped(world), dict(intent.changes))
+            write_as_rival(tapped, dict(intent.changes))
             intent.outcome = "written by the rival"
         except ConfigureError as error:
             intent.outcome = "the rival failed"
