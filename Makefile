@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 STAMP := .make
 
 C_SOURCES := $(wildcard firmware_protocol/c/*.[ch] sim_device/firmware/*/*.[ch] \
-	sim_device/firmware/boards/host/*.[ch] sim_device/physics/*.[ch])
+	sim_device/firmware/boards/host/*.[ch] sim_device/physics/*.[ch] third_party/*/*.[ch])
 WEB_SOURCES := $(shell find frontend -type f -not -path '*/node_modules/*' -not -path '*/dist/*')
 
 .PHONY: help

@@ -11,6 +11,7 @@ SpindleError
 │   ├── LimitViolation       a value is outside what the parameter allows; each is named
 │   ├── ConfigConflict       somebody else changed the configuration first
 │   ├── AccessDenied         the parameter needs a higher access level
+│   │   └── TokenNeeded      the maker's token would do; it says what has to be signed
 │   ├── NotStandingStill     the wheel or the motor still turns
 │   ├── Conflict             the thing is not in a state that allows this
 │   └── NotFound             no such device, ride, upload or port
@@ -20,7 +21,7 @@ SpindleError
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 
@@ -129,6 +130,24 @@ class AccessDenied(RequestRefused):
     """The parameter needs a higher access level or a token."""
 
     default_code = "access_denied"
+
+
+class TokenNeeded(AccessDenied):
+    """The unit would do it for a token of its maker.
+
+    challenge: what has to be signed: uid, nonce, level, ttl_s, expires_us and the image in hex.
+    """
+
+    default_code = "token_needed"
+
+    def __init__(
+        self,
+        message: str,
+        challenge: Mapping[str, str | int],
+        fields: Iterable[FieldError] = (),
+    ) -> None:
+        super().__init__(message, None, fields)
+        self.challenge = dict(challenge)
 
 
 class NotStandingStill(RequestRefused):

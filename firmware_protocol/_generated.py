@@ -13,7 +13,7 @@ MTU = 544
 MAX_OUTSTANDING = 4
 CONTROL_PERIOD_US = 10000
 IMAGE_LENGTH = 299
-SCHEMA_HASH = bytes.fromhex("6723292f62388c34")
+SCHEMA_HASH = bytes.fromhex("7629d9bd39abd926")
 
 
 class Status(IntEnum):
@@ -156,6 +156,7 @@ class Event(IntEnum):
     CONFIG_ROLLED_BACK = 5
     CONFIG_DEFAULTED = 6
     STREAM_STATS = 7
+    AUTH_CHANGED = 8
     CONFIG_PROVISIONAL = 16
     STREAM_COUNTS = 17
     LOG_CLOSED = 20
@@ -241,6 +242,9 @@ class MessageId(IntEnum):
     LOG_CLOSE = 0x0404
     LOG_CRC = 0x0405
     LOG_CONFIRM = 0x0407
+    AUTH_CHALLENGE = 0x0601
+    AUTH_RESPONSE = 0x0602
+    AUTH_DROP = 0x0603
     SIM_GET = 0x7001
     SIM_SET = 0x7002
 
@@ -1240,6 +1244,86 @@ class LogConfirmResponse(Message):
 
 
 @dataclass(frozen=True, slots=True)
+class AuthChallengeRequest(Message):
+    """Asks for a nonce that one token of this level may answer until `expires_us` of the unit's clock. A new one takes the place of the one before."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.AUTH_CHALLENGE
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("level", "u8"),
+    )
+    LENGTH: ClassVar[int] = 1
+
+    level: int
+
+
+@dataclass(frozen=True, slots=True)
+class AuthChallengeResponse(Message):
+    """Asks for a nonce that one token of this level may answer until `expires_us` of the unit's clock. A new one takes the place of the one before."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.AUTH_CHALLENGE
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("nonce", "u8", 16),
+        Field("uid", "u8", 12),
+        Field("boot_id", "u32"),
+        Field("level", "u8"),
+        Field("ttl_s", "u16"),
+        Field("expires_us", "u64"),
+    )
+    LENGTH: ClassVar[int] = 43
+
+    nonce: bytes
+    uid: bytes
+    boot_id: int
+    level: int
+    ttl_s: int
+    expires_us: int
+
+
+@dataclass(frozen=True, slots=True)
+class AuthResponseRequest(Message):
+    """The maker's token for exactly the image that is staged and valid: until when it holds, and an Ed25519 signature."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.AUTH_RESPONSE
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("transaction", "u16"),
+        Field("expires_us", "u64"),
+        Field("signature", "u8", 64),
+    )
+    LENGTH: ClassVar[int] = 74
+
+    transaction: int
+    expires_us: int
+    signature: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class AuthResponseResponse(Message):
+    """The maker's token for exactly the image that is staged and valid: until when it holds, and an Ed25519 signature."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.AUTH_RESPONSE
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("level", "u8"),
+    )
+    LENGTH: ClassVar[int] = 1
+
+    level: int
+
+
+@dataclass(frozen=True, slots=True)
+class AuthDropRequest(Message):
+    """Gives back what a token granted, and forgets the nonce."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.AUTH_DROP
+
+
+@dataclass(frozen=True, slots=True)
+class AuthDropResponse(Message):
+    """Gives back what a token granted, and forgets the nonce."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.AUTH_DROP
+
+
+@dataclass(frozen=True, slots=True)
 class SimGetRequest(Message):
     """Simulated units only: what rider, road and clock do now, as JSON text. A real unit answers UNKNOWN_MSG."""
 
@@ -1389,6 +1473,21 @@ class StreamStatsEvent(Message):
 
 
 @dataclass(frozen=True, slots=True)
+class AuthChangedEvent(Message):
+    """Fields of the event AUTH_CHANGED."""
+
+    CODE: ClassVar[Event] = Event.AUTH_CHANGED
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("level", "u8"),
+        Field("failures", "u16"),
+    )
+    LENGTH: ClassVar[int] = 3
+
+    level: int
+    failures: int
+
+
+@dataclass(frozen=True, slots=True)
 class ConfigProvisionalEvent(Message):
     """Fields of the event CONFIG_PROVISIONAL."""
 
@@ -1497,6 +1596,9 @@ REQUEST_BY_ID: dict[int, type[Message]] = {
     0x0404: LogCloseRequest,
     0x0405: LogCrcRequest,
     0x0407: LogConfirmRequest,
+    0x0601: AuthChallengeRequest,
+    0x0602: AuthResponseRequest,
+    0x0603: AuthDropRequest,
     0x7001: SimGetRequest,
     0x7002: SimSetRequest,
 }
@@ -1538,6 +1640,9 @@ RESPONSE_BY_ID: dict[int, type[Message]] = {
     0x0404: LogCloseResponse,
     0x0405: LogCrcResponse,
     0x0407: LogConfirmResponse,
+    0x0601: AuthChallengeResponse,
+    0x0602: AuthResponseResponse,
+    0x0603: AuthDropResponse,
     0x7001: SimGetResponse,
     0x7002: SimSetResponse,
 }
@@ -1550,6 +1655,7 @@ EVENT_BY_CODE: dict[int, type[Message]] = {
     Event.CONFIG_ROLLED_BACK: ConfigRolledBackEvent,
     Event.CONFIG_DEFAULTED: ConfigDefaultedEvent,
     Event.STREAM_STATS: StreamStatsEvent,
+    Event.AUTH_CHANGED: AuthChangedEvent,
     Event.CONFIG_PROVISIONAL: ConfigProvisionalEvent,
     Event.STREAM_COUNTS: StreamCountsEvent,
     Event.LOG_CLOSED: LogClosedEvent,
@@ -1745,7 +1851,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0400, name="assist_cutoff_kmh", group="limits",
         type="f32", unit="km/h", shape=(),
         length=4, min=0.0, max=25.0, enum=None,
-        increasing=False, access=1, image_offset=255,
+        increasing=False, access=1, image_offset=255, ratchet=True,
         default=25.0,
         doc="Speed at and above which there is no assist, whatever the table says.",
     ),
@@ -1761,7 +1867,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0402, name="motor_torque_nm_max", group="limits",
         type="f32", unit="Nm", shape=(),
         length=4, min=0.0, max=2.0, enum=None,
-        increasing=False, access=1, image_offset=263,
+        increasing=False, access=1, image_offset=263, ratchet=True,
         default=2.0,
         doc="Largest torque at the motor's shaft.",
     ),
@@ -1769,7 +1875,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0403, name="battery_current_a_max", group="limits",
         type="f32", unit="A", shape=(),
         length=4, min=1.0, max=12.0, enum=None,
-        increasing=False, access=1, image_offset=267,
+        increasing=False, access=1, image_offset=267, ratchet=True,
         default=12.0,
         doc="Largest current drawn from the battery.",
     ),
@@ -1785,7 +1891,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0405, name="motor_speed_rpm_max", group="limits",
         type="f32", unit="rpm", shape=(),
         length=4, min=500.0, max=3000.0, enum=None,
-        increasing=False, access=1, image_offset=275,
+        increasing=False, access=1, image_offset=275, ratchet=True,
         default=3000.0,
         doc="Motor speed at and above which it gives no torque.",
     ),

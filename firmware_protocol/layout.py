@@ -110,6 +110,8 @@ class Parameter:
     access: int
     image_offset: int
     doc: str
+    ratchet: bool = False
+    """Going down is free, going up needs a token."""
 
     @property
     def count(self) -> int:

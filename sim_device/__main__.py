@@ -55,6 +55,9 @@ def _add_unit(unit: argparse.ArgumentParser) -> None:
     unit.add_argument(
         "--flash", type=Path, metavar="FILE", help="keeps its configuration, FILE.log its ride logs"
     )
+    unit.add_argument(
+        "--unlock-key", type=_unlock_key, metavar="FILE", help="the maker's public key (*.pub)"
+    )
 
 
 def _port(text: str) -> tuple[str, int]:
@@ -76,6 +79,13 @@ def _speed(text: str) -> float:
     return speed
 
 
+def _unlock_key(name: str) -> bytes:
+    try:
+        return bytes.fromhex(Path(name).read_text(encoding="ascii"))
+    except (OSError, ValueError) as error:
+        raise argparse.ArgumentTypeError(f"{name} is no public key in hex: {error}") from None
+
+
 def _live_names() -> list[str]:
     return [name for name in names() if load(name).live]
 
@@ -90,6 +100,7 @@ def _serve(arguments: argparse.Namespace) -> None:
         scenario=None if arguments.scenario == "none" else arguments.scenario,
         flash=flash.load() if flash is not None else None,
         log=log.load() if log is not None else None,
+        unlock_key=arguments.unlock_key,
         boot_id=new_boot_id(),
         speed_factor=arguments.speed,
     )
@@ -133,7 +144,7 @@ def main(words: Sequence[str] | None = None) -> int:
             _serve(arguments)
         else:
             _scenario(arguments)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, MemoryError) as error:
         print(f"sim_device: {error}", file=sys.stderr)
         return 1
     return 0

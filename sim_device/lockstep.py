@@ -33,6 +33,7 @@ class LockstepUnit:
         scenario: a live scenario to ride from the start.
         bike: `part.name` -> value, over the pinned bike W1.
         flash: the flash of an earlier life. log: that for ride logs.
+        unlock_key: the maker's public key; without one no limit can be raised again.
         boot_id: another one tells the host that the unit was restarted.
         speed_factor: kept for the process that paces the unit; virtual time does not need it.
 
@@ -51,6 +52,7 @@ class LockstepUnit:
         bike: dict[str, float] | None = None,
         flash: bytes | None = None,
         log: bytes | None = None,
+        unlock_key: bytes | None = None,
         boot_id: int = 1,
         speed_factor: float = 1.0,
     ) -> None:
@@ -69,6 +71,7 @@ class LockstepUnit:
             bike=self._bike,
             flash=flash,
             log=log,
+            unlock_key=unlock_key,
             request=self._answer,
         )
         if config_overrides:

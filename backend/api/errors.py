@@ -28,6 +28,7 @@ STATUS_OF: dict[type[errors.SpindleError], int] = {
     errors.LimitViolation: 422,
     errors.ConfigConflict: 412,
     errors.AccessDenied: 403,
+    errors.TokenNeeded: 403,
     errors.NotStandingStill: 409,
     errors.Conflict: 409,
     errors.NotFound: 404,
@@ -57,7 +58,10 @@ def spindle_problem(_: Request, error: Exception) -> JSONResponse:
     if status >= HTTPStatus.INTERNAL_SERVER_ERROR:
         LOG.warning("%s: %s", type(error).__name__, error.message)
     fields = [FieldProblem(field=f.field, code=f.code, message=f.message) for f in error.fields]
-    return problem_response(status, error.code, error.message, fields[:FIELD_ERRORS_MAX])
+    asked = error.challenge if isinstance(error, errors.TokenNeeded) else None
+    return problem_response(
+        status, error.code, error.message, fields[:FIELD_ERRORS_MAX], challenge=asked
+    )
 
 
 def validation_problem(_: Request, error: Exception) -> JSONResponse:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from http import HTTPStatus
 from typing import Any
 
@@ -20,6 +20,17 @@ class FieldProblem(BaseModel):
     message: str
 
 
+class TokenChallenge(BaseModel):
+    """What a maker signs with `spindle unlock sign`; bytes in hex."""
+
+    uid: str
+    nonce: str
+    level: str
+    ttl_s: int
+    expires_us: int = Field(description="Of the unit's clock.")
+    image: str = Field(description="The whole configuration that is to become active.")
+
+
 class Problem(BaseModel):
     """Why a request was refused, what is at fault, and what to do about it."""
 
@@ -31,6 +42,9 @@ class Problem(BaseModel):
     detail: str
     code: str
     errors: list[FieldProblem]
+    challenge: TokenChallenge | None = Field(
+        default=None, description="Only with the code `token_needed`."
+    )
 
 
 def problem_response(
@@ -39,6 +53,7 @@ def problem_response(
     detail: str,
     errors: Iterable[FieldProblem] = (),
     headers: dict[str, str] | None = None,
+    challenge: Mapping[str, str | int] | None = None,
 ) -> JSONResponse:
     """The response for one refusal. code: lower-case word for programs; detail: for people."""
     problem = Problem(
@@ -48,8 +63,11 @@ def problem_response(
         detail=detail,
         code=code,
         errors=list(errors),
+        challenge=None if challenge is None else TokenChallenge.model_validate(challenge),
     )
-    return JSONResponse(problem.model_dump(), status, headers=headers, media_type=MEDIA_TYPE)
+    return JSONResponse(
+        problem.model_dump(exclude_none=True), status, headers=headers, media_type=MEDIA_TYPE
+    )
 
 
 def refusals(*statuses: int) -> dict[int | str, dict[str, Any]]:

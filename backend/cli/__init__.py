@@ -5,8 +5,9 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
+from backend.cli.client import print_json
 from backend.cli.parser import build_parser
-from backend.errors import InvalidRequest, SpindleError
+from backend.errors import InvalidRequest, SpindleError, TokenNeeded
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -24,6 +25,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stderr.write(f"{error.message}\n")
         for field in error.fields:
             sys.stderr.write(f"  {field.field}: {field.message}\n")
+        if isinstance(error, TokenNeeded):
+            # For `spindle unlock sign`, which reads it from a pipe or a file.
+            print_json(error.challenge)
         # A server's refusal is a plain RequestRefused: this one is about the arguments themselves.
         return 2 if isinstance(error, InvalidRequest) else 1
     except KeyboardInterrupt:

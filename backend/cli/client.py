@@ -10,7 +10,7 @@ from typing import Any
 
 import httpx
 
-from backend.errors import FieldError, InvalidRequest, LinkError, RequestRefused
+from backend.errors import FieldError, InvalidRequest, LinkError, RequestRefused, TokenNeeded
 
 # A unit that is slow to answer is given up by the server after a few seconds; a large file takes
 # its time to be read and stored.
@@ -78,6 +78,8 @@ def refusal(response: httpx.Response) -> RequestRefused:
     try:
         problem = response.json()
         fields = [FieldError(**item) for item in problem.get("errors", [])]
+        if "challenge" in problem:
+            return TokenNeeded(problem["detail"], problem["challenge"], fields)
         return RequestRefused(problem["detail"], problem.get("code"), fields)
     except (ValueError, KeyError, TypeError, AttributeError):
         return RequestRefused(f"The server answered {response.status_code}: {response.text[:200]}")

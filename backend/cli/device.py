@@ -143,6 +143,8 @@ def write(server: Server, unit: str, changes: dict[str, Any], options: Namespace
     path = f"/devices/{unit}/config"
     etag = server.response("GET", path).headers["etag"]
     body = {"parameters": changes, "reason": options.reason}
+    if options.token is not None:
+        body["token"] = options.token
     answer = server.ask("PATCH", path, json=body, headers={"if-match": etag})
     print_changes(answer, options)
     return 0

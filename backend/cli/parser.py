@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from backend import __version__
-from backend.cli import device, device_log, law, ride, serve
+from backend.cli import device, device_log, law, ride, serve, unlock
 
 
 def build_parser() -> argparse.ArgumentParser:
@@ -25,6 +25,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_device(verbs)
     _add_ride(verbs)
     _add_law(verbs)
+    _add_unlock(verbs)
     return parser
 
 
@@ -68,6 +69,7 @@ def _add_device(verbs: Any) -> None:
     command = _asking(group, "set", device.set_parameters, help="change parameters, all or none")
     command.add_argument("words", nargs="+", metavar="[UNIT] NAME=VALUE", help=unit)
     command.add_argument("--reason", default="", help="why; kept with the revision")
+    command.add_argument("--token", metavar="HEX", help="of `spindle unlock sign`")
     command = _asking(group, "backup", device.backup, help="the configuration as a JSON file")
     command.add_argument("unit", nargs="?", help=unit)
     command.add_argument("--output", "-o", type=Path, help="a file; standard output if absent")
@@ -75,6 +77,7 @@ def _add_device(verbs: Any) -> None:
     command.add_argument("file", type=Path)
     command.add_argument("unit", nargs="?", help=unit)
     command.add_argument("--reason", default="", help="why; kept with the revision")
+    command.add_argument("--token", metavar="HEX", help="of `spindle unlock sign`")
     command = _asking(group, "diff", device.diff, help="a backup against the unit, or another")
     command.add_argument("file", type=Path)
     command.add_argument("other", nargs="?", help="another backup's file, or a unit")
@@ -116,3 +119,14 @@ def _add_law(verbs: Any) -> None:
     group = _group(verbs, "calibrate", "the torque sensor's figures")
     command = _asking(group, "evaluate", law.evaluate, help="linearity, hysteresis, repeatability")
     command.add_argument("file", type=Path, help="JSON: full_scale_nm, load_nm, forward, reverse")
+
+
+def _add_unlock(verbs: Any) -> None:
+    group = _group(verbs, "unlock", "the maker's tool: keys, and tokens that raise limits")
+    command = group.add_parser("keygen", help="a private key, and FILE.pub for units")
+    command.add_argument("file", type=Path)
+    command.set_defaults(run=unlock.keygen)
+    command = group.add_parser("sign", help="a token for the challenge of a refused change")
+    command.add_argument("key", type=Path, help="the private key of keygen")
+    command.add_argument("challenge", type=Path, nargs="?", help="JSON; standard input if absent")
+    command.set_defaults(run=unlock.sign)

@@ -20,9 +20,9 @@ from backend.device.operation import (
     expect,
 )
 from backend.device.refusals import refused
+from backend.device.unlock import access_refused, show_token
 from backend.device.violations import unit_violations
 from backend.errors import (
-    AccessDenied,
     ConfigConflict,
     DeviceRefused,
     FieldError,
@@ -56,6 +56,7 @@ from firmware_protocol._generated import (
 )
 from firmware_protocol.layout import Value
 from firmware_protocol.parameters import pack_image, set_items, unpack_image
+from firmware_protocol.unlock_token import Token
 
 # Bytes of a CFG_READ answer or CFG_SET request that are not data: header, CRC, fields, rounded up.
 MESSAGE_OVERHEAD_BYTES = 24
@@ -110,18 +111,22 @@ def read_config(mtu: int = MTU) -> Operation[ConfigImage]:
 
 
 def write_config(
-    base: ConfigImage, changes: Mapping[str, Value], mtu: int = MTU, confirm_s: int = 0
+    base: ConfigImage,
+    changes: Mapping[str, Value],
+    mtu: int = MTU,
+    confirm_s: int = 0,
+    token: Token | None = None,
 ) -> Operation[ConfigImage]:
     """Change parameters on top of `base`, read everything back, compare, return what is active.
 
     changes: checked values by registry name. confirm_s: 0 for good, else the unit returns to `base`
-    by itself after so many seconds unless the change is confirmed. Raises ConfigConflict,
-    LimitViolation, AccessDenied, NotStandingStill, DeviceRefused, NoAnswer with the unit unchanged;
-    CommitUnanswered when that is unknown; PeerProtocolError naming each field that reads back
-    different.
+    by itself after so many seconds unless the change is confirmed. token: the maker's, for what the
+    unit protects. Raises ConfigConflict, LimitViolation, TokenNeeded, AccessDenied,
+    NotStandingStill, DeviceRefused, NoAnswer with the unit unchanged; CommitUnanswered when that is
+    unknown; PeerProtocolError naming each field that reads back different.
     """
     image = pack_image({**base.parameters, **changes})
-    yield from _commit(base, changes, image, mtu, confirm_s)
+    yield from _commit(base, changes, image, mtu, confirm_s, token)
     try:
         found = yield from read_config(mtu)
     except PeerProtocolError:
@@ -157,18 +162,28 @@ def compare(intended: Mapping[str, Value], found: Mapping[str, Value]) -> None:
 
 
 def _commit(
-    base: ConfigImage, changes: Mapping[str, Value], image: bytes, mtu: int, confirm_s: int
+    base: ConfigImage,
+    changes: Mapping[str, Value],
+    image: bytes,
+    mtu: int,
+    confirm_s: int,
+    token: Token | None,
 ) -> Operation[None]:
     begin = yield from _begin(base)
     try:
         for items in set_items(changes, mtu - MESSAGE_OVERHEAD_BYTES):
             yield from ask(CfgSetRequest(begin.transaction, items), CfgSetResponse)
         yield from _validate(begin.transaction)
+        if token is not None:
+            yield from show_token(begin.transaction, token)
         yield from _finish(begin.transaction, zlib.crc32(image), confirm_s)
     except CommitUnanswered:
         raise
     except SpindleError as error:
         yield from _abort(begin.transaction)
+        if isinstance(error, DeviceRefused) and error.status == Status.ACCESS.name:
+            denied = yield from access_refused(error.detail, base.parameters, changes, image)
+            raise denied from error
         raise _explained(error) from error
 
 
@@ -247,11 +262,6 @@ def _explained(error: SpindleError) -> SpindleError:
         return NotStandingStill(
             "The unit refuses to change its configuration while wheel or motor turn. Stop the "
             "bike and write again; nothing was changed."
-        )
-    if error.status == Status.ACCESS.name:
-        return AccessDenied(
-            "The unit refuses: this parameter needs a higher access level than a dealer's. "
-            "Nothing was changed."
         )
     if error.status in (Status.RANGE.name, Status.TYPE.name, Status.UNKNOWN_ID.name):
         fields = [_named_by_id(error.detail, error.status)]

@@ -17,7 +17,6 @@ __all__ = [
     "Value",
     "faults_of",
     "group",
-    "needing_factory_access",
     "rounded",
     "unknown_names",
 ]
@@ -78,15 +77,6 @@ def unknown_names(changes: Mapping[str, Value]) -> list[FieldError]:
         FieldError(name, "unknown_parameter", f"{name} is not a parameter of this unit.")
         for name in changes
         if name not in _BY_NAME
-    ]
-
-
-def needing_factory_access(changes: Mapping[str, Value]) -> list[FieldError]:
-    """Changed parameters that only the factory may write."""
-    return [
-        FieldError(name, "access_denied", f"{name} may only be changed by the factory.")
-        for name in changes
-        if _BY_NAME[name].access == Access.FACTORY.name
     ]
 
 

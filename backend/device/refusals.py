@@ -27,6 +27,8 @@ MEANING = {
     Status.BANDWIDTH: "the line is too slow for this",
     Status.NOT_FOUND: "there is no such thing",
     Status.EXPIRED: "too much time went by; start again",
+    Status.AUTH_BAD: "the token is not for this unit and this change",
+    Status.AUTH_DELAY: "a wrong token came before; wait",
     Status.RATE_LIMIT: "its memory was written a moment ago; try again in two seconds",
     Status.UNSUPPORTED: "its firmware does not support this yet",
     Status.SESSION: "it was restarted meanwhile",

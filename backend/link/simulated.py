@@ -27,17 +27,18 @@ from backend.link.serial_port import SerialPort
 READY_TIMEOUT_S = 15.0
 STOP_TIMEOUT_S = 2.0
 NAME_DEFAULT = "unit"
-SETTINGS = ("seed", "speed", "scenario", "flash")
+SETTINGS = ("seed", "speed", "scenario", "flash", "unlock_key")
 # What the child says last is quoted when it fails; more than this helps nobody.
 COMPLAINT_CHARACTERS_MAX = 600
 
 
 @dataclass(frozen=True)
 class SimulatedAddress:
-    """`sim` or `sim:NAME?seed=&speed=&scenario=&flash=`, taken apart.
+    """`sim` or `sim:NAME?seed=&speed=&scenario=&flash=&unlock_key=`, taken apart.
 
     Each name is a unit of its own: without a seed the name makes one, so two names never share a
-    serial number. flash: file that keeps the unit's configuration.
+    serial number. flash: file that keeps the unit's configuration. unlock_key: file with the
+    maker's public key; without one the unit's limits only go down.
     """
 
     name: str
@@ -45,6 +46,7 @@ class SimulatedAddress:
     speed: float
     scenario: str | None
     flash: str | None
+    unlock_key: str | None = None
 
     @classmethod
     def parse(cls, url: str) -> SimulatedAddress:
@@ -65,7 +67,8 @@ class SimulatedAddress:
             raise InvalidRequest(f"{url}: seed is a whole number, speed a number.") from error
         if not 0.01 <= speed <= 1000.0:
             raise InvalidRequest(f"{url}: speed is a factor from 0.01 to 1000.")
-        return cls(name, seed, speed, settings.get("scenario"), settings.get("flash"))
+        scenario, flash = settings.get("scenario"), settings.get("flash")
+        return cls(name, seed, speed, scenario, flash, settings.get("unlock_key"))
 
     def command(self, pty_path: Path) -> list[str]:
         """The command line of the child that serves this address on `pty_path`."""
@@ -75,6 +78,8 @@ class SimulatedAddress:
             words += ["--scenario", self.scenario]
         if self.flash is not None:
             words += ["--flash", self.flash]
+        if self.unlock_key is not None:
+            words += ["--unlock-key", self.unlock_key]
         return words
 
 

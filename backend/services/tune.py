@@ -32,14 +32,13 @@ from backend.device.parameters import (
     PARAMETER_ROWS,
     Value,
     faults_of,
-    needing_factory_access,
     rounded,
     unknown_names,
 )
 from backend.device.snapshot import DeviceStatus
 from backend.device.states import LinkState
+from backend.device.unlock import Token, token_from
 from backend.errors import (
-    AccessDenied,
     ConfigConflict,
     Conflict,
     InvalidRequest,
@@ -146,18 +145,20 @@ class Tuning:
         if_match: str | None = None,
         confirm_s: int = 0,
         author: str = "",
+        token: str | None = None,
     ) -> ConfigChange:
         """Write all of `changes` or none, read everything back and compare.
 
         if_match: ETag of the configuration the change was made for. confirm_s: 0 for good; else the
         change is on trial, and the unit returns to what it had unless `confirm_config` comes within
-        so many seconds. Raises InvalidRequest,
-        LimitViolation with every fault named, AccessDenied, ConfigConflict, NotStandingStill,
-        NoAnswer; after each of them the unit is unchanged, or the message says that it may not be.
-        PeerProtocolError names the fields that read back different.
+        so many seconds. token: the maker's answer to TokenNeeded. Raises InvalidRequest,
+        LimitViolation with every fault named, TokenNeeded, AccessDenied, ConfigConflict,
+        NotStandingStill, NoAnswer; after each of them the unit is unchanged, or the message says
+        that it may not be. PeerProtocolError names the fields that read back different.
         """
         if not 0 <= confirm_s <= CONFIRM_S_MAX:
             raise InvalidRequest(f"confirm_s is from 0 to {CONFIRM_S_MAX} seconds.")
+        permit = None if token is None else token_from(token)
         unknown = unknown_names(changes)
         if unknown:
             raise InvalidRequest(" ".join(fault.message for fault in unknown), fields=unknown)
@@ -169,7 +170,7 @@ class Tuning:
             serial_number = self._serial_number(self._devices.status(device_id))
             self._back_up(serial_number, base)
             if changed:
-                found = self._commit(device_id, base, intended, changed, confirm_s)
+                found = self._commit(device_id, base, intended, changed, confirm_s, permit)
                 state = TRIED if confirm_s else KEPT
                 self._remember(serial_number, found, changed, reason, author, state)
                 base = found
@@ -298,11 +299,12 @@ class Tuning:
         intended: Mapping[str, Value],
         changed: Sequence[Change],
         confirm_s: int,
+        permit: Token | None,
     ) -> ConfigImage:
         changes = {change.name: change.new for change in changed}
         mtu = self._devices.status(device_id).mtu
         try:
-            operation = write_config(base, changes, mtu, confirm_s)
+            operation = write_config(base, changes, mtu, confirm_s, permit)
             return self._devices.run(device_id, operation, WRITE_TIMEOUT_S)
         except CommitUnanswered as error:
             return self._settle(device_id, base, intended, error)
@@ -400,9 +402,6 @@ class Tuning:
 def _intended(base: ConfigImage, changes: Mapping[str, Value]) -> dict[str, Value]:
     """The configuration that is meant, checked whole, as the unit will hold it."""
     moved = {name: value for name, value in changes.items() if value != base.parameters[name]}
-    denied = needing_factory_access(moved)
-    if denied:
-        raise AccessDenied(" ".join(fault.message for fault in denied), fields=denied)
     intended = {**base.parameters, **moved}
     faults = faults_of(intended)
     if faults:

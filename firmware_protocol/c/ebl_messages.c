@@ -1220,6 +1220,100 @@ int ebl_log_confirm_request_put(const ebl_log_confirm_request *message, uint8_t 
     return EBL_OK;
 }
 
+int ebl_auth_challenge_request_get(ebl_auth_challenge_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 1) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->level = ebl_get_u8(bytes + 0);
+    return EBL_OK;
+}
+
+int ebl_auth_challenge_request_put(const ebl_auth_challenge_request *message, uint8_t *bytes, size_t capacity,
+                                  size_t *length)
+{
+    if (capacity < 1) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u8(bytes + 0, message->level);
+    *length = 1;
+    return EBL_OK;
+}
+
+int ebl_auth_challenge_response_get(ebl_auth_challenge_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 43) {
+        return EBL_ERROR_LENGTH;
+    }
+    memcpy(message->nonce, bytes + 0, 16);
+    memcpy(message->uid, bytes + 16, 12);
+    message->boot_id = ebl_get_u32(bytes + 28);
+    message->level = ebl_get_u8(bytes + 32);
+    message->ttl_s = ebl_get_u16(bytes + 33);
+    message->expires_us = ebl_get_u64(bytes + 35);
+    return EBL_OK;
+}
+
+int ebl_auth_challenge_response_put(const ebl_auth_challenge_response *message, uint8_t *bytes, size_t capacity,
+                                   size_t *length)
+{
+    if (capacity < 43) {
+        return EBL_ERROR_SPACE;
+    }
+    memcpy(bytes + 0, message->nonce, 16);
+    memcpy(bytes + 16, message->uid, 12);
+    ebl_put_u32(bytes + 28, message->boot_id);
+    ebl_put_u8(bytes + 32, message->level);
+    ebl_put_u16(bytes + 33, message->ttl_s);
+    ebl_put_u64(bytes + 35, message->expires_us);
+    *length = 43;
+    return EBL_OK;
+}
+
+int ebl_auth_response_request_get(ebl_auth_response_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 74) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->transaction = ebl_get_u16(bytes + 0);
+    message->expires_us = ebl_get_u64(bytes + 2);
+    memcpy(message->signature, bytes + 10, 64);
+    return EBL_OK;
+}
+
+int ebl_auth_response_request_put(const ebl_auth_response_request *message, uint8_t *bytes, size_t capacity,
+                                 size_t *length)
+{
+    if (capacity < 74) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u16(bytes + 0, message->transaction);
+    ebl_put_u64(bytes + 2, message->expires_us);
+    memcpy(bytes + 10, message->signature, 64);
+    *length = 74;
+    return EBL_OK;
+}
+
+int ebl_auth_response_response_get(ebl_auth_response_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 1) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->level = ebl_get_u8(bytes + 0);
+    return EBL_OK;
+}
+
+int ebl_auth_response_response_put(const ebl_auth_response_response *message, uint8_t *bytes, size_t capacity,
+                                  size_t *length)
+{
+    if (capacity < 1) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u8(bytes + 0, message->level);
+    *length = 1;
+    return EBL_OK;
+}
+
 int ebl_sim_get_response_get(ebl_sim_get_response *message, const uint8_t *bytes, size_t length)
 {
     message->text = bytes + 0;
@@ -1429,6 +1523,28 @@ int ebl_stream_stats_event_put(const ebl_stream_stats_event *message, uint8_t *b
     ebl_put_u32(bytes + 1, message->built);
     ebl_put_u32(bytes + 5, message->dropped_tx);
     *length = 9;
+    return EBL_OK;
+}
+
+int ebl_auth_changed_event_get(ebl_auth_changed_event *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 3) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->level = ebl_get_u8(bytes + 0);
+    message->failures = ebl_get_u16(bytes + 1);
+    return EBL_OK;
+}
+
+int ebl_auth_changed_event_put(const ebl_auth_changed_event *message, uint8_t *bytes, size_t capacity,
+                              size_t *length)
+{
+    if (capacity < 3) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u8(bytes + 0, message->level);
+    ebl_put_u16(bytes + 1, message->failures);
+    *length = 3;
     return EBL_OK;
 }
 

@@ -42,6 +42,9 @@ const ebl_message ebl_messages[EBL_MESSAGE_COUNT] = {
     {0x0404, 1, 0},
     {0x0405, 16, 4},
     {0x0407, 16, 0},
+    {0x0601, 1, 43},
+    {0x0602, 74, 1},
+    {0x0603, 0, 0},
     {0x7001, 0, 0},
     {0x7002, 0, 0},
 };
@@ -54,6 +57,7 @@ const ebl_event_row ebl_event_rows[EBL_EVENT_COUNT] = {
     {EBL_EVENT_CONFIG_ROLLED_BACK, 8},
     {EBL_EVENT_CONFIG_DEFAULTED, 8},
     {EBL_EVENT_STREAM_STATS, 9},
+    {EBL_EVENT_AUTH_CHANGED, 3},
     {EBL_EVENT_CONFIG_PROVISIONAL, 9},
     {EBL_EVENT_STREAM_COUNTS, 14},
     {EBL_EVENT_LOG_CLOSED, 12},
@@ -103,17 +107,17 @@ const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT] = {
      0.0f, 4.0f}, /* fuzzy_rules */
     {0x0306, 254, EBL_TYPE_U8, 1, 1, EBL_ACCESS_DEALER, 2,
      0.0f, 1.0f}, /* fuzzy_falling_torque */
-    {0x0400, 255, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, 0,
+    {0x0400, 255, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, 4,
      0.0f, 25.0f}, /* assist_cutoff_kmh */
     {0x0401, 259, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, 0,
      0.0f, 5.0f}, /* assist_cutoff_band_kmh */
-    {0x0402, 263, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, 0,
+    {0x0402, 263, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, 4,
      0.0f, 2.0f}, /* motor_torque_nm_max */
-    {0x0403, 267, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, 0,
+    {0x0403, 267, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, 4,
      1.0f, 12.0f}, /* battery_current_a_max */
     {0x0404, 271, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, 0,
      24.0f, 40.0f}, /* battery_voltage_v_min */
-    {0x0405, 275, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, 0,
+    {0x0405, 275, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, 4,
      500.0f, 3000.0f}, /* motor_speed_rpm_max */
     {0x0406, 279, EBL_TYPE_U16, 1, 2, EBL_ACCESS_DEALER, 0,
      50.0f, 1000.0f}, /* pedal_stop_ms */

@@ -12,14 +12,14 @@
 #define EBL_MAX_OUTSTANDING 4
 #define EBL_CONTROL_PERIOD_US 10000
 #define EBL_IMAGE_LENGTH 299
-#define EBL_MESSAGE_COUNT 38
-#define EBL_EVENT_COUNT 11
+#define EBL_MESSAGE_COUNT 41
+#define EBL_EVENT_COUNT 12
 #define EBL_EVENT_HEAD_LENGTH 5
 #define EBL_PARAMETER_COUNT 34
 #define EBL_ORDER_COUNT 1
 #define EBL_CHANNEL_COUNT 20
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 3613
+#define EBL_SCHEMA_LENGTH 3743
 
 enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */
 
@@ -150,6 +150,7 @@ typedef enum {
     EBL_EVENT_CONFIG_ROLLED_BACK = 5,
     EBL_EVENT_CONFIG_DEFAULTED = 6,
     EBL_EVENT_STREAM_STATS = 7,
+    EBL_EVENT_AUTH_CHANGED = 8,
     EBL_EVENT_CONFIG_PROVISIONAL = 16,
     EBL_EVENT_STREAM_COUNTS = 17,
     EBL_EVENT_LOG_CLOSED = 20,
@@ -229,6 +230,9 @@ enum {
     EBL_MSG_LOG_CLOSE = 0x0404,
     EBL_MSG_LOG_CRC = 0x0405,
     EBL_MSG_LOG_CONFIRM = 0x0407,
+    EBL_MSG_AUTH_CHALLENGE = 0x0601,
+    EBL_MSG_AUTH_RESPONSE = 0x0602,
+    EBL_MSG_AUTH_DROP = 0x0603,
     EBL_MSG_SIM_GET = 0x7001,
     EBL_MSG_SIM_SET = 0x7002,
 };
@@ -309,7 +313,8 @@ typedef enum { EBL_TYPE_U8 = 0, EBL_TYPE_U16 = 1, EBL_TYPE_F32 = 2, EBL_TYPE_TEX
 
 enum {
     EBL_PARAMETER_INCREASING = 1, /* each element is greater than the one before */
-    EBL_PARAMETER_CHOICE = 2      /* an enumeration: 0 to max */
+    EBL_PARAMETER_CHOICE = 2,     /* an enumeration: 0 to max */
+    EBL_PARAMETER_RATCHET = 4     /* going down is free, going up needs a token */
 };
 
 typedef struct {
@@ -899,6 +904,45 @@ int ebl_log_confirm_request_get(ebl_log_confirm_request *message, const uint8_t 
 int ebl_log_confirm_request_put(const ebl_log_confirm_request *message, uint8_t *bytes, size_t capacity,
                                size_t *length);
 
+#define EBL_AUTH_CHALLENGE_REQUEST_LENGTH 1
+typedef struct {
+    uint8_t level;
+} ebl_auth_challenge_request;
+int ebl_auth_challenge_request_get(ebl_auth_challenge_request *message, const uint8_t *bytes, size_t length);
+int ebl_auth_challenge_request_put(const ebl_auth_challenge_request *message, uint8_t *bytes, size_t capacity,
+                                  size_t *length);
+
+#define EBL_AUTH_CHALLENGE_RESPONSE_LENGTH 43
+typedef struct {
+    uint8_t nonce[16];
+    uint8_t uid[12];
+    uint32_t boot_id;
+    uint8_t level;
+    uint16_t ttl_s;
+    uint64_t expires_us;
+} ebl_auth_challenge_response;
+int ebl_auth_challenge_response_get(ebl_auth_challenge_response *message, const uint8_t *bytes, size_t length);
+int ebl_auth_challenge_response_put(const ebl_auth_challenge_response *message, uint8_t *bytes, size_t capacity,
+                                   size_t *length);
+
+#define EBL_AUTH_RESPONSE_REQUEST_LENGTH 74
+typedef struct {
+    uint16_t transaction;
+    uint64_t expires_us;
+    uint8_t signature[64];
+} ebl_auth_response_request;
+int ebl_auth_response_request_get(ebl_auth_response_request *message, const uint8_t *bytes, size_t length);
+int ebl_auth_response_request_put(const ebl_auth_response_request *message, uint8_t *bytes, size_t capacity,
+                                 size_t *length);
+
+#define EBL_AUTH_RESPONSE_RESPONSE_LENGTH 1
+typedef struct {
+    uint8_t level;
+} ebl_auth_response_response;
+int ebl_auth_response_response_get(ebl_auth_response_response *message, const uint8_t *bytes, size_t length);
+int ebl_auth_response_response_put(const ebl_auth_response_response *message, uint8_t *bytes, size_t capacity,
+                                  size_t *length);
+
 #define EBL_SIM_GET_RESPONSE_LENGTH 0
 typedef struct {
     const uint8_t *text;
@@ -986,6 +1030,15 @@ typedef struct {
 } ebl_stream_stats_event;
 int ebl_stream_stats_event_get(ebl_stream_stats_event *message, const uint8_t *bytes, size_t length);
 int ebl_stream_stats_event_put(const ebl_stream_stats_event *message, uint8_t *bytes, size_t capacity,
+                              size_t *length);
+
+#define EBL_AUTH_CHANGED_EVENT_LENGTH 3
+typedef struct {
+    uint8_t level;
+    uint16_t failures;
+} ebl_auth_changed_event;
+int ebl_auth_changed_event_get(ebl_auth_changed_event *message, const uint8_t *bytes, size_t length);
+int ebl_auth_changed_event_put(const ebl_auth_changed_event *message, uint8_t *bytes, size_t capacity,
                               size_t *length);
 
 #define EBL_CONFIG_PROVISIONAL_EVENT_LENGTH 9

@@ -26,7 +26,8 @@ typedef enum { EBL_TYPE_U8 = 0, EBL_TYPE_U16 = 1, EBL_TYPE_F32 = 2, EBL_TYPE_TEX
 
 enum {
     EBL_PARAMETER_INCREASING = 1, /* each element is greater than the one before */
-    EBL_PARAMETER_CHOICE = 2      /* an enumeration: 0 to max */
+    EBL_PARAMETER_CHOICE = 2,     /* an enumeration: 0 to max */
+    EBL_PARAMETER_RATCHET = 4     /* going down is free, going up needs a token */
 };
 
 typedef struct {

@@ -57,6 +57,7 @@ def _parameter_row(registry: Registry, parameter: Parameter) -> str:
     if parameter.enum is not None:
         high = max(registry.enum(parameter.enum).members.values())
     flags = int(parameter.increasing) + 2 * int(parameter.enum is not None)
+    flags += 4 * int(parameter.ratchet)
     access = next(n for n, v in registry.enum("access").members.items() if v == parameter.access)
     return (
         f"    {{0x{parameter.id:04x}, {parameter.image_offset}, EBL_TYPE_{parameter.type.upper()},"

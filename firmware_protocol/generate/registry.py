@@ -153,7 +153,10 @@ def _parameters(rows: list[dict[str, Any]], enums: tuple[Table, ...]) -> tuple[P
             access=access[row["access"]],
             image_offset=offset,
             doc=row["doc"],
+            ratchet=row.get("ratchet", False),
         )
+        if parameter.ratchet and (parameter.type == "text" or enum is not None):
+            raise BadRegistry(f"{parameter.name}: only numbers can be a ratchet")
         limits = [limit is not None for limit in (parameter.min, parameter.max)]
         if limits != [parameter.type != "text" and enum is None] * 2:
             raise BadRegistry(f"{parameter.name}: numbers need min and max, others have none")

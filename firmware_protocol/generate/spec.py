@@ -72,6 +72,7 @@ def _parameters(registry: Registry) -> list[str]:
         if row.type == "text":
             limits = "UTF-8, zero-filled"
         extra = ", increasing" if row.increasing else ""
+        extra += ", ratchet" if row.ratchet else ""
         lines += [f"### 0x{row.id:04X} {row.name}", "", row.doc, ""]
         lines += [
             f"{kind}{shape} at image byte {row.image_offset}; {limits}{extra};"

@@ -23,6 +23,8 @@ export interface ParameterRow {
   readonly max: number | null;
   readonly enum: string | null;
   readonly increasing: boolean;
+  /** Going down is free, going up needs a token. */
+  readonly ratchet: boolean;
   readonly default: ParameterValue;
   readonly access: string;
   readonly doc: string;
@@ -55,6 +57,7 @@ def module(registry: Registry) -> str:
             "max": row.max,
             "enum": row.enum,
             "increasing": row.increasing,
+            "ratchet": row.ratchet,
             "default": row.default,
             "access": access[row.access],
             "doc": row.doc,

@@ -20,6 +20,7 @@ ROOMS = {
     "app": FIRMWARE / "app",
     "host": FIRMWARE / "boards" / "host",
     "physics": ROOT / "sim_device" / "physics",
+    "monocypher": ROOT / "third_party" / "monocypher",
 }
 
 # room -> rooms whose headers it may include, itself always.
@@ -28,7 +29,8 @@ ALLOWED: dict[str, set[str]] = {
     "hal": set(),
     "protocol": set(),
     "physics": set(),
-    "app": {"control", "hal", "protocol"},
+    "monocypher": set(),
+    "app": {"control", "hal", "protocol", "monocypher"},
     "host": {"app", "control", "hal", "physics", "protocol"},
 }
 

@@ -37,8 +37,17 @@ def is_generated(path: Path) -> bool:
     return GENERATED_MARK in head or "do not edit" in head
 
 
+def is_foreign(path: Path) -> bool:
+    """Another project's source, kept as it came."""
+    return path.relative_to(ROOT).parts[0] == "third_party"
+
+
 def written_code() -> list[Path]:
-    return [p for p in tracked() if p.suffix in CODE_SUFFIXES and not is_generated(p)]
+    return [
+        path
+        for path in tracked()
+        if path.suffix in CODE_SUFFIXES and not is_generated(path) and not is_foreign(path)
+    ]
 
 
 def relative(path: Path) -> str:

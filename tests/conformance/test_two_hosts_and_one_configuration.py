@@ -169,6 +169,8 @@ class TwoHosts(RuleBasedStateMachine):
             assert response.status == Status.STATE
         elif image != pack_image(self.staged):
             assert response.status == Status.CRC_MISMATCH
+        elif self._raises_a_limit():
+            assert response.status == Status.ACCESS
         elif moving:
             assert response.status == Status.NOT_STOPPED
         elif image != self.image and self.now_s < self.commit_free_s:
@@ -176,6 +178,12 @@ class TwoHosts(RuleBasedStateMachine):
         else:
             assert response.status == Status.OK
             self._committed(image)
+
+    def _raises_a_limit(self) -> bool:
+        """Nobody here has a token, so the cut-off only goes down."""
+        cutoff, active = self.staged["assist_cutoff_kmh"], unpack_image(self.image)
+        assert isinstance(cutoff, float)
+        return cutoff > float(str(active["assist_cutoff_kmh"]))
 
     def _committed(self, image: bytes) -> None:
         if image != self.image:

@@ -23,8 +23,14 @@ INCLUDES = (
     "sim_device/firmware/hal",
     "sim_device/firmware/boards/host",
     "sim_device/physics",
+    "third_party/monocypher",
 )
-SOURCE_FOLDERS = ("firmware_protocol/c", "sim_device/firmware/app", "sim_device/firmware/control")
+SOURCE_FOLDERS = (
+    "firmware_protocol/c",
+    "sim_device/firmware/app",
+    "sim_device/firmware/control",
+    "third_party/monocypher",
+)
 BOARD = ("bench_board.c", "log_flash.c")
 COMPILERS = ("clang", *(f"clang-{version}" for version in range(22, 12, -1)))
 OPTIONS = (

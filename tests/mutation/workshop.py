@@ -18,7 +18,14 @@ from pathlib import Path
 from sim_device.firmware.python import build
 
 ROOT = Path(__file__).resolve().parents[2]
-PARTS = ("backend", "firmware_protocol", "sim_device", "tests", "pyproject.toml")
+PARTS = (
+    "backend",
+    "firmware_protocol",
+    "sim_device",
+    "tests",
+    "third_party",
+    "pyproject.toml",
+)
 EXTENSION = "sim_device/firmware/python/_native.abi3.so"
 TESTS_SECONDS_MAX = 120
 # pytest's own codes: all passed, some failed.

@@ -42,6 +42,9 @@ class Workload:
         self._asked = 0
         self._bases: list[ConfigImage] = []
         self._ride_until_s = 0.0
+        # Limits go down freely and never up: nobody here has a token.
+        self._torque_nm_max = 2.0
+        self._cutoff_kmh = 25.0
         self._settled = False
         self.last_write: Intent | None = None
 
@@ -150,9 +153,11 @@ class Workload:
         if chance.random() < 0.7:
             changes["pedal_stop_ms"] = chance.randint(50, 1000)
         if chance.random() < 0.4:
-            changes["motor_torque_nm_max"] = round(chance.uniform(0.2, 1.5), 3)
+            self._torque_nm_max = round(self._torque_nm_max * chance.uniform(0.6, 1.0), 3)
+            changes["motor_torque_nm_max"] = self._torque_nm_max
         if chance.random() < 0.4:
-            changes["assist_cutoff_kmh"] = round(chance.uniform(10.0, 25.0), 2)
+            self._cutoff_kmh = round(self._cutoff_kmh * chance.uniform(0.8, 1.0), 2)
+            changes["assist_cutoff_kmh"] = self._cutoff_kmh
         if chance.random() < 0.3:
             changes["fuzzy_rules"] = [[chance.choice(LABELS) for _ in range(5)] for _ in range(5)]
         if chance.random() < 0.3:

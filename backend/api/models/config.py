@@ -60,6 +60,12 @@ class ConfigPatch(Question):
         "seconds, at a restart or power loss, unless `POST .../config/confirm` comes first.",
     )
 
+    token: str | None = Field(
+        default=None,
+        pattern="^[0-9a-fA-F]{144}$",
+        description="The maker's answer to the `challenge` of a refusal `token_needed`.",
+    )
+
 
 class Change(Answer):
     name: str

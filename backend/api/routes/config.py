@@ -54,7 +54,12 @@ def patch_config(
 ) -> Any:
     """Writes all the named parameters or none, reads them back and compares field by field."""
     change = services.tuning.write_config(
-        device_id, cast("dict[str, Any]", body.parameters), body.reason, if_match, body.confirm_s
+        device_id,
+        cast("dict[str, Any]", body.parameters),
+        body.reason,
+        if_match,
+        body.confirm_s,
+        token=body.token,
     )
     response.headers["etag"] = etag(change.generation, change.crc32)
     return change

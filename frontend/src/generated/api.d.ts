@@ -790,6 +790,11 @@ export interface components {
              * @default 0
              */
             confirm_s: number;
+            /**
+             * Token
+             * @description The maker's answer to the `challenge` of a refusal `token_needed`.
+             */
+            token?: string | null;
         };
         /**
          * ConfigStamp
@@ -1674,6 +1679,11 @@ export interface components {
             code: string;
             /** Errors */
             errors: components["schemas"]["FieldProblem"][];
+            /**
+             * @description Only with the code `token_needed`.
+             * @default null
+             */
+            challenge: components["schemas"]["TokenChallenge"] | null;
         };
         /**
          * FieldProblem
@@ -1686,6 +1696,30 @@ export interface components {
             code: string;
             /** Message */
             message: string;
+        };
+        /**
+         * TokenChallenge
+         * @description What a maker signs with `spindle unlock sign`; bytes in hex.
+         */
+        TokenChallenge: {
+            /** Uid */
+            uid: string;
+            /** Nonce */
+            nonce: string;
+            /** Level */
+            level: string;
+            /** Ttl S */
+            ttl_s: number;
+            /**
+             * Expires Us
+             * @description Of the unit's clock.
+             */
+            expires_us: number;
+            /**
+             * Image
+             * @description The whole configuration that is to become active.
+             */
+            image: string;
         };
     };
     responses: never;

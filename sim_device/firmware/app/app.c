@@ -42,6 +42,12 @@ static void config_defaulted(app *unit)
     event_faults_set(&unit->events, &unit->link, now_us, EBL_FAULT_CONFIG_DEFAULTED);
 }
 
+/* Bytes of flash that slots and counters take, from its start. */
+static size_t flash_before_unlock(const hal *board)
+{
+    return config_store_flash_bytes(board) + COUNTERS_BLOCKS * board->flash_block_size;
+}
+
 void app_init(app *unit, const hal *board)
 {
     memset(unit, 0, sizeof *unit);
@@ -53,6 +59,7 @@ void app_init(app *unit, const hal *board)
     config_store_boot(&unit->store, board);
     trial_boot(&unit->trial, &unit->store);
     counters_boot(&unit->counters, board, config_store_flash_bytes(board));
+    unlock_boot(&unit->lock, board, flash_before_unlock(board));
     ride_log_init(&unit->ride_log, board);
     unit->link.bulk = requests_log_bulk;
     unit->link.bulk_context = unit;
@@ -71,6 +78,11 @@ int app_provision(const hal *board, const ebl_config *config)
 
     ebl_config_pack(config, image);
     return config_store_provision(board, image);
+}
+
+int app_provision_unlock_key(const hal *board, const uint8_t *key)
+{
+    return unlock_store_provision(board, flash_before_unlock(board), key);
 }
 
 static void receive(app *unit)

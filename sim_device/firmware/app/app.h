@@ -23,6 +23,7 @@
 #include "ride_log_bulk.h"      // ride_log_bulk
 #include "ride_log_check.h"     // ride_log_check
 #include "telemetry.h"          // telemetry
+#include "unlock.h"             // unlock
 
 /* A response the host may ask for again because it was lost: executing twice is not an option. */
 typedef struct {
@@ -46,6 +47,7 @@ typedef struct {
     config_transaction transaction;
     config_trial trial;
     config_live live;
+    unlock lock;
     ebl_config config; /* the one in force */
     counters counters;
 
@@ -79,6 +81,16 @@ const assist_output *app_output(const app *unit);
 /* The factory's last step, before the first app_init: gives a flash that was never written its
  * first configuration. Any other flash is left alone. 0, or a negative CONFIG_STORE_ result. */
 int app_provision(const hal *board, const ebl_config *config);
+
+/* The factory's choice: the maker's public key of 32 bytes, for good. Without one no limit can be
+ * raised and no factory parameter changed. Negative where another key is, or no room. */
+int app_provision_unlock_key(const hal *board, const uint8_t *key);
+
+/* For the rooms of this folder: what may be staged (an ebl_access), whether this image may become
+ * active (OK, or ACCESS with the level in `detail`), and the end of what a token granted. */
+uint8_t app_access_to_stage(const app *unit);
+uint8_t app_access_check(const app *unit, const uint8_t *image, uint16_t *detail);
+void app_lock(app *unit);
 
 /* For the rooms of this folder: the image in force becomes the law's at the next control step. */
 void app_config_apply(app *unit);

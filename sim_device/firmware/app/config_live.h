@@ -15,7 +15,8 @@ typedef struct {
     uint8_t image[EBL_IMAGE_LENGTH]; /* what the law runs on while `active` */
 } config_live;
 
-/* Sets items over what is in force and renews the time of all of them; a time of 0 ends them.
+/* Sets items over what is in force and renews the time of all of them; a time of 0 ends them. What
+ * needs a token in flash is ACCESS here too, with or without one.
  * Returns an ebl_status. INVALID_CONFIG: the first `capacity` refusals in `found`, the number of
  * all in `detail`. */
 uint8_t live_set(config_live *live, const config_store *store, const ebl_live_set_request *request,

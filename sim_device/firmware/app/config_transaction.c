@@ -99,7 +99,7 @@ uint8_t transaction_staged_crc(config_transaction *transaction, uint16_t id, uin
 static int magnitude_is_below(float value, float limit) { return value > -limit && value < limit; }
 
 /* A speed that is not known is not a standstill; an unknown voltage the second slot covers. */
-static uint8_t flash_may_be_written(const hal *board)
+uint8_t transaction_flash_status(const hal *board)
 {
     hal_inputs inputs;
 
@@ -129,7 +129,7 @@ static uint8_t commit_check(config_transaction *transaction, const hal *board,
         *detail = (uint16_t)crc32;
         return EBL_STATUS_CRC_MISMATCH;
     }
-    return flash_may_be_written(board);
+    return transaction_flash_status(board);
 }
 
 static uint8_t store_status(int result)

@@ -49,6 +49,9 @@ uint8_t transaction_abort(config_transaction *transaction, uint16_t id, uint64_t
 /* Milliseconds until a commit may write the flash again. */
 uint16_t transaction_commit_wait_ms(const config_transaction *transaction, uint64_t now_us);
 
+/* OK where the flash may be written now: standing still, with enough battery. */
+uint8_t transaction_flash_status(const hal *board);
+
 /* Ends the transaction when its lease is over. */
 void transaction_poll(config_transaction *transaction, uint64_t now_us);
 

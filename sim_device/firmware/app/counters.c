@@ -8,7 +8,7 @@
 #include "ebl_registry.h" // EBL_CONTROL_PERIOD_US
 #include "flash_verify.h" // flash_program_verified, flash_is_blank
 
-#define AREAS 2
+#define AREAS COUNTERS_BLOCKS
 #define SAVE_PERIOD_US 60000000u
 #define STEPS_PER_S (1000000u / EBL_CONTROL_PERIOD_US)
 #define KMH_PER_M_PER_STEP (3.6f * (float)STEPS_PER_S)

@@ -12,6 +12,8 @@
 
 #include "hal.h" // hal
 
+#define COUNTERS_BLOCKS 2 /* of flash */
+
 typedef struct {
     uint32_t distance_m;
     uint32_t operating_s;

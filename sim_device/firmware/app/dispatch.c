@@ -102,6 +102,7 @@ static void request_execute(app *unit, const ebl_header *request, reply *answer)
 
     if (handler == NULL) handler = requests_config(request->word);
     if (handler == NULL) handler = requests_trial(request->word);
+    if (handler == NULL) handler = requests_unlock(request->word);
     if (handler == NULL) handler = requests_stream(request->word);
     if (handler == NULL) handler = requests_faults(request->word);
     if (handler == NULL) handler = requests_time(request->word);

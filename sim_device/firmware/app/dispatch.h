@@ -43,6 +43,7 @@ void dispatch_frame(app *unit, const uint8_t *frame, size_t length);
 request_handler requests_system(uint16_t message_id);
 request_handler requests_config(uint16_t message_id);
 request_handler requests_trial(uint16_t message_id);
+request_handler requests_unlock(uint16_t message_id);
 request_handler requests_stream(uint16_t message_id);
 request_handler requests_faults(uint16_t message_id);
 request_handler requests_time(uint16_t message_id);

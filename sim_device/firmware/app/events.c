@@ -88,6 +88,17 @@ void event_stream_counts(event_log *events, unit_link *link, uint64_t now_us,
     event_send(events, link, now_us, EBL_EVENT_STREAM_COUNTS, fields, length);
 }
 
+void event_auth_changed(event_log *events, unit_link *link, uint64_t now_us, uint8_t level,
+                        uint16_t failures)
+{
+    ebl_auth_changed_event event = {level, failures};
+    uint8_t fields[EBL_AUTH_CHANGED_EVENT_LENGTH];
+    size_t length;
+
+    if (ebl_auth_changed_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
+    event_send(events, link, now_us, EBL_EVENT_AUTH_CHANGED, fields, length);
+}
+
 void event_log_closed(event_log *events, unit_link *link, uint64_t now_us, uint32_t log_id,
                       uint32_t generation, uint32_t length_bytes)
 {

@@ -28,6 +28,11 @@ void event_config_provisional(event_log *events, unit_link *link, uint64_t now_u
 void event_stream_counts(event_log *events, unit_link *link, uint64_t now_us,
                          const ebl_stream_counts_event *counts);
 
+/* `level`: what a token allows now, RIDER where it is over; `failures`: attempts since the last
+ * good one. */
+void event_auth_changed(event_log *events, unit_link *link, uint64_t now_us, uint8_t level,
+                        uint16_t failures);
+
 void event_log_closed(event_log *events, unit_link *link, uint64_t now_us, uint32_t log_id,
                       uint32_t generation, uint32_t length_bytes);
 

@@ -118,7 +118,8 @@ static void set(app *unit, const ebl_header *request, reply *answer)
         reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_SET_REQUEST_LENGTH);
         return;
     }
-    status = transaction_set(&unit->transaction, &asked, EBL_ACCESS_DEALER, now(unit), &detail);
+    status =
+        transaction_set(&unit->transaction, &asked, app_access_to_stage(unit), now(unit), &detail);
     reply_status(answer, status, detail);
 }
 
@@ -167,9 +168,10 @@ static void staged_crc(app *unit, const ebl_header *request, reply *answer)
     reply_with(answer, put, length);
 }
 
-/* A new generation is active; a defaulted unit is well again. */
+/* A new generation is active, and a token was good for one; a defaulted unit is well again. */
 static void committed(app *unit, uint8_t confirm_s)
 {
+    app_lock(unit);
     if (unit->store.on_trial) {
         trial_begin(&unit->trial, confirm_s, now(unit));
         unit->live.active = 0;
@@ -181,6 +183,20 @@ static void committed(app *unit, uint8_t confirm_s)
     app_config_changed(unit, EBL_EVENT_CONFIG_COMMITTED);
     if (!faults_clear(&unit->faults, EBL_FAULT_CONFIG_DEFAULTED)) return;
     event_faults_cleared(&unit->events, &unit->link, now(unit), EBL_FAULT_CONFIG_DEFAULTED);
+}
+
+/* Only for what could be committed otherwise: the rest is the transaction's to refuse. */
+static uint8_t commit_access(app *unit, const ebl_cfg_commit_request *asked, uint16_t *detail)
+{
+    uint32_t crc32;
+    uint8_t status =
+        transaction_staged_crc(&unit->transaction, asked->transaction, now(unit), &crc32, detail);
+
+    if (status != EBL_STATUS_OK || unit->transaction.state != EBL_CONFIG_STATE_VALID) {
+        return EBL_STATUS_OK;
+    }
+    if (crc32 != asked->staged_crc32) return EBL_STATUS_OK;
+    return app_access_check(unit, unit->transaction.image, detail);
 }
 
 static void commit(app *unit, const ebl_header *request, reply *answer)
@@ -197,8 +213,11 @@ static void commit(app *unit, const ebl_header *request, reply *answer)
         reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_COMMIT_REQUEST_LENGTH);
         return;
     }
-    status = transaction_commit(&unit->transaction, &unit->store, unit->board, &asked, now(unit),
-                                &detail);
+    status = commit_access(unit, &asked, &detail);
+    if (status == EBL_STATUS_OK) {
+        status = transaction_commit(&unit->transaction, &unit->store, unit->board, &asked,
+                                    now(unit), &detail);
+    }
     if (status != EBL_STATUS_OK) {
         reply_refuse(answer, status, detail);
         return;

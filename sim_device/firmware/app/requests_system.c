@@ -23,6 +23,7 @@ static void session_start(app *unit)
     unit->session_id++;
     telemetry_end_all(&unit->telemetry);
     transaction_drop(&unit->transaction);
+    app_lock(unit);
     log_session_end(unit);
     memset(unit->answered, 0, sizeof unit->answered);
 }
@@ -141,6 +142,7 @@ static void bye(app *unit, const ebl_header *request, reply *answer)
     (void)request;
     telemetry_end_all(&unit->telemetry);
     transaction_drop(&unit->transaction);
+    app_lock(unit);
     log_session_end(unit);
     reply_ok(answer);
 }

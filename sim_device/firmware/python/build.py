@@ -18,6 +18,7 @@ SOURCE_FOLDERS = (
     "sim_device/firmware/app",
     "sim_device/firmware/boards/host",
     "sim_device/physics",
+    "third_party/monocypher",
 )
 
 HAL_FOLDER = "sim_device/firmware/hal"
@@ -31,6 +32,8 @@ HEADERS: tuple[str, ...] = (
     "sim_device/firmware/control/fuzzy_table.h",
     "sim_device/firmware/control/assist.h",
     "sim_device/firmware/hal/hal.h",
+    "sim_device/firmware/app/sha512.h",
+    "sim_device/firmware/app/signature.h",
     "sim_device/firmware/boards/host/bench_board.h",
     "sim_device/physics/road.h",
     "sim_device/physics/rider.h",

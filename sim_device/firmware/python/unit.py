@@ -13,6 +13,7 @@ from sim_device.firmware.python._native import ffi, lib
 FLASH_LENGTH: Final[int] = lib.UNIT_FLASH_SIZE
 LOG_LENGTH: Final[int] = lib.UNIT_LOG_SIZE
 UID_LENGTH: Final[int] = lib.UNIT_UID_LENGTH
+UNLOCK_KEY_LENGTH: Final[int] = lib.UNIT_UNLOCK_KEY_LENGTH
 MODE_NOT_SELECTED: Final[int] = lib.UNIT_MODE_NOT_SELECTED
 
 # One read takes what a line of 8 KiB can hold.
@@ -98,12 +99,13 @@ class Unit:
         speed_kmh: the bike starts rolling at this speed.
         flash: `FLASH_LENGTH` bytes of an earlier life, or None for an erased flash.
         log: `LOG_LENGTH` bytes of the flash for ride logs, or None for an erased one.
+        unlock_key: the maker's public key to provision, or None for what the flash has.
         request: answers SIM_GET and SIM_SET: (message id, request) -> (status, response).
 
     Raises:
         KeyError: a value of `bike` does not exist.
-        ValueError: `uid`, `flash` or `log` has another length.
-        MemoryError: the unit could not be allocated.
+        ValueError: `uid`, `flash`, `log` or `unlock_key` has another length.
+        MemoryError: the unit could not be allocated, or its flash has another unlock key.
     """
 
     def __init__(
@@ -116,6 +118,7 @@ class Unit:
         speed_kmh: float = 0.0,
         flash: bytes | None = None,
         log: bytes | None = None,
+        unlock_key: bytes | None = None,
         request: BoardRequest | None = None,
     ) -> None:
         if len(uid) != UID_LENGTH:
@@ -124,6 +127,8 @@ class Unit:
             raise ValueError(f"the flash image has {len(flash)} bytes, not {FLASH_LENGTH}")
         if log is not None and len(log) != LOG_LENGTH:
             raise ValueError(f"the log's image has {len(log)} bytes, not {LOG_LENGTH}")
+        if unlock_key is not None and len(unlock_key) != UNLOCK_KEY_LENGTH:
+            raise ValueError(f"the key has {len(unlock_key)} bytes, not {UNLOCK_KEY_LENGTH}")
         setup = ffi.new("unit_setup *")
         lib.physics_default(ffi.addressof(setup, "physics"))
         _change(setup.physics, bike or {})
@@ -133,13 +138,16 @@ class Unit:
         setup.boot_id = boot_id
         setup.flash = ffi.NULL if flash is None else ffi.from_buffer("uint8_t[]", flash)
         setup.log = ffi.NULL if log is None else ffi.from_buffer("uint8_t[]", log)
+        setup.unlock_key = (
+            ffi.NULL if unlock_key is None else ffi.from_buffer("uint8_t[]", unlock_key)
+        )
         self._request = None if request is None else ffi.new_handle(request)
         if self._request is not None:
             setup.request = lib.unit_request_python
             setup.request_context = self._request
         created = lib.unit_create(setup)
         if created == ffi.NULL:
-            raise MemoryError("no memory for a simulated unit")
+            raise MemoryError("no memory for a simulated unit, or another key is in its flash")
         self._unit = ffi.gc(created, lib.unit_destroy)
         self._observation = ffi.new("unit_observation *")
         self._transmitted = bytearray(_TRANSMIT_CAPACITY)

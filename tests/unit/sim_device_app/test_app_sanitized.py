@@ -37,6 +37,7 @@ FOLDERS = [
     "firmware_protocol/c",
     "sim_device/firmware/control",
     "sim_device/firmware/app",
+    "third_party/monocypher",
     "sim_device/firmware/hal",
     "sim_device/firmware/boards/host",
 ]
@@ -50,11 +51,11 @@ def sanitized(tmp_path_factory: pytest.TempPathFactory) -> Path:
     if COMPILER is None:
         pytest.skip("no gcc or clang here")
     program = tmp_path_factory.mktemp("sanitized") / "unit"
-    sources = [path for folder in FOLDERS[:3] for path in sorted((ROOT / folder).glob("*.c"))]
+    sources = [path for folder in FOLDERS[:4] for path in sorted((ROOT / folder).glob("*.c"))]
     command = [COMPILER, "-std=c99", "-g", "-O1", "-ffp-contract=off", "-fno-math-errno"]
     command += ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
     command += [f"-I{ROOT / folder}" for folder in FOLDERS]
-    sources += [ROOT / FOLDERS[4] / name for name in BOARD]
+    sources += [ROOT / FOLDERS[5] / name for name in BOARD]
     command += [*map(str, sources), str(HERE / "sanitized_unit.c")]
     built = subprocess.run(
         [*command, "-o", str(program)], capture_output=True, text=True, check=False

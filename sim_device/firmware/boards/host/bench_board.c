@@ -211,6 +211,16 @@ int bench_provision(bench_board *board)
     return app_provision(&board->hal, &config);
 }
 
+int bench_provision_unlock_key(bench_board *board, const uint8_t *key)
+{
+    return app_provision_unlock_key(&board->hal, key);
+}
+
+void bench_uid(bench_board *board, const uint8_t *uid)
+{
+    memcpy(board->uid, uid, sizeof board->uid);
+}
+
 void bench_boot(bench_board *board, uint32_t boot_id)
 {
     board->now_us = 0;

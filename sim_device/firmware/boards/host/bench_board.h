@@ -22,6 +22,12 @@ void bench_destroy(bench_board *board);
 /* The factory's last step: the default configuration in the first slot. 0 or negative. */
 int bench_provision(bench_board *board);
 
+/* The factory's choice: the maker's public key of 32 bytes. 0 or negative. */
+int bench_provision_unlock_key(bench_board *board, const uint8_t *key);
+
+/* Another serial number, of 12 bytes. */
+void bench_uid(bench_board *board, const uint8_t *uid);
+
 /* Power on: RAM starts anew, flash keeps what it holds, the flash works again. */
 void bench_boot(bench_board *board, uint32_t boot_id);
 

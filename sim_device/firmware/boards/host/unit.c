@@ -185,7 +185,9 @@ unit *unit_create(const unit_setup *setup)
     connect_board(self, setup);
     ebl_config factory;
     ebl_config_default(&factory);
-    if (app_provision(&self->hal, &factory) < 0) {
+    if (app_provision(&self->hal, &factory) < 0 ||
+        (setup->unlock_key != NULL &&
+         app_provision_unlock_key(&self->hal, setup->unlock_key) < 0)) {
         unit_destroy(self);
         return NULL;
     }

@@ -11,6 +11,7 @@
 #include "physics.h" // physics_config
 
 #define UNIT_UID_LENGTH 12
+#define UNIT_UNLOCK_KEY_LENGTH 32
 #define UNIT_FLASH_BLOCK_SIZE 1024
 #define UNIT_FLASH_SIZE 8192 /* the data flash of the RX24T in eight blocks */
 #define UNIT_LOG_BLOCK_SIZE 4096
@@ -28,9 +29,10 @@ typedef struct {
     uint64_t seed;
     uint8_t uid[UNIT_UID_LENGTH];
     uint32_t boot_id;
-    const uint8_t *flash; /* UNIT_FLASH_SIZE bytes, or NULL for an erased one */
-    const uint8_t *log;   /* UNIT_LOG_SIZE bytes, or NULL for an erased one */
-    unit_request request; /* NULL: the unit knows no board requests */
+    const uint8_t *flash;      /* UNIT_FLASH_SIZE bytes, or NULL for an erased one */
+    const uint8_t *log;        /* UNIT_LOG_SIZE bytes, or NULL for an erased one */
+    const uint8_t *unlock_key; /* the maker's, 32 bytes, or NULL for what the flash has */
+    unit_request request;      /* NULL: the unit knows no board requests */
     void *request_context;
 } unit_setup;
 
@@ -65,7 +67,7 @@ typedef struct {
 
 typedef struct unit unit;
 
-/* NULL if there is no memory. */
+/* NULL if there is no memory, or if the flash has another unlock key. */
 unit *unit_create(const unit_setup *setup);
 void unit_destroy(unit *self);
 

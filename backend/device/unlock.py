@@ -1,0 +1,131 @@
+"""Changes that need the maker's word: what the unit wants signed, and showing it the signature."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Mapping
+
+from backend.device.operation import Operation, attempt, expect
+from backend.device.refusals import refused
+from backend.errors import AccessDenied, FieldError, InvalidRequest, SpindleError, TokenNeeded
+from firmware_protocol._generated import (
+    PARAMETER_BY_NAME,
+    Access,
+    AuthChallengeRequest,
+    AuthChallengeResponse,
+    AuthResponseRequest,
+    AuthResponseResponse,
+    Status,
+)
+from firmware_protocol.layout import Parameter, Value
+from firmware_protocol.unlock_token import Token
+
+__all__ = ["Token", "access_refused", "show_token", "token_from"]
+
+AGAIN = "Write once more without a token to get a new challenge. Nothing was changed."
+LEVELS = (Access.DEALER, Access.FACTORY)
+
+
+def token_from(text: str) -> Token:
+    """A token as a person brings it. Raises InvalidRequest."""
+    try:
+        return Token.from_hex(text)
+    except (ValueError, struct.error) as error:
+        raise InvalidRequest(f"This is not a token ({error}).", "no_token") from None
+
+
+def show_token(transaction: int, token: Token) -> Operation[None]:
+    """Show the unit a token for what is staged. Raises AccessDenied with the unit's reason."""
+    request = AuthResponseRequest(transaction, token.expires_us, token.signature)
+    response = yield from attempt(request)
+    if response.status == Status.AUTH_BAD:
+        raise AccessDenied(
+            "The unit refuses this token: it was made for another unit, another change, another "
+            f"challenge, or with another key. {AGAIN}",
+            "token_refused",
+        )
+    if response.status in (Status.EXPIRED, Status.STATE):
+        raise AccessDenied(
+            f"The challenge this token answers is over: it holds for a minute and one attempt. "
+            f"{AGAIN}",
+            "token_expired",
+        )
+    if response.status in (Status.AUTH_DELAY, Status.NOT_FOUND):
+        raise unlock_refused(response.status, response.detail)
+    expect(request, response, AuthResponseResponse)
+
+
+def unlock_refused(status: int, seconds: int) -> AccessDenied:
+    """Why a unit does not even listen to tokens."""
+    if status == Status.AUTH_DELAY:
+        return AccessDenied(
+            f"The unit takes no token for another {seconds} s, because a wrong one came before. "
+            "Wait and write once more. Nothing was changed.",
+            "token_delay",
+        )
+    return AccessDenied(
+        "This needs the maker's token, and this unit carries no maker's key: nobody can change it "
+        "in this unit. Nothing was changed."
+    )
+
+
+def access_refused(
+    level: int, base: Mapping[str, Value], changes: Mapping[str, Value], image: bytes
+) -> Operation[SpindleError]:
+    """The error for a change the unit does not grant: TokenNeeded with its challenge, or why not.
+
+    image: the whole configuration that was to become active.
+    """
+    fields = protected(base, changes)
+    wanted = level if level in LEVELS else Access.FACTORY
+    request = AuthChallengeRequest(wanted)
+    response = yield from attempt(request)
+    if response.status in (Status.AUTH_DELAY, Status.NOT_FOUND, Status.UNKNOWN_MSG):
+        error = unlock_refused(response.status, response.detail)
+        said = " ".join(field.message for field in fields)
+        return AccessDenied(f"{said} {error.message}".strip(), error.code, fields)
+    if response.status != Status.OK:
+        return refused(request, response)
+    asked = expect(request, response, AuthChallengeResponse)
+    return TokenNeeded(
+        " ".join(field.message for field in fields)
+        + f" The unit wants a token from its maker for exactly this change within {asked.ttl_s} s; "
+        "`challenge` is what has to be signed. Nothing was changed.",
+        {
+            "uid": asked.uid.hex(),
+            "nonce": asked.nonce.hex(),
+            "level": Access(asked.level).name,
+            "ttl_s": asked.ttl_s,
+            "expires_us": asked.expires_us,
+            "image": image.hex(),
+        },
+        fields,
+    )
+
+
+def protected(base: Mapping[str, Value], changes: Mapping[str, Value]) -> list[FieldError]:
+    """The changes that need a token: factory parameters, and limits that go up."""
+    found = []
+    for name, value in changes.items():
+        row = PARAMETER_BY_NAME[name]
+        if value == base[name]:
+            continue
+        if row.access == Access.FACTORY:
+            message = f"{name} may only be changed by the factory."
+            found.append(FieldError(name, "access_denied", message))
+        elif row.ratchet and is_raised(base[name], value):
+            found.append(FieldError(name, "token_needed", raised(row, base[name], value)))
+    return found
+
+
+def is_raised(old: Value, new: Value) -> bool:
+    """Whether a number went up; ratchets are single numbers."""
+    return isinstance(old, float | int) and isinstance(new, float | int) and new > old
+
+
+def raised(row: Parameter, old: Value, new: Value) -> str:
+    """What a person is told about a limit that should go up."""
+    return (
+        f"{row.name} should go up from {old} to {new} {row.unit}; this limit goes down freely and "
+        "up only with a token."
+    )

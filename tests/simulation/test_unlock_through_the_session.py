@@ -1,0 +1,111 @@
+"""Goal: a person who raises a limit is told what is needed, and gets it with the maker's token.
+
+Method: the host's session against the unit's firmware in virtual time.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import pytest
+
+from backend.device.config_transaction import read_config, write_config
+from backend.errors import AccessDenied, TokenNeeded
+from firmware_protocol._generated import Access
+from firmware_protocol.layout import Value
+from firmware_protocol.unlock_token import Challenge, Token
+from sim_device.lockstep import LockstepUnit
+from tests.fakes.bench import Bench
+from tests.fakes.maker import Maker
+
+MAKER = Maker()
+RAISED: dict[str, Value] = {"assist_cutoff_kmh": 25.0}
+LOWERED: dict[str, Value] = {"assist_cutoff_kmh": 20.0}
+
+
+@dataclass
+class Line:
+    """A lockstep unit in the words of the bench."""
+
+    unit: LockstepUnit
+
+    def receive(self, data: bytes) -> None:
+        self.unit.send(data)
+
+    def transmit(self) -> bytes:
+        return self.unit.receive()
+
+    def advance(self, seconds: float) -> None:
+        self.unit.advance(seconds)
+
+
+def lowered(key: bytes | None) -> Bench:
+    """A connected unit whose dealer has lowered the cut-off."""
+    bench = Bench(Line(LockstepUnit(unlock_key=key))).connect()
+    bench.ask(write_config(bench.ask(read_config()), LOWERED))
+    bench.run(2.5)
+    return bench
+
+
+def challenge_of(error: TokenNeeded) -> Challenge:
+    asked = error.challenge
+    return Challenge(
+        bytes.fromhex(str(asked["uid"])),
+        bytes.fromhex(str(asked["nonce"])),
+        Access[str(asked["level"])],
+        int(asked["expires_us"]),
+        bytes.fromhex(str(asked["image"])),
+    )
+
+
+def refusal(bench: Bench, changes: dict[str, Value], token: Token | None = None) -> AccessDenied:
+    with pytest.raises(AccessDenied) as caught:
+        bench.ask(write_config(bench.ask(read_config()), changes, token=token))
+    return caught.value
+
+
+def test_the_refusal_names_the_limit_and_carries_what_must_be_signed() -> None:
+    bench = lowered(MAKER.public_key)
+    error = refusal(bench, {**RAISED, "torque_filter_s": 0.4})
+    assert isinstance(error, TokenNeeded)
+    assert [field.field for field in error.fields] == ["assist_cutoff_kmh"]
+    assert "from 20.0 to 25.0 km/h" in error.message
+
+    token = MAKER.sign(challenge_of(error))
+    changes: dict[str, Value] = {**RAISED, "torque_filter_s": 0.4}
+    bench.ask(write_config(bench.ask(read_config()), changes, token=token))
+
+    assert bench.ask(read_config()).parameters["assist_cutoff_kmh"] == 25.0
+
+
+def test_a_factory_parameter_is_asked_for_at_the_factory_s_level() -> None:
+    bench = lowered(MAKER.public_key)
+
+    error = refusal(bench, {"wheel_radius_m": 0.35})
+    assert isinstance(error, TokenNeeded)
+    assert error.challenge["level"] == "FACTORY"
+
+    token = MAKER.sign(challenge_of(error))
+    bench.ask(write_config(bench.ask(read_config()), {"wheel_radius_m": 0.35}, token=token))
+
+
+def test_a_unit_without_a_key_says_that_nobody_can() -> None:
+    error = refusal(lowered(None), RAISED)
+
+    assert not isinstance(error, TokenNeeded)
+    assert "carries no maker's key" in error.message
+    assert "assist_cutoff_kmh should go up from 20.0 to 25.0 km/h" in error.message
+
+
+def test_a_wrong_token_is_refused_and_the_next_one_has_to_wait() -> None:
+    bench = lowered(MAKER.public_key)
+    error = refusal(bench, RAISED)
+    assert isinstance(error, TokenNeeded)
+    wrong = Maker(2).sign(challenge_of(error))
+
+    assert refusal(bench, RAISED, wrong).code == "token_refused"
+    assert refusal(bench, RAISED).code == "token_delay"
+    bench.run(1.1)
+    assert refusal(bench, RAISED, wrong).code == "token_expired"
+    assert refusal(bench, RAISED).code == "token_needed"
+    assert bench.ask(read_config()).parameters["assist_cutoff_kmh"] == 20.0

@@ -1,0 +1,70 @@
+"""Goal: from refusal to raised limit with nothing but the commands of docs/safety.md."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.fakes.server import SpindleServer, eventually
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def spindle(*words: str | Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "backend.cli", *map(str, words)],
+        cwd=ROOT, capture_output=True, text=True, timeout=60, check=False,
+    )  # fmt: skip
+
+
+@pytest.fixture
+def shop(tmp_path: Path) -> Iterator[SpindleServer]:
+    """A server with one standing unit that carries the maker's key."""
+    assert spindle("unlock", "keygen", tmp_path / "maker.pem").returncode == 0
+    unit = f"sim:shop?scenario=none&unlock_key={tmp_path / 'maker.pem.pub'}"
+    server = SpindleServer(tmp_path / "data", [unit]).start()
+    eventually(lambda: [one["state"] for one in server.get("/devices")["items"]] == ["ready"])
+    yield server
+    server.stop()
+
+
+def test_a_lowered_limit_goes_up_with_a_token_and_not_without(
+    shop: SpindleServer, tmp_path: Path
+) -> None:
+    at = ["--server", shop.url]
+    lowered = spindle("device", "set", "assist_cutoff_kmh=20", *at)
+    assert lowered.returncode == 0, lowered.stderr
+
+    refused = spindle("device", "set", "assist_cutoff_kmh=25", *at)
+    assert refused.returncode == 1
+    assert "assist_cutoff_kmh should go up from 20.0 to 25.0 km/h" in refused.stderr
+    challenge = tmp_path / "challenge.json"
+    challenge.write_text(refused.stdout)
+    signed = spindle("unlock", "sign", tmp_path / "maker.pem", challenge)
+    token = signed.stdout.strip()
+    raised = spindle("device", "set", "assist_cutoff_kmh=25", "--token", token, *at)
+    again = spindle("device", "set", "assist_cutoff_kmh=20", *at)
+    replayed = spindle("device", "set", "assist_cutoff_kmh=25", "--token", token, *at)
+
+    assert raised.returncode == 0, raised.stderr
+    assert again.returncode == 0, again.stderr
+    assert replayed.returncode == 1
+    assert "challenge this token answers is over" in replayed.stderr
+
+
+def test_the_api_s_refusal_carries_the_challenge(shop: SpindleServer) -> None:
+    device = shop.get("/devices")["items"][0]["id"]
+    path = f"/devices/{device}/config"
+    shop.ask("PATCH", path, json={"parameters": {"motor_torque_nm_max": 1.0}})
+
+    response = shop.client.patch(path, json={"parameters": {"motor_torque_nm_max": 1.5}})
+
+    assert response.status_code == 403
+    assert response.json()["code"] == "token_needed"
+    assert set(response.json()["challenge"]) == {
+        "uid", "nonce", "level", "ttl_s", "expires_us", "image",
+    }  # fmt: skip
