@@ -86,10 +86,15 @@ def become_acquainted(host_nonce: bytes) -> Operation[Acquaintance]:
     faults = 0
     trial = None
     if reason is None:
-        listed = yield from ask(EvtFaultListRequest(), EvtFaultListResponse)
-        faults = listed.fault_flags
-        trial = yield from trial_status()
+        faults, trial = yield from unit_state()
     return Acquaintance(hello, Identity.from_hello(hello), reason, channels, faults, trial)
+
+
+def unit_state() -> Operation[tuple[int, TrialStatus]]:
+    """What the unit's events would have told: its active faults, and its configuration."""
+    listed = yield from ask(EvtFaultListRequest(), EvtFaultListResponse)
+    trial = yield from trial_status()
+    return listed.fault_flags, trial
 
 
 def read_schema(hello: HelloResponse) -> Operation[dict[str, Any]]:

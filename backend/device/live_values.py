@@ -37,8 +37,13 @@ def ask_values() -> Operation[LiveValues]:
     """Ask the unit for one row of every channel."""
     ids = bytes(row.id for row in CHANNELS)
     answer = yield from ask(StrSnapshotRequest(ids), StrSnapshotResponse)
-    counts = np.frombuffer(answer.values[: 2 * len(ids)], dtype="<i2").tolist()
-    return LiveValues(answer.t_us, _named(CHANNEL_SPECS, counts))
+    return values_of(answer.t_us, answer.values)
+
+
+def values_of(t_us: int, row: bytes) -> LiveValues:
+    """A row of every channel in the order of their ids, as the wire carries it."""
+    counts = np.frombuffer(row[: 2 * len(CHANNEL_SPECS)], dtype="<i2").tolist()
+    return LiveValues(t_us, _named(CHANNEL_SPECS, counts))
 
 
 def _named(channels: Sequence[ChannelSpec], counts: Sequence[int]) -> dict[str, float | None]:

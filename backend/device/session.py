@@ -18,7 +18,14 @@ from dataclasses import replace
 from enum import Enum, auto
 from typing import TypeVar
 
-from backend.device.handshake import Acquaintance, VersionRefused, become_acquainted
+from backend.device.clock_keeper import ClockKeeper
+from backend.device.config_trial import TrialStatus
+from backend.device.handshake import (
+    Acquaintance,
+    VersionRefused,
+    become_acquainted,
+    unit_state,
+)
 from backend.device.log_download import LogReceiver
 from backend.device.operation import Operation, attempt
 from backend.device.reasons import (
@@ -45,6 +52,7 @@ from firmware_protocol._generated import (
     PingRequest,
     Status,
     StreamCountsEvent,
+    TimSyncResponse,
 )
 from firmware_protocol.codec import (
     Bulk,
@@ -70,6 +78,7 @@ REFUSED_PAUSE_S = 5.0
 # A caller that stops reading must not make the session grow: 1000 blocks are 50 s at 100 Hz.
 EVENTS_MAX = 1000
 BYE_TID = 255
+EVENT_SEQ_MODULUS = 1 << 16
 # Of a request that wants no answer.
 NO_TID = 0
 # Rows that come prove only one direction: after two renewals without an answer (5 s) we are not
@@ -107,7 +116,9 @@ class Session:
         self._subscription = Subscription(self._statistics)
         self._requests = RequestTable(self._statistics)
         self._runner = OperationRunner(self._requests)
+        self.clock = ClockKeeper(self._statistics)
         self._log: LogReceiver | None = None
+        self._next_event_seq: int | None = None
         self._decoder = FrameDecoder(MTU)
         self._bad_before = 0
         self._events: deque[DeviceEvent] = deque()
@@ -273,6 +284,7 @@ class Session:
 
     def _unit_event(self, event: Event) -> None:
         self._statistics.unit_events += 1
+        self._count_event(event.seq)
         if isinstance(event.message, StreamCountsEvent):
             self._subscription.counted(event.message)
         told = self.notes.take(event, self._statistics, self._now_s)
@@ -283,6 +295,21 @@ class Session:
         self._boot_heard = event.message.boot_id
         if self._phase is _Phase.UP and self._is_another_life():
             self._greet_again(restarted_reason())
+
+    def _count_event(self, seq: int) -> None:
+        """Count the events between the one before and this; what they told is asked for."""
+        expected = self._next_event_seq
+        self._next_event_seq = (seq + 1) % EVENT_SEQ_MODULUS
+        if expected is None or self._phase is not _Phase.UP:
+            return
+        lost = (seq - expected) % EVENT_SEQ_MODULUS
+        if lost == 0 or lost >= EVENT_SEQ_MODULUS // 2:
+            return
+        self._statistics.unit_events_lost += lost
+        self._runner.start(unit_state(), self._state_told, lambda error: None)
+
+    def _state_told(self, state: tuple[int, TrialStatus]) -> None:
+        self.notes.refresh(*state, self._now_s)
 
     def _is_another_life(self) -> bool:
         """Whether a restart was heard since HELLO was asked and HELLO was answered before it."""
@@ -301,7 +328,10 @@ class Session:
             self._greet()
             return
         self.failed_greetings = 0
+        self._next_event_seq = None
         self.notes.begin(acquaintance, self._now_s)
+        if acquaintance.read_only_reason is None:
+            self.clock.begin(self._now_s)
         self._phase = _Phase.UP
         self._heard_s = self._now_s
         self._statistics.connections += 1
@@ -356,6 +386,8 @@ class Session:
             self._begin_stream()
         elif self._subscription.renewal_due(self._now_s):
             self._runner.start(self._subscription.renew(), self._renewed, self._not_renewed)
+        elif self._requests.is_idle and self.clock.due(self._now_s):
+            self._ask_time()
         elif silent_s >= PING_S and self._requests.is_idle:
             self._runner.start(attempt(PingRequest()), lambda response: None, lambda error: None)
 
@@ -367,6 +399,15 @@ class Session:
 
     def _not_renewed(self, error: BaseException) -> None:
         self._renewals_unanswered += isinstance(error, NoAnswer)
+
+    def _ask_time(self) -> None:
+        self._runner.start(self.clock.sync(self._now_s), self._time_told, lambda error: None)
+
+    def _time_told(self, answer: TimSyncResponse | None) -> None:
+        if self.clock.answered(answer, self._now_s):
+            self._runner.start(
+                self.clock.tell(self._wall_us()), lambda told: None, lambda error: None
+            )
 
     def _renewed(self, known: bool) -> None:
         self._renewals_unanswered = 0
@@ -381,6 +422,7 @@ class Session:
     def _break_off(self, error: SpindleError) -> None:
         """End the stream and fail everything that waits for the unit."""
         self._subscription.end()
+        self.clock.end()
         self.last_block = None
         self._end_log(error.message)
         self._requests.shut(error)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from backend.device.config_trial import TrialStatus
 from backend.device.handshake import Acquaintance
 from backend.device.states import UnitEvent
 from backend.device.statistics import LinkStatistics
@@ -47,6 +48,12 @@ class UnitNotes:
         self.config_crc32 = acquaintance.hello.config_crc32
         self.fault_flags = acquaintance.fault_flags
         self.boot_id = acquaintance.identity.boot_id
+
+    def refresh(self, fault_flags: int, trial: TrialStatus, now_s: float) -> None:
+        """Start again from what the unit says when asked, because an event did not come."""
+        self.fault_flags = fault_flags
+        ends_s = now_s + trial.left_s if trial.on_trial else None
+        self._config(trial.generation, trial.crc32, ends_s)
 
     def take(self, event: Event, statistics: LinkStatistics, now_s: float) -> UnitEvent | None:
         """Note an event; what is worth telling people comes back."""

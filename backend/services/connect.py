@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from backend.device.driver import Driver, LinkOpener
+from backend.device.fault_frames import FaultFrame, clear_faults, fault_frames
 from backend.device.faults import fault_description
 from backend.device.live_values import LiveValues, ask_values, last_values
 from backend.device.log_download import LogReceiver
@@ -21,7 +22,7 @@ from backend.device.operation import Operation
 from backend.device.ports import Opener, PortInfo, kind_of, list_ports
 from backend.device.simulation import simulation_get, simulation_set
 from backend.device.snapshot import DeviceStatus
-from backend.device.states import DeviceEvent
+from backend.device.states import DeviceEvent, LinkState
 from backend.device.stream import StreamPlan
 from backend.errors import Conflict, DeviceRefused, InvalidRequest, NotFound
 from backend.services.device_view import ConfigStamp, DeviceView, FaultView
@@ -183,9 +184,18 @@ class Devices:
         return device.driver.run(ask_values(), OPERATION_TIMEOUT_S)
 
     def faults(self, device_id: str) -> Sequence[FaultView]:
-        """The faults that are active in the unit, in words. Raises NotFound."""
-        names = self.status(device_id).faults_active
-        return [FaultView(name, fault_description(name)) for name in names]
+        """The faults that are active in the unit or were, in words. Raises NotFound, NoAnswer.
+
+        Of a unit that is not there, the names of those that were active when it was.
+        """
+        status = self.status(device_id)
+        if status.state is LinkState.READY:
+            return _fault_views(self.run(device_id, fault_frames()))
+        return [FaultView(name, fault_description(name)) for name in status.faults_active]
+
+    def clear_faults(self, device_id: str) -> Sequence[FaultView]:
+        """Forget the faults that are over; those that are left. Raises NotFound, NoAnswer."""
+        return _fault_views(self.run(device_id, clear_faults()))
 
     # ------------------------------------------------------------------ what is asked of them
 
@@ -278,6 +288,13 @@ class Devices:
             if device.id is not None and device.serial_number == device_id:
                 return device
         raise NotFound(f"There is no device {device_id}. `GET /devices` lists those there are.")
+
+
+def _fault_views(frames: Sequence[FaultFrame]) -> list[FaultView]:
+    return [
+        FaultView(one.name, fault_description(one.name), one.active, one.count, one.frozen)
+        for one in frames
+    ]
 
 
 def _bound(watcher: Watcher, device_id: str) -> Listener:

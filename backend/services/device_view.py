@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 
 from backend.device.identity import Identity
+from backend.device.live_values import LiveValues
 
 
 @dataclass(frozen=True)
@@ -32,10 +33,17 @@ class ConfigStamp:
 
 @dataclass(frozen=True)
 class FaultView:
-    """An active fault and what to do about it."""
+    """A fault that is active or was, and what to do about it.
+
+    count: how often it came since the unit's start, None when the unit is not there to be asked.
+    frozen: every channel when it came last.
+    """
 
     name: str
     description: str
+    active: bool = True
+    count: int | None = None
+    frozen: LiveValues | None = None
 
 
 @dataclass(frozen=True)

@@ -29,6 +29,8 @@ from firmware_protocol._generated import (
     ConfigProvisionalEvent,
     ConfigRolledBackEvent,
     EvtFaultListResponse,
+    FaultClearedEvent,
+    FaultSetEvent,
     HelloResponse,
     MessageId,
     SchemaReadResponse,
@@ -75,6 +77,7 @@ class FakeUnit:
         self.lies: Callable[[bytes], bytes] = lambda image: image
         self.refuse: dict[MessageId, Status] = {}
         self.simulation = b"{}"
+        self.fault_flags = 0
         self.frames_built = 0
         self.level = channels_value
         self._decoder = FrameDecoder()
@@ -130,7 +133,11 @@ class FakeUnit:
             self.tell(BootEvent(self.boot_id, 0))
 
     def tell(self, message: Any) -> None:
-        """Send an event."""
+        """Send an event; a fault it tells of is there, or over."""
+        if isinstance(message, FaultSetEvent):
+            self.fault_flags |= message.fault_flags
+        elif isinstance(message, FaultClearedEvent):
+            self.fault_flags &= ~message.fault_flags
         event = Event(self._event_seq, message.CODE, self.time_us % 2**32, message)
         self._event_seq += 1
         self._out += encode_frame(encode(event))
@@ -187,7 +194,7 @@ class FakeUnit:
         return SchemaReadResponse(len(self.schema), piece)
 
     def _on_evt_fault_list(self, request: Any) -> Message:
-        return EvtFaultListResponse(0)
+        return EvtFaultListResponse(self.fault_flags)
 
     def _on_sim_get(self, request: Any) -> Message:
         return SimGetResponse(self.simulation)

@@ -14,7 +14,9 @@ import pytest
 from backend.device import handshake
 from backend.device.config_transaction import ConfigImage, read_config, write_config
 from backend.device.config_trial import confirm_config, rollback_config, trial_status
+from backend.device.fault_frames import clear_faults, fault_frames
 from backend.device.live_values import ask_values
+from backend.device.operation import ask
 from backend.device.simulation import simulation_get, simulation_set
 from backend.device.states import LinkState
 from backend.device.stream import BATCH_DEFAULT, StreamPlan
@@ -27,7 +29,9 @@ from backend.errors import (
     NotStandingStill,
     PeerProtocolError,
 )
-from firmware_protocol._generated import CHANNELS, PARAMETERS
+from firmware_protocol._generated import CHANNELS, PARAMETERS, TimSyncRequest, TimSyncResponse
+from firmware_protocol.codec import Event, decode
+from firmware_protocol.framing import FrameDecoder, encode_frame
 from firmware_protocol.layout import Value
 from firmware_protocol.parameters import default_config
 from sim_device.lockstep import LockstepUnit
@@ -321,3 +325,59 @@ def test_two_writes_in_a_row_wait_for_the_flash() -> None:
 
     assert again.parameters["pedal_stop_ms"] == 300
     assert 1.8 <= bench.now_s - began_s <= 2.5
+
+
+def test_the_host_learns_the_unit_s_clock_and_the_unit_the_world_s() -> None:
+    bench, _ = connected()
+    bench.session.wall_offset_us = 1_790_000_000_000_000
+    bench.run(60.0)
+
+    estimate = bench.session.clock.estimate
+    assert estimate is not None
+    # Both clocks are the bench's: the unit's began when the session's stood at 100 s.
+    assert estimate.unit_at(160e6) == pytest.approx(60e6, abs=20_000)
+    assert abs(estimate.skew_ppm) < 300.0
+    told = bench.ask(ask(TimSyncRequest(1), TimSyncResponse))
+    assert told.unix_us == pytest.approx(1_790_000_000_000_000 + bench.now_s * 1e6, abs=50_000)
+
+
+def test_a_fault_comes_with_what_the_bike_did_and_can_be_forgotten() -> None:
+    unit = LockstepUnit(seed=1, bike={"battery.soc_pct_start": 20.0})
+    bench = bench_with(unit).connect()
+    base = bench.ask(read_config())
+    too_high = bench.ask(write_config(base, {"battery_voltage_v_min": 40.0}))
+    bench.run(2.0)
+    (fault,) = bench.ask(fault_frames())
+    still = bench.ask(clear_faults())
+    bench.ask(write_config(too_high, {"battery_voltage_v_min": 30.0}))
+    bench.run(2.0)
+    (over,) = bench.ask(fault_frames())
+
+    assert (fault.name, fault.active, fault.count) == ("BATTERY_LOW", True, 1)
+    assert fault.frozen is not None
+    voltage_v = fault.frozen.channels["battery_voltage_v"]
+    assert voltage_v is not None
+    assert voltage_v < 40.0
+    assert still == [fault]
+    assert (over.active, over.frozen) == (False, fault.frozen)
+    assert bench.ask(clear_faults()) == []
+
+
+def test_an_event_that_did_not_come_is_counted_and_what_it_told_is_asked_for() -> None:
+    bench, base = connected(StreamPlan())
+    bench.run(1.5)
+    bench.to_host = without_events
+    bench.ask(write_config(base, {"pedal_stop_ms": 250}))
+    assert bench.session.notes.config_generation == base.generation
+
+    bench.to_host = lambda data: data
+    bench.run(2.5)
+
+    assert bench.session.link_statistics().unit_events_lost > 0
+    assert bench.session.notes.config_generation == base.generation + 1
+
+
+def without_events(data: bytes) -> bytes:
+    """A line that loses every event and nothing else; frames come whole from the lockstep unit."""
+    frames = FrameDecoder().feed(data)
+    return b"".join(encode_frame(one) for one in frames if not isinstance(decode(one), Event))

@@ -98,8 +98,13 @@ class Snapshot(Answer):
 
 
 class Fault(Answer):
+    """A fault that is active or was. `frozen` is what the bike did when it came last."""
+
     name: str
     description: str
+    active: bool
+    count: int | None = Field(description="How often since the unit's start; null if not known.")
+    frozen: Snapshot | None
 
 
 class FaultList(Answer):

@@ -69,8 +69,16 @@ def get_snapshot(device_id: str, services: Provided) -> Any:
 
 @router.get("/devices/{device_id}/faults", operation_id="list_faults", response_model=FaultList)
 def list_faults(device_id: str, services: Provided) -> Any:
-    """The faults that are active in the unit now."""
+    """The faults that are active in the unit or were, and what the bike did when they came."""
     return {"items": services.devices.faults(device_id)}
+
+
+@router.post(
+    "/devices/{device_id}/faults/clear", operation_id="clear_faults", response_model=FaultList
+)
+def clear_faults(device_id: str, services: Provided) -> Any:
+    """Forgets the faults that are over; one that is active stays. Lists what is left."""
+    return {"items": services.devices.clear_faults(device_id)}
 
 
 @router.get(

@@ -118,11 +118,31 @@ export interface paths {
         };
         /**
          * List Faults
-         * @description The faults that are active in the unit now.
+         * @description The faults that are active in the unit or were, and what the bike did when they came.
          */
         get: operations["list_faults"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/devices/{device_id}/faults/clear": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Clear Faults
+         * @description Forgets the faults that are over; one that is active stays. Lists what is left.
+         */
+        post: operations["clear_faults"];
         delete?: never;
         options?: never;
         head?: never;
@@ -903,12 +923,23 @@ export interface components {
             /** Reverse */
             reverse: number[][];
         };
-        /** Fault */
+        /**
+         * Fault
+         * @description A fault that is active or was. `frozen` is what the bike did when it came last.
+         */
         Fault: {
             /** Name */
             name: string;
             /** Description */
             description: string;
+            /** Active */
+            active: boolean;
+            /**
+             * Count
+             * @description How often since the unit's start; null if not known.
+             */
+            count: number | null;
+            frozen: components["schemas"]["Snapshot"] | null;
         };
         /** FaultList */
         FaultList: {
@@ -2158,6 +2189,73 @@ export interface operations {
         };
     };
     list_faults: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FaultList"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    clear_faults: {
         parameters: {
             query?: never;
             header?: never;

@@ -1,0 +1,78 @@
+"""When to ask a unit for its time, and telling it ours: a burst at first, then now and then."""
+
+from __future__ import annotations
+
+from backend.device.clock_sync import ClockEstimate, ClockEstimator, ClockSample
+from backend.device.operation import Operation, attempt
+from backend.device.statistics import LinkStatistics
+from firmware_protocol._generated import TimSetRequest, TimSyncRequest, TimSyncResponse
+
+# The first few tell the offset; the later ones, over minutes, the skew.
+BURST = 4
+BURST_EVERY_S = 0.1
+EVERY_S = 10.0
+UNCERTAINTY_US_MAX = 2**32 - 1
+# A host whose clock stands before 2020 does not know the time and does not tell it.
+KNOWN_TIME_UNIX_US = 1_577_836_800_000_000
+
+
+class ClockKeeper:
+    """One unit's clock from HELLO to the end of its life."""
+
+    def __init__(self, statistics: LinkStatistics) -> None:
+        self._statistics = statistics
+        self._estimator = ClockEstimator()
+        self._due_s: float | None = None
+        self._asked = 0
+
+    @property
+    def estimate(self) -> ClockEstimate | None:
+        """What is known of the unit's clock, None before the first answer."""
+        return self._estimator.estimate
+
+    def begin(self, now_s: float) -> None:
+        """A unit was met: its clock is one nobody knows."""
+        self._estimator = ClockEstimator()
+        self._asked = 0
+        self._due_s = now_s + BURST_EVERY_S
+        self._statistics.clock_skew_ppm = self._statistics.clock_uncertainty_ms = None
+
+    def end(self) -> None:
+        """The unit is gone, or does not tell its time."""
+        self._due_s = None
+
+    def due(self, now_s: float) -> bool:
+        """Whether it is time to ask; says so once for each time."""
+        if self._due_s is None or now_s < self._due_s:
+            return False
+        self._asked += 1
+        self._due_s = now_s + (BURST_EVERY_S if self._asked < BURST else EVERY_S)
+        return True
+
+    def sync(self, now_s: float) -> Operation[TimSyncResponse | None]:
+        """Ask for the time, once: an answer to a repetition would tell nothing."""
+        response = yield from attempt(TimSyncRequest(round(now_s * 1e6)), attempts=1)
+        return response.message if isinstance(response.message, TimSyncResponse) else None
+
+    def answered(self, answer: TimSyncResponse | None, now_s: float) -> bool:
+        """Enter an answer that came just now; True when the unit should be told our time."""
+        if answer is None:
+            self.end()
+            return False
+        sample = ClockSample(
+            answer.host_us, answer.heard_us, answer.answered_us, round(now_s * 1e6)
+        )
+        self._estimator.add(sample)
+        estimate = self._estimator.estimate
+        if estimate is not None:
+            self._statistics.clock_skew_ppm = round(estimate.skew_ppm, 3)
+            self._statistics.clock_uncertainty_ms = round(estimate.uncertainty_us / 1000.0, 3)
+        return self._asked == BURST and answer.unix_us == 0
+
+    def tell(self, unix_us: int) -> Operation[None]:
+        """Tell the unit the time of the world, if we know it."""
+        estimate = self._estimator.estimate
+        if estimate is None or unix_us < KNOWN_TIME_UNIX_US:
+            return
+        uncertainty_us = min(round(estimate.uncertainty_us), UNCERTAINTY_US_MAX)
+        yield from attempt(TimSetRequest(unix_us, 0, uncertainty_us))

@@ -1,0 +1,57 @@
+"""The faults a unit has had, each with what the bike did when it came."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from backend.device.live_values import LiveValues, values_of
+from backend.device.operation import Operation, ask, attempt, expect
+from firmware_protocol._generated import (
+    EvtFaultClearRequest,
+    EvtFaultClearResponse,
+    EvtFaultFreezeRequest,
+    EvtFaultFreezeResponse,
+    EvtFaultListRequest,
+    EvtFaultListResponse,
+    FaultFlags,
+    Status,
+)
+
+ALL_FAULTS = 0xFFFF
+
+
+@dataclass(frozen=True)
+class FaultFrame:
+    """One fault. active: now. count: how often it was set since the unit's start, or was cleared.
+
+    frozen: every channel in the control step that set it last; None when nothing was kept.
+    """
+
+    name: str
+    active: bool
+    count: int
+    frozen: LiveValues | None
+
+
+def fault_frames() -> Operation[list[FaultFrame]]:
+    """The faults that are active or were, by their bit. Raises NoAnswer, DeviceRefused."""
+    listed = yield from ask(EvtFaultListRequest(), EvtFaultListResponse)
+    found = []
+    for flag in FaultFlags:
+        active = bool(listed.fault_flags & flag)
+        request = EvtFaultFreezeRequest(flag.bit_length() - 1)
+        response = yield from attempt(request)
+        name = flag.name or f"FAULT_{request.fault_bit}"
+        if response.status in (Status.NOT_FOUND, Status.UNKNOWN_MSG):
+            if active:
+                found.append(FaultFrame(name, True, 1, None))
+            continue
+        frame = expect(request, response, EvtFaultFreezeResponse)
+        found.append(FaultFrame(name, active, frame.count, values_of(frame.t_us, frame.values)))
+    return found
+
+
+def clear_faults() -> Operation[list[FaultFrame]]:
+    """Forget the faults that are over; those that are left."""
+    yield from ask(EvtFaultClearRequest(ALL_FAULTS), EvtFaultClearResponse)
+    return (yield from fault_frames())
