@@ -156,7 +156,10 @@ def read_fast(parts: list[bytes]) -> Outcome | None:
         try:
             columns = fitfast.records(part)
             sessions = fitfast.records(part, message="session")
-        except fitfast.FitDecodeError:
+        except (KeyboardInterrupt, SystemExit):
+            raise
+        except BaseException:
+            # A Rust panic is no Exception (seen: a division by zero inside its decoder).
             return None
         rows = len(columns.get("timestamp", ()))
         if rows > ROWS_MAX:
