@@ -105,10 +105,17 @@ export class ConfigDraft {
     this.edits = {}
   }
 
-  /** Writes the edits in one transaction and reads back what the unit has. Throws Refusal. */
-  async write(reason: string): Promise<ConfigChange> {
+  /** Writes the edits in one transaction and reads back what the unit has. confirm_s: 0 for good,
+      else for so many seconds on trial. Throws Refusal. */
+  async write(reason: string, confirm_s = 0): Promise<ConfigChange> {
     const parameters = Object.fromEntries(this.changes.map((c) => [c.parameter.name, c.value]))
-    const [result] = await this.server.writeConfig(this.device_id, parameters, reason, this.tag)
+    const [result] = await this.server.writeConfig(
+      this.device_id,
+      parameters,
+      reason,
+      this.tag,
+      confirm_s,
+    )
     this.edits = {}
     this.past = []
     this.future = []

@@ -54,19 +54,31 @@ export class Server {
     return bodyAndTag(this.http.GET('/api/v1/devices/{device_id}/config', this.unit(id)))
   }
 
-  /** Writes parameters; `tag` is the ETag of the configuration the change was made for. */
+  /** Writes parameters; `tag` is the ETag of the configuration the change was made for. confirm_s:
+      0 for good, else the unit returns after so many seconds unless it is confirmed. */
   writeConfig(
     id: string,
     parameters: Record<string, ParameterValue>,
     reason: string,
     tag: string,
+    confirm_s = 0,
   ): Promise<[ConfigChange, string]> {
     return bodyAndTag(
       this.http.PATCH('/api/v1/devices/{device_id}/config', {
         params: { path: { device_id: id }, header: { 'if-match': tag } },
-        body: { parameters, reason, confirm_s: 0 },
+        body: { parameters, reason, confirm_s },
       }),
     )
+  }
+
+  /** Keeps what is on trial. */
+  confirmConfig(id: string): Promise<ConfigChange> {
+    return body(this.http.POST('/api/v1/devices/{device_id}/config/confirm', this.unit(id)))
+  }
+
+  /** Gives up what is on trial. */
+  rollbackConfig(id: string): Promise<ConfigChange> {
+    return body(this.http.POST('/api/v1/devices/{device_id}/config/rollback', this.unit(id)))
   }
 
   async revisions(id: string): Promise<Revision[]> {

@@ -61,6 +61,18 @@ export const en = {
   'link.url': 'Address',
   'link.disconnect': 'Disconnect',
   'link.counters': 'Link counters',
+  'health.title': 'Health of the link',
+  'health.whole': 'Healthy: every frame the unit built has arrived',
+  'health.link': '{lost} frames were lost on the link',
+  'health.unit': '{dropped} frames were dropped by the unit',
+  'health.both': '{lost} frames were lost on the link, {dropped} dropped by the unit',
+  'health.sum':
+    'Built {built} = received {received} + lost on the link {lost} + dropped by the unit {dropped}',
+  'health.link_advice':
+    'Lost on the link: damaged on the way, or sent while nothing listened. Check plug and cable.',
+  'health.unit_advice':
+    'Dropped by the unit: the line was full. Fewer channels or a faster line help.',
+  'health.none': 'No frame of the live stream has come yet.',
   'connect.title': 'Connect a unit',
   'connect.look_again': 'Look again',
   'connect.connect': 'Connect',
@@ -174,6 +186,33 @@ export const en = {
   'review.refused': 'Nothing was written. The unit refuses:',
   'review.not_connected':
     'The unit is not connected, so nothing can be written. Your edits are kept.',
+
+  'review.manner': 'How',
+  'review.for_good': 'For good',
+  'review.on_trial': 'On trial: keep it or it goes back by itself',
+  'review.seconds': 'Seconds to decide (5 to 255)',
+  'review.try': 'Try for {seconds} s',
+  'review.trial_explain':
+    'Unless you press Keep in time, the unit returns to what it has now; also after a restart ' +
+    'or when it loses power.',
+  'review.tried': 'Written, read back and verified. On trial now: keep it, or it goes back.',
+  'review.trial_runs':
+    'A change is on trial in this unit. Keep or revert it first (the bar at the top of the page).',
+  'trial.title': 'On trial:',
+  'trial.unknown': 'a change that was not written from here',
+  'trial.left': 'goes back by itself in {time}',
+  'trial.returning': 'time is up, the unit goes back…',
+  'trial.keep': 'Keep',
+  'trial.revert': 'Revert',
+  'trial.kept': 'Kept: what was on trial is in the unit for good.',
+  'trial.over': 'The trial is over',
+  'trial.reverted': 'Reverted: the unit has again what it had before the trial.',
+  'trial.expired':
+    'The time of the trial ran out: the unit returned to what it had before ' +
+    '(generation {generation}).',
+  'trial.restarted':
+    'The trial was cut short, by a restart of the unit or by another tool: the unit returned to ' +
+    'what it had before (generation {generation}).',
 
   'sensor.side_by_side': 'Raw counts and torque side by side',
   'sensor.parameters': 'Calibration in the unit',

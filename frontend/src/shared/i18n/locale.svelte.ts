@@ -1,6 +1,7 @@
 // The reader's language: words from a typed dictionary, numbers and times by Intl.
 import { en, type Key } from './en'
 import { zh } from './zh'
+import { zhCodes, type Saying } from './zh_codes'
 
 export type Language = 'en' | 'zh'
 export type Words = (key: Key, values?: Record<string, string | number>) => string
@@ -21,6 +22,12 @@ export class Locale {
   lookup = (key: string, fallback: string): string => {
     const words = dictionaries[this.language] as Record<string, string>
     return words[key] ?? fallback
+  }
+
+  /** What the server says in English and with a code: translated by its code where it is known. */
+  said(kind: Saying, code: string, english: string): string {
+    if (this.language === 'en') return english
+    return (zhCodes[kind] as Record<string, string>)[code] ?? english
   }
 
   /** A number with a fixed count of decimals; "—" for a missing one. */
