@@ -7,6 +7,7 @@ import type {
   Device,
   FuzzyTable,
   LintReport,
+  LogDownload,
   Parameter,
   ParameterValue,
   Port,
@@ -15,6 +16,7 @@ import type {
   Simulation,
   SimulationChange,
   Surface,
+  UnitLogs,
 } from './types'
 
 export class Server {
@@ -94,6 +96,17 @@ export class Server {
 
   async faults(id: string): Promise<{ name: string; description: string }[]> {
     return (await body(this.http.GET('/api/v1/devices/{device_id}/faults', this.unit(id)))).items
+  }
+
+  /** The rides in the unit's own flash. */
+  unitLogs(id: string): Promise<UnitLogs> {
+    return body(this.http.GET('/api/v1/devices/{device_id}/logs', this.unit(id)))
+  }
+
+  /** Begins to fetch a ride from the unit, or goes on where an earlier try ended. */
+  fetchLog(device_id: string, log_id: number): Promise<LogDownload> {
+    const request = { params: { path: { device_id, log_id } } }
+    return body(this.http.POST('/api/v1/devices/{device_id}/logs/{log_id}/download', request))
   }
 
   simulation(id: string): Promise<Simulation> {

@@ -1,4 +1,4 @@
-/* Goal: whoever sees a trial end is told the truth about it: kept, given up, run out or cut short. */
+/* Goal: whoever sees a trial end is told what became of it: kept, given up, run out, cut short. */
 import { describe, expect, it } from 'vitest'
 import { endOf, isOver, secondsLeft, trialOf, type Trial } from './trial'
 import type { Device, Revision } from './types'
