@@ -94,7 +94,7 @@ def combine(
         "host": str(chosen.get("host", "127.0.0.1")),
         "port": _whole(chosen.get("port", 8750), "port", 0, 65535, errors),
         "data": data,
-        "device": _names(chosen.get("device", "sim")),
+        "device": _units(chosen.get("device", "sim"), errors),
         "db": str(chosen.get("db", f"sqlite:///{(data / 'spindle.db').as_posix()}")),
         "objects": str(chosen.get("objects", (data / "objects").as_uri())),
         "bus": _one_of(chosen.get("bus", "memory"), "bus", BUSES, errors),
@@ -142,6 +142,14 @@ def default_data_folder(environment: Mapping[str, str]) -> Path:
     if sys.platform == "darwin":
         return home / "Library" / "Application Support" / "Spindle"
     return Path(environment.get("XDG_DATA_HOME") or home / ".local" / "share") / "spindle"
+
+
+def _units(value: Any, errors: list[FieldError]) -> tuple[str, ...]:
+    urls = _names(value)
+    for url in sorted({url for url in urls if urls.count(url) > 1}):
+        message = f"device {url} is named twice; two simulated units are sim:one and sim:two."
+        errors.append(FieldError("device", "repeated", message))
+    return urls
 
 
 def _names(value: Any) -> tuple[str, ...]:

@@ -35,6 +35,9 @@ STATUS_OF: dict[type[errors.SpindleError], int] = {
     errors.BadFile: 422,
     errors.StoreError: 500,
 }
+# What the validator puts into a location for each kind of value it tries.
+KINDS = frozenset({"int", "float", "str", "bool"})
+KIND_STARTS = ("list[", "constrained-", "function-")
 CODE_OF_STATUS = {
     404: "not_found",
     405: "method_not_allowed",
@@ -67,14 +70,25 @@ def spindle_problem(_: Request, error: Exception) -> JSONResponse:
 def validation_problem(_: Request, error: Exception) -> JSONResponse:
     """A request that does not have the declared shape. Values are not echoed."""
     assert isinstance(error, RequestValidationError)
-    found = error.errors()
-    fields = [
-        FieldProblem(field=field_path(item["loc"]), code=item["type"], message=item["msg"])
-        for item in found[:FIELD_ERRORS_MAX]
-    ]
+    named: dict[str, FieldProblem] = {}
+    for item in error.errors():
+        field = field_path(tuple(part for part in item["loc"] if not is_kind(part)))
+        # The kinds a value may have fail one by one; a person asked for one value.
+        named[field] = (
+            FieldProblem(field=field, code="not_accepted", message="is no value this can have")
+            if field in named
+            else FieldProblem(field=field, code=item["type"], message=item["msg"])
+        )
+    found = list(named.values())
+    fields = found[:FIELD_ERRORS_MAX]
     detail = "; ".join(f"{field.field}: {field.message}" for field in fields[:3])
     more = f" and {len(found) - 3} more" if len(found) > 3 else ""
     return problem_response(422, "invalid", f"{detail}{more}", fields)
+
+
+def is_kind(part: int | str) -> bool:
+    """Whether a part of a location is not a field but a kind that a value was tried as."""
+    return isinstance(part, str) and (part in KINDS or part.startswith(KIND_STARTS))
 
 
 def field_path(location: tuple[int | str, ...]) -> str:

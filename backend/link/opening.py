@@ -38,7 +38,9 @@ def kind_of(url: str) -> str:
             f"`{url}` is no way to a unit; write `sim`, a serial port such as /dev/ttyUSB0 or "
             "COM3, or socket://host:port."
         )
-    _name_and_baud(url)
+    name, _ = _name_and_baud(url)
+    if Path(name).exists() and not Path(name).is_char_device():
+        raise InvalidRequest(f"{name} is no serial port: a port is a device such as /dev/ttyUSB0.")
     return "serial"
 
 

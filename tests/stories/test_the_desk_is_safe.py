@@ -6,6 +6,7 @@ The same rules are tested one by one in tests/unit/api; here they are tried on t
 from __future__ import annotations
 
 import socket
+from pathlib import Path
 from urllib.parse import urlsplit
 
 import httpx
@@ -134,3 +135,17 @@ def test_true_is_no_number(server: SpindleServer, device: str) -> None:
     )
 
     assert response.status_code == 422
+
+
+@pytest.mark.parametrize("setting", ["flash", "unlock_key"])
+def test_a_request_names_no_file_of_this_machine(
+    server: SpindleServer, tmp_path: Path, setting: str
+) -> None:
+    wanted = tmp_path / "wanted"
+
+    address = f"{server.url}/api/v1/devices"
+    response = httpx.post(address, json={"url": f"sim:a#b?{setting}={wanted}"})
+
+    assert response.status_code == 422
+    assert response.json()["errors"][0]["field"] == "url"
+    assert not wanted.exists()

@@ -12,6 +12,7 @@ from pydantic import BaseModel
 
 from backend import errors
 from backend.api import errors as api_errors
+from backend.api.models.config import ConfigPatch
 
 
 class Body(BaseModel):
@@ -135,3 +136,22 @@ def test_a_body_made_to_break_the_reader_is_a_problem(content: bytes) -> None:
 
     assert response.status_code in (400, 422)
     assert response.headers["content-type"] == "application/problem+json"
+
+
+@pytest.mark.parametrize("value", ["null", "true", "[true, true]", "{}"])
+def test_a_value_of_no_kind_is_refused_once_and_by_its_own_name(value: str) -> None:
+    app = FastAPI()
+    api_errors.install(app)
+
+    @app.patch("/config")
+    async def patch(body: ConfigPatch) -> None:
+        """Takes what the configuration takes."""
+
+    body = f'{{"parameters": {{"fuzzy_gain_points": {value}}}}}'
+    json_type = {"content-type": "application/json"}
+    response = TestClient(app).patch("/config", content=body, headers=json_type)
+
+    assert response.status_code == 422
+    named = {error["field"] for error in response.json()["errors"]}
+    assert {field.split("[")[0] for field in named} == {"parameters.fuzzy_gain_points"}
+    assert not any(kind in field for field in named for kind in (".int", ".float", ".str", ".list"))

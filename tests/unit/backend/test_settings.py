@@ -70,3 +70,8 @@ def test_a_file_that_is_no_toml_says_which_and_where(tmp_path: Path) -> None:
 
     with pytest.raises(InvalidRequest, match=r"spindle\.toml.*line 1"):
         read_file(wrong)
+
+
+def test_one_unit_named_twice_is_refused_with_the_way_to_two() -> None:
+    with pytest.raises(InvalidRequest, match=r"sim:one and sim:two"):
+        combine({"device": ["sim", "sim"]}, {}, {})

@@ -126,3 +126,11 @@ def test_the_simulator_ends_with_its_link(monkeypatch: pytest.MonkeyPatch) -> No
 
     with pytest.raises(ProcessLookupError):
         os.kill(process_id, 0)
+
+
+def test_a_plain_file_is_no_serial_port(tmp_path: Path) -> None:
+    notes = tmp_path / "notes"
+    notes.write_text("precious")
+
+    with pytest.raises(InvalidRequest, match="no serial port"):
+        kind_of(str(notes))
