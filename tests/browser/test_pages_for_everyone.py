@@ -17,7 +17,7 @@ from tests.fakes.server import SpindleServer
 
 PAGES = ["/", "/live", "/tune", "/rides", "/sensor", "/service", "/settings"]
 READY = {
-    "/": "text=Round trip",
+    "/": "[data-testid=link-health]",
     "/live": "[data-draws]",
     "/tune": "[data-testid=surface][data-draws]",
     "/rides": "[data-testid=ride-table]",
@@ -61,7 +61,7 @@ def test_axe_finds_no_fault_in_a_ride(desk: Desk, server: SpindleServer, axe: st
 def test_a_small_phone_never_scrolls_sideways(open_desk: OpenDesk, riding: str, path: str) -> None:
     desk = open_desk(width=360, height=740)
     page = desk.open(path)
-    page.wait_for_selector(READY[path].replace("text=Round trip", "text=Serial number"))
+    page.wait_for_selector(READY[path].replace("[data-testid=link-health]", "text=Serial number"))
 
     assert page.evaluate("document.documentElement.scrollWidth") == 360
 

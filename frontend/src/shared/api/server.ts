@@ -5,6 +5,7 @@ import type {
   Config,
   ConfigChange,
   Device,
+  Fault,
   FuzzyTable,
   LintReport,
   LogDownload,
@@ -94,8 +95,14 @@ export class Server {
       .channels
   }
 
-  async faults(id: string): Promise<{ name: string; description: string }[]> {
+  async faults(id: string): Promise<Fault[]> {
     return (await body(this.http.GET('/api/v1/devices/{device_id}/faults', this.unit(id)))).items
+  }
+
+  /** Forgets the faults that are over; what is left. */
+  async clearFaults(id: string): Promise<Fault[]> {
+    const request = this.http.POST('/api/v1/devices/{device_id}/faults/clear', this.unit(id))
+    return (await body(request)).items
   }
 
   /** The rides in the unit's own flash. */

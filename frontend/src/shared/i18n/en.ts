@@ -312,7 +312,12 @@ export const en = {
   'trace.heart_rate': 'Heart rate',
   'trace.altitude': 'Altitude',
 
-  'service.faults': 'Active faults',
+  'service.faults': 'Faults',
+  'service.active': 'active now',
+  'service.over': 'over',
+  'service.times': 'came {count} times since the unit was switched on',
+  'service.clear': 'Clear the faults that are over',
+  'service.frozen': 'What the bike did then ({time} after switch-on)',
   'service.unknown': 'The unit does not answer; its faults are unknown.',
   'service.revisions': 'Changes of the configuration',
   'service.no_revisions': 'Nothing was changed from here yet.',

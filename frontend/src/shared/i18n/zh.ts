@@ -285,7 +285,12 @@ export const zh: Record<Key, string> = {
   'trace.heart_rate': '心率',
   'trace.altitude': '海拔',
 
-  'service.faults': '当前故障',
+  'service.faults': '故障',
+  'service.active': '当前存在',
+  'service.over': '已消失',
+  'service.times': '开机以来出现 {count} 次',
+  'service.clear': '清除已消失的故障',
+  'service.frozen': '故障发生时的状态（开机后 {time}）',
   'service.unknown': '单元没有应答，故障未知。',
   'service.revisions': '配置修改记录',
   'service.no_revisions': '尚未从这里修改过。',

@@ -1,0 +1,76 @@
+"""Goal: a mechanic sees which faults are there and which were, what the bike did then, and clears
+those that are over.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from playwright.sync_api import Route, expect
+
+from tests.browser.conftest import OpenDesk
+from tests.browser.desk import Desk
+
+FROZEN = {"t_us": 61_000_000, "channels": {"speed_kmh": 12.5, "battery_voltage_v": 36.1}}
+ACTIVE = {
+    "name": "TORQUE_SENSOR",
+    "description": "Check the cable.",
+    "active": True,
+    "count": 2,
+    "frozen": FROZEN,
+}
+OVER = {**ACTIVE, "name": "BATTERY_LOW", "active": False, "count": 1, "frozen": None}
+
+
+def with_faults(desk: Desk) -> list[str]:
+    """The unit has one fault and had another; what is asked to be cleared is noted."""
+    asked: list[str] = []
+
+    def answer(route: Route) -> None:
+        cleared = route.request.url.endswith("/clear")
+        if cleared:
+            asked.append(route.request.method)
+        items: list[dict[str, Any]] = [ACTIVE] if cleared else [ACTIVE, OVER]
+        body = json.dumps({"items": items, "next": None})
+        route.fulfill(body=body, content_type="application/json")
+
+    desk.page.route("**/faults", answer)
+    desk.page.route("**/faults/clear", answer)
+    return asked
+
+
+def test_a_fault_shows_what_the_bike_did_and_what_is_over_is_cleared(
+    desk: Desk, standing: str
+) -> None:
+    asked = with_faults(desk)
+    page = desk.open("/service")
+    fault = page.locator("[data-fault=TORQUE_SENSOR]")
+    expect(fault).to_contain_text("active now")
+    expect(page.locator("[data-fault=BATTERY_LOW]")).to_contain_text("over")
+
+    fault.locator("summary").click()
+    expect(fault).to_contain_text("1:01 after switch-on")
+    expect(fault.locator("dl")).to_contain_text("12.50 km/h")
+    desk.picture("faults")
+    page.click("text=Clear the faults that are over")
+
+    expect(page.locator("[data-fault=BATTERY_LOW]")).to_have_count(0)
+    expect(fault).to_be_visible()
+    assert asked == ["POST"]
+
+
+def test_faults_in_chinese_on_a_phone(open_desk: OpenDesk, standing: str) -> None:
+    desk = open_desk(width=360, height=740, language="zh-CN")
+    with_faults(desk)
+    page = desk.open("/service")
+
+    expect(page.locator("[data-fault=TORQUE_SENSOR]")).to_contain_text("请检查传感器线缆")
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    desk.picture("faults-phone-zh")
+
+
+def test_a_real_unit_without_faults_says_so(desk: Desk, standing: str) -> None:
+    page = desk.open("/service")
+
+    expect(page.locator("[data-testid=faults]")).to_contain_text("No active faults")
