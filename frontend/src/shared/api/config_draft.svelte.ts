@@ -116,7 +116,12 @@ export class ConfigDraft {
       this.tag,
       confirm_s,
     )
-    this.edits = {}
+    // An edit made while the write was on its way is not in the unit yet.
+    const later = ([name, value]: [string, ParameterValue]) => {
+      const written = parameters[name]
+      return written === undefined || !same(value, written)
+    }
+    this.edits = Object.fromEntries(Object.entries(this.edits).filter(later))
     this.past = []
     this.future = []
     await this.load()

@@ -125,4 +125,17 @@ describe('a draft', () => {
     expect(drafts.of('a', 'tune')).toBe(drafts.of('a', 'tune'))
     expect(drafts.of('a', 'tune')).not.toBe(drafts.of('a', 'sensor'))
   })
+
+  it('keeps what is edited while a write is on its way', async () => {
+    const server = new FakeServer()
+    const draft = new ConfigDraft('unit', server as unknown as Server)
+    await draft.load()
+    draft.set('assist_cutoff_kmh', 20)
+
+    const writing = draft.write('quiet street')
+    draft.set('fixed_taper_end_kmh', 22)
+    await writing
+
+    expect(draft.changes.map((change) => change.parameter.name)).toEqual(['fixed_taper_end_kmh'])
+  })
 })
