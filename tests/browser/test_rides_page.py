@@ -170,7 +170,7 @@ def test_a_ride_is_renamed(desk: Desk, server: SpindleServer) -> None:
     drop_file(page, "to rename.fit", steady_ride(4))
     page.click("text=Open the ride")
 
-    page.click("text=Rename")
+    page.get_by_role("button", name="Rename", exact=True).click()
     page.fill("input[name=name]", "Along the river")
     page.click("text=Keep")
 
