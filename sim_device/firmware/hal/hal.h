@@ -1,7 +1,9 @@
 /* The only way from the firmware to the world: time, serial line, sensors, motor, flash.
  *
  * A board fills in the functions; each gets `context` back. Nothing here blocks. Physical values
- * carry their unit in the name. What a board cannot measure it reports as NaN, never as zero. */
+ * carry their unit in the name. What a board cannot measure it reports as NaN, never as zero. The
+ * inputs come prepared to inputs_read: temperatures NaN, ages and buttons 0, no mode selected; a
+ * board writes what it has and leaves the rest. */
 #ifndef SPINDLE_HAL_H
 #define SPINDLE_HAL_H
 
@@ -22,6 +24,11 @@ typedef struct {
     float battery_soc_pct;
     uint8_t mode_selected; /* slot chosen on the handlebar; HAL_MODE_NOT_SELECTED: none yet */
     uint8_t brake;         /* 1 while a brake lever is pulled */
+    uint8_t walk_button;   /* 1 while the button for walk assist is held */
+    uint8_t battery_cut;   /* 1 while the battery's own management says that it opened its switch */
+    uint16_t torque_age_ms; /* since the torque reading was measured; 0: just now, or by wire */
+    uint16_t speed_age_ms;  /* since the speed sensor was last known to work; 0: cannot tell */
+    float controller_temperature_degc;
 } hal_inputs;
 
 #define HAL_MODE_NOT_SELECTED 255

@@ -189,6 +189,7 @@ bench_board *bench_create(size_t flash_block_size, size_t flash_size)
     board->inputs.battery_soc_pct = 80.0f;
     board->inputs.sensor_temperature_degc = 25.0f;
     board->inputs.motor_temperature_degc = 25.0f;
+    board->inputs.controller_temperature_degc = 25.0f;
     board->inputs.mode_selected = HAL_MODE_NOT_SELECTED;
     board->flash_steps_left = FLASH_NEVER;
     board->flash_weak_bit_countdown = FLASH_NEVER;
