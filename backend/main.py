@@ -63,7 +63,8 @@ def open_services(settings: Settings) -> Iterator[Services]:
         store = open_store(settings.db, settings.objects)
         closing.callback(store.close)
         devices = Devices(flash_folder=settings.data / "units")
-        memory = UnitMemory(devices, store.revisions)
+        tuning = Tuning(devices, store.revisions)
+        memory = UnitMemory(devices, store.revisions, tuning.note_trial_end)
         closing.callback(memory.close)
         recorder = Recorder(store.rides, memory.ride_context)
         closing.callback(recorder.close)
@@ -85,7 +86,7 @@ def open_services(settings: Settings) -> Iterator[Services]:
             version=__version__,
             devices=devices,
             watch=Watch(devices),
-            tuning=Tuning(devices, store.revisions),
+            tuning=tuning,
             preview=preview,
             rides=Rides(store, RideReplay(preview, memory.ride_config)),
             uploads=uploads,

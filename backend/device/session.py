@@ -49,6 +49,7 @@ from firmware_protocol._generated import (
     MTU_BEFORE_HELLO,
     BootEvent,
     ByeRequest,
+    ConfigRolledBackEvent,
     PingRequest,
     Status,
     StreamCountsEvent,
@@ -250,6 +251,12 @@ class Session:
         return None if ends_s is None else round(ends_s * 1e6) + self.wall_offset_us
 
     @property
+    def trial_left_s(self) -> float | None:
+        """Until the configuration on trial is given up; None while none is on trial."""
+        ends_s = self.notes.trial_ends_s
+        return None if ends_s is None else max(0.0, ends_s - self._now_s)
+
+    @property
     def streaming(self) -> StreamStarted | None:
         """What is being streamed, None when nothing is."""
         return self._subscription.started
@@ -290,6 +297,9 @@ class Session:
         told = self.notes.take(event, self._statistics, self._now_s)
         if told is not None:
             self._tell(told)
+        if isinstance(event.message, ConfigRolledBackEvent):
+            # The event does not say why; the unit does when it is asked.
+            self._ask_state()
         if not isinstance(event.message, BootEvent):
             return
         self._boot_heard = event.message.boot_id
@@ -306,6 +316,9 @@ class Session:
         if lost == 0 or lost >= EVENT_SEQ_MODULUS // 2:
             return
         self._statistics.unit_events_lost += lost
+        self._ask_state()
+
+    def _ask_state(self) -> None:
         self._runner.start(unit_state(), self._state_told, lambda error: None)
 
     def _state_told(self, state: tuple[int, TrialStatus]) -> None:

@@ -16,6 +16,7 @@ class DeviceStatus:
     """A session's state, copied. mtu: the largest frame both sides take.
 
     trial_ends_unix_us: when the configuration on trial is given up; None while none is on trial.
+    trial_left_s: how long until then. rollback_cause: as in UnitNotes.
     """
 
     state: LinkState
@@ -25,6 +26,8 @@ class DeviceStatus:
     config_generation: int | None
     config_crc32: int | None
     trial_ends_unix_us: int | None
+    trial_left_s: float | None
+    rollback_cause: str | None
     faults_active: tuple[str, ...]
     streaming: StreamStarted | None
     last_block: StreamBlock | None
@@ -42,6 +45,8 @@ def status_of(session: Session) -> DeviceStatus:
         config_generation=session.notes.config_generation,
         config_crc32=session.notes.config_crc32,
         trial_ends_unix_us=session.trial_ends_unix_us,
+        trial_left_s=session.trial_left_s,
+        rollback_cause=session.notes.rollback_cause,
         faults_active=session.notes.faults_active,
         streaming=session.streaming,
         last_block=session.last_block,

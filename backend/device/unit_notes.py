@@ -25,7 +25,8 @@ class UnitNotes:
     """The unit's own word on its configuration and faults, kept fresh by its events.
 
     trial_ends_s: when the configuration on trial is given up, in the session's time; None while
-    none is on trial.
+    none is on trial. rollback_cause: why the latest trial since the unit was switched on was given
+    up: none, asked, time_out or restart; None while it was not asked.
     """
 
     def __init__(self) -> None:
@@ -34,6 +35,7 @@ class UnitNotes:
         self.fault_flags = 0
         self.boot_id: int | None = None
         self.trial_ends_s: float | None = None
+        self.rollback_cause: str | None = None
 
     @property
     def faults_active(self) -> tuple[str, ...]:
@@ -44,6 +46,7 @@ class UnitNotes:
         """Start from what the handshake found."""
         trial = acquaintance.trial
         self.trial_ends_s = now_s + trial.left_s if trial and trial.on_trial else None
+        self.rollback_cause = trial.rollback_cause if trial else None
         self.config_generation = acquaintance.hello.config_generation
         self.config_crc32 = acquaintance.hello.config_crc32
         self.fault_flags = acquaintance.fault_flags
@@ -52,6 +55,7 @@ class UnitNotes:
     def refresh(self, fault_flags: int, trial: TrialStatus, now_s: float) -> None:
         """Start again from what the unit says when asked, because an event did not come."""
         self.fault_flags = fault_flags
+        self.rollback_cause = trial.rollback_cause
         ends_s = now_s + trial.left_s if trial.on_trial else None
         self._config(trial.generation, trial.crc32, ends_s)
 

@@ -309,11 +309,6 @@ def _name_of(url: str) -> str:
 def _view(device: _Device) -> DeviceView:
     status = device.driver.status()
     identity = status.identity
-    config = None
-    if status.config_generation is not None and status.config_crc32 is not None:
-        config = ConfigStamp.until(
-            status.config_generation, status.config_crc32, status.trial_ends_unix_us
-        )
     return DeviceView(
         id=device.id or _name_of(device.url),
         url=device.url,
@@ -321,7 +316,7 @@ def _view(device: _Device) -> DeviceView:
         state=status.state.value,
         reason=status.reason,
         identity=identity,
-        config=config,
+        config=ConfigStamp.of(status),
         link=asdict(status.statistics),
         faults_active=status.faults_active,
     )

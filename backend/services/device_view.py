@@ -7,28 +7,37 @@ from datetime import UTC, datetime
 
 from backend.device.identity import Identity
 from backend.device.live_values import LiveValues
+from backend.device.snapshot import DeviceStatus
 
 
 @dataclass(frozen=True)
 class ConfigStamp:
     """Which configuration a unit has: its generation and the CRC-32 of its image.
 
-    state: `committed`, or `provisional` until it is confirmed or, at `expires_at`, given up.
+    state: `committed`, or `provisional` until it is confirmed or, at `expires_at`, which is in
+    `remaining_s`, given up. rollback_cause: why the latest trial since the unit was switched on was
+    given up: asked, time_out or restart; None when none was, or the unit was not asked.
     """
 
     generation: int
     crc32: int
     state: str = "committed"
     expires_at: datetime | None = None
+    remaining_s: float | None = None
+    rollback_cause: str | None = None
 
     @classmethod
-    def until(cls, generation: int, crc32: int, ends_unix_us: int | None) -> ConfigStamp:
-        """A stamp; ends_unix_us: when it is given up, None when it is not on trial."""
-        if ends_unix_us is None:
-            return cls(generation, crc32)
-        return cls(
-            generation, crc32, "provisional", datetime.fromtimestamp(ends_unix_us / 1e6, UTC)
-        )
+    def of(cls, status: DeviceStatus) -> ConfigStamp | None:
+        """What a unit told; None before it did."""
+        generation, crc32 = status.config_generation, status.config_crc32
+        if generation is None or crc32 is None:
+            return None
+        cause = status.rollback_cause if status.rollback_cause != "none" else None
+        ends_us, left_s = status.trial_ends_unix_us, status.trial_left_s
+        if ends_us is None or left_s is None:
+            return cls(generation, crc32, rollback_cause=cause)
+        ends_at = datetime.fromtimestamp(ends_us / 1e6, UTC)
+        return cls(generation, crc32, "provisional", ends_at, round(left_s, 1), cause)
 
 
 @dataclass(frozen=True)

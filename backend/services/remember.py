@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
@@ -28,10 +28,16 @@ CONFIG_EVENTS = ("CONFIG_COMMITTED", "CONFIG_ROLLED_BACK", "CONFIG_DEFAULTED")
 
 
 class UnitMemory:
-    """The configurations of the connected units, and through the log those of earlier ones."""
+    """The configurations of the connected units, and through the log those of earlier ones.
 
-    def __init__(self, devices: Devices, revisions: RevisionLog) -> None:
+    note_trial_end: called with a unit's id when a trial of it may have ended by itself.
+    """
+
+    def __init__(
+        self, devices: Devices, revisions: RevisionLog, note_trial_end: Callable[[str], None]
+    ) -> None:
         self._devices = devices
+        self._note_trial_end = note_trial_end
         self._revisions = revisions
         self._lock = threading.Lock()
         self._configs: dict[str, ConfigImage] = {}
@@ -87,6 +93,7 @@ class UnitMemory:
         with self._lock:
             self._waiting.discard(device_id)
         try:
+            self._note_trial_end(device_id)
             config = self._devices.run(device_id, read_config())
             with self._lock:
                 self._configs[device_id] = config

@@ -218,6 +218,18 @@ class Tuning:
             self._remember(serial_number, found, changed, RETURNED_REASON, author, KEPT)
         return ConfigChange(found.generation, found.crc32, "committed", True, changed, None)
 
+    def note_trial_end(self, device_id: str) -> None:
+        """Note what the unit has, if the newest it is known to have had was on trial and is over.
+
+        For a trial that ended without us: its time ran out, or the unit restarted. Raises NotFound,
+        NoAnswer, StoreError.
+        """
+        with self._turn(device_id):
+            serial_number = self._serial_number(self._devices.status(device_id))
+            newest = self._revisions.list(serial_number, 1)
+            if newest and newest[0].state == TRIED:
+                self._back_up(serial_number, self._read(device_id))
+
     # ------------------------------------------------------------------ typed views
 
     def fuzzy_table(self, device_id: str) -> TypedView:
@@ -225,40 +237,60 @@ class Tuning:
         return self._part(device_id, FUZZY_TABLE)
 
     def put_fuzzy_table(
-        self, device_id: str, value: Mapping[str, object], reason: str, if_match: str | None
+        self,
+        device_id: str,
+        value: Mapping[str, object],
+        reason: str,
+        if_match: str | None,
+        confirm_s: int = 0,
     ) -> ConfigChange:
         """Write the whole rule table in one transaction."""
-        return self._put_part(device_id, FUZZY_TABLE, value, reason, if_match)
+        return self._put_part(device_id, FUZZY_TABLE, value, reason, if_match, confirm_s)
 
     def assist_modes(self, device_id: str) -> TypedView:
         """The five slots of the rider's switch."""
         return self._part(device_id, ASSIST_MODES)
 
     def put_assist_modes(
-        self, device_id: str, value: Mapping[str, object], reason: str, if_match: str | None
+        self,
+        device_id: str,
+        value: Mapping[str, object],
+        reason: str,
+        if_match: str | None,
+        confirm_s: int = 0,
     ) -> ConfigChange:
         """Write all five slots in one transaction."""
-        return self._put_part(device_id, ASSIST_MODES, value, reason, if_match)
+        return self._put_part(device_id, ASSIST_MODES, value, reason, if_match, confirm_s)
 
     def calibration(self, device_id: str) -> TypedView:
         """How raw counts become newton metres."""
         return self._part(device_id, CALIBRATION)
 
     def put_calibration(
-        self, device_id: str, value: Mapping[str, object], reason: str, if_match: str | None
+        self,
+        device_id: str,
+        value: Mapping[str, object],
+        reason: str,
+        if_match: str | None,
+        confirm_s: int = 0,
     ) -> ConfigChange:
         """Write offset, gain and filters in one transaction."""
-        return self._put_part(device_id, CALIBRATION, value, reason, if_match)
+        return self._put_part(device_id, CALIBRATION, value, reason, if_match, confirm_s)
 
     def limits(self, device_id: str) -> TypedView:
         """What the unit enforces whatever the table says."""
         return self._part(device_id, LIMITS)
 
     def put_limits(
-        self, device_id: str, value: Mapping[str, object], reason: str, if_match: str | None
+        self,
+        device_id: str,
+        value: Mapping[str, object],
+        reason: str,
+        if_match: str | None,
+        confirm_s: int = 0,
     ) -> ConfigChange:
         """Write the limits in one transaction."""
-        return self._put_part(device_id, LIMITS, value, reason, if_match)
+        return self._put_part(device_id, LIMITS, value, reason, if_match, confirm_s)
 
     # ------------------------------------------------------------------ inside
 
@@ -273,9 +305,10 @@ class Tuning:
         value: Mapping[str, object],
         reason: str,
         if_match: str | None,
+        confirm_s: int,
     ) -> ConfigChange:
         try:
-            return self.write_config(device_id, part.changes(value), reason, if_match)
+            return self.write_config(device_id, part.changes(value), reason, if_match, confirm_s)
         except LimitViolation as error:
             fields = [part.renamed(fault) for fault in error.fields]
             raise LimitViolation(error.message, error.code, fields) from error

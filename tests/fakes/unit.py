@@ -33,6 +33,7 @@ from firmware_protocol._generated import (
     FaultSetEvent,
     HelloResponse,
     MessageId,
+    RollbackCause,
     SchemaReadResponse,
     SimGetResponse,
     SimSetResponse,
@@ -87,6 +88,8 @@ class FakeUnit:
         self._transaction = 0
         self._before_trial: tuple[int, bytes] | None = None
         self._trial_ends_us = 0
+        self._rollback_cause = RollbackCause.NONE
+        self._rolled_back_generation = 0
         self.commits_too_soon = 0  # so many commits are answered with RATE_LIMIT
         self._stream: dict[str, Any] | None = None
         self._epoch = 0
@@ -111,19 +114,22 @@ class FakeUnit:
         for _ in range(round(seconds * 100)):
             self.time_us += CONTROL_PERIOD_US
             if self._before_trial is not None and self.time_us >= self._trial_ends_us:
-                self.give_up_trial()
+                self.give_up_trial(RollbackCause.TIME_OUT)
             if self._stream is not None:
                 self._step_stream(self._stream)
 
-    def give_up_trial(self) -> None:
+    def give_up_trial(self, cause: RollbackCause = RollbackCause.TIME_OUT) -> None:
         """Return to the configuration before the trial."""
         assert self._before_trial is not None
+        self._rollback_cause, self._rolled_back_generation = cause, self.generation
         self.generation, self.image = self._before_trial
         self._before_trial = None
         self.tell(ConfigRolledBackEvent(self.generation, zlib.crc32(self.image)))
 
     def restart(self, tell: bool = True) -> None:
-        """Switch off and on: streams, transactions and caches are gone."""
+        """Switch off and on: streams, transactions, caches and trials are gone."""
+        if self._before_trial is not None:
+            self.give_up_trial(RollbackCause.RESTART)
         self.boot_id += 1
         self.time_us = 0
         self._stream = self._staged = None
@@ -273,7 +279,16 @@ class FakeUnit:
         on_trial = self._before_trial is not None
         left_ms = (self._trial_ends_us - self.time_us) // 1000 if on_trial else 0
         crc32 = zlib.crc32(self.image)
-        return CfgStatusResponse(3 if on_trial else 0, self.generation, crc32, left_ms, 0, 0, 0, 0)
+        return CfgStatusResponse(
+            3 if on_trial else 0,
+            self.generation,
+            crc32,
+            left_ms,
+            0,
+            0,
+            self._rollback_cause,
+            self._rolled_back_generation,
+        )
 
     def _on_cfg_confirm(self, request: Any) -> None:
         if (request.generation, request.crc32) != (self.generation, zlib.crc32(self.image)):
@@ -284,7 +299,7 @@ class FakeUnit:
     def _on_cfg_rollback(self, request: Any) -> Message:
         if self._before_trial is None:
             raise Refusal(Status.STATE)
-        self.give_up_trial()
+        self.give_up_trial(RollbackCause.ASKED)
         return CfgRollbackResponse(self.generation, zlib.crc32(self.image))
 
     def _on_cfg_abort(self, request: Any) -> None:

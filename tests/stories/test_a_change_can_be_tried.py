@@ -38,10 +38,16 @@ def test_a_change_that_nobody_keeps_is_given_up_by_the_unit(
     stamp = server.get(f"/devices/{device}")["config"]
     assert (stamp["state"], stamp["generation"]) == ("provisional", change["generation"])
     assert stamp["expires_at"] is not None
+    assert 0.0 <= stamp["remaining_s"] <= SOON_S
     eventually(
         lambda: server.get(f"/devices/{device}")["config"],
-        lambda config: config["state"] == "committed",
+        lambda config: config["state"] == "committed" and config["rollback_cause"] == "time_out",
     )
+    newest = eventually(
+        lambda: server.get(f"/devices/{device}/config/revisions")["items"][0],
+        lambda revision: revision["state"] == "verified",
+    )
+    assert newest["reason"] == "Returned to by the unit itself: the trial before was not confirmed."
     assert server.get(f"/devices/{device}/config") == before
 
 

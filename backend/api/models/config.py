@@ -15,6 +15,11 @@ Scalar = Number | StrictStr
 Row = Annotated[list[Scalar], Field(max_length=64)]
 ParameterValue = Scalar | Row | Annotated[list[Row], Field(max_length=64)]
 Parameters = dict[str, ParameterValue]
+CONFIRM_S_MAX = 255
+CONFIRM_S = (
+    "0 commits for good; else the unit returns to what it had after so many seconds, at a restart "
+    "or power loss, unless `POST .../config/confirm` comes first."
+)
 
 
 class Parameter(Answer):
@@ -52,14 +57,7 @@ class Config(Answer):
 class ConfigPatch(Question):
     parameters: Parameters = Field(min_length=1, max_length=400)
     reason: str = Field(default="", max_length=400)
-    confirm_s: int = Field(
-        default=0,
-        ge=0,
-        le=255,
-        description="0 commits for good; else the unit returns to what it had after so many "
-        "seconds, at a restart or power loss, unless `POST .../config/confirm` comes first.",
-    )
-
+    confirm_s: int = Field(default=0, ge=0, le=CONFIRM_S_MAX, description=CONFIRM_S)
     token: str | None = Field(
         default=None,
         pattern="^[0-9a-fA-F]{144}$",

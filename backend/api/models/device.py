@@ -67,6 +67,10 @@ class ConfigStamp(Answer):
     crc32: int
     state: Literal["committed", "provisional"]
     expires_at: datetime | None
+    remaining_s: float | None = Field(description="Until a provisional one is given up.")
+    rollback_cause: Literal["asked", "time_out", "restart", "unknown"] | None = Field(
+        description="Why the latest trial was given up; null when none was since the unit's start."
+    )
 
 
 class Device(Answer):

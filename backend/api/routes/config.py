@@ -6,7 +6,15 @@ from typing import Annotated, Any, cast
 
 from fastapi import APIRouter, Header, Query, Response
 
-from backend.api.models.config import Config, ConfigChange, ConfigPatch, ParameterList, RevisionList
+from backend.api.models.config import (
+    CONFIRM_S,
+    CONFIRM_S_MAX,
+    Config,
+    ConfigChange,
+    ConfigPatch,
+    ParameterList,
+    RevisionList,
+)
 from backend.api.models.law import AssistModes, Calibration, FuzzyTable, Limits
 from backend.api.problem import refusals
 from backend.api.services import Provided
@@ -23,6 +31,7 @@ IfMatch = Annotated[
 Reason = Annotated[
     str, Query(max_length=400, description="Why; kept with the revision for later readers.")
 ]
+ConfirmS = Annotated[int, Query(ge=0, le=CONFIRM_S_MAX, description=CONFIRM_S)]
 
 
 def etag(generation: int, crc32: int) -> str:
@@ -97,10 +106,11 @@ def put_fuzzy_table(
     response: Response,
     if_match: IfMatch = None,
     reason: Reason = "",
+    confirm_s: ConfirmS = 0,
 ) -> Any:
     """Writes the whole table in one transaction."""
-    change = services.tuning.put_fuzzy_table(device_id, body.model_dump(), reason, if_match)
-    return _stamped(change, response)
+    write = services.tuning.put_fuzzy_table
+    return _stamped(write(device_id, body.model_dump(), reason, if_match, confirm_s), response)
 
 
 @router.get("/assist-modes", operation_id="get_assist_modes", response_model=AssistModes)
@@ -117,10 +127,11 @@ def put_assist_modes(
     response: Response,
     if_match: IfMatch = None,
     reason: Reason = "",
+    confirm_s: ConfirmS = 0,
 ) -> Any:
     """Writes all five slots in one transaction."""
-    change = services.tuning.put_assist_modes(device_id, body.model_dump(), reason, if_match)
-    return _stamped(change, response)
+    write = services.tuning.put_assist_modes
+    return _stamped(write(device_id, body.model_dump(), reason, if_match, confirm_s), response)
 
 
 @router.get("/calibration", operation_id="get_calibration", response_model=Calibration)
@@ -137,10 +148,11 @@ def put_calibration(
     response: Response,
     if_match: IfMatch = None,
     reason: Reason = "",
+    confirm_s: ConfirmS = 0,
 ) -> Any:
     """Writes offset, gain and filters in one transaction."""
-    change = services.tuning.put_calibration(device_id, body.model_dump(), reason, if_match)
-    return _stamped(change, response)
+    write = services.tuning.put_calibration
+    return _stamped(write(device_id, body.model_dump(), reason, if_match, confirm_s), response)
 
 
 @router.get("/limits", operation_id="get_limits", response_model=Limits)
@@ -157,10 +169,11 @@ def put_limits(
     response: Response,
     if_match: IfMatch = None,
     reason: Reason = "",
+    confirm_s: ConfirmS = 0,
 ) -> Any:
     """Writes the limits in one transaction; the unit refuses what its market forbids."""
-    change = services.tuning.put_limits(device_id, body.model_dump(), reason, if_match)
-    return _stamped(change, response)
+    write = services.tuning.put_limits
+    return _stamped(write(device_id, body.model_dump(), reason, if_match, confirm_s), response)
 
 
 def _tagged(view: Any, response: Response) -> Any:

@@ -832,6 +832,16 @@ export interface components {
             state: "committed" | "provisional";
             /** Expires At */
             expires_at: string | null;
+            /**
+             * Remaining S
+             * @description Until a provisional one is given up.
+             */
+            remaining_s: number | null;
+            /**
+             * Rollback Cause
+             * @description Why the latest trial was given up; null when none was since the unit's start.
+             */
+            rollback_cause: ("asked" | "time_out" | "restart" | "unknown") | null;
         };
         /**
          * Device
@@ -3270,6 +3280,8 @@ export interface operations {
             query?: {
                 /** @description Why; kept with the revision for later readers. */
                 reason?: string;
+                /** @description 0 commits for good; else the unit returns to what it had after so many seconds, at a restart or power loss, unless `POST .../config/confirm` comes first. */
+                confirm_s?: number;
             };
             header?: {
                 /** @description The ETag of the configuration the change was made for. */
@@ -3450,6 +3462,8 @@ export interface operations {
             query?: {
                 /** @description Why; kept with the revision for later readers. */
                 reason?: string;
+                /** @description 0 commits for good; else the unit returns to what it had after so many seconds, at a restart or power loss, unless `POST .../config/confirm` comes first. */
+                confirm_s?: number;
             };
             header?: {
                 /** @description The ETag of the configuration the change was made for. */
@@ -3630,6 +3644,8 @@ export interface operations {
             query?: {
                 /** @description Why; kept with the revision for later readers. */
                 reason?: string;
+                /** @description 0 commits for good; else the unit returns to what it had after so many seconds, at a restart or power loss, unless `POST .../config/confirm` comes first. */
+                confirm_s?: number;
             };
             header?: {
                 /** @description The ETag of the configuration the change was made for. */
@@ -3810,6 +3826,8 @@ export interface operations {
             query?: {
                 /** @description Why; kept with the revision for later readers. */
                 reason?: string;
+                /** @description 0 commits for good; else the unit returns to what it had after so many seconds, at a restart or power loss, unless `POST .../config/confirm` comes first. */
+                confirm_s?: number;
             };
             header?: {
                 /** @description The ETag of the configuration the change was made for. */

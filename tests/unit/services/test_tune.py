@@ -26,7 +26,7 @@ from backend.errors import (
 )
 from backend.services.config_view import etag
 from backend.services.connect import Devices
-from backend.services.tune import Tuning
+from backend.services.tune import GIVEN_UP_REASON, Tuning
 from firmware_protocol._generated import PARAMETER_BY_NAME, MessageId
 from firmware_protocol.parameters import default_config, pack_image, unpack_image
 from tests.fakes.revisions import MemoryRevisions
@@ -35,6 +35,13 @@ from tests.fakes.unit_link import UnitOpener
 
 URL = "socket://bench:1"
 NOW_S = 1_700_000_000.0
+# One parameter of every typed view that is not as the factory set it.
+OTHER = {
+    "fuzzy_table_name": "another",
+    "assist_mode_at_start": 1,
+    "torque_filter_s": 0.7,
+    "pedal_stop_ms": 200,
+}
 
 
 @dataclass
@@ -377,3 +384,30 @@ def test_calibration_and_limits_are_views_of_the_same_configuration(bench: Bench
     assert bench.held["sensor_offset_counts"] == 812.0
     assert bench.held["assist_cutoff_kmh"] == 20.0
     assert change.generation == 9
+
+
+@pytest.mark.parametrize("view", ["fuzzy_table", "assist_modes", "calibration", "limits"])
+def test_a_typed_view_can_be_tried_like_any_other_change(bench: Bench, view: str) -> None:
+    value = getattr(bench.tuning, view)(bench.id).value
+    bench.unit.image = pack_image(default_config() | OTHER)
+
+    change = getattr(bench.tuning, f"put_{view}")(bench.id, value, "try", None, 30)
+
+    assert change.changed
+    assert change.state == "provisional"
+    assert change.expires_at is not None
+
+
+def test_a_trial_that_is_over_is_noted_at_once_and_only_once(bench: Bench) -> None:
+    bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, "try", confirm_s=30)
+    bench.tuning.note_trial_end(bench.id)
+    assert len(bench.tuning.revisions(bench.id)) == 2, "it still runs"
+    bench.unit.give_up_trial()
+
+    bench.tuning.note_trial_end(bench.id)
+    bench.tuning.note_trial_end(bench.id)
+
+    newest, *older = bench.tuning.revisions(bench.id)
+    assert newest.reason == GIVEN_UP_REASON
+    assert newest.generation == 7
+    assert len(older) == 2
