@@ -39,6 +39,7 @@ class LogReceiver:
         self.received = 0
         self._length = 0
         self._chunk = 0
+        self._window = 0
         self._ahead: dict[int, bytes] = {}
         self._pieces: deque[bytes] = deque()
         self._highest = 0
@@ -47,9 +48,13 @@ class LogReceiver:
         self._acked_s = now_s
         self._heard_s = now_s
 
-    def begin(self, offset: int, length: int, chunk: int) -> None:
-        """The unit has agreed: `length` bytes in pieces of `chunk`, of which `offset` are here."""
-        self._length, self._chunk = length, chunk
+    def begin(self, offset: int, length: int, chunk: int, window: int) -> None:
+        """The unit has agreed: `length` bytes in pieces of `chunk`, of which `offset` are here.
+
+        window: so many pieces from the first that is missing the unit may send, and no others are
+        kept.
+        """
+        self._length, self._chunk, self._window = length, chunk, window
         self.received = self._highest = offset
 
     @property
@@ -58,10 +63,9 @@ class LogReceiver:
         return self._chunk > 0 and self.received == self._length
 
     def take(self, frame: Bulk, now_s: float) -> None:
-        """Place a frame's bytes. What does not fit the log is counted and dropped."""
+        """Place a frame's bytes. What fits neither log nor window is counted and dropped."""
         offset, size = frame.offset, len(frame.data)
-        fits = self._chunk > 0 and size == self._chunk and offset % self._chunk == 0
-        if frame.session != self.session or not fits or offset + size > self._length:
+        if frame.session != self.session or not self._fits(offset, size):
             self.frames_foreign += 1
             return
         self.frames += 1
@@ -83,6 +87,13 @@ class LogReceiver:
             self.received += len(piece)
         if self.received == self._length or self._unacknowledged >= ACK_EVERY_CHUNKS:
             self._ack_due_s = now_s
+
+    def _fits(self, offset: int, size: int) -> bool:
+        """Whether a piece is one of the log, and not beyond the window."""
+        if self._chunk == 0 or size != self._chunk or offset % self._chunk:
+            return False
+        stop = min(self._length, self.received + self._window * self._chunk)
+        return offset + size <= stop
 
     def acknowledgement(self, now_s: float) -> LogAckRequest | None:
         """What to tell the unit now; None when there is nothing to tell."""

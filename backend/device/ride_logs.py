@@ -96,7 +96,7 @@ def receive_log(
             f"The unit listed ride log {log.log_id} with {log.length} bytes and opens it with "
             f"{opened.length} in pieces of {opened.chunk}. Read the list again."
         )
-    receiver.begin(offset, opened.length, opened.chunk)
+    receiver.begin(offset, opened.length, opened.chunk, min(opened.window, window))
 
 
 def close_log(session: int) -> Operation[None]:
