@@ -58,6 +58,8 @@ def looks_like_rows(head: bytes) -> bool:
 def read_csv(data: bytes, _fast: bool = True) -> Outcome:
     """A CSV file -> what came of it. Never raises on any bytes."""
     text = data.decode("utf-8-sig", errors="replace")
+    if not text:
+        return rejected("empty_file", "The file is empty.", 0)
     separator = separator_of(text.split("\n", 1)[0])
     try:
         table = list(csv.reader(io.StringIO(text), delimiter=separator))

@@ -37,6 +37,13 @@ def test_our_own_export_comes_back() -> None:
     assert column(ride, "fuzzy_gain") == pytest.approx([0.20005, 0.2001, 0.20015])
 
 
+@pytest.mark.parametrize("data", [b"", b"\n", b"\xef\xbb\xbf", b"\r\n\r\n", b";"])
+def test_a_table_without_a_table_is_rejected_and_raises_nothing(data: bytes) -> None:
+    outcome = read_csv(data)
+
+    assert (outcome.state, outcome.rides) == (REJECTED, ())
+
+
 def test_a_makers_no_value_number_is_missing() -> None:
     text = (
         "timestamp,heart_rate,cadence,distance,speed\n"

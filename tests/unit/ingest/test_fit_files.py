@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from backend.ingest.fit import read_fit
 from backend.ingest.formats import read_file
 from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide, Outcome
-from tests.unit.ingest.fit_writer import START_S, commute, definition, enclosed, fit_file
+from tests.fakes.fit_file import START_S, commute, definition, enclosed, fit_file
 
 # Processes, compilers or hundreds of files: left out of `make test-fast`.
 pytestmark = pytest.mark.slow

@@ -14,7 +14,7 @@ from backend.ingest import sandbox as sandbox_module
 from backend.ingest.formats import read_file
 from backend.ingest.sandbox import decode, run_child
 from backend.ingest.worker import encode
-from tests.unit.ingest.fit_writer import commute, definition, enclosed, fit_file
+from tests.fakes.fit_file import commute, definition, enclosed, fit_file
 
 # Processes, compilers or hundreds of files: left out of `make test-fast`.
 pytestmark = pytest.mark.slow

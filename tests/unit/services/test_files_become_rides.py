@@ -16,7 +16,7 @@ from backend.ingest import Outcome
 from backend.services.review import Rides, safe_name
 from backend.services.upload import Uploads, UploadSettings
 from backend.store import Store, open_store
-from tests.unit.ingest.fit_writer import START_S, commute, fit_file
+from tests.fakes.fit_file import START_S, commute, fit_file
 
 # Processes, compilers or hundreds of files: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
