@@ -9,6 +9,7 @@ from typing import Any, Protocol
 
 from backend.device.config_transaction import ConfigImage
 from backend.device.parameters import PARAMETER_ROWS, ParameterRow, Value
+from backend.domain.revision import Revision
 from backend.errors import ConfigConflict
 
 
@@ -60,43 +61,6 @@ class TypedView:
     generation: int
     crc32: int
     value: dict[str, Any]
-
-
-@dataclass(frozen=True)
-class RevisionView:
-    """One configuration a unit has had: who, when, why, and what was different before."""
-
-    seq: int
-    created_at: datetime
-    author: str
-    reason: str
-    state: str
-    generation: int | None
-    crc32: int | None
-    changed: Sequence[Mapping[str, Any]]
-
-
-class Revision(Protocol):
-    """What a revision log gives back; created_us is Unix time."""
-
-    @property
-    def seq(self) -> int: ...
-    @property
-    def created_us(self) -> int: ...
-    @property
-    def author(self) -> str: ...
-    @property
-    def reason(self) -> str: ...
-    @property
-    def state(self) -> str: ...
-    @property
-    def generation(self) -> int | None: ...
-    @property
-    def crc32(self) -> int | None: ...
-    @property
-    def changed(self) -> Sequence[Mapping[str, Any]]: ...
-    @property
-    def parameters(self) -> Mapping[str, Any]: ...
 
 
 class RevisionLog(Protocol):

@@ -38,6 +38,7 @@ from backend.device.parameters import (
 from backend.device.snapshot import DeviceStatus
 from backend.device.states import LinkState
 from backend.device.unlock import Token, token_from
+from backend.domain.revision import Revision
 from backend.errors import (
     ConfigConflict,
     Conflict,
@@ -51,9 +52,7 @@ from backend.services.config_view import (
     ConfigChange,
     ConfigView,
     ParameterView,
-    Revision,
     RevisionLog,
-    RevisionView,
     TypedView,
     check_base,
     differences,
@@ -118,22 +117,9 @@ class Tuning:
         config = self._read(device_id)
         return ConfigView(config.generation, config.crc32, config.parameters)
 
-    def revisions(self, device_id: str) -> list[RevisionView]:
+    def revisions(self, device_id: str) -> Sequence[Revision]:
         """Every configuration the unit is known to have had, newest first."""
-        serial_number = self._serial_number(self._devices.status(device_id))
-        return [
-            RevisionView(
-                seq=revision.seq,
-                created_at=datetime.fromtimestamp(revision.created_us / 1e6, UTC),
-                author=revision.author,
-                reason=revision.reason,
-                state=revision.state,
-                generation=revision.generation,
-                crc32=revision.crc32,
-                changed=revision.changed,
-            )
-            for revision in self._revisions.list(serial_number)
-        ]
+        return self._revisions.list(self._serial_number(self._devices.status(device_id)))
 
     # ------------------------------------------------------------------ changing
 

@@ -10,12 +10,11 @@ from backend.errors import StoreError
 from backend.store.database import Database
 from backend.store.objects import Disk, FileObjects, open_objects
 from backend.store.reader import RideReader
-from backend.store.revisions import Revision, RevisionLog
+from backend.store.revisions import RevisionLog
 from backend.store.rides import RidePage, RideStore
 from backend.store.uploads import Upload, UploadStore
 
 __all__ = [
-    "Revision",
     "RevisionLog",
     "RidePage",
     "RideReader",

@@ -6,31 +6,15 @@ import hashlib
 import json
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from sqlalchemy import Connection, insert, select, update
 
+from backend.domain.revision import Revision
 from backend.store import tables as t
 from backend.store.database import Database
 
 REVISIONS_MAX = 1000
-
-
-@dataclass(frozen=True)
-class Revision:
-    """One configuration of a device. seq counts from 1; changed: [{name, old, new}]."""
-
-    seq: int
-    created_us: int
-    author: str
-    reason: str
-    state: str
-    generation: int | None
-    crc32: int | None
-    sha256: str
-    changed: Sequence[Mapping[str, Any]]
-    parameters: Mapping[str, Any]
 
 
 class RevisionLog:
@@ -106,7 +90,6 @@ class RevisionLog:
                 state=row.state,
                 generation=row.generation,
                 crc32=row.crc32,
-                sha256=row.sha256,
                 changed=row.changed,
                 parameters=row.body,
             )

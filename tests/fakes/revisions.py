@@ -3,30 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
+from backend.domain.revision import Revision
 from backend.errors import StoreError
-
-
-@dataclass(frozen=True)
-class KeptRevision:
-    seq: int
-    created_us: int
-    author: str
-    reason: str
-    state: str
-    generation: int | None
-    crc32: int | None
-    changed: Sequence[Mapping[str, Any]]
-    parameters: Mapping[str, Any]
 
 
 class MemoryRevisions:
     """Newest first; `full` makes it refuse like a full disk."""
 
     def __init__(self) -> None:
-        self.kept: dict[str, list[KeptRevision]] = {}
+        self.kept: dict[str, list[Revision]] = {}
         self.full = False
 
     def append(
@@ -39,11 +26,11 @@ class MemoryRevisions:
         generation: int | None = None,
         crc32: int | None = None,
         state: str = "verified",
-    ) -> KeptRevision:
+    ) -> Revision:
         if self.full:
             raise StoreError("The disk is full.")
         rows = self.kept.setdefault(device_serial, [])
-        revision = KeptRevision(
+        revision = Revision(
             len(rows) + 1,
             1_700_000_000_000_000,
             author,
@@ -57,5 +44,5 @@ class MemoryRevisions:
         rows.append(revision)
         return revision
 
-    def list(self, device_serial: str, limit: int = 1000) -> Sequence[KeptRevision]:
+    def list(self, device_serial: str, limit: int = 1000) -> Sequence[Revision]:
         return self.kept.get(device_serial, [])[::-1][:limit]

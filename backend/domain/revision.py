@@ -1,0 +1,33 @@
+"""A revision: one configuration a unit has had, who gave it, when and why."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Revision:
+    """One configuration of a unit, as it is kept.
+
+    seq: counts the unit's configurations from 1. created_us: Unix time. state: `verified`,
+    `provisional` or `found`. changed: [{name, old, new}] against the one before. parameters: the
+    whole configuration by registry name, as plain JSON.
+    """
+
+    seq: int
+    created_us: int
+    author: str
+    reason: str
+    state: str
+    generation: int | None
+    crc32: int | None
+    changed: Sequence[Mapping[str, Any]]
+    parameters: Mapping[str, Any]
+
+    @property
+    def created_at(self) -> datetime:
+        """`created_us` as a moment in UTC."""
+        return datetime.fromtimestamp(self.created_us / 1e6, UTC)
