@@ -51,6 +51,9 @@ def _add_unit(unit: argparse.ArgumentParser) -> None:
         help="what the rider does (default %(default)s)",
     )
     unit.add_argument("--speed", type=_speed, default=1.0, metavar="X", help="times real time")
+    unit.add_argument(
+        "--virtual", action="store_true", help="time passes only when the host says so"
+    )
     unit.add_argument("--seed", type=int, default=0, help="makes noise and serial number")
     unit.add_argument(
         "--flash", type=Path, metavar="FILE", help="keeps its configuration, FILE.log its ride logs"
@@ -103,6 +106,7 @@ def _serve(arguments: argparse.Namespace) -> None:
         unlock_key=arguments.unlock_key,
         boot_id=new_boot_id(),
         speed_factor=arguments.speed,
+        clock="virtual" if arguments.virtual else "real",
     )
     pty: Path | None = arguments.pty
     line: SerialLine = PtyLine(pty) if pty is not None else TcpLine(*arguments.tcp)

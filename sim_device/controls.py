@@ -13,10 +13,12 @@ from sim_device.scenario_file import ScenarioError, Setting, load, read_phase_va
 
 SPEED_FACTOR_MIN = 0.01
 SPEED_FACTOR_MAX = 1000.0
+ADVANCE_S_MAX = 24 * 3600.0
+CLOCKS = ("real", "virtual")
 LOAD_SOURCES = {"road": 0, "dyno": 1}
 
 # A host may send back what it was given: these say something, and change nothing.
-_READ_ONLY = {"t_s", "energy_balance_error_pct", "energy_consistent"}
+_READ_ONLY = {"t_s", "advance_left_s", "energy_balance_error_pct", "energy_consistent"}
 
 
 @dataclass
@@ -30,6 +32,8 @@ class Changes:
     stop_scenario: bool = False
     running: bool | None = None
     speed_factor: float | None = None
+    clock: str | None = None
+    advance_s: float | None = None
     seed: int | None = None
 
 
@@ -105,6 +109,14 @@ def _speed_factor(changes: Changes, name: str, given: object) -> None:
     changes.speed_factor = float(setting.read(name, given))
 
 
+def _clock(changes: Changes, name: str, given: object) -> None:
+    changes.clock = str(Setting("real", choices=CLOCKS).read(name, given))
+
+
+def _advance_s(changes: Changes, name: str, given: object) -> None:
+    changes.advance_s = float(Setting(0.0, min=0.0, max=ADVANCE_S_MAX).read(name, given))
+
+
 def _seed(changes: Changes, name: str, given: object) -> None:
     changes.seed = int(Setting(0, min=0, max=2**63 - 1).read(name, given))
 
@@ -120,5 +132,7 @@ _READERS: dict[str, Callable[[Changes, str, object], None]] = {
     "scenario": _scenario,
     "running": _running,
     "speed_factor": _speed_factor,
+    "clock": _clock,
+    "advance_s": _advance_s,
     "seed": _seed,
 }

@@ -35,7 +35,7 @@ class LockstepUnit:
         flash: the flash of an earlier life. log: that for ride logs.
         unlock_key: the maker's public key; without one no limit can be raised again.
         boot_id: another one tells the host that the unit was restarted.
-        speed_factor: kept for the process that paces the unit; virtual time does not need it.
+        speed_factor, clock: kept for the process that paces the unit (sim_device.simulator).
 
     Raises:
         ScenarioError: there is no such live scenario.
@@ -55,9 +55,12 @@ class LockstepUnit:
         unlock_key: bytes | None = None,
         boot_id: int = 1,
         speed_factor: float = 1.0,
+        clock: str = "real",
     ) -> None:
         self.seed = seed
         self.speed_factor = speed_factor
+        self.clock = clock
+        self.owed_us = 0
         self._bike: dict[str, float] = {"road.source": 0.0, "road.mass_kg": 100.0} | (bike or {})
         self._dyno_nm = 0.0
         self._phase = Phase(seconds=1.0)
@@ -89,6 +92,18 @@ class LockstepUnit:
             if self._running:
                 self._script_us += step_us
                 self._follow_script()
+
+    def pay(self, limit_us: int) -> int:
+        """Lets at most `limit_us` of the time pass that was asked for with `advance_s`; how much
+        that was."""
+        paid_us = min(self.owed_us, limit_us)
+        self.advance(paid_us / US_PER_S)
+        self.owed_us = max(0, self.owed_us - paid_us)
+        return paid_us
+
+    def poll(self) -> None:
+        """Lets the unit answer what it has received while its clock stands."""
+        self.unit.poll()
 
     def send(self, data: bytes) -> int:
         """Bytes from the host to the unit; returns how many its line took."""
@@ -131,6 +146,8 @@ class LockstepUnit:
             "scenario": self._scenario.name if self._scenario else None,
             "running": self._running,
             "speed_factor": self.speed_factor,
+            "clock": self.clock,
+            "advance_left_s": self.owed_us / US_PER_S,
             "t_s": seen["t_s"],
             "seed": self.seed,
             "rider": {
@@ -166,6 +183,7 @@ class LockstepUnit:
         return Status.OK, json.dumps(self.simulation_get(), separators=(",", ":")).encode()
 
     def _apply(self, changes: Changes) -> None:
+        self._keep_time(changes)
         if changes.seed is not None:
             self.seed = changes.seed
             self.unit.seed_noise(changes.seed)
@@ -184,6 +202,14 @@ class LockstepUnit:
         if changes.running is not None:
             self._running = changes.running and self._scenario is not None
         self._perform(replace(self._phase, **changes.phase))
+
+    def _keep_time(self, changes: Changes) -> None:
+        clock = changes.clock or self.clock
+        if changes.advance_s is not None and clock != "virtual":
+            raise ScenarioError("advance_s: the clock is real; set clock to virtual first")
+        if clock != self.clock:
+            self.clock, self.owed_us = clock, 0
+        self.owed_us += round((changes.advance_s or 0.0) * US_PER_S)
 
     def _change_bike(self, values: dict[str, float]) -> None:
         self._bike.update(values)

@@ -1,7 +1,9 @@
 """The simulated unit as a process: a lockstep unit, a serial line and a clock.
 
 The unit's time follows the clock times the speed factor, measured from an anchor, so that rounding
-and late wake-ups do not add up. The process ends on SIGTERM or Ctrl-C and when its parent is gone.
+and late wake-ups do not add up. With a virtual clock it stands, answers what it is asked, and lets
+time pass only when told to (`advance_s`): as fast as the host takes what it sends. The process ends
+on SIGTERM or Ctrl-C and when its parent is gone.
 """
 
 import os
@@ -24,6 +26,11 @@ SLEEP_S = 0.008
 BEHIND_S_MAX = 1.0
 
 HOUSEKEEPING_S = 0.25
+
+# Virtual time passes in pieces this long, so that what the unit sends meanwhile fits its queue.
+PIECE_US = 100_000
+# While it passes, nobody sleeps but for a line that takes no more.
+LINE_FULL_S = 0.0005
 
 
 class Pace:
@@ -110,7 +117,12 @@ def serve(
     while not stop():
         now_s = time.monotonic()
         unit.send(line.read())
-        unit.advance(pace.due_us(now_s, unit.speed_factor) / US_PER_S)
+        due_us = pace.due_us(now_s, unit.speed_factor)
+        if unit.clock == "real":
+            unit.advance(due_us / US_PER_S)
+        elif not waiting:
+            unit.poll()
+            unit.pay(PIECE_US)
         # Only when the line took everything is more asked for: the unit itself notices a full line.
         waiting = waiting or unit.receive()
         if waiting:
@@ -120,7 +132,10 @@ def serve(
             if log is not None:
                 log.save(unit.unit)
             save_due_s = now_s + HOUSEKEEPING_S
-        time.sleep(SLEEP_S)
+        if unit.owed_us == 0:
+            time.sleep(SLEEP_S)
+        elif waiting:
+            time.sleep(LINE_FULL_S)
     if flash is not None:
         flash.save(unit.unit.flash())
     if log is not None:

@@ -36,7 +36,7 @@ READ_EVERY_BUSY_S = 0.004
 # A pseudo-terminal holds 4096 bytes and a unit's own queue 2240: a unit that runs many times faster
 # than real time is read so often that about this much has come, which leaves room for delays.
 READ_BYTES_AIM = 1024
-READ_EVERY_FAST_S = 0.002
+READ_EVERY_FAST_S = 0.0002
 READ_BYTES = 65536
 # A port that does not open is tried again after 0.1 s, 0.2 s and so on up to this.
 REOPEN_S_MIN = 0.1

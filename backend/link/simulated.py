@@ -27,18 +27,20 @@ from backend.link.serial_port import SerialPort
 READY_TIMEOUT_S = 15.0
 STOP_TIMEOUT_S = 2.0
 NAME_DEFAULT = "unit"
-SETTINGS = ("seed", "speed", "scenario", "flash", "unlock_key")
+SETTINGS = ("seed", "speed", "clock", "scenario", "flash", "unlock_key")
+CLOCKS = ("real", "virtual")
 # What the child says last is quoted when it fails; more than this helps nobody.
 COMPLAINT_CHARACTERS_MAX = 600
 
 
 @dataclass(frozen=True)
 class SimulatedAddress:
-    """`sim` or `sim:NAME?seed=&speed=&scenario=&flash=&unlock_key=`, taken apart.
+    """`sim` or `sim:NAME?seed=&speed=&clock=&scenario=&flash=&unlock_key=`, taken apart.
 
     Each name is a unit of its own: without a seed the name makes one, so two names never share a
-    serial number. flash: file that keeps the unit's configuration. unlock_key: file with the
-    maker's public key; without one the unit's limits only go down.
+    serial number. clock: `real`, or `virtual` for time that passes only when told to. flash: file
+    that keeps the unit's configuration. unlock_key: file with the maker's public key; without one
+    the unit's limits only go down.
     """
 
     name: str
@@ -47,6 +49,7 @@ class SimulatedAddress:
     scenario: str | None
     flash: str | None
     unlock_key: str | None = None
+    clock: str = "real"
 
     @classmethod
     def parse(cls, url: str) -> SimulatedAddress:
@@ -67,13 +70,18 @@ class SimulatedAddress:
             raise InvalidRequest(f"{url}: seed is a whole number, speed a number.") from error
         if not 0.01 <= speed <= 1000.0:
             raise InvalidRequest(f"{url}: speed is a factor from 0.01 to 1000.")
+        clock = settings.get("clock", "real")
+        if clock not in CLOCKS:
+            raise InvalidRequest(f"{url}: clock is {' or '.join(CLOCKS)}, not {clock}.")
         scenario, flash = settings.get("scenario"), settings.get("flash")
-        return cls(name, seed, speed, scenario, flash, settings.get("unlock_key"))
+        return cls(name, seed, speed, scenario, flash, settings.get("unlock_key"), clock)
 
     def command(self, pty_path: Path) -> list[str]:
         """The command line of the child that serves this address on `pty_path`."""
         words = [sys.executable, "-m", "sim_device", "unit", "--pty", str(pty_path)]
         words += ["--seed", str(self.seed), "--speed", str(self.speed)]
+        if self.clock == "virtual":
+            words += ["--virtual"]
         if self.scenario is not None:
             words += ["--scenario", self.scenario]
         if self.flash is not None:

@@ -135,6 +135,8 @@ class Simulation(BaseModel):
     scenario: str | None
     running: bool
     speed_factor: float
+    clock: Literal["real", "virtual"]
+    advance_left_s: float
     t_s: float
     seed: int
     rider: SimulationRider
@@ -158,6 +160,12 @@ class SimulationRoadChange(Question):
     wind_ms: float | None = None
 
 
+class SimulationAdvance(Question):
+    """Time that shall pass for a unit with a virtual clock; a day at most."""
+
+    seconds: float = Field(gt=0.0, le=86_400.0)
+
+
 class SimulationChange(Question):
     """Any subset; what is absent stays. A `scenario` starts from its beginning, null ends it.
 
@@ -167,6 +175,7 @@ class SimulationChange(Question):
     scenario: str | None = Field(default=None, max_length=80)
     running: bool | None = None
     speed_factor: float | None = None
+    clock: Literal["real", "virtual"] | None = None
     seed: int | None = None
     rider: SimulationRiderChange | None = None
     road: SimulationRoadChange | None = None

@@ -14,12 +14,14 @@ from backend.api.models.device import (
     FaultList,
     PortList,
     Simulation,
+    SimulationAdvance,
     SimulationChange,
     Snapshot,
 )
 from backend.api.problem import refusals
 from backend.api.services import Provided
 from backend.errors import FieldError, InvalidRequest
+from backend.services.simulate import advance
 
 # Settings of a simulated unit that are paths.
 FILE_SETTINGS = frozenset({"flash", "unlock_key"})
@@ -109,3 +111,13 @@ def get_simulation(device_id: str, services: Provided) -> Any:
 def put_simulation(device_id: str, body: SimulationChange, services: Provided) -> Any:
     """Changes what the body names and leaves the rest."""
     return services.devices.simulation_set(device_id, body.model_dump(exclude_unset=True))
+
+
+@router.post(
+    "/devices/{device_id}/simulation/advance",
+    operation_id="advance_simulation",
+    response_model=Simulation,
+)
+def advance_simulation(device_id: str, body: SimulationAdvance, services: Provided) -> Any:
+    """Lets time pass for a unit with a virtual clock, as fast as it can; 409 for any other."""
+    return advance(services.devices, device_id, body.seconds)

@@ -173,6 +173,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/devices/{device_id}/simulation/advance": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Advance Simulation
+         * @description Lets time pass for a unit with a virtual clock, as fast as it can; 409 for any other.
+         */
+        post: operations["advance_simulation"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/devices/{device_id}/logs": {
         parameters: {
             query?: never;
@@ -1499,6 +1519,13 @@ export interface components {
             running: boolean;
             /** Speed Factor */
             speed_factor: number;
+            /**
+             * Clock
+             * @enum {string}
+             */
+            clock: "real" | "virtual";
+            /** Advance Left S */
+            advance_left_s: number;
             /** T S */
             t_s: number;
             /** Seed */
@@ -1524,6 +1551,14 @@ export interface components {
             [key: string]: unknown;
         };
         /**
+         * SimulationAdvance
+         * @description Time that shall pass for a unit with a virtual clock; a day at most.
+         */
+        SimulationAdvance: {
+            /** Seconds */
+            seconds: number;
+        };
+        /**
          * SimulationChange
          * @description Any subset; what is absent stays. A `scenario` starts from its beginning, null ends it.
          *
@@ -1536,6 +1571,8 @@ export interface components {
             running?: boolean | null;
             /** Speed Factor */
             speed_factor?: number | null;
+            /** Clock */
+            clock?: ("real" | "virtual") | null;
             /** Seed */
             seed?: number | null;
             rider?: components["schemas"]["SimulationRiderChange"] | null;
@@ -2411,6 +2448,77 @@ export interface operations {
         requestBody: {
             content: {
                 "application/json": components["schemas"]["SimulationChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Simulation"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    advance_simulation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SimulationAdvance"];
             };
         };
         responses: {

@@ -157,6 +157,10 @@ class Unit:
         """Lets `duration_us` of the unit's time pass."""
         lib.unit_advance_us(self._unit, duration_us)
 
+    def poll(self) -> None:
+        """Let the unit answer what it has received while its clock stands."""
+        lib.unit_poll(self._unit)
+
     def receive(self, data: bytes) -> int:
         """Bytes from the host; returns how many the line took."""
         return int(lib.unit_receive(self._unit, data, len(data)))

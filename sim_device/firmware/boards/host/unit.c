@@ -217,6 +217,11 @@ void unit_advance_us(unit *self, uint64_t duration_us)
     }
 }
 
+void unit_poll(unit *self)
+{
+    if (unit_is_powered(self)) app_poll(&self->app);
+}
+
 size_t unit_receive(unit *self, const uint8_t *bytes, size_t length)
 {
     return byte_queue_put(&self->from_host, bytes, length);

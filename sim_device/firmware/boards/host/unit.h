@@ -74,6 +74,9 @@ void unit_destroy(unit *self);
 /* Lets time pass; what is left below a millisecond counts towards the next call. */
 void unit_advance_us(unit *self, uint64_t duration_us);
 
+/* Lets the unit answer what it has received while its clock stands. */
+void unit_poll(unit *self);
+
 /* Bytes from the host to the unit, and back. Return how many were taken. */
 size_t unit_receive(unit *self, const uint8_t *bytes, size_t length);
 size_t unit_transmit(unit *self, uint8_t *bytes, size_t capacity);

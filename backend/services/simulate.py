@@ -1,0 +1,43 @@
+"""Simulate: let a unit with a virtual clock live through some time, as fast as the machine can."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from backend.device.simulation import simulation_advance
+from backend.errors import Conflict, NoAnswer
+from backend.services.connect import Devices
+
+LOOK_EVERY_S = 0.01
+# A unit that has not lived through a tenth of a second in this long never will.
+STUCK_S = 15.0
+
+
+def advance(devices: Devices, device_id: str, seconds: float) -> dict[str, Any]:
+    """Let `seconds` pass and return what rider, road and clock do then.
+
+    Every row the unit built in that time has arrived by then, but for the two or three that wait
+    for their frame to be full. Raises Conflict for a real unit and for a clock that runs by itself,
+    NoAnswer when time does not pass.
+    """
+    seen = devices.simulation_get(device_id)
+    if seen.get("clock") != "virtual":
+        raise Conflict(
+            f"The clock of {device_id} runs by itself; set `clock` of its simulation to "
+            "`virtual`, or add the unit as `sim:NAME?clock=virtual`."
+        )
+    seen = devices.run(device_id, simulation_advance(seconds))
+    last_left_s, last_s = seen["advance_left_s"], time.monotonic()
+    while seen["advance_left_s"] > 0:
+        time.sleep(LOOK_EVERY_S)
+        seen = devices.simulation_get(device_id)
+        now_s = time.monotonic()
+        if seen["advance_left_s"] != last_left_s:
+            last_left_s, last_s = seen["advance_left_s"], now_s
+        elif now_s - last_s > STUCK_S:
+            raise NoAnswer(
+                f"{device_id}: {last_left_s:g} s of {seconds:g} s are still to pass, and none has "
+                f"for {STUCK_S:g} s. Look whether its process and its line are alive."
+            )
+    return seen

@@ -1,0 +1,110 @@
+"""Goal: a unit under test lives through minutes in seconds, driven by the API, and repeatably.
+
+Times are the unit's own. Two units with the same seed live the same life; the recorder sees every
+row of it, which is checked by counting: 100 rows a second.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.fakes.server import SpindleServer, eventually
+
+RIDE_S = 60
+REST_S = 40
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
+    """Three units in virtual time that stand still, and one whose clock is real."""
+    devices = [f"sim:{n}?clock=virtual&scenario=none&seed={n}" for n in (5, 6, 7)]
+    running = SpindleServer(tmp_path_factory.mktemp("virtual"), [*devices, "sim:real"]).start()
+    running.ready_device(3)
+    yield running
+    running.stop()
+
+
+def advance(server: SpindleServer, device: str, seconds: float) -> dict[str, Any]:
+    path = f"/devices/{device}/simulation/advance"
+    answer: dict[str, Any] = server.ask("POST", path, json={"seconds": seconds})
+    return answer
+
+
+def ride(server: SpindleServer, device: str) -> dict[str, Any]:
+    """A minute's ride, the same for every unit, and the rest that ends it; its record."""
+    server.simulate(
+        device,
+        scenario=None,
+        seed=42,
+        brake=False,
+        assist_mode=3,
+        rider={"kind": "legs", "torque_nm": 25.0, "cadence_rpm_max": 90.0},
+    )
+    advance(server, device, RIDE_S)
+    server.simulate(device, rider={"kind": "off"}, brake=True)
+    advance(server, device, REST_S)
+    rides = eventually(
+        lambda: [
+            ride
+            for ride in server.get("/rides")["items"]
+            if ride["device"]["device_serial"] == device and ride["state"] == "done"
+        ]
+    )
+    return dict(rides[0])
+
+
+def test_time_passes_only_when_it_is_told_to(server: SpindleServer) -> None:
+    device = server.ready_device(2)
+    before = server.get(f"/devices/{device}/simulation")
+
+    after = advance(server, device, 12.5)
+    later = server.get(f"/devices/{device}/simulation")
+
+    assert after["t_s"] - before["t_s"] == pytest.approx(12.5, abs=1e-9)
+    assert later["t_s"] == after["t_s"]
+    assert later["advance_left_s"] == 0.0
+
+
+def test_a_ride_in_virtual_time_is_recorded_whole_and_twice_the_same(
+    server: SpindleServer,
+) -> None:
+    rides = [ride(server, server.ready_device(number)) for number in (0, 1)]
+
+    speeds = []
+    for one in rides:
+        assert one["gaps"] == []
+        assert one["completeness"] == 1.0
+        assert RIDE_S * 100 < one["row_count"] < (RIDE_S + REST_S) * 100
+        series = server.get(f"/rides/{one['id']}/series?channels=speed_kmh&px=4000&to_s={RIDE_S}")
+        trace = series["channels"][0]
+        speeds.append(np.array([trace["min"], trace["max"]], dtype=float))
+    for device in (server.ready_device(0), server.ready_device(1)):
+        link = server.get(f"/devices/{device}")["link"]
+        assert link["stream_rows_lost"] == 0
+    assert speeds[0].max() > 10.0
+    assert np.array_equal(speeds[0], speeds[1])
+
+
+def test_a_clock_that_runs_by_itself_is_left_alone(server: SpindleServer) -> None:
+    device = server.ready_device(3)
+
+    response = server.client.post(f"/devices/{device}/simulation/advance", json={"seconds": 1})
+
+    assert response.status_code == 409
+    assert "clock" in response.json()["detail"]
+
+
+@pytest.mark.parametrize("seconds", [0, -1, 86_401, "long"])
+def test_a_time_that_cannot_pass_is_refused_by_name(server: SpindleServer, seconds: Any) -> None:
+    device = server.ready_device(2)
+
+    response = server.client.post(
+        f"/devices/{device}/simulation/advance", json={"seconds": seconds}
+    )
+
+    assert response.status_code == 422
+    assert response.json()["errors"][0]["field"] == "seconds"
