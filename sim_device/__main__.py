@@ -19,16 +19,18 @@ from sim_device.scenario_file import ScenarioError, load, names
 from sim_device.serial_line import PtyLine, SerialLine, TcpLine
 from sim_device.simulator import FlashFile, Stop, new_boot_id, serve
 
+PROGRAM = "sim_device"
 DEFAULT_SCENARIO = "commute"
 LOOPBACK = "127.0.0.1"
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser(program: str) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="sim_device", description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+        prog=program, description=__doc__, formatter_class=argparse.RawTextHelpFormatter
     )
     commands = parser.add_subparsers(dest="command", required=True)
-    _add_unit(commands.add_parser("unit", help="a simulated drive unit on a serial line"))
+    unit = "unit" if program == PROGRAM else "sim"
+    _add_unit(commands.add_parser(unit, help="a simulated drive unit on a serial line"))
     scenario = commands.add_parser("scenario", help="list or run scenarios in virtual time")
     verbs = scenario.add_subparsers(dest="verb", required=True)
     listing = verbs.add_parser("list", help="what there is, with its settings")
@@ -141,15 +143,25 @@ def _print(result: dict[str, Any], as_json: bool) -> None:
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Does what the words ask for. 0 done, 1 refused with the reason on standard error."""
-    arguments = _parser().parse_args(words)
+    """Does what the words ask for; what it returns is the process's exit code.
+
+    `--as NAME` in front: the command people typed, for messages and usage.
+    """
+    given = list(sys.argv[1:] if words is None else words)
+    program = PROGRAM
+    if given[:1] == ["--as"] and len(given) > 1:
+        program, given = given[1], given[2:]
+    arguments = _parser(program).parse_args(given)
     try:
-        if arguments.command == "unit":
-            _serve(arguments)
-        else:
+        if arguments.command == "scenario":
             _scenario(arguments)
+        else:
+            _serve(arguments)
+    except ScenarioError as error:
+        print(f"{program}: {error}", file=sys.stderr)
+        return 2
     except (OSError, ValueError, MemoryError) as error:
-        print(f"sim_device: {error}", file=sys.stderr)
+        print(f"{program}: {error}", file=sys.stderr)
         return 1
     return 0
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from sim_device.scenario_file import ScenarioError, Setting, load, read_phase_value
+from sim_device.scenario_file import ScenarioError, Setting, load, names, read_phase_value
 
 SPEED_FACTOR_MIN = 0.01
 SPEED_FACTOR_MAX = 1000.0
@@ -44,19 +44,22 @@ def parse_changes(text: str) -> Changes:
     except ValueError as error:
         raise ScenarioError(f"simulation: not JSON: {error}") from error
     changes = Changes()
-    for name, given in _members("simulation", document, {*_READERS, *_READ_ONLY}).items():
+    for name, given in _members("", document, {*_READERS, *_READ_ONLY}).items():
         if name in _READERS:
             _READERS[name](changes, name, given)
     return changes
 
 
-def _members(where: str, value: object, known: set[str]) -> dict[str, Any]:
+def _members(field: str, value: object, known: set[str]) -> dict[str, Any]:
+    """The members of an object at `field` of the document, empty for the document itself."""
+    where = field or "simulation"
     if not isinstance(value, dict):
-        raise ScenarioError(f"{where} is {value!r}, not an object")
+        raise ScenarioError(f"{where} is {value!r}, not an object", field)
     unknown = sorted(set(value) - known)
     if unknown:
         allowed = ", ".join(sorted(known))
-        raise ScenarioError(f"{where} has no {', '.join(unknown)}; there are: {allowed}")
+        message = f"{where} has no {', '.join(unknown)}; there are: {allowed}"
+        raise ScenarioError(message, f"{field}.{unknown[0]}" if field else unknown[0])
     return value
 
 
@@ -93,14 +96,17 @@ def _scenario(changes: Changes, name: str, given: object) -> None:
     if given is None:
         changes.stop_scenario = True
         return
-    if not isinstance(given, str) or not load(given).live:
-        raise ScenarioError(f"{name} {given!r} is measured, not ridden: use `scenario run`")
+    if not isinstance(given, str) or given not in names():
+        message = f"there is no scenario {given!r}; there are: {', '.join(names())}"
+        raise ScenarioError(message, name)
+    if not load(given).live:
+        raise ScenarioError(f"{name} {given!r} is measured, not ridden: use `scenario run`", name)
     changes.scenario = given
 
 
 def _running(changes: Changes, name: str, given: object) -> None:
     if not isinstance(given, bool):
-        raise ScenarioError(f"{name} is {given!r}, not true or false")
+        raise ScenarioError(f"{name} is {given!r}, not true or false", name)
     changes.running = given
 
 

@@ -179,7 +179,7 @@ class LockstepUnit:
             try:
                 self._apply(parse_changes(request.decode("utf-8", errors="replace")))
             except ScenarioError as error:
-                return Status.RANGE, str(error).encode()
+                return Status.RANGE, f"{error.field}\n{error}".encode()
         return Status.OK, json.dumps(self.simulation_get(), separators=(",", ":")).encode()
 
     def _apply(self, changes: Changes) -> None:

@@ -26,7 +26,14 @@ PHASES_MAX = 1000
 
 
 class ScenarioError(ValueError):
-    """A scenario, a setting or a control value that does not exist or is out of its range."""
+    """A scenario, a setting or a control value that does not exist or is out of its range.
+
+    field: where in the question the fault is (`rider.torque_nm`), empty where it is in no field.
+    """
+
+    def __init__(self, message: str, field: str = "") -> None:
+        super().__init__(message)
+        self.field = field
 
 
 @dataclass(frozen=True)
@@ -47,13 +54,14 @@ class Setting:
         value = self._typed(where, given)
         if self.choices and value not in self.choices:
             allowed = ", ".join(str(choice) for choice in self.choices)
-            raise ScenarioError(f"{where} is {given!r}; it can be: {allowed}")
+            raise ScenarioError(f"{where} is {given!r}; it can be: {allowed}", where)
         if isinstance(value, str):
             return value
         below = self.min is not None and not value >= self.min
         above = self.max is not None and not value <= self.max
         if below or above:
-            raise ScenarioError(f"{where} is {given}; it lies from {self.min} to {self.max}")
+            message = f"{where} is {given}; it lies from {self.min} to {self.max}"
+            raise ScenarioError(message, where)
         return value
 
     def _typed(self, where: str, given: object) -> Value:
@@ -68,7 +76,7 @@ class Setting:
         except ValueError:
             pass
         kind = {int: "a whole number", float: "a number", str: "a text"}[wanted]
-        raise ScenarioError(f"{where} is {given!r}, not {kind}")
+        raise ScenarioError(f"{where} is {given!r}, not {kind}", where)
 
 
 @dataclass(frozen=True)
@@ -124,7 +132,7 @@ def read_phase_value(where: str, name: str, given: object) -> Any:
     """One value of a phase, checked; used for live controls too. Raises ScenarioError."""
     if name == "brake":
         if not isinstance(given, bool):
-            raise ScenarioError(f"{where} is {given!r}, not true or false")
+            raise ScenarioError(f"{where} is {given!r}, not true or false", where)
         return given
     if name not in _PHASE_RANGES:
         known = ", ".join([*_PHASE_RANGES, "brake"])

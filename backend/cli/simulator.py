@@ -10,8 +10,7 @@ from collections.abc import Sequence
 
 def run_simulator(arguments: Sequence[str]) -> int:
     """Runs `python -m sim_device ...` in place of this process; its exit code is ours."""
-    words = ["unit" if word == "sim" else word for word in arguments[:1]] + list(arguments[1:])
-    command = [sys.executable, "-m", "sim_device", *words]
+    command = [sys.executable, "-m", "sim_device", "--as", "spindle", *arguments]
     if os.name == "posix":
         sys.stdout.flush()
         os.execv(sys.executable, command)

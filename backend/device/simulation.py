@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from backend.device.operation import Operation, ask, attempt, expect
-from backend.errors import InvalidRequest, PeerProtocolError
+from backend.errors import FieldError, InvalidRequest, PeerProtocolError
 from firmware_protocol._generated import (
     SimGetRequest,
     SimGetResponse,
@@ -28,8 +28,7 @@ def simulation_set(changes: Mapping[str, Any]) -> Operation[dict[str, Any]]:
     request = SimSetRequest(json.dumps(changes, separators=(",", ":")).encode())
     response = yield from attempt(request)
     if response.status == Status.RANGE:
-        words = response.payload.decode("utf-8", "replace")
-        raise InvalidRequest(words or "The simulated unit refuses these values.")
+        raise _refusal(response.payload.decode("utf-8", "replace"))
     return _object(expect(request, response, SimSetResponse).text)
 
 
@@ -37,6 +36,14 @@ def simulation_advance(seconds: float) -> Operation[dict[str, Any]]:
     """Let `seconds` pass for a unit with a virtual clock. They have passed when
     `advance_left_s` is 0. Raises InvalidRequest for a unit whose clock is real."""
     return (yield from simulation_set({"advance_s": seconds}))
+
+
+def _refusal(text: str) -> InvalidRequest:
+    """The simulator's refusal: the field at fault, empty where there is none, a line break, why."""
+    field, _, words = text.partition("\n")
+    message = words or field or "The simulated unit refuses these values."
+    faults = [FieldError(field, "not_accepted", message)] if field and words else []
+    return InvalidRequest(message, fields=faults)
 
 
 def _object(text: bytes) -> dict[str, Any]:

@@ -264,8 +264,11 @@ def test_rider_and_road_are_set_over_the_wire() -> None:
 def test_a_wrong_setting_of_the_simulation_is_refused_in_its_own_words() -> None:
     bench, _ = connected()
 
-    with pytest.raises(InvalidRequest, match="rocket"):
+    with pytest.raises(InvalidRequest, match="rocket") as caught:
         bench.ask(simulation_set({"rider": {"kind": "rocket"}}))
+
+    assert [fault.field for fault in caught.value.fields] == ["rider.kind"]
+    assert "\n" not in caught.value.message
 
 
 def test_the_firmware_gives_up_a_trial_and_the_host_knows() -> None:

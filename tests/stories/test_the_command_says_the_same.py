@@ -134,14 +134,20 @@ def test_no_server_is_said_so_with_what_to_do() -> None:
         ["device", "restore", "no-such-file.json"],
         ["serve", "--port", "99999"],
         ["fly"],
+        ["scenario", "run", "moon"],
+        ["scenario", "run", "kinematics", "--set", "speed_kmh"],
+        ["scenario", "run", "kinematics", "--set", "speed_kmh=fast"],
+        ["scenario", "run", "kinematics", "--set", "colour=red"],
+        ["sim", "--tcp", "nowhere"],
     ],
 )
 def test_wrong_usage_ends_with_two(server: SpindleServer, words: list[str]) -> None:
-    at = None if words[0] in ("serve", "fly") else server
+    at = None if words[0] in ("serve", "fly", "scenario", "sim") else server
     result = spindle(at, *words)
 
     assert result.returncode == 2, result.stderr
     assert result.stderr
+    assert "sim_device" not in result.stderr
 
 
 def test_scenarios_run_without_a_server() -> None:

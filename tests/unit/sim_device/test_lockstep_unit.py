@@ -249,3 +249,23 @@ def test_an_override_the_unit_does_not_allow_is_reported() -> None:
 def test_a_scenario_that_does_not_exist_is_refused() -> None:
     with pytest.raises(ScenarioError, match="there is no scenario 'moon'"):
         LockstepUnit(scenario="moon")
+
+
+@pytest.mark.parametrize(
+    ("changes", "field"),
+    [
+        ({"rider": {"torque_nm": 1e6}}, "rider.torque_nm"),
+        ({"rider": {"weight_kg": 80}}, "rider.weight_kg"),
+        ({"road": 3}, "road"),
+        ({"mass_kg": "heavy"}, "mass_kg"),
+        ({"brake": 1}, "brake"),
+        ({"scenario": "moon"}, "scenario"),
+        ({"scenario": "kinematics"}, "scenario"),
+        ({"colour": "red"}, "colour"),
+    ],
+)
+def test_a_refused_control_is_named_by_its_place(changes: dict[str, object], field: str) -> None:
+    with pytest.raises(ScenarioError) as caught:
+        LockstepUnit(scenario=None).simulation_set(changes)
+
+    assert caught.value.field == field
