@@ -50,9 +50,26 @@ SCALES: dict[str, float] = {
 
 def looks_like_rows(head: bytes) -> bool:
     """Whether the first line is a header with a time and at least one more column."""
-    line = head.split(b"\n", 1)[0].decode("utf-8-sig", errors="replace")
-    names = [name.strip().strip('"').lower() for name in re.split(r"[,;\t]", line)]
+    names = header_names(head)
     return len(names) > 1 and any(name in TIME_NAMES for name in names)
+
+
+def header_names(head: bytes) -> list[str]:
+    """The names in the first line, as they would be of a table."""
+    line = head.split(b"\n", 1)[0].decode("utf-8-sig", errors="replace")
+    return [name.strip().strip('"').lower() for name in re.split(r"[,;\t]", line)]
+
+
+def header_refusal(head: bytes) -> Outcome | None:
+    """Why a table with a time in its header is no ride all the same; None for other files."""
+    names, times = header_names(head), ", ".join(TIME_NAMES)
+    if len(names) == 1 and names[0] in (*TIME_NAMES, SECONDS_NAME):
+        detail = f"The only column is {names[0]}: times, and nothing that was measured at them."
+        return rejected("no_records", detail, 0)
+    if SECONDS_NAME in names and not any(name in TIME_NAMES for name in names):
+        detail = f"{SECONDS_NAME} counts seconds, but nothing says from when: add one of {times}."
+        return rejected("no_valid_time", detail, 0)
+    return None
 
 
 def read_csv(data: bytes, _fast: bool = True) -> Outcome:

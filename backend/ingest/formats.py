@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from backend.ingest.blocks import BLOCKS_SUFFIX, looks_like_blocks
-from backend.ingest.csv_rows import TIME_NAMES, looks_like_rows, read_csv
+from backend.ingest.csv_rows import TIME_NAMES, header_refusal, looks_like_rows, read_csv
 from backend.ingest.fit import HEADER_SIZES, MAGIC, read_fit
 from backend.ingest.outcome import Outcome, rejected
 from backend.ingest.ride_logs import read_blocks
@@ -53,6 +53,9 @@ def read_file(name: str, data: bytes, fast: bool = True) -> Outcome:
     kind = known_kind(data)
     if kind is not None:
         return rejected("unsupported_format", f"This is {kind}. {ADVICE}", 0)
+    refusal = header_refusal(data[:SNIFFED_BYTES])
+    if refusal is not None:
+        return refusal
     if name.lower().endswith(".csv"):
         times = ", ".join(TIME_NAMES)
         return rejected("unknown_format", f"The first line names no time column ({times}).", 0)

@@ -77,3 +77,21 @@ def test_a_table_without_a_ride_is_refused_with_the_reason(text: str) -> None:
 
     assert outcome.state == REJECTED
     assert outcome.detail
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "word"),
+    [
+        ("t_s\n0\n0.01\n", "no_records", "only column is t_s"),
+        ("time\n2026-01-01\n", "no_records", "only column is time"),
+        ("t_s,speed_kmh\n0,20\n", "no_valid_time", "add one of time_utc"),
+    ],
+)
+def test_a_table_of_nothing_but_times_or_of_no_date_says_what_is_missing(
+    text: str, code: str, word: str
+) -> None:
+    for name in ("ride.csv", "ride"):
+        outcome = read_file(name, text.encode())
+
+        assert (outcome.state, outcome.code) == (REJECTED, code)
+        assert word in (outcome.detail or "")
