@@ -11,7 +11,7 @@ from fastapi.openapi.utils import get_openapi
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 
 from backend.api import docs, errors, live, pages
-from backend.api.problem import Problem
+from backend.api.problem import Problem, refusals
 from backend.api.routes import config, devices, health, law, logs, rides, uploads
 from backend.api.safety import AllowedHosts, BodyBound, SameOriginOnly, SecurityHeaders
 from backend.api.services import Services
@@ -21,6 +21,8 @@ PREFIX = "/api/v1"
 BODY_BYTES_MAX = 1024 * 1024
 # Ride samples and files are compressed already or not worth the processor's time.
 UNCOMPRESSED = (*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/octet-stream", "application/vnd.*")
+
+NOT_JSON = refusals(400)[400] | {"description": "The body is not JSON"}
 
 
 @dataclass(frozen=True)
@@ -75,6 +77,14 @@ def _protect(app: FastAPI, settings: ApiSettings) -> None:
     app.add_middleware(SecurityHeaders)
 
 
+def describe_unreadable_bodies(schema: dict[str, Any]) -> None:
+    """Adds to every operation that takes JSON that it answers 400 to what is none."""
+    for methods in schema["paths"].values():
+        for operation in methods.values():
+            if "application/json" in operation.get("requestBody", {}).get("content", {}):
+                operation["responses"] |= {"400": NOT_JSON}
+
+
 def openapi_of(app: FastAPI) -> dict[str, Any]:
     """The OpenAPI description, computed once; every refusal in it is the one Problem model."""
     if app.openapi_schema is None:
@@ -88,5 +98,6 @@ def openapi_of(app: FastAPI) -> dict[str, Any]:
         problem = Problem.model_json_schema(ref_template="#/components/schemas/{model}")
         definitions = problem.pop("$defs")
         schema["components"]["schemas"].update({"Problem": problem, **definitions})
+        describe_unreadable_bodies(schema)
         app.openapi_schema = schema
     return app.openapi_schema

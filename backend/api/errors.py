@@ -44,6 +44,8 @@ CODE_OF_STATUS = {
     413: "too_large",
     415: "unsupported_media_type",
 }
+# What the framework says of a body that makes its JSON reader fail in any way but a syntax error.
+UNREADABLE_BODY = "There was an error parsing the body"
 # What an error list may hold: a table of 25 rules with every cell wrong still fits, and a hostile
 # body with a million bad fields does not become a response of that size.
 FIELD_ERRORS_MAX = 100
@@ -70,6 +72,8 @@ def spindle_problem(_: Request, error: Exception) -> JSONResponse:
 def validation_problem(_: Request, error: Exception) -> JSONResponse:
     """A request that does not have the declared shape. Values are not echoed."""
     assert isinstance(error, RequestValidationError)
+    if any(item["type"] == "json_invalid" for item in error.errors()):
+        return not_json_problem()
     named: dict[str, FieldProblem] = {}
     for item in error.errors():
         field = field_path(tuple(part for part in item["loc"] if not is_kind(part)))
@@ -84,6 +88,14 @@ def validation_problem(_: Request, error: Exception) -> JSONResponse:
     detail = "; ".join(f"{field.field}: {field.message}" for field in fields[:3])
     more = f" and {len(found) - 3} more" if len(found) > 3 else ""
     return problem_response(422, "invalid", f"{detail}{more}", fields)
+
+
+def not_json_problem() -> JSONResponse:
+    """A body that is not JSON, or more than a reader of JSON takes; of another shape is a 422."""
+    message = "The body is not JSON that can be read."
+    return problem_response(
+        400, "not_json", message, [FieldProblem(field="body", code="not_json", message=message)]
+    )
 
 
 def is_kind(part: int | str) -> bool:
@@ -107,6 +119,8 @@ def http_problem(request: Request, error: Exception) -> JSONResponse:
     """What the framework refuses itself: unknown routes, wrong methods, unreadable bodies."""
     assert isinstance(error, HTTPException)
     status = error.status_code
+    if status == HTTPStatus.BAD_REQUEST and error.detail == UNREADABLE_BODY:
+        return not_json_problem()
     code = CODE_OF_STATUS.get(status, HTTPStatus(status).name.lower())
     detail = str(error.detail)
     if status == HTTPStatus.NOT_FOUND and detail == HTTPStatus.NOT_FOUND.phrase:

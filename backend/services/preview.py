@@ -40,7 +40,8 @@ class Preview:
         except (TypeError, ValueError) as wrong:
             message = "points must be pairs of speed_kmh and torque_rate"
             raise InvalidRequest(message, "wrong_shape") from wrong
-        gain = control.points(table, pairs[:, 0], pairs[:, 1])
+        places = ("points[{}][0]", "points[{}][1]")
+        gain = control.points(table, pairs[:, 0], pairs[:, 1], places)
         return {"gain": gain.tolist(), "engine": control.ENGINE}
 
     def lint(

@@ -29,7 +29,7 @@ import numpy.typing as npt
 from backend.device.states import DeviceEvent, StateChanged
 from backend.device.stream import StreamBlock, StreamPlan, StreamStarted
 from backend.domain.channels import ChannelSpec
-from backend.errors import InvalidRequest
+from backend.errors import FieldError, InvalidRequest
 
 HEADER = struct.Struct("<IIQHH")
 SEQUENCE_MODULUS = 2**32
@@ -313,6 +313,5 @@ def check_names(names: Sequence[str] | None, offered: Sequence[str]) -> None:
     """Raises InvalidRequest if a channel does not exist."""
     unknown = [name for name in names or () if name not in offered]
     if unknown:
-        raise InvalidRequest(
-            f"There is no channel {', '.join(unknown)}. There is {', '.join(offered)}."
-        )
+        message = f"There is no channel {', '.join(unknown)}. There is {', '.join(offered)}."
+        raise InvalidRequest(message, fields=[FieldError("channels", "unknown_channel", message)])

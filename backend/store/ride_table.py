@@ -12,7 +12,7 @@ from sqlalchemy import Connection, Row, Select, delete, insert, select, update
 from backend.domain.channels import ChannelSpec, channel_to_json
 from backend.domain.energy import derivable
 from backend.domain.ride import Gap, Ride, RideContext, RideSummary
-from backend.errors import InvalidRequest
+from backend.errors import FieldError, InvalidRequest
 from backend.store import tables as t
 from backend.store.blobs import channel_list, encode_level
 from backend.store.finish import Digest, WrittenObject
@@ -73,7 +73,8 @@ def cursor_parts(cursor: str) -> tuple[int, int]:
     except ValueError:
         parts = (INTEGER_MAX, INTEGER_MAX)
     if not all(-INTEGER_MAX < part < INTEGER_MAX for part in parts):
-        raise InvalidRequest("cursor must be the `next` of an earlier page.")
+        message = "cursor must be the `next` of an earlier page."
+        raise InvalidRequest(message, fields=[FieldError("cursor", "not_a_cursor", message)])
     return parts
 
 

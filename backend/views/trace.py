@@ -42,7 +42,7 @@ import numpy.typing as npt
 from backend.domain.channels import ChannelSpec, Counts, Values
 from backend.domain.pyramid import Level, reduce_groups
 from backend.domain.ride import TimesUs, pause_us
-from backend.errors import InvalidRequest
+from backend.errors import FieldError, InvalidRequest
 
 MAGIC = b"SPV1"
 # A screen has at most this many columns; more would only cost the browser memory.
@@ -153,7 +153,7 @@ def trace(
     """
     channels = chosen(ride, names)
     if not 1 <= pixels <= PIXELS_MAX:
-        raise InvalidRequest(f"px is {pixels}: it must be from 1 to {PIXELS_MAX}.")
+        raise refusal("px", "out_of_range", f"px is {pixels}: it must be from 1 to {PIXELS_MAX}.")
     start, stop, window = row_window(ride, from_s, to_s)
     rows_per_bin = -(-(stop - start) // pixels)
     if ride.period_us is None:
@@ -165,14 +165,18 @@ def trace(
     return reduced(ride, channels, start, stop, window, starts)
 
 
+def refusal(field: str, code: str, message: str) -> InvalidRequest:
+    """The refusal of one field of the question."""
+    return InvalidRequest(message, fields=[FieldError(field, code, message)])
+
+
 def chosen(ride: RideReader, names: Sequence[str] | None) -> tuple[ChannelSpec, ...]:
     """The ride's channels of these names, in this order."""
     offered = {channel.name: channel for channel in ride.offered}
     unknown = [name for name in names or () if name not in offered]
     if unknown:
-        raise InvalidRequest(
-            f"This ride has no channel {', '.join(unknown)}. It has {', '.join(offered)}."
-        )
+        message = f"This ride has no channel {', '.join(unknown)}. It has {', '.join(offered)}."
+        raise refusal("channels", "unknown_channel", message)
     return tuple(offered[name] for name in dict.fromkeys(offered if names is None else names))
 
 
@@ -185,7 +189,9 @@ def row_window(
     begin_s = 0.0 if from_s is None else from_s
     end_s = last_us / 1e6 if to_s is None else to_s
     if not (np.isfinite(begin_s) and np.isfinite(end_s)) or end_s < begin_s:
-        raise InvalidRequest(f"The window from {begin_s} s to {end_s} s has no width.")
+        field = "from_s" if to_s is None else "to_s"
+        message = f"The window from {begin_s} s to {end_s} s has no width."
+        raise refusal(field, "empty_window", message)
     begin_us = round(min(max(begin_s, 0.0) * 1e6, 2.0**62))
     end_us = round(min(max(end_s, -1.0) * 1e6, 2.0**62))
     if ride.period_us is not None:

@@ -111,9 +111,16 @@ def test_text_that_is_not_json_is_a_problem() -> None:
 
     response = client.post("/body", content=b"{", headers={"content-type": "application/json"})
 
-    assert response.status_code == 422
-    assert response.json()["errors"][0]["code"] == "json_invalid"
+    assert response.status_code == 400
+    assert response.json()["code"] == "not_json"
     assert response.json()["errors"][0]["field"] == "body"
+
+
+def test_json_of_another_shape_is_another_refusal_than_no_json() -> None:
+    client = app_that_raises(errors.NotFound(""))
+
+    assert client.post("/body", json=[1]).status_code == 422
+    assert client.post("/body", content=b"{}").status_code == 422
 
 
 def test_a_bug_of_ours_is_a_problem_without_its_insides() -> None:
@@ -134,7 +141,7 @@ def test_a_body_made_to_break_the_reader_is_a_problem(content: bytes) -> None:
 
     response = client.post("/body", content=content, headers={"content-type": "application/json"})
 
-    assert response.status_code in (400, 422)
+    assert (response.status_code, response.json()["code"]) == (400, "not_json")
     assert response.headers["content-type"] == "application/problem+json"
 
 

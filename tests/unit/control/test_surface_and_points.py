@@ -54,3 +54,12 @@ def test_what_is_no_list_of_numbers_is_refused() -> None:
 def test_a_grid_beyond_all_need_is_refused_before_it_is_computed() -> None:
     with pytest.raises(InvalidRequest, match="coarser"):
         surface(THESIS_TABLE, np.zeros(2000), np.zeros(2000))
+
+
+def test_a_number_beyond_the_units_floats_is_called_that_and_not_infinite() -> None:
+    with pytest.raises(InvalidRequest) as refused:
+        surface(THESIS_TABLE, [5.0, 1e39], [0.0])
+
+    (fault,) = refused.value.fields
+    assert (fault.field, fault.code) == ("speeds_kmh[1]", "out_of_range")
+    assert "1e+39" in fault.message

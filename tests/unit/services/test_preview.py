@@ -82,3 +82,13 @@ def test_a_perfect_sensor_evaluates_to_nothing() -> None:
     figures = PREVIEW.evaluate_calibration(100.0, loads, [loads, loads], [loads, loads])
 
     assert figures.total_pct.deviation == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_point_at_fault_is_named_as_it_was_asked() -> None:
+    with pytest.raises(InvalidRequest) as of_speed:
+        PREVIEW.points(TABLE, [(5.0, 0.1), (float("nan"), 0.2)])
+    with pytest.raises(InvalidRequest) as of_rate:
+        PREVIEW.points(TABLE, [(5.0, 1e300)])
+
+    assert [(f.field, f.code) for f in of_speed.value.fields] == [("points[1][0]", "not_finite")]
+    assert [(f.field, f.code) for f in of_rate.value.fields] == [("points[0][1]", "out_of_range")]

@@ -10,6 +10,7 @@ import json
 import struct
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -227,6 +228,24 @@ def test_an_unknown_channel_is_refused_with_the_ones_there_are() -> None:
         trace(RIDE, None, float("nan"))
     with pytest.raises(InvalidRequest):
         trace(RIDE, pixels=0)
+
+
+@pytest.mark.parametrize(
+    ("question", "field", "code"),
+    [
+        ({"names": ["heart_rate_bpm"]}, "channels", "unknown_channel"),
+        ({"pixels": 0}, "px", "out_of_range"),
+        ({"from_s": 2.0, "to_s": 1.0}, "to_s", "empty_window"),
+        ({"from_s": 1e9}, "from_s", "empty_window"),
+    ],
+)
+def test_a_refused_question_names_its_field(
+    question: dict[str, Any], field: str, code: str
+) -> None:
+    with pytest.raises(InvalidRequest) as caught:
+        trace(RIDE, **question)
+
+    assert [(fault.field, fault.code) for fault in caught.value.fields] == [(field, code)]
 
 
 def test_a_ride_without_rows_has_an_empty_trace() -> None:
