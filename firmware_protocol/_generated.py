@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import IntEnum, IntFlag
 from typing import ClassVar
 
-from firmware_protocol.layout import Channel, Field, Message, Order, Parameter
+from firmware_protocol.layout import Channel, Fault, Field, Message, Order, Parameter
 
 MAJOR = 1
 MINOR = 0
@@ -12,8 +12,8 @@ MTU_BEFORE_HELLO = 128
 MTU = 544
 MAX_OUTSTANDING = 4
 CONTROL_PERIOD_US = 10000
-IMAGE_LENGTH = 299
-SCHEMA_HASH = bytes.fromhex("7629d9bd39abd926")
+IMAGE_LENGTH = 413
+SCHEMA_HASH = bytes.fromhex("71a41d39e1f209ce")
 
 
 class Status(IntEnum):
@@ -122,6 +122,35 @@ class Law(IntEnum):
     FUZZY = 2
 
 
+class Taper(IntEnum):
+    """How the fixed law's ratio falls with speed: between the two taper speeds; not at all; or as a ceiling of Japan's rule before (1:1 to 15 km/h) and since (2:1 to 10 km/h) December 2008, zero at 24 km/h."""
+
+    TAPER_SPEEDS = 0
+    NONE = 1
+    JAPAN_1_TO_1 = 2
+    JAPAN_2_TO_1 = 3
+
+
+class Market(IntEnum):
+    """Whose law the bike is ridden under. Held after everything else, by numbers in code flash."""
+
+    EU_EPAC = 0
+    UK = 1
+    US_CLASS_1 = 2
+    US_CLASS_2 = 3
+    US_CLASS_3 = 4
+    JAPAN = 5
+    CHINA = 6
+
+
+class Severity(IntEnum):
+    """What a fault does: tells only; ends assist while it lasts; ends it until it is cleared at standstill or the unit is switched off and on."""
+
+    WARNING = 0
+    ASSIST_OFF = 1
+    LATCHED = 2
+
+
 class Inference(IntEnum):
     """How the fuzzy rules are combined."""
 
@@ -184,6 +213,9 @@ class LimitFlags(IntFlag):
     BATTERY_VOLTAGE = 512
     INPUT_REFUSED = 1024
     MODE_OFF = 2048
+    TEMPERATURE = 4096
+    FAULT = 8192
+    MARKET = 16384
 
 
 class LogFlags(IntFlag):
@@ -201,6 +233,15 @@ class FaultFlags(IntFlag):
     SPEED_SENSOR = 2
     BATTERY_LOW = 4
     CONFIG_DEFAULTED = 8
+    OVER_CURRENT = 16
+    UNDER_VOLTAGE = 32
+    BATTERY_CUT = 64
+    MOTOR_TEMPERATURE = 128
+    CONTROLLER_TEMPERATURE = 256
+    TORQUE_STUCK = 512
+    TORQUE_DRIFT = 1024
+    TORQUE_LINK = 2048
+    SPEED_MISMATCH = 4096
 
 
 class MessageId(IntEnum):
@@ -1672,6 +1713,9 @@ ENUM_BY_NAME: dict[str, type[IntEnum]] = {
     "rollback_cause": RollbackCause,
     "violation": Violation,
     "law": Law,
+    "taper": Taper,
+    "market": Market,
+    "severity": Severity,
     "inference": Inference,
     "label": Label,
     "falling_torque": FallingTorque,
@@ -1853,7 +1897,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         length=4, min=0.0, max=25.0, enum=None,
         increasing=False, access=1, image_offset=255, ratchet=True,
         default=25.0,
-        doc="Speed at and above which there is no assist, whatever the table says.",
+        doc="Speed at and above which there is no assist, whatever the table says. The market may be lower.",
     ),
     Parameter(
         id=0x0401, name="assist_cutoff_band_kmh", group="limits",
@@ -1951,6 +1995,102 @@ PARAMETERS: tuple[Parameter, ...] = (
         default=0.25,
         doc="Resistance of winding, bridge and lead (thesis_checks I-5).",
     ),
+    Parameter(
+        id=0x0600, name="mode_tapers", group="assist",
+        type="u8", unit="", shape=(5,),
+        length=1, min=None, max=None, enum="taper",
+        increasing=False, access=1, image_offset=299,
+        default=("TAPER_SPEEDS", "TAPER_SPEEDS", "TAPER_SPEEDS", "TAPER_SPEEDS", "TAPER_SPEEDS"),
+        doc="How the fixed law's ratio falls with speed in each mode slot; the fuzzy law has its table.",
+    ),
+    Parameter(
+        id=0x0601, name="mode_tables", group="assist",
+        type="u8", unit="", shape=(5,),
+        length=1, min=0, max=1, enum=None,
+        increasing=False, access=1, image_offset=304,
+        default=(0, 0, 0, 0, 0),
+        doc="Which fuzzy table each mode slot uses: 0 the first, 1 the second.",
+    ),
+    Parameter(
+        id=0x0602, name="mode_ramp_up_nm_per_s", group="assist",
+        type="u16", unit="Nm/s", shape=(5,),
+        length=2, min=5, max=2000, enum=None,
+        increasing=False, access=1, image_offset=309,
+        default=(2000, 2000, 2000, 2000, 2000),
+        doc="Fastest rise of the assist torque at the crank in each mode slot; assist_ramp_up_nm_per_s holds too.",
+    ),
+    Parameter(
+        id=0x0603, name="mode_ramp_down_nm_per_s", group="assist",
+        type="u16", unit="Nm/s", shape=(5,),
+        length=2, min=20, max=2000, enum=None,
+        increasing=False, access=1, image_offset=319,
+        default=(2000, 2000, 2000, 2000, 2000),
+        doc="Fastest gentle fall of the assist torque at the crank in each mode slot; assist_ramp_down_nm_per_s holds too.",
+    ),
+    Parameter(
+        id=0x0604, name="mode_torque_pct", group="assist",
+        type="u8", unit="%", shape=(5,),
+        length=1, min=0, max=100, enum=None,
+        increasing=False, access=1, image_offset=329,
+        default=(100, 100, 100, 100, 100),
+        doc="Largest torque at the motor's shaft in each mode slot, of motor_torque_nm_max.",
+    ),
+    Parameter(
+        id=0x0605, name="walk_speed_kmh", group="assist",
+        type="f32", unit="km/h", shape=(),
+        length=4, min=0.0, max=6.0, enum=None,
+        increasing=False, access=1, image_offset=334,
+        default=5.0,
+        doc="Speed that walk assist holds while its button is held; 0: no walk assist.",
+    ),
+    Parameter(
+        id=0x0610, name="second_table_name", group="second_table",
+        type="text", unit="", shape=(),
+        length=24, min=None, max=None, enum=None,
+        increasing=False, access=1, image_offset=338,
+        default="thesis 4-2, smooth",
+        doc="What the second rule table is called. It shares the speed and torque-rate points of the first.",
+    ),
+    Parameter(
+        id=0x0611, name="second_inference", group="second_table",
+        type="u8", unit="", shape=(),
+        length=1, min=None, max=None, enum="inference",
+        increasing=False, access=1, image_offset=362,
+        default="WEIGHTED_AVERAGE",
+        doc="How the rules of the second table are combined.",
+    ),
+    Parameter(
+        id=0x0612, name="second_gain_points", group="second_table",
+        type="f32", unit="", shape=(5,),
+        length=4, min=0.0, max=0.5, enum=None,
+        increasing=True, access=1, image_offset=363,
+        default=(0.1, 0.2, 0.3, 0.4, 0.5),
+        doc="Peaks of the second table's five gain sets.",
+    ),
+    Parameter(
+        id=0x0613, name="second_rules", group="second_table",
+        type="u8", unit="", shape=(5, 5),
+        length=1, min=None, max=None, enum="label",
+        increasing=False, access=1, image_offset=383,
+        default=(("ZO", "ZO", "PS", "PB", "PB"), ("ZO", "ZO", "PS", "PS", "PB"), ("NS", "ZO", "ZO", "PS", "PS"), ("NB", "NS", "NS", "ZO", "ZO"), ("NB", "NB", "NS", "NS", "NS")),
+        doc="Gain label for each speed (row) and torque rate (column) of the second table.",
+    ),
+    Parameter(
+        id=0x0620, name="market", group="market",
+        type="u8", unit="", shape=(),
+        length=1, min=None, max=None, enum="market",
+        increasing=False, access=2, image_offset=408,
+        default="EU_EPAC",
+        doc="Whose law the bike is ridden under: lowers every other limit where it is stricter, and never raises one.",
+    ),
+    Parameter(
+        id=0x0621, name="assist_cutoff_extra_kmh", group="market",
+        type="f32", unit="km/h", shape=(),
+        length=4, min=0.0, max=20.1, enum=None,
+        increasing=False, access=2, image_offset=409,
+        default=0.0,
+        doc="Added to assist_cutoff_kmh for a market that allows more than 25 km/h; the market's own limit holds.",
+    ),
 )
 PARAMETER_BY_NAME = {parameter.name: parameter for parameter in PARAMETERS}
 PARAMETER_BY_ID = {parameter.id: parameter for parameter in PARAMETERS}
@@ -1983,3 +2123,72 @@ CHANNELS: tuple[Channel, ...] = (
 )
 CHANNEL_BY_NAME = {channel.name: channel for channel in CHANNELS}
 CHANNEL_BY_ID = {channel.id: channel for channel in CHANNELS}
+
+FAULTS: tuple[Fault, ...] = (
+    Fault(
+        0, "TORQUE_SENSOR", 2,
+        "No assist: the pedal sensor is faulty. Ride on without it and see your dealer.",
+        "The torque reading is missing or at the end of its range. Check the sensor's connection and the bridge for an open or shorted arm, then calibrate the offset.",
+    ),
+    Fault(
+        1, "SPEED_SENSOR", 2,
+        "No assist: the speed sensor is faulty. Check that the magnet sits at the sensor.",
+        "The speed is missing, impossible, or not refreshed. Check magnet, gap and cable.",
+    ),
+    Fault(
+        2, "BATTERY_LOW", 1,
+        "The battery is empty. Charge it.",
+        "The voltage stayed below battery_voltage_v_min for half a second. If the charge shows more, measure the sag under load: the pack or its contacts are worn.",
+    ),
+    Fault(
+        3, "CONFIG_DEFAULTED", 0,
+        "The bike runs on its factory settings. Ask your dealer to restore yours.",
+        "Neither copy of the configuration in flash was good. Restore a backup; if it comes back, the flash is worn.",
+    ),
+    Fault(
+        4, "OVER_CURRENT", 2,
+        "No assist: the motor drew too much current. Switch the bike off and on at standstill; if it comes back, see your dealer.",
+        "The motor's or the battery's current passed its limit by half. Look for a shorted phase, a blocked gear or a failed bridge before clearing.",
+    ),
+    Fault(
+        5, "UNDER_VOLTAGE", 2,
+        "No assist: the supply broke down. Check that the battery is locked in place, then switch off and on.",
+        "The voltage fell 3 V below battery_voltage_v_min. Check the contacts and each cell group under load.",
+    ),
+    Fault(
+        6, "BATTERY_CUT", 2,
+        "No assist: the battery switched itself off. Switch it on again at standstill.",
+        "The battery's management opened its switch: over-current, empty cell or temperature. Read the battery's own log.",
+    ),
+    Fault(
+        7, "MOTOR_TEMPERATURE", 2,
+        "No assist: the motor is too hot. Let it cool down, then switch off and on.",
+        "The winding reached 130 degC although the assist is lowered from 110 degC on. It clears below 110 degC. Check the sensor, the gears for drag, and how the bike is ridden.",
+    ),
+    Fault(
+        8, "CONTROLLER_TEMPERATURE", 2,
+        "No assist: the drive unit is too hot. Let it cool down, then switch off and on.",
+        "The controller reached 100 degC although the assist is lowered from 85 degC on. It clears below 85 degC. Check the heat path from board to housing.",
+    ),
+    Fault(
+        9, "TORQUE_STUCK", 2,
+        "No assist: the pedal sensor does not follow your feet. See your dealer.",
+        "The torque reading did not move by two counts while the cranks turned five times under power. Check the amplifier and the rotor board; legs always vary.",
+    ),
+    Fault(
+        10, "TORQUE_DRIFT", 1,
+        "No assist: the pedal sensor has moved. Take your feet off the pedals and wait a moment; if it stays, see your dealer.",
+        "At rest the torque read more than 3 Nm for five seconds without a foot's movement. Calibrate the offset; if it moves again, the bond of a gauge is failing.",
+    ),
+    Fault(
+        11, "TORQUE_LINK", 1,
+        "Assist pauses: the signal of the pedal sensor is interrupted.",
+        "No good word came from the rotor for a quarter of a second. Check the coils' gap and alignment, and the rotor's supply; see the link's counters.",
+    ),
+    Fault(
+        12, "SPEED_MISMATCH", 2,
+        "No assist: the speed sensor does not follow the motor. Check that the magnet sits at the sensor.",
+        "The motor drove the chain at three times the speed the wheel showed, for a second. Check magnet and sensor, then the gear, teeth and wheel set in the unit.",
+    ),
+)
+FAULT_BY_NAME = {fault.name: fault for fault in FAULTS}

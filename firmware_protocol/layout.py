@@ -139,6 +139,19 @@ class Channel:
 
 
 @dataclass(frozen=True, slots=True)
+class Fault:
+    """One row of the fault table: its bit, what it does (a `Severity`), and two texts."""
+
+    bit: int
+    name: str
+    severity: int
+    rider_text: str
+    """What the rider reads on the display: what to do now."""
+    mechanic_text: str
+    """What a mechanic measures and mends."""
+
+
+@dataclass(frozen=True, slots=True)
 class Order:
     """A rule between two parameters: `low` must be less than `high`."""
 

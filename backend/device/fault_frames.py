@@ -22,14 +22,15 @@ ALL_FAULTS = 0xFFFF
 
 @dataclass(frozen=True)
 class FaultFrame:
-    """One fault. active: now. count: how often it was set since the unit's start, or was cleared.
+    """One fault. active: now. count: how often it was set since the unit's start, or was cleared;
+    None where the unit is not there to be asked.
 
     frozen: every channel in the control step that set it last; None when nothing was kept.
     """
 
     name: str
     active: bool
-    count: int
+    count: int | None
     frozen: LiveValues | None
 
 

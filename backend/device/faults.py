@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-from firmware_protocol._generated import FaultFlags
+from firmware_protocol._generated import FAULT_BY_NAME, Severity
 
-FAULT_DESCRIPTIONS: dict[str, str] = {
-    FaultFlags.TORQUE_SENSOR.name or "": (
-        "The torque sensor's reading is at its end stop or missing. There is no assist; check the "
-        "sensor's cable, then its offset."
-    ),
-    FaultFlags.SPEED_SENSOR.name or "": (
-        "The speed is implausible or missing. There is no assist; check the magnet and the cable."
-    ),
-    FaultFlags.BATTERY_LOW.name or "": (
-        "The battery is below the voltage at which assist ends. Charge it."
-    ),
-    FaultFlags.CONFIG_DEFAULTED.name or "": (
-        "The unit found no good configuration and runs on factory values. Restore a backup."
-    ),
-}
+UNKNOWN = "This Spindle does not know this fault; the unit's firmware is newer."
 
 
 def fault_description(name: str) -> str:
-    """A sentence for a fault's name; one of a newer firmware says that it is unknown."""
-    unknown = "This Spindle does not know this fault; the unit's firmware is newer."
-    return FAULT_DESCRIPTIONS.get(name, unknown)
+    """What the rider reads for a fault's name; one of a newer firmware says that it is unknown."""
+    fault = FAULT_BY_NAME.get(name)
+    return fault.rider_text if fault else UNKNOWN
+
+
+def mechanic_text(name: str) -> str:
+    """What a mechanic measures and mends, by the fault's name."""
+    fault = FAULT_BY_NAME.get(name)
+    return fault.mechanic_text if fault else UNKNOWN
+
+
+def severity(name: str) -> str:
+    """`warning`, `assist_off` or `latched`; a fault of a newer firmware counts as latched."""
+    fault = FAULT_BY_NAME.get(name)
+    return Severity(fault.severity if fault else Severity.LATCHED).name.lower()

@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 
 from backend.device.driver import Driver, LinkOpener
 from backend.device.fault_frames import FaultFrame, clear_faults, fault_frames
-from backend.device.faults import fault_description
+from backend.device.faults import fault_description, mechanic_text, severity
 from backend.device.live_values import LiveValues, ask_values, last_values
 from backend.device.log_download import LogReceiver
 from backend.device.operation import Operation
@@ -191,7 +191,7 @@ class Devices:
         status = self.status(device_id)
         if status.state is LinkState.READY:
             return _fault_views(self.run(device_id, fault_frames()))
-        return [FaultView(name, fault_description(name)) for name in status.faults_active]
+        return [_fault_view(FaultFrame(name, True, None, None)) for name in status.faults_active]
 
     def clear_faults(self, device_id: str) -> Sequence[FaultView]:
         """Forget the faults that are over; those that are left. Raises NotFound, NoAnswer."""
@@ -291,10 +291,19 @@ class Devices:
 
 
 def _fault_views(frames: Sequence[FaultFrame]) -> list[FaultView]:
-    return [
-        FaultView(one.name, fault_description(one.name), one.active, one.count, one.frozen)
-        for one in frames
-    ]
+    return [_fault_view(one) for one in frames]
+
+
+def _fault_view(one: FaultFrame) -> FaultView:
+    return FaultView(
+        one.name,
+        fault_description(one.name),
+        one.active,
+        one.count,
+        one.frozen,
+        severity(one.name),
+        mechanic_text(one.name),
+    )
 
 
 def _bound(watcher: Watcher, device_id: str) -> Listener:

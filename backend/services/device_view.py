@@ -44,6 +44,8 @@ class ConfigStamp:
 class FaultView:
     """A fault that is active or was, and what to do about it.
 
+    description: what the rider reads. mechanic_text: what to measure and mend.
+    severity: warning, assist_off (while it lasts) or latched (until cleared at standstill).
     count: how often it came since the unit's start, None when the unit is not there to be asked.
     frozen: every channel when it came last.
     """
@@ -53,6 +55,8 @@ class FaultView:
     active: bool = True
     count: int | None = None
     frozen: LiveValues | None = None
+    severity: str = "latched"
+    mechanic_text: str = ""
 
 
 @dataclass(frozen=True)

@@ -133,6 +133,30 @@ const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT] = {
      0.01f, 1.0f}, /* motor_torque_constant_nm_per_a */
     {0x0511, 295, EBL_TYPE_F32, 1, 4, EBL_ACCESS_FACTORY, 0,
      0.01f, 2.0f}, /* motor_resistance_ohm */
+    {0x0600, 299, EBL_TYPE_U8, 5, 1, EBL_ACCESS_DEALER, 2,
+     0.0f, 3.0f}, /* mode_tapers */
+    {0x0601, 304, EBL_TYPE_U8, 5, 1, EBL_ACCESS_DEALER, 0,
+     0.0f, 1.0f}, /* mode_tables */
+    {0x0602, 309, EBL_TYPE_U16, 5, 2, EBL_ACCESS_DEALER, 0,
+     5.0f, 2000.0f}, /* mode_ramp_up_nm_per_s */
+    {0x0603, 319, EBL_TYPE_U16, 5, 2, EBL_ACCESS_DEALER, 0,
+     20.0f, 2000.0f}, /* mode_ramp_down_nm_per_s */
+    {0x0604, 329, EBL_TYPE_U8, 5, 1, EBL_ACCESS_DEALER, 0,
+     0.0f, 100.0f}, /* mode_torque_pct */
+    {0x0605, 334, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, 0,
+     0.0f, 6.0f}, /* walk_speed_kmh */
+    {0x0610, 338, EBL_TYPE_TEXT, 1, 24, EBL_ACCESS_DEALER, 0,
+     0.0f, 0.0f}, /* second_table_name */
+    {0x0611, 362, EBL_TYPE_U8, 1, 1, EBL_ACCESS_DEALER, 2,
+     0.0f, 1.0f}, /* second_inference */
+    {0x0612, 363, EBL_TYPE_F32, 5, 4, EBL_ACCESS_DEALER, 1,
+     0.0f, 0.5f}, /* second_gain_points */
+    {0x0613, 383, EBL_TYPE_U8, 25, 1, EBL_ACCESS_DEALER, 2,
+     0.0f, 4.0f}, /* second_rules */
+    {0x0620, 408, EBL_TYPE_U8, 1, 1, EBL_ACCESS_FACTORY, 2,
+     0.0f, 6.0f}, /* market */
+    {0x0621, 409, EBL_TYPE_F32, 1, 4, EBL_ACCESS_FACTORY, 0,
+     0.0f, 20.1f}, /* assist_cutoff_extra_kmh */
 };
 
 const ebl_order ebl_orders[EBL_ORDER_COUNT] = {
@@ -244,6 +268,23 @@ void ebl_config_default(ebl_config *config)
         .wheel_radius_m = 0.33f,
         .motor_torque_constant_nm_per_a = 0.112f,
         .motor_resistance_ohm = 0.25f,
+        .mode_tapers = {EBL_TAPER_TAPER_SPEEDS, EBL_TAPER_TAPER_SPEEDS, EBL_TAPER_TAPER_SPEEDS, EBL_TAPER_TAPER_SPEEDS, EBL_TAPER_TAPER_SPEEDS},
+        .mode_tables = {0, 0, 0, 0, 0},
+        .mode_ramp_up_nm_per_s = {2000, 2000, 2000, 2000, 2000},
+        .mode_ramp_down_nm_per_s = {2000, 2000, 2000, 2000, 2000},
+        .mode_torque_pct = {100, 100, 100, 100, 100},
+        .walk_speed_kmh = 5.0f,
+        .second_table_name = "thesis 4-2, smooth",
+        .second_inference = EBL_INFERENCE_WEIGHTED_AVERAGE,
+        .second_gain_points = {0.1f, 0.2f, 0.3f, 0.4f, 0.5f},
+        .second_rules = {
+            {EBL_LABEL_ZO, EBL_LABEL_ZO, EBL_LABEL_PS, EBL_LABEL_PB, EBL_LABEL_PB},
+            {EBL_LABEL_ZO, EBL_LABEL_ZO, EBL_LABEL_PS, EBL_LABEL_PS, EBL_LABEL_PB},
+            {EBL_LABEL_NS, EBL_LABEL_ZO, EBL_LABEL_ZO, EBL_LABEL_PS, EBL_LABEL_PS},
+            {EBL_LABEL_NB, EBL_LABEL_NS, EBL_LABEL_NS, EBL_LABEL_ZO, EBL_LABEL_ZO},
+            {EBL_LABEL_NB, EBL_LABEL_NB, EBL_LABEL_NS, EBL_LABEL_NS, EBL_LABEL_NS}},
+        .market = EBL_MARKET_EU_EPAC,
+        .assist_cutoff_extra_kmh = 0.0f,
     };
     *config = factory;
 }
@@ -292,6 +333,24 @@ void ebl_config_pack(const ebl_config *config, uint8_t *image)
     ebl_put_f32(image + 287, config->wheel_radius_m);
     ebl_put_f32(image + 291, config->motor_torque_constant_nm_per_a);
     ebl_put_f32(image + 295, config->motor_resistance_ohm);
+    memcpy(image + 299, config->mode_tapers, 5);
+    memcpy(image + 304, config->mode_tables, 5);
+    for (size_t i = 0; i < 5; i++) {
+        ebl_put_u16(image + 309 + 2 * i, config->mode_ramp_up_nm_per_s[i]);
+    }
+    for (size_t i = 0; i < 5; i++) {
+        ebl_put_u16(image + 319 + 2 * i, config->mode_ramp_down_nm_per_s[i]);
+    }
+    memcpy(image + 329, config->mode_torque_pct, 5);
+    ebl_put_f32(image + 334, config->walk_speed_kmh);
+    memcpy(image + 338, config->second_table_name, 24);
+    ebl_put_u8(image + 362, config->second_inference);
+    for (size_t i = 0; i < 5; i++) {
+        ebl_put_f32(image + 363 + 4 * i, config->second_gain_points[i]);
+    }
+    memcpy(image + 383, config->second_rules, 25);
+    ebl_put_u8(image + 408, config->market);
+    ebl_put_f32(image + 409, config->assist_cutoff_extra_kmh);
 }
 
 void ebl_config_unpack(ebl_config *config, const uint8_t *image)
@@ -338,4 +397,22 @@ void ebl_config_unpack(ebl_config *config, const uint8_t *image)
     config->wheel_radius_m = ebl_get_f32(image + 287);
     config->motor_torque_constant_nm_per_a = ebl_get_f32(image + 291);
     config->motor_resistance_ohm = ebl_get_f32(image + 295);
+    memcpy(config->mode_tapers, image + 299, 5);
+    memcpy(config->mode_tables, image + 304, 5);
+    for (size_t i = 0; i < 5; i++) {
+        config->mode_ramp_up_nm_per_s[i] = ebl_get_u16(image + 309 + 2 * i);
+    }
+    for (size_t i = 0; i < 5; i++) {
+        config->mode_ramp_down_nm_per_s[i] = ebl_get_u16(image + 319 + 2 * i);
+    }
+    memcpy(config->mode_torque_pct, image + 329, 5);
+    config->walk_speed_kmh = ebl_get_f32(image + 334);
+    memcpy(config->second_table_name, image + 338, 24);
+    config->second_inference = ebl_get_u8(image + 362);
+    for (size_t i = 0; i < 5; i++) {
+        config->second_gain_points[i] = ebl_get_f32(image + 363 + 4 * i);
+    }
+    memcpy(config->second_rules, image + 383, 25);
+    config->market = ebl_get_u8(image + 408);
+    config->assist_cutoff_extra_kmh = ebl_get_f32(image + 409);
 }

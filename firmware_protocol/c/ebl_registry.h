@@ -11,15 +11,18 @@
 #define EBL_MTU 544
 #define EBL_MAX_OUTSTANDING 4
 #define EBL_CONTROL_PERIOD_US 10000
-#define EBL_IMAGE_LENGTH 299
+#define EBL_IMAGE_LENGTH 413
 #define EBL_MESSAGE_COUNT 41
 #define EBL_EVENT_COUNT 12
 #define EBL_EVENT_HEAD_LENGTH 5
-#define EBL_PARAMETER_COUNT 34
+#define EBL_PARAMETER_COUNT 46
 #define EBL_ORDER_COUNT 1
 #define EBL_CHANNEL_COUNT 20
+#define EBL_FAULT_COUNT 13
+#define EBL_FAULTS_ASSIST_OFF 8183
+#define EBL_FAULTS_LATCHED 5107
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 3743
+#define EBL_SCHEMA_LENGTH 4262
 
 enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */
 
@@ -120,6 +123,32 @@ typedef enum {
     EBL_LAW_FUZZY = 2,
 } ebl_law;
 
+/* How the fixed law's ratio falls with speed: between the two taper speeds; not at all; or as a ceiling of Japan's rule before (1:1 to 15 km/h) and since (2:1 to 10 km/h) December 2008, zero at 24 km/h. */
+typedef enum {
+    EBL_TAPER_TAPER_SPEEDS = 0,
+    EBL_TAPER_NONE = 1,
+    EBL_TAPER_JAPAN_1_TO_1 = 2,
+    EBL_TAPER_JAPAN_2_TO_1 = 3,
+} ebl_taper;
+
+/* Whose law the bike is ridden under. Held after everything else, by numbers in code flash. */
+typedef enum {
+    EBL_MARKET_EU_EPAC = 0,
+    EBL_MARKET_UK = 1,
+    EBL_MARKET_US_CLASS_1 = 2,
+    EBL_MARKET_US_CLASS_2 = 3,
+    EBL_MARKET_US_CLASS_3 = 4,
+    EBL_MARKET_JAPAN = 5,
+    EBL_MARKET_CHINA = 6,
+} ebl_market;
+
+/* What a fault does: tells only; ends assist while it lasts; ends it until it is cleared at standstill or the unit is switched off and on. */
+typedef enum {
+    EBL_SEVERITY_WARNING = 0,
+    EBL_SEVERITY_ASSIST_OFF = 1,
+    EBL_SEVERITY_LATCHED = 2,
+} ebl_severity;
+
 /* How the fuzzy rules are combined. */
 typedef enum {
     EBL_INFERENCE_MAMDANI_CENTROID = 0,
@@ -176,6 +205,9 @@ enum {
     EBL_LIMIT_BATTERY_VOLTAGE = 512,
     EBL_LIMIT_INPUT_REFUSED = 1024,
     EBL_LIMIT_MODE_OFF = 2048,
+    EBL_LIMIT_TEMPERATURE = 4096,
+    EBL_LIMIT_FAULT = 8192,
+    EBL_LIMIT_MARKET = 16384,
 };
 
 /* Where a ride log stands. */
@@ -191,6 +223,15 @@ enum {
     EBL_FAULT_SPEED_SENSOR = 2,
     EBL_FAULT_BATTERY_LOW = 4,
     EBL_FAULT_CONFIG_DEFAULTED = 8,
+    EBL_FAULT_OVER_CURRENT = 16,
+    EBL_FAULT_UNDER_VOLTAGE = 32,
+    EBL_FAULT_BATTERY_CUT = 64,
+    EBL_FAULT_MOTOR_TEMPERATURE = 128,
+    EBL_FAULT_CONTROLLER_TEMPERATURE = 256,
+    EBL_FAULT_TORQUE_STUCK = 512,
+    EBL_FAULT_TORQUE_DRIFT = 1024,
+    EBL_FAULT_TORQUE_LINK = 2048,
+    EBL_FAULT_SPEED_MISMATCH = 4096,
 };
 
 enum {
@@ -272,6 +313,18 @@ enum {
     EBL_PARAMETER_WHEEL_RADIUS_M = 0x0503,
     EBL_PARAMETER_MOTOR_TORQUE_CONSTANT_NM_PER_A = 0x0510,
     EBL_PARAMETER_MOTOR_RESISTANCE_OHM = 0x0511,
+    EBL_PARAMETER_MODE_TAPERS = 0x0600,
+    EBL_PARAMETER_MODE_TABLES = 0x0601,
+    EBL_PARAMETER_MODE_RAMP_UP_NM_PER_S = 0x0602,
+    EBL_PARAMETER_MODE_RAMP_DOWN_NM_PER_S = 0x0603,
+    EBL_PARAMETER_MODE_TORQUE_PCT = 0x0604,
+    EBL_PARAMETER_WALK_SPEED_KMH = 0x0605,
+    EBL_PARAMETER_SECOND_TABLE_NAME = 0x0610,
+    EBL_PARAMETER_SECOND_INFERENCE = 0x0611,
+    EBL_PARAMETER_SECOND_GAIN_POINTS = 0x0612,
+    EBL_PARAMETER_SECOND_RULES = 0x0613,
+    EBL_PARAMETER_MARKET = 0x0620,
+    EBL_PARAMETER_ASSIST_CUTOFF_EXTRA_KMH = 0x0621,
 };
 
 enum {
@@ -377,6 +430,18 @@ typedef struct {
     float wheel_radius_m;
     float motor_torque_constant_nm_per_a;
     float motor_resistance_ohm;
+    uint8_t mode_tapers[5];
+    uint8_t mode_tables[5];
+    uint16_t mode_ramp_up_nm_per_s[5];
+    uint16_t mode_ramp_down_nm_per_s[5];
+    uint8_t mode_torque_pct[5];
+    float walk_speed_kmh;
+    char second_table_name[24];
+    uint8_t second_inference;
+    float second_gain_points[5];
+    uint8_t second_rules[5][5];
+    uint8_t market;
+    float assist_cutoff_extra_kmh;
 } ebl_config;
 
 extern const ebl_message ebl_messages[EBL_MESSAGE_COUNT];

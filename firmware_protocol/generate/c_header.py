@@ -118,10 +118,19 @@ def _numbers(registry: Registry, schema_length: int) -> list[str]:
         "PARAMETER_COUNT": len(registry.parameters),
         "ORDER_COUNT": len(registry.orders),
         "CHANNEL_COUNT": len(registry.channels),
+        "FAULT_COUNT": len(registry.faults),
+        "FAULTS_ASSIST_OFF": _fault_mask(registry, "ASSIST_OFF"),
+        "FAULTS_LATCHED": _fault_mask(registry, "LATCHED"),
         "SCHEMA_HASH_LENGTH": 8,
         "SCHEMA_LENGTH": schema_length,
     }
     return [f"#define EBL_{name} {value}" for name, value in numbers.items()]
+
+
+def _fault_mask(registry: Registry, least: str) -> int:
+    """The bits of the faults that are at least as severe."""
+    severity = registry.enum("severity").members[least]
+    return sum(1 << fault.bit for fault in registry.faults if fault.severity >= severity)
 
 
 def _enums(registry: Registry) -> list[str]:

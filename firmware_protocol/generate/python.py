@@ -1,7 +1,7 @@
 """_generated.py: IntEnums, message classes and the tables, as plain typed Python."""
 
 from firmware_protocol.generate.registry import NOTICE, Layout, Registry, Table
-from firmware_protocol.layout import Channel, Field, Parameter
+from firmware_protocol.layout import Channel, Fault, Field, Parameter
 
 FIRST_LINE = f'"""{NOTICE}"""'
 
@@ -20,7 +20,7 @@ def module(registry: Registry, schema_hash: bytes) -> str:
         "from enum import IntEnum, IntFlag",
         "from typing import ClassVar",
         "",
-        "from firmware_protocol.layout import Channel, Field, Message, Order, Parameter",
+        "from firmware_protocol.layout import Channel, Fault, Field, Message, Order, Parameter",
         "",
         *_numbers(registry, schema_hash),
         "",
@@ -121,7 +121,10 @@ def _tables(registry: Registry) -> list[str]:
     lines += [")", "", "CHANNELS: tuple[Channel, ...] = ("]
     lines += [f"    {_channel(channel)}," for channel in registry.channels]
     lines += [")", "CHANNEL_BY_NAME = {channel.name: channel for channel in CHANNELS}"]
-    return [*lines, "CHANNEL_BY_ID = {channel.id: channel for channel in CHANNELS}"]
+    lines += ["CHANNEL_BY_ID = {channel.id: channel for channel in CHANNELS}", ""]
+    lines += ["FAULTS: tuple[Fault, ...] = ("]
+    lines += [line for fault in registry.faults for line in _fault(fault)]
+    return [*lines, ")", "FAULT_BY_NAME = {fault.name: fault for fault in FAULTS}"]
 
 
 def _quoted(text: str | None) -> str:
@@ -145,3 +148,13 @@ def _parameter(row: Parameter) -> list[str]:
 
 def _channel(row: Channel) -> str:
     return f'Channel({row.id}, "{row.name}", "{row.unit}", {row.scale}, {_quoted(row.doc)})'
+
+
+def _fault(row: Fault) -> list[str]:
+    return [
+        "    Fault(",
+        f'        {row.bit}, "{row.name}", {row.severity},',
+        f"        {_quoted(row.rider_text)},",
+        f"        {_quoted(row.mechanic_text)},",
+        "    ),",
+    ]

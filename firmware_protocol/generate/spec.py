@@ -16,6 +16,7 @@ def filled(text: str, registry: Registry) -> str:
         "events": _events(registry),
         "parameters": _parameters(registry),
         "channels": _channels(registry),
+        "faults": _faults(registry),
     }
 
     def section(match: re.Match[str]) -> str:
@@ -87,4 +88,14 @@ def _channels(registry: Registry) -> list[str]:
     return lines + [
         f"| {row.id} | {row.name} | {row.unit} | {row.scale} | {row.doc} |"
         for row in registry.channels
+    ]
+
+
+def _faults(registry: Registry) -> list[str]:
+    severities = {value: name for name, value in registry.enum("severity").members.items()}
+    lines = ["| bit | fault | does | rider | mechanic |", "|---|---|---|---|---|"]
+    return lines + [
+        f"| {row.bit} | {row.name} | {severities[row.severity]} | {row.rider_text} |"
+        f" {row.mechanic_text} |"
+        for row in registry.faults
     ]

@@ -38,6 +38,16 @@ export interface ChannelRow {
   readonly scale: number;
   readonly doc: string;
 }
+
+export interface FaultRow {
+  readonly bit: number;
+  /** WARNING, ASSIST_OFF or LATCHED */
+  readonly severity: string;
+  /** What the rider reads: what to do now. */
+  readonly rider_text: string;
+  /** What a mechanic measures and mends. */
+  readonly mechanic_text: string;
+}
 """
 
 
@@ -86,8 +96,23 @@ def module(registry: Registry) -> str:
     lines += _object("PARAMETERS", parameters, "Record<string, ParameterRow>")
     lines += ["export type ParameterName = keyof typeof PARAMETERS;", ""]
     lines += _object("CHANNELS", channels, "Record<string, ChannelRow>")
-    lines += ["export type ChannelName = keyof typeof CHANNELS;"]
+    lines += ["export type ChannelName = keyof typeof CHANNELS;", ""]
+    lines += _object("FAULTS", _faults(registry), "Record<string, FaultRow>")
+    lines += ["export type FaultName = keyof typeof FAULTS;"]
     return "\n".join(lines) + "\n"
+
+
+def _faults(registry: Registry) -> dict[str, Any]:
+    severities = {value: name for name, value in registry.enum("severity").members.items()}
+    return {
+        row.name: {
+            "bit": row.bit,
+            "severity": severities[row.severity],
+            "rider_text": row.rider_text,
+            "mechanic_text": row.mechanic_text,
+        }
+        for row in registry.faults
+    }
 
 
 def _object(name: str, rows: dict[str, Any], row_type: str) -> list[str]:

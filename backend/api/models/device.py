@@ -109,6 +109,10 @@ class Fault(Answer):
     active: bool
     count: int | None = Field(description="How often since the unit's start; null if not known.")
     frozen: Snapshot | None
+    severity: Literal["warning", "assist_off", "latched"] = Field(
+        description="Tells only; no assist while it lasts; no assist until cleared at standstill."
+    )
+    mechanic_text: str = Field(description="What a mechanic measures and mends.")
 
 
 class FaultList(Answer):

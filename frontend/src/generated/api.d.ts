@@ -970,6 +970,17 @@ export interface components {
              */
             count: number | null;
             frozen: components["schemas"]["Snapshot"] | null;
+            /**
+             * Severity
+             * @description Tells only; no assist while it lasts; no assist until cleared at standstill.
+             * @enum {string}
+             */
+            severity: "warning" | "assist_off" | "latched";
+            /**
+             * Mechanic Text
+             * @description What a mechanic measures and mends.
+             */
+            mechanic_text: string;
         };
         /** FaultList */
         FaultList: {

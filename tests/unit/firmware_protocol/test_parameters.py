@@ -33,7 +33,7 @@ def test_the_image_is_every_parameter_in_the_order_of_its_id_packed() -> None:
     offsets = [row.image_offset for row in sorted(PARAMETERS, key=lambda row: row.id)]
     sizes = [row.size for row in PARAMETERS]
 
-    assert IMAGE_LENGTH == sum(sizes) == 299
+    assert IMAGE_LENGTH == sum(sizes) == 413
     assert offsets == [sum(sizes[:at]) for at in range(len(sizes))]
 
 
@@ -43,6 +43,17 @@ def test_an_image_reads_back_as_the_numbers_people_typed() -> None:
     )
 
     assert parameters.unpack_image(parameters.pack_image(config)) == config
+
+
+def test_the_image_of_the_first_version_is_the_start_of_every_later_one() -> None:
+    assert PARAMETER_BY_NAME["motor_resistance_ohm"].image_offset + 4 == 299
+    assert min(row.image_offset for row in PARAMETERS if row.id >= 0x0600) == 299
+
+
+def test_a_ride_log_has_room_for_the_whole_configuration() -> None:
+    block, header, check, unit = 512, 32, 4, 28
+
+    assert unit + IMAGE_LENGTH <= block - header - check
 
 
 def test_two_configurations_share_nothing() -> None:
@@ -164,8 +175,8 @@ def test_changes_are_cut_into_messages_that_fit_and_say_the_same() -> None:
     assert bytes(image) == parameters.pack_image(config)
 
 
-def test_the_whole_configuration_fits_one_message() -> None:
-    assert len(parameters.set_items(parameters.default_config())) == 1
+def test_the_whole_configuration_fits_two_messages() -> None:
+    assert len(parameters.set_items(parameters.default_config())) == 2
 
 
 def test_what_cannot_be_put_into_the_image_is_refused_with_its_violation() -> None:
@@ -178,5 +189,5 @@ def test_what_cannot_be_put_into_the_image_is_refused_with_its_violation() -> No
 
 
 def test_bytes_of_another_length_are_not_an_image() -> None:
-    with pytest.raises(parameters.BadImage, match="298 bytes; this registry needs 299"):
+    with pytest.raises(parameters.BadImage, match="298 bytes; this registry needs 413"):
         parameters.unpack_image(bytes(298))

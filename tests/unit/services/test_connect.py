@@ -220,7 +220,9 @@ def test_faults_come_with_words(devices: Devices, workshop: Workshop) -> None:
 
     (fault,) = devices.faults(device.id)
     assert fault.name == "TORQUE_SENSOR"
-    assert "check the sensor's cable" in fault.description
+    assert "see your dealer" in fault.description
+    assert "the bridge for an open or shorted arm" in fault.mechanic_text
+    assert fault.severity == "latched"
 
 
 def test_the_simulation_is_read_and_set(devices: Devices, workshop: Workshop) -> None:

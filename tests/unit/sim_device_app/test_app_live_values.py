@@ -124,9 +124,10 @@ def test_a_commit_ends_live_values_and_does_not_contain_them(unit: BenchUnit) ->
 def test_parameters_are_asked_for_by_id(unit: BenchUnit) -> None:
     unknown = unit.ask(ParamGetRequest(b"\xee\xee"))
     odd = unit.ask(ParamGetRequest(b"\x01"))
-    every = b"".join(struct.pack("<H", row.id) for row in PARAMETER_BY_NAME.values())
+    ids = [struct.pack("<H", row.id) for row in PARAMETER_BY_NAME.values()]
 
     assert (unknown.status, unknown.detail) == (Status.UNKNOWN_ID, 0xEEEE)
     assert odd.status == Status.LENGTH
-    whole = unit.ask(ParamGetRequest(every)).message.items
+    halves = (b"".join(ids[:20]), b"".join(ids[20:]))
+    whole = b"".join(unit.ask(ParamGetRequest(half)).message.items for half in halves)
     assert whole == b"".join(parameters.set_items(unit.config(), 4096))

@@ -140,6 +140,7 @@ export const en = {
     'Nothing pasted: the text has more rows or columns than there are from this cell on.',
   'group.assist': 'Assist modes and ramps',
   'group.limits': 'Limits',
+  'group.market': 'Market',
   'group.drivetrain': 'Drivetrain',
   'lint.title': 'Checks of the table',
   'lint.clean': 'Nothing to complain about.',

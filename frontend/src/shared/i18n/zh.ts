@@ -128,6 +128,7 @@ export const zh: Record<Key, string> = {
   'tune.paste_too_large': '未粘贴：文本的行数或列数超出了此格之后的范围。',
   'group.assist': '助力模式与斜率',
   'group.limits': '限制',
+  'group.market': '市场',
   'group.drivetrain': '传动',
   'lint.title': '规则表检查',
   'lint.clean': '没有问题。',
