@@ -1,0 +1,188 @@
+"""A typed client of Spindle's API.
+
+    spindle = Spindle("http://127.0.0.1:8750")
+    unit = spindle.unit()
+    unit.simulate(brake=False, rider={"kind": "legs", "torque_nm": 25.0})
+    unit.advance(60.0)
+    assert unit.snapshot().channels["speed_kmh"] > 20.0
+
+Answers are the API's own models, so a program is checked against what the server sends. A refusal
+is raised as backend.errors.RequestRefused with every field that is at fault.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from typing import Any
+
+from backend.api.models.config import Config, ConfigChange, Parameter, ParameterList
+from backend.api.models.device import (
+    Device,
+    Fault,
+    FaultList,
+    Health,
+    Simulation,
+    Snapshot,
+)
+from backend.api.models.ride import Ride, RideList, Series
+from backend.cli.client import Server, default_server
+from backend.errors import NoAnswer, RequestRefused
+
+LOOK_EVERY_S = 0.05
+READY_WITHIN_S = 30.0
+# A brake brings any simulated bike to rest within this much of its own time.
+STANDSTILL_WITHIN_S = 60.0
+# Below these the firmware calls a bike at rest, with room for rounding.
+STANDSTILL_KMH = 0.01
+STANDSTILL_MOTOR_RPM = 0.1
+
+
+class Spindle:
+    """A server. url: where it listens; as told by SPINDLE_HOST and SPINDLE_PORT if None."""
+
+    def __init__(self, url: str | None = None) -> None:
+        self.server = Server(url or default_server())
+
+    def health(self) -> Health:
+        """Version and units. Raises LinkError when no server answers."""
+        return Health.model_validate(self.server.ask("GET", "/health"))
+
+    def unit(self, name: str | None = None, within_s: float = 0.0) -> Unit:
+        """The unit of this id or serial number; the only one if None.
+
+        within_s: a server that has just started may not know its units yet. Raises RequestRefused.
+        """
+        deadline_s = time.monotonic() + within_s
+        while True:
+            try:
+                return Unit(self.server, self.server.device_id(name))
+            except RequestRefused:
+                if time.monotonic() >= deadline_s:
+                    raise
+                time.sleep(LOOK_EVERY_S)
+
+    def add(self, url: str) -> Unit:
+        """Connect the unit at this url, as `POST /devices` does."""
+        added = Device.model_validate(self.server.ask("POST", "/devices", json={"url": url}))
+        return Unit(self.server, added.id)
+
+    def rides(self) -> list[Ride]:
+        """The latest rides, newest first."""
+        return RideList.model_validate(self.server.ask("GET", "/rides")).items
+
+    def finished_ride(self, within_s: float = READY_WITHIN_S) -> Ride:
+        """The newest ride, once its record is closed. Raises NoAnswer when that does not come."""
+        deadline_s = time.monotonic() + within_s
+        while not (rides := self.rides()) or rides[0].state != "done":
+            if time.monotonic() > deadline_s:
+                state = rides[0].state if rides else "none"
+                raise NoAnswer(f"No ride was finished within {within_s:g} s; the newest: {state}.")
+            time.sleep(LOOK_EVERY_S)
+        return rides[0]
+
+    def series(self, ride_id: int, *channels: str, px: int = 2000) -> Series:
+        """Exact minima and maxima of a ride's channels in `px` bins."""
+        asked = {"channels": ",".join(channels), "px": px}
+        answer = self.server.ask("GET", f"/rides/{ride_id}/series", params=asked)
+        return Series.model_validate(answer)
+
+
+class Unit:
+    """One unit of a server."""
+
+    def __init__(self, server: Server, device_id: str) -> None:
+        self.id = device_id
+        self._server = server
+        self._path = f"/devices/{device_id}"
+
+    def device(self) -> Device:
+        """State, identity, configuration stamp, counters of the link, active faults."""
+        return Device.model_validate(self._server.ask("GET", self._path))
+
+    def wait_ready(self, within_s: float = READY_WITHIN_S) -> Device:
+        """Wait until the unit can be asked. Raises NoAnswer with its own reason."""
+        deadline_s = time.monotonic() + within_s
+        while (seen := self.device()).state != "ready":
+            if time.monotonic() > deadline_s:
+                raise NoAnswer(f"{self.id} is not ready after {within_s:g} s: {seen.reason}")
+            time.sleep(LOOK_EVERY_S)
+        return seen
+
+    def snapshot(self) -> Snapshot:
+        """The latest row of every channel."""
+        return Snapshot.model_validate(self._server.ask("GET", f"{self._path}/snapshot"))
+
+    def parameters(self) -> list[Parameter]:
+        """Every parameter with its range, unit, default and value."""
+        answer = self._server.ask("GET", f"{self._path}/parameters")
+        return ParameterList.model_validate(answer).items
+
+    def config(self) -> Config:
+        """The active configuration, read from the unit."""
+        return Config.model_validate(self._server.ask("GET", f"{self._path}/config"))
+
+    def write(
+        self, parameters: Mapping[str, Any], reason: str = "", confirm_s: int = 0
+    ) -> ConfigChange:
+        """Change parameters; when this returns they were read back and compared.
+
+        confirm_s: not 0 for a trial, which ends by itself unless `confirm` is called in time.
+        """
+        body = {"parameters": dict(parameters), "reason": reason, "confirm_s": confirm_s}
+        answer = self._server.ask("PATCH", f"{self._path}/config", json=body)
+        return ConfigChange.model_validate(answer)
+
+    def confirm(self) -> ConfigChange:
+        """Keep what is on trial."""
+        answer = self._server.ask("POST", f"{self._path}/config/confirm")
+        return ConfigChange.model_validate(answer)
+
+    def roll_back(self) -> ConfigChange:
+        """Give up what is on trial."""
+        answer = self._server.ask("POST", f"{self._path}/config/rollback")
+        return ConfigChange.model_validate(answer)
+
+    def faults(self) -> list[Fault]:
+        """The faults that are active or were, with what the bike did when they came."""
+        return FaultList.model_validate(self._server.ask("GET", f"{self._path}/faults")).items
+
+    def clear_faults(self) -> list[Fault]:
+        """Forget the faults that are over; what is left."""
+        answer = self._server.ask("POST", f"{self._path}/faults/clear")
+        return FaultList.model_validate(answer).items
+
+    def simulation(self) -> Simulation:
+        """Rider, road and clock. Raises RequestRefused for a real unit."""
+        return Simulation.model_validate(self._server.ask("GET", f"{self._path}/simulation"))
+
+    def simulate(self, **changes: Any) -> Simulation:
+        """Change rider, road, clock or faults; names and ranges are those of the API."""
+        answer = self._server.ask("PUT", f"{self._path}/simulation", json=changes)
+        return Simulation.model_validate(answer)
+
+    def advance(self, seconds: float) -> Simulation:
+        """Let time pass for a unit with a virtual clock."""
+        path = f"{self._path}/simulation/advance"
+        return Simulation.model_validate(self._server.ask("POST", path, json={"seconds": seconds}))
+
+    def stand_still(self) -> None:
+        """Brake until wheel and motor rest, which a write needs. Raises NoAnswer."""
+        clock = self.simulate(scenario=None, rider={"kind": "off"}, brake=True).clock
+        passed_s = 0.0
+        while not self._rests():
+            if passed_s > STANDSTILL_WITHIN_S:
+                raise NoAnswer(f"{self.id} still moves after braking {STANDSTILL_WITHIN_S:g} s.")
+            if clock == "virtual":
+                self.advance(1.0)
+                passed_s += 1.0
+            else:
+                time.sleep(LOOK_EVERY_S)
+                passed_s += LOOK_EVERY_S
+
+    def _rests(self) -> bool:
+        now = self.snapshot().channels
+        speed_kmh, motor_speed_rpm = now["speed_kmh"], now["motor_speed_rpm"]
+        if speed_kmh is None or motor_speed_rpm is None:
+            return False
+        return abs(speed_kmh) < STANDSTILL_KMH and abs(motor_speed_rpm) < STANDSTILL_MOTOR_RPM

@@ -1,0 +1,198 @@
+"""A drive unit on the bench: the real firmware against physics, and Spindle's own host beside it.
+
+No process, no port and no clock: time passes in `advance`, and the same seed and calls give the
+same bytes. What crosses the line is the wire protocol, so that whatever a firmware team changes is
+tested the way a dealer's computer would see it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from backend.device.config_transaction import ConfigImage, read_config, write_config
+from backend.device.fault_frames import FaultFrame, clear_faults, fault_frames
+from backend.device.live_values import LiveValues, ask_values
+from backend.device.operation import Operation
+from backend.device.session import Session
+from backend.device.states import LinkState
+from backend.device.stream import StreamBlock, StreamPlan
+from backend.domain.channels import MISSING_INT16
+from backend.errors import NoAnswer
+from sim_device.lockstep import LockstepUnit
+
+Result = TypeVar("Result")
+
+STEP_S = 0.020
+CONNECT_WITHIN_S = 10.0
+OPERATION_WITHIN_S = 30.0
+STANDSTILL_WITHIN_S = 60.0
+NONCE = b"bench-01"
+# Below these the firmware calls a bike at rest.
+STANDSTILL_KMH = 0.01
+STANDSTILL_MOTOR_RPM = 0.1
+
+
+class DriveUnit:
+    """One unit in virtual time, connected and streaming.
+
+    seed: of the noise. scenario: a live one to ride from the start, None for a bike at rest.
+    config: parameters by registry name, written before anything moves. bike: `part.name` -> value
+    over the pinned bike. Raises ScenarioError and ConfigureError for what does not exist.
+    """
+
+    def __init__(
+        self,
+        seed: int = 0,
+        scenario: str | None = None,
+        config: Mapping[str, Any] | None = None,
+        bike: Mapping[str, float] | None = None,
+    ) -> None:
+        self._seed = seed
+        self._bike = dict(bike or {})
+        self.unit = LockstepUnit(
+            seed, dict(config or {}), name="bench", scenario=scenario, bike=self._bike
+        )
+        self._now_s = 0.0
+        self._boots = 1
+        self._blocks: list[StreamBlock] = []
+        self._session = Session(self._now_s, StreamPlan())
+        self._connect()
+
+    # ------------------------------------------------------------------ time and stimulus
+
+    @property
+    def t_s(self) -> float:
+        """The unit's time since its last start."""
+        return float(self.unit.observe()["t_s"])
+
+    def advance(self, seconds: float) -> None:
+        """Let time pass for unit and host."""
+        whole, rest = divmod(round(seconds * 1e6), round(STEP_S * 1e6))
+        for _ in range(whole):
+            self._step(STEP_S)
+        if rest:
+            self._step(rest / 1e6)
+
+    def simulate(self, **changes: Any) -> None:
+        """Change rider, road, brake, faults: the fields of `PUT /devices/{id}/simulation`."""
+        self.unit.simulation_set(changes)
+
+    def ride(self, torque_nm: float = 25.0, seconds: float = 0.0, **changes: Any) -> None:
+        """A rider with legs pushes in the fuzzy mode, brake off, for `seconds`."""
+        rider = {"kind": "legs", "torque_nm": torque_nm, "cadence_rpm_max": 90.0}
+        self.simulate(**{"brake": False, "assist_mode": 3, "rider": rider} | changes)
+        self.advance(seconds)
+
+    def stand_still(self) -> None:
+        """Brake until wheel and motor rest, which a write needs. Raises NoAnswer."""
+        self.simulate(scenario=None, rider={"kind": "off"}, brake=True)
+        for _ in range(round(STANDSTILL_WITHIN_S)):
+            seen = self.unit.observe()
+            slow = abs(seen["speed_kmh"]) < STANDSTILL_KMH
+            if slow and abs(seen["motor_speed_rpm"]) < STANDSTILL_MOTOR_RPM:
+                return
+            self.advance(1.0)
+        raise NoAnswer(f"The bike still moves after braking {STANDSTILL_WITHIN_S:g} s.")
+
+    def restart(self) -> None:
+        """Take the battery out and put it in again: flash stays, everything else is gone."""
+        self._boots += 1
+        self.unit = LockstepUnit(
+            self._seed,
+            name="bench",
+            bike=self._bike,
+            flash=self.unit.unit.flash(),
+            log=self.unit.unit.log(),
+            boot_id=self._boots,
+        )
+        self._session.port_failed(self._now_s, NoAnswer("The battery is out."))
+        self._connect()
+
+    # ------------------------------------------------------------------ what can be seen
+
+    def observe(self) -> dict[str, Any]:
+        """What somebody beside the bike sees: true values, not the unit's measurements."""
+        return self.unit.observe()
+
+    def channels(self) -> dict[str, float | None]:
+        """Every telemetry channel as the unit reports it now; missing is None."""
+        values: LiveValues = self.ask(ask_values())
+        return values.channels
+
+    def trace(self, *names: str) -> dict[str, npt.NDArray[np.float64]]:
+        """`t_s` and the named channels since the last start, as received: (rows,), NaN is missing.
+
+        Raises KeyError for a channel that does not exist.
+        """
+        kept = [block for block in self._blocks if block.channels]
+        specs = {spec.name: column for column, spec in enumerate(kept[0].channels)} if kept else {}
+        columns: dict[str, list[npt.NDArray[np.float64]]] = {"t_s": [], **{n: [] for n in names}}
+        for block in kept:
+            rows = np.arange(len(block.values))
+            columns["t_s"].append((block.t0_us + rows * block.period_us) / 1e6)
+            for name in names:
+                counts = block.values[:, specs[name]].astype(np.float64)
+                counts[block.values[:, specs[name]] == MISSING_INT16] = np.nan
+                columns[name].append(counts * block.channels[specs[name]].scale)
+        empty = np.empty(0)
+        return {name: np.concatenate(parts) if parts else empty for name, parts in columns.items()}
+
+    def faults(self) -> list[FaultFrame]:
+        """The faults that are active or were, with what the bike did when they came."""
+        return self.ask(fault_frames())
+
+    def clear_faults(self) -> list[FaultFrame]:
+        """Forget the faults that are over; what is left."""
+        return self.ask(clear_faults())
+
+    # ------------------------------------------------------------------ configuration
+
+    def config(self) -> ConfigImage:
+        """The active configuration, read over the wire."""
+        return self.ask(read_config())
+
+    def write(self, **parameters: Any) -> ConfigImage:
+        """Change parameters; returns what was read back and compared.
+
+        Raises NotStandingStill while the bike moves, LimitViolation naming what is out of range.
+        """
+        base = self.ask(read_config())
+        return self.ask(write_config(base, parameters))
+
+    def ask(self, operation: Operation[Result], within_s: float = OPERATION_WITHIN_S) -> Result:
+        """Run any operation of backend.device to its end; its error is raised here."""
+        results: list[Result] = []
+        errors: list[BaseException] = []
+        self._session.start(operation, results.append, errors.append)
+        deadline_s = self._now_s + within_s
+        while not results and not errors:
+            if self._now_s > deadline_s:
+                raise NoAnswer(f"The unit has not answered within {within_s:g} s of its time.")
+            self._step(STEP_S)
+        if errors:
+            raise errors[0]
+        return results[0]
+
+    # ------------------------------------------------------------------ inside
+
+    def _connect(self) -> None:
+        self._blocks.clear()
+        self._session.port_opened(self._now_s, "bench", NONCE)
+        deadline_s = self._now_s + CONNECT_WITHIN_S
+        while self._session.state is not LinkState.READY:
+            if self._now_s > deadline_s:
+                raise NoAnswer(f"The unit is not ready: {self._session.reason}")
+            self._step(STEP_S)
+
+    def _step(self, seconds: float) -> None:
+        self._now_s += seconds
+        self.unit.advance(seconds)
+        self._session.receive(self.unit.receive(), self._now_s)
+        self._session.tick(self._now_s)
+        self.unit.send(self._session.bytes_to_send())
+        events = self._session.next_events()
+        self._blocks += [event for event in events if isinstance(event, StreamBlock)]
