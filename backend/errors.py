@@ -135,7 +135,8 @@ class AccessDenied(RequestRefused):
 class TokenNeeded(AccessDenied):
     """The unit would do it for a token of its maker.
 
-    challenge: what has to be signed: uid, nonce, level, ttl_s, expires_us and the image in hex.
+    challenge: what has to be signed: uid, nonce, level, ttl_s, expires_us, and the image with its
+    SHA-512 in hex.
     """
 
     default_code = "token_needed"

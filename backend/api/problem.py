@@ -29,6 +29,7 @@ class TokenChallenge(BaseModel):
     ttl_s: int
     expires_us: int = Field(description="Of the unit's clock.")
     image: str = Field(description="The whole configuration that is to become active.")
+    image_sha512: str = Field(description="What of the image goes under the signature.")
 
 
 class Problem(BaseModel):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import struct
 from collections.abc import Mapping
 
@@ -98,6 +99,7 @@ def access_refused(
             "ttl_s": asked.ttl_s,
             "expires_us": asked.expires_us,
             "image": image.hex(),
+            "image_sha512": hashlib.sha512(image).hexdigest(),
         },
         fields,
     )

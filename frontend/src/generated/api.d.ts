@@ -1809,6 +1809,11 @@ export interface components {
              * @description The whole configuration that is to become active.
              */
             image: string;
+            /**
+             * Image Sha512
+             * @description What of the image goes under the signature.
+             */
+            image_sha512: string;
         };
     };
     responses: never;

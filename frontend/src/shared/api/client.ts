@@ -1,7 +1,7 @@
 // The only door to HTTP. Every refusal becomes a Refusal, with the fields at fault.
 import type { paths } from '$generated/api'
 import createClient, { type Client } from 'openapi-fetch'
-import type { FieldProblem } from './types'
+import type { FieldProblem, Problem, TokenChallenge } from './types'
 
 /** Why a request did not succeed. status 0: the server did not answer at all. */
 export class Refusal extends Error {
@@ -10,6 +10,8 @@ export class Refusal extends Error {
     readonly code: string,
     detail: string,
     readonly errors: FieldProblem[] = [],
+    /** What the maker has to sign, when a token would do. */
+    readonly challenge: TokenChallenge | null = null,
   ) {
     super(detail)
   }
@@ -49,8 +51,8 @@ export async function bodyAndTag<T>(asked: Promise<Answer<T>>): Promise<[T, stri
 /** A Refusal from a status and whatever body came with it. */
 export function refusal(status: number, content: unknown): Refusal {
   if (content && typeof content === 'object' && 'detail' in content) {
-    const problem = content as { code?: string; detail?: unknown; errors?: FieldProblem[] }
-    return new Refusal(status, problem.code ?? 'error', String(problem.detail), problem.errors)
+    const { code = 'error', detail, errors, challenge } = content as Partial<Problem>
+    return new Refusal(status, code, String(detail), errors, challenge)
   }
   return new Refusal(status, 'error', `The server answered with status ${status}.`)
 }

@@ -106,8 +106,9 @@ export class ConfigDraft {
   }
 
   /** Writes the edits in one transaction and reads back what the unit has. confirm_s: 0 for good,
-      else for so many seconds on trial. Throws Refusal. */
-  async write(reason: string, confirm_s = 0): Promise<ConfigChange> {
+      else for so many seconds on trial. token: the maker's, if a refusal asked for one. Throws
+      Refusal. */
+  async write(reason: string, confirm_s = 0, token: string | null = null): Promise<ConfigChange> {
     const parameters = Object.fromEntries(this.changes.map((c) => [c.parameter.name, c.value]))
     const [result] = await this.server.writeConfig(
       this.device_id,
@@ -115,6 +116,7 @@ export class ConfigDraft {
       reason,
       this.tag,
       confirm_s,
+      token,
     )
     // An edit made while the write was on its way is not in the unit yet.
     const later = ([name, value]: [string, ParameterValue]) => {

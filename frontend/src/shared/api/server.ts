@@ -58,18 +58,20 @@ export class Server {
   }
 
   /** Writes parameters; `tag` is the ETag of the configuration the change was made for. confirm_s:
-      0 for good, else the unit returns after so many seconds unless it is confirmed. */
+      0 for good, else the unit returns after so many seconds unless it is confirmed. token: the
+      maker's, where a refusal asked for one. */
   writeConfig(
     id: string,
     parameters: Record<string, ParameterValue>,
     reason: string,
     tag: string,
     confirm_s = 0,
+    token: string | null = null,
   ): Promise<[ConfigChange, string]> {
     return bodyAndTag(
       this.http.PATCH('/api/v1/devices/{device_id}/config', {
         params: { path: { device_id: id }, header: { 'if-match': tag } },
-        body: { parameters, reason, confirm_s },
+        body: { parameters, reason, confirm_s, token },
       }),
     )
   }

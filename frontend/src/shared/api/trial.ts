@@ -8,17 +8,17 @@ export interface Trial {
   ends_ms: number
 }
 
-/** kept: it is for good. Else the unit is back at what it had, and why. */
-export type TrialEnd = 'kept' | 'reverted' | 'expired' | 'restarted'
+/** kept: it is for good. Else the unit is back at what it had, and why: as asked, its time ran
+    out, it was restarted or lost power, or it does not say. */
+export type TrialEnd = 'kept' | 'asked' | 'time_out' | 'restart' | 'unknown'
 
-const CLOCKS_DIFFER_MS = 1500 // the state is asked once a second, and both ends round
-
-/** The trial that runs in a unit now; null without one. */
-export function trialOf(device: Device | null): Trial | null {
+/** The trial that runs in a unit now; null without one. The end is counted from the time left, so
+    that a reader's clock need not agree with the server's. */
+export function trialOf(device: Device | null, now_ms: number): Trial | null {
   const config = device?.config
-  if (!device || config?.state !== 'provisional' || !config.expires_at) return null
-  const { generation, crc32 } = config
-  return { device_id: device.id, generation, crc32, ends_ms: Date.parse(config.expires_at) }
+  if (!device || config?.state !== 'provisional' || config.remaining_s === null) return null
+  const { generation, crc32, remaining_s } = config
+  return { device_id: device.id, generation, crc32, ends_ms: now_ms + remaining_s * 1000 }
 }
 
 /** Whether a unit answers and no longer has this trial. */
@@ -27,19 +27,10 @@ export function isOver(trial: Trial, device: Device | null): boolean {
   return device.config?.state === 'committed'
 }
 
-/** What became of a trial. revisions: newest first; a return that was asked for is one of them. */
-export function endOf(
-  trial: Trial,
-  device: Device,
-  revisions: readonly Revision[],
-  now_ms: number,
-): TrialEnd {
-  const crc32 = device.config?.crc32
-  if (crc32 === trial.crc32) return 'kept'
-  const newest = revisions[0]
-  const asked = newest?.crc32 === crc32 && newest?.state !== 'provisional'
-  if (asked && revisions[1]?.crc32 === trial.crc32) return 'reverted'
-  return now_ms >= trial.ends_ms - CLOCKS_DIFFER_MS ? 'expired' : 'restarted'
+/** What became of a trial, by the unit's own word. */
+export function endOf(trial: Trial, device: Device): TrialEnd {
+  if (device.config?.crc32 === trial.crc32) return 'kept'
+  return device.config?.rollback_cause ?? 'unknown'
 }
 
 /** What was written on trial; null when this Spindle did not write it. */

@@ -207,13 +207,37 @@ export const en = {
   'trial.revert': 'Revert',
   'trial.kept': 'Kept: what was on trial is in the unit for good.',
   'trial.over': 'The trial is over',
-  'trial.reverted': 'Reverted: the unit has again what it had before the trial.',
-  'trial.expired':
-    'The time of the trial ran out: the unit returned to what it had before ' +
-    '(generation {generation}).',
-  'trial.restarted':
-    'The trial was cut short, by a restart of the unit or by another tool: the unit returned to ' +
-    'what it had before (generation {generation}).',
+  'trial.asked': 'Reverted as asked: the unit has again what it had before the trial.',
+  'trial.time_out':
+    'The time of the trial ran out and nobody kept it: the unit has again what it had before.',
+  'trial.restart':
+    'The unit was restarted or lost power during the trial: it has again what it had before.',
+  'trial.unknown_end':
+    'The trial is over, and the unit does not say why: it has not kept what was on trial.',
+
+  'ratchet.known': "goes down freely, up again only with the maker's token",
+  'ratchet.lowered':
+    "Can be lowered freely; raising it again needs the maker's token. On trial it goes back by " +
+    'itself.',
+  'ratchet.raised': "Raising it needs the maker's token: the unit will ask for it.",
+  'unlock.title': 'Token of the maker',
+  'unlock.explain':
+    'Hand the challenge to the maker of the unit, who signs it with “spindle unlock sign”. The ' +
+    'token is for this unit and exactly this change, and for one attempt.',
+  'unlock.nonce': 'Number of this challenge',
+  'unlock.hash': 'SHA-512 of the configuration',
+  'unlock.holds': 'Holds',
+  'unlock.left': 'for {time} more',
+  'unlock.over': 'no longer: ask for a new challenge',
+  'unlock.renew': 'Ask for a new challenge',
+  'unlock.challenge': 'Challenge for the maker',
+  'unlock.copy': 'Copy',
+  'unlock.copied': 'The challenge is in the clipboard.',
+  'unlock.save': 'Save as a file',
+  'unlock.token': 'Token from the maker',
+  'unlock.file': 'Token from a file…',
+  'unlock.not_token': 'This is no token: it has 144 characters from 0 to 9 and a to f.',
+  'unlock.write': 'Write with the token',
 
   'sensor.side_by_side': 'Raw counts and torque side by side',
   'sensor.parameters': 'Calibration in the unit',

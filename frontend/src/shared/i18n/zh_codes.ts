@@ -22,6 +22,9 @@ const violation = {
   not_a_choice: '不在可选范围内',
   not_text: '不是单元能显示的文字',
   taper_order: '必须大于衰减开始的速度',
+  token_needed: '调高此限值需要制造商的令牌',
+  access_denied: '只有制造商可以修改',
+  not_accepted: '不接受此值',
 }
 
 const refusal = {
@@ -35,6 +38,12 @@ const refusal = {
   out_of_range: '有数值超出允许范围。',
   config_changed: '期间有人修改了单元的配置。请重新读取，核对后再写入。',
   access_denied: '此参数需要更高的权限。',
+  token_needed: '此修改需要制造商的令牌。没有写入任何内容。',
+  token_refused:
+    '单元拒绝此令牌：它属于另一单元、另一次修改、另一质询，或用了另一密钥。请重新写入以获取新的质询。',
+  token_expired: '此令牌对应的质询已失效：有效期一分钟，只能尝试一次。请重新写入以获取新的质询。',
+  token_delay: '之前有过错误的令牌，单元暂不接受令牌。请稍候再写入。',
+  no_token: '这不是令牌。',
   not_standing_still: '车轮或电机在转动。请先停车。',
   conflict: '当前状态不允许此操作。',
   not_found: '没有找到所指的设备、骑行或文件。',

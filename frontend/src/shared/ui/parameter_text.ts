@@ -1,6 +1,7 @@
 // Words for parameters: labels, elements, choices, faults and differences, in the reader's units.
 import type { DraftChange, ConfigDraft } from '../api/config_draft.svelte'
 import { faultsOf, walk, type Fault } from '../api/limits'
+import { ratchetMove, type RatchetMove } from '../api/ratchet'
 import type { Parameter, ParameterValue } from '../api/types'
 import type { Locale } from '../i18n/locale.svelte'
 import type { Units } from '../units/units.svelte'
@@ -14,6 +15,8 @@ export interface ElementChange {
   value: string
   range: string
   fault: string | null
+  /** For a limit that only a token brings up: which way it goes. */
+  ratchet: RatchetMove | null
 }
 
 /** What a parameter is called; a new one is called by its name in words. */
@@ -90,6 +93,7 @@ export function elementChanges(
       value: elementText(locale, units, parameter, element),
       range: rangeText(parameter, units),
       fault: fault ? faultText(locale, units, fault, parameter.unit) : null,
+      ratchet: ratchetMove(parameter.name, old ?? null, element),
     })
   })
   return found
