@@ -1,5 +1,5 @@
-"""Goal: a limit that only goes down says so before it is written, and goes up again with the maker's
-token and nothing but the page and the maker's own tool.
+"""Goal: a limit that only goes down says so before it is written, and goes up again with the
+maker's token and nothing but the page and the maker's own tool.
 """
 
 from __future__ import annotations
