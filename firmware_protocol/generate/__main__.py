@@ -4,7 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from firmware_protocol.generate import c_header, c_source, python, spec, typescript
+from firmware_protocol.generate import a2l, c_header, c_source, python, spec, typescript, wireshark
 from firmware_protocol.generate.registry import load
 from firmware_protocol.generate.schema import compress, schema_hash
 
@@ -20,6 +20,7 @@ def outputs(root: Path) -> dict[Path, str]:
     compressed = compress(registry.schema, committed)
     digest = schema_hash(registry.schema)
     spec_file = folder / "SPEC.md"
+    logic = (folder / "generate" / "dissector.lua").read_text(encoding="utf-8")
     return {
         folder / "c" / "ebl_registry.h": c_header.header(registry, len(compressed)),
         folder / "c" / "ebl_registry.c": c_source.registry_source(registry),
@@ -27,6 +28,8 @@ def outputs(root: Path) -> dict[Path, str]:
         schema_file: c_source.schema_source(compressed, digest),
         folder / "_generated.py": python.module(registry, digest),
         root / "frontend/src/generated/registry.ts": typescript.module(registry),
+        folder / "wireshark" / "ebl.lua": wireshark.dissector(registry, logic),
+        folder / "a2l" / "ebl.a2l": a2l.description(registry, digest),
         spec_file: spec.filled(spec_file.read_text(encoding="utf-8"), registry),
     }
 
