@@ -33,11 +33,13 @@ from backend.services.record import Recorder
 from backend.services.remember import UnitMemory
 from backend.services.replay import RideReplay
 from backend.services.review import Rides
+from backend.services.try_live import LiveTuning
 from backend.services.tune import Tuning
 from backend.services.upload import Uploads, UploadSettings
 from backend.services.watch import Watch
 from backend.settings import CHECKOUT, Settings
 from backend.store import open_store
+from backend.store.schemas import SchemaFiles
 
 LOG = logging.getLogger(__name__)
 # An open WebSocket or a long download must not hold a stopping server back.
@@ -62,7 +64,9 @@ def open_services(settings: Settings) -> Iterator[Services]:
     with contextlib.ExitStack() as closing:
         store = open_store(settings.db, settings.objects)
         closing.callback(store.close)
-        devices = Devices(flash_folder=settings.data / "units")
+        devices = Devices(
+            flash_folder=settings.data / "units", schemas=SchemaFiles(settings.data / "schemas")
+        )
         tuning = Tuning(devices, store.revisions)
         memory = UnitMemory(devices, store.revisions, tuning.note_trial_end)
         closing.callback(memory.close)
@@ -87,6 +91,7 @@ def open_services(settings: Settings) -> Iterator[Services]:
             devices=devices,
             watch=Watch(devices),
             tuning=tuning,
+            live=LiveTuning(devices),
             preview=preview,
             rides=Rides(store, RideReplay(preview, memory.ride_config)),
             uploads=uploads,

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from backend.services.connect import Devices
     from backend.services.preview import Preview
     from backend.services.review import Rides
+    from backend.services.try_live import LiveTuning
     from backend.services.tune import Tuning
     from backend.services.upload import Uploads
     from backend.services.watch import Watch
@@ -26,6 +27,7 @@ class Services:
     devices: Devices
     watch: Watch
     tuning: Tuning
+    live: LiveTuning
     preview: Preview
     rides: Rides
     uploads: Uploads

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from backend import __version__
-from backend.cli import device, device_log, law, ride, serve, unlock
+from backend.cli import device, device_live, device_log, law, ride, serve, unlock
 
 
 def build_parser() -> argparse.ArgumentParser:
@@ -57,7 +57,9 @@ def _group(verbs: Any, name: str, words: str) -> Any:
 
 
 def _add_device(verbs: Any) -> None:
-    group = _group(verbs, "device", "units: list, show, get, set, backup, restore, diff, logs")
+    group = _group(
+        verbs, "device", "units: list, show, get, set, backup, restore, diff, try, service, logs"
+    )
     unit = "id or serial number; may be left out when there is only one unit"
     _asking(group, "list", device.list_devices, help="every unit and its state")
     _asking(group, "add", device.add, help="open a unit").add_argument("url")
@@ -81,6 +83,12 @@ def _add_device(verbs: Any) -> None:
     command = _asking(group, "diff", device.diff, help="a backup against the unit, or another")
     command.add_argument("file", type=Path)
     command.add_argument("other", nargs="?", help="another backup's file, or a unit")
+    command = _asking(group, "try", device_live.try_values, help="values, until their time is over")
+    command.add_argument("words", nargs="*", metavar="[UNIT] NAME=VALUE", help=unit)
+    command.add_argument("--seconds", type=int, default=60, help="1 to 255 (60)")
+    command.add_argument("--end", action="store_true", help="end what is tried")
+    command = _asking(group, "service", device_live.service, help="distance, hours, flash wear")
+    command.add_argument("unit", nargs="?", help=unit)
     command = _asking(group, "logs", device_log.list_logs, help="rides in the unit's own flash")
     command.add_argument("unit", nargs="?", help=unit)
     command = _asking(group, "download", device_log.download, help="make a log of the unit a ride")

@@ -18,6 +18,7 @@ from typing import Protocol, TypeVar
 
 from backend.device.log_download import LogReceiver
 from backend.device.operation import Operation
+from backend.device.schema import Schemas
 from backend.device.session import Session
 from backend.device.snapshot import DeviceStatus, status_of
 from backend.device.states import ACQUAINTED, DeviceEvent, LinkState
@@ -67,7 +68,7 @@ class Driver:
     """A device's thread.
 
     opener: how to get to the unit. listener: called on this thread with every event; it must not
-    wait. reopen_when_deaf: False where a silent unit is better left alone.
+    wait. reopen_when_deaf: False where a silent unit is better left alone. schemas: as in Session.
     """
 
     def __init__(
@@ -76,11 +77,12 @@ class Driver:
         listener: Listener,
         plan: StreamPlan | None = None,
         reopen_when_deaf: bool = True,
+        schemas: Schemas | None = None,
     ) -> None:
         self._opener = opener
         self._listener = listener
         self._reopen_when_deaf = reopen_when_deaf
-        self._session = Session(time.monotonic(), plan)
+        self._session = Session(time.monotonic(), plan, schemas)
         self._link: Link | None = None
         self._unsent = b""
         self._open_at_s = 0.0

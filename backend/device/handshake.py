@@ -1,22 +1,20 @@
 """Becoming acquainted: HELLO, the version, the schema (protocol page, 4.3 Connect).
 
 A unit whose schema is the one this program was built with can be read and written. Another schema
-is read from the unit and proven by its hash; what both know by id is shown, writing stays off.
+is taken from those known or read from the unit, and proven by its hash. Where it means the same to
+us, the unit is like any other; else what both know is shown, and writing stays off.
 """
 
 from __future__ import annotations
 
-import hashlib
-import json
-import zlib
 from dataclasses import dataclass
-from typing import Any
 
 from backend.device.config_trial import TrialStatus, trial_status
 from backend.device.identity import Identity
 from backend.device.operation import Operation, ask, attempt, expect
 from backend.device.refusals import refused
-from backend.errors import DeviceRefused, PeerProtocolError
+from backend.device.schema import Schemas, differences, known_schema, shared_channels
+from backend.errors import DeviceRefused, NoAnswer, PeerProtocolError
 from firmware_protocol._generated import (
     CHANNELS,
     MAJOR,
@@ -27,18 +25,13 @@ from firmware_protocol._generated import (
     EvtFaultListResponse,
     HelloRequest,
     HelloResponse,
-    SchemaReadRequest,
-    SchemaReadResponse,
     Status,
 )
 from firmware_protocol.layout import Channel
 
 HELLO_ATTEMPTS = 5
-# Bounds what a broken unit can make us read and unpack; ours is 3 KB compressed, 24 KB as text.
-SCHEMA_COMPRESSED_BYTES_MAX = 65536
-SCHEMA_TEXT_BYTES_MAX = 1_000_000
-# Status, detail or total length, header and CRC of a response beside the data.
-RESPONSE_OVERHEAD_BYTES = 16
+# What a person can take in; the rest is counted.
+DIFFERENCES_TOLD = 3
 
 
 class VersionRefused(PeerProtocolError):
@@ -63,26 +56,16 @@ class Acquaintance:
     trial: TrialStatus | None
 
 
-def become_acquainted(host_nonce: bytes) -> Operation[Acquaintance]:
-    """HELLO, version, schema, faults, trial. Raises NoAnswer, VersionRefused, DeviceRefused."""
+def become_acquainted(host_nonce: bytes, schemas: Schemas) -> Operation[Acquaintance]:
+    """HELLO, version, schema, faults, trial. Raises NoAnswer, VersionRefused, DeviceRefused.
+
+    schemas: those known from before; one that is read is added.
+    """
     hello = yield from _hello(host_nonce)
     reason: str | None = None
     channels: tuple[Channel, ...] = CHANNELS
     if hello.schema_hash != SCHEMA_HASH:
-        try:
-            schema = yield from read_schema(hello)
-            channels = shared_channels(schema)
-            reason = (
-                f"The unit's description {hello.schema_hash.hex()} is not the one of this Spindle "
-                f"({SCHEMA_HASH.hex()}). Live values that both know are shown; to change settings, "
-                "use the Spindle that belongs to its firmware, or update one of them."
-            )
-        except (DeviceRefused, PeerProtocolError) as error:
-            channels = ()
-            reason = (
-                f"The unit's description {hello.schema_hash.hex()} is unknown and could not be "
-                f"read from it: {error.message} Nothing is shown rather than something wrong."
-            )
+        reason, channels = yield from _other_schema(hello, schemas)
     faults = 0
     trial = None
     if reason is None:
@@ -90,58 +73,37 @@ def become_acquainted(host_nonce: bytes) -> Operation[Acquaintance]:
     return Acquaintance(hello, Identity.from_hello(hello), reason, channels, faults, trial)
 
 
+def _other_schema(
+    hello: HelloResponse, schemas: Schemas
+) -> Operation[tuple[str | None, tuple[Channel, ...]]]:
+    """Why a unit of another schema is only looked at, None if it is not, and its channels."""
+    name = hello.schema_hash.hex()
+    try:
+        schema = yield from known_schema(hello, schemas)
+    except VersionRefused:
+        raise
+    except (DeviceRefused, PeerProtocolError, NoAnswer) as error:
+        return (
+            f"The unit's description {name} is unknown and could not be read from it: "
+            f"{error.message} Nothing is shown rather than something wrong, and nothing can be "
+            "changed. Connect again, or use the Spindle that belongs to its firmware."
+        ), ()
+    wrong = differences(schema)
+    if not wrong:
+        return None, shared_channels(schema)
+    more = f" and {len(wrong) - DIFFERENCES_TOLD} more" if len(wrong) > DIFFERENCES_TOLD else ""
+    return (
+        f"The unit's description {name} is not the one of this Spindle ({SCHEMA_HASH.hex()}): "
+        f"{'; '.join(wrong[:DIFFERENCES_TOLD])}{more}. Live values that both know are shown; to "
+        "change settings, use the Spindle that belongs to its firmware, or update one of them."
+    ), shared_channels(schema)
+
+
 def unit_state() -> Operation[tuple[int, TrialStatus]]:
     """What the unit's events would have told: its active faults, and its configuration."""
     listed = yield from ask(EvtFaultListRequest(), EvtFaultListResponse)
     trial = yield from trial_status()
     return listed.fault_flags, trial
-
-
-def read_schema(hello: HelloResponse) -> Operation[dict[str, Any]]:
-    """The schema the unit was built with, proven by its hash. Raises PeerProtocolError."""
-    piece = min(hello.tx_mtu, MTU) - RESPONSE_OVERHEAD_BYTES
-    compressed = b""
-    total = 1
-    while len(compressed) < total:
-        part = yield from ask(SchemaReadRequest(len(compressed), piece), SchemaReadResponse)
-        total = part.total_length
-        if not part.data or total > SCHEMA_COMPRESSED_BYTES_MAX:
-            raise PeerProtocolError(
-                f"Its length of {total} bytes is not what it sends; its firmware is damaged."
-            )
-        compressed += part.data
-    return unpack_schema(compressed[:total], hello.schema_hash)
-
-
-def unpack_schema(compressed: bytes, schema_hash: bytes) -> dict[str, Any]:
-    """Decompress and prove a schema. Raises PeerProtocolError when it is not the promised one."""
-    unpacker = zlib.decompressobj()
-    try:
-        text = unpacker.decompress(compressed, SCHEMA_TEXT_BYTES_MAX)
-        found = hashlib.sha256(text).digest()[: len(schema_hash)]
-        if found != schema_hash:
-            raise PeerProtocolError(
-                f"It promised {schema_hash.hex()} and sent {found.hex()}; its firmware is damaged."
-            )
-        schema = json.loads(text)
-    except (zlib.error, UnicodeDecodeError, json.JSONDecodeError) as error:
-        raise PeerProtocolError(f"It is not readable ({error}).") from error
-    if not isinstance(schema, dict):
-        raise PeerProtocolError("It is not a table.")
-    return schema
-
-
-def shared_channels(schema: dict[str, Any]) -> tuple[Channel, ...]:
-    """The registry's channels that a unit's schema has with the same id, unit and scale."""
-    rows = schema.get("channel", [])
-    theirs = {row["id"]: row for row in rows if isinstance(row, dict) and "id" in row}
-    return tuple(
-        channel
-        for channel in CHANNELS
-        if channel.id in theirs
-        and theirs[channel.id].get("unit") == channel.unit
-        and theirs[channel.id].get("scale") == channel.scale
-    )
 
 
 def _hello(host_nonce: bytes) -> Operation[HelloResponse]:

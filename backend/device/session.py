@@ -38,6 +38,7 @@ from backend.device.reasons import (
 )
 from backend.device.requests import RequestTable
 from backend.device.runner import OnError, OnResult, OperationRunner
+from backend.device.schema import Schemas
 from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.statistics import LinkStatistics
 from backend.device.stream import RENEW_S, StreamBlock, StreamPlan, StreamStarted
@@ -99,10 +100,13 @@ class _Phase(Enum):
 class Session:
     """One unit as the host sees it.
 
-    plan: what to stream as soon as the unit is acquainted, None for nothing.
+    plan: what to stream as soon as the unit is acquainted, None for nothing. schemas: those of
+    units met before, by their hash; one that is read is added.
     """
 
-    def __init__(self, now_s: float, plan: StreamPlan | None = None) -> None:
+    def __init__(
+        self, now_s: float, plan: StreamPlan | None = None, schemas: Schemas | None = None
+    ) -> None:
         self.state = LinkState.CONNECTING
         self.reason = "The port is being opened."
         self.acquaintance: Acquaintance | None = None
@@ -113,6 +117,7 @@ class Session:
         # Unix time minus the caller's clock, so that blocks carry a wall time without a clock here.
         self.wall_offset_us = 0
         self._plan = plan
+        self._schemas: Schemas = {} if schemas is None else schemas
         self._statistics = LinkStatistics()
         self._subscription = Subscription(self._statistics)
         self._requests = RequestTable(self._statistics)
@@ -333,9 +338,13 @@ class Session:
         self._phase = _Phase.GREETING
         self._boot_heard = None
         self._requests.open(outstanding_max=1)
-        self._runner.start(become_acquainted(self._nonce), self._acquainted, self._not_acquainted)
+        self._runner.start(
+            become_acquainted(self._nonce, self._schemas), self._acquainted, self._not_acquainted
+        )
 
     def _acquainted(self, acquaintance: Acquaintance) -> None:
+        if self._phase is not _Phase.GREETING:
+            return
         self.acquaintance = acquaintance
         if self._is_another_life():
             self._greet()

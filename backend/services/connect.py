@@ -20,10 +20,12 @@ from backend.device.live_values import LiveValues, ask_values, last_values
 from backend.device.log_download import LogReceiver
 from backend.device.operation import Operation
 from backend.device.ports import Opener, PortInfo, kind_of, list_ports
+from backend.device.schema import Schemas
 from backend.device.simulation import simulation_get, simulation_set
 from backend.device.snapshot import DeviceStatus
 from backend.device.states import DeviceEvent, LinkState
 from backend.device.stream import StreamPlan
+from backend.device.upkeep import Upkeep, read_upkeep
 from backend.errors import Conflict, DeviceRefused, InvalidRequest, NotFound
 from backend.services.device_view import ConfigStamp, DeviceView, FaultView
 
@@ -88,7 +90,8 @@ class Devices:
     """Every unit that was added and not removed, whatever its state. For any thread.
 
     flash_folder: where simulated units keep their configuration between runs, None for nowhere.
-    plan: what is streamed from each unit. opener: how a url becomes a link.
+    plan: what is streamed from each unit. opener: how a url becomes a link. schemas: where
+    descriptions of units with another firmware are kept.
     """
 
     def __init__(
@@ -96,8 +99,10 @@ class Devices:
         flash_folder: Path | None = None,
         plan: StreamPlan | None = StreamPlan(),  # noqa: B008 - frozen
         opener: Callable[[str], LinkOpener] | None = None,
+        schemas: Schemas | None = None,
     ) -> None:
         self._plan = plan
+        self._schemas: Schemas = {} if schemas is None else schemas
         self._opener = opener or (lambda url: Opener(url, flash_folder))
         self._lock = threading.Lock()
         self._devices: dict[str, _Device] = {}  # by url
@@ -203,6 +208,18 @@ class Devices:
         """Everything that is known of a device's link and unit. Raises NotFound."""
         return self._find(device_id).driver.status()
 
+    def writable(self, device_id: str) -> DeviceStatus:
+        """As `status`, of a unit whose settings we understand. Raises Conflict with the reason."""
+        status = self.status(device_id)
+        if status.state is LinkState.READ_ONLY:
+            raise Conflict(status.reason, "read_only")
+        return status
+
+    def upkeep(self, device_id: str) -> Upkeep:
+        """What the unit knows of its own wear. Raises NotFound, Conflict, NoAnswer."""
+        self.writable(device_id)
+        return self.run(device_id, read_upkeep())
+
     def run(
         self, device_id: str, operation: Operation[Result], timeout_s: float = OPERATION_TIMEOUT_S
     ) -> Result:
@@ -248,6 +265,7 @@ class Devices:
             lambda event: self._tell(device, event),
             self._plan,
             reopen_when_deaf=kind != "simulated",
+            schemas=self._schemas,
         )
         self._devices[url] = device
         device.driver.start()

@@ -36,7 +36,6 @@ from backend.device.parameters import (
     unknown_names,
 )
 from backend.device.snapshot import DeviceStatus
-from backend.device.states import LinkState
 from backend.device.unlock import Token, token_from
 from backend.domain.revision import Revision
 from backend.errors import (
@@ -306,10 +305,7 @@ class Tuning:
             return self._writing[unit_id]
 
     def _read(self, device_id: str) -> ConfigImage:
-        status = self._devices.status(device_id)
-        if status.state is LinkState.READ_ONLY:
-            raise Conflict(status.reason, "read_only")
-        return self._devices.run(device_id, read_config(status.mtu))
+        return self._devices.run(device_id, read_config(self._devices.writable(device_id).mtu))
 
     def _commit(
         self,

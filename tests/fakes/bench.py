@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from typing import Any, Protocol, TypeVar
 
 from backend.device.operation import Operation
+from backend.device.schema import Schemas
 from backend.device.session import Session
 from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.stream import StreamBlock, StreamPlan
@@ -39,10 +40,12 @@ def bytewise(data: bytes) -> Iterable[bytes]:
 class Bench:
     """Runs a session against a unit; `to_unit` and `to_host` may harm what passes."""
 
-    def __init__(self, unit: Unit, plan: StreamPlan | None = None) -> None:
+    def __init__(
+        self, unit: Unit, plan: StreamPlan | None = None, schemas: Schemas | None = None
+    ) -> None:
         self.unit = unit
         self.now_s = 100.0
-        self.session = Session(self.now_s, plan)
+        self.session = Session(self.now_s, plan, schemas)
         self.events: list[DeviceEvent] = []
         self.split: Callable[[bytes], Iterable[bytes]] = whole
         self.to_unit: Callable[[bytes], bytes] = lambda data: data

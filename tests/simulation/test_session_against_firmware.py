@@ -17,6 +17,7 @@ from backend.device.config_trial import confirm_config, rollback_config, trial_s
 from backend.device.fault_frames import clear_faults, fault_frames
 from backend.device.live_values import ask_values
 from backend.device.operation import ask
+from backend.device.schema import differences, unpack_schema
 from backend.device.simulation import simulation_get, simulation_set
 from backend.device.states import LinkState
 from backend.device.stream import BATCH_DEFAULT, StreamPlan
@@ -29,7 +30,13 @@ from backend.errors import (
     NotStandingStill,
     PeerProtocolError,
 )
-from firmware_protocol._generated import CHANNELS, PARAMETERS, TimSyncRequest, TimSyncResponse
+from firmware_protocol._generated import (
+    CHANNELS,
+    PARAMETERS,
+    SCHEMA_HASH,
+    TimSyncRequest,
+    TimSyncResponse,
+)
 from firmware_protocol.codec import Event, decode
 from firmware_protocol.framing import FrameDecoder, encode_frame
 from firmware_protocol.layout import Value
@@ -233,11 +240,14 @@ def test_the_firmware_s_own_description_is_read_and_proven(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(handshake, "SCHEMA_HASH", b"not this")
-    bench = bench_with(LockstepUnit(seed=1), StreamPlan()).connect()
+    schemas: dict[str, bytes] = {}
+    bench = Bench(LockstepAsUnit(LockstepUnit(seed=1)), StreamPlan(), schemas).connect()
     bench.run(1.0)
 
-    assert bench.session.state is LinkState.READ_ONLY
-    assert "is not the one of this Spindle" in bench.session.reason
+    # What it says of itself means what ours says, so it is a unit like any other.
+    assert list(schemas) == [SCHEMA_HASH.hex()]
+    assert differences(unpack_schema(schemas[SCHEMA_HASH.hex()], SCHEMA_HASH)) == []
+    assert bench.session.state is LinkState.READY
     assert bench.blocks()[0].values.shape == (BATCH_DEFAULT, len(CHANNELS))
 
 

@@ -150,6 +150,21 @@ def test_wrong_usage_ends_with_two(server: SpindleServer, words: list[str]) -> N
     assert "sim_device" not in result.stderr
 
 
+def test_values_are_tried_and_wear_is_told(server: SpindleServer) -> None:
+    tried = spindle(server, "device", "try", "pedal_stop_ms=222", "--seconds", "200", "--json")
+    told = spindle(server, "device", "try")
+    ended = spindle(server, "device", "try", "--end")
+    wear = spindle(server, "device", "service", "--json")
+    wrong = spindle(server, "device", "try", "pedal_stop_ms=99999")
+
+    assert json.loads(tried.stdout)["parameters"] == {"pedal_stop_ms": 222}
+    assert "pedal_stop_ms" in told.stdout
+    assert "Nothing is tried" in ended.stdout
+    assert len(json.loads(wear.stdout)["config_slots"]) == 2
+    assert wrong.returncode == 1
+    assert "pedal_stop_ms" in wrong.stderr
+
+
 def test_scenarios_run_without_a_server() -> None:
     listed = spindle(None, "scenario", "list")
     run = spindle(None, "scenario", "run", "kinematics", "--json", "--set", "speed_kmh=25")

@@ -65,6 +65,21 @@ class ConfigPatch(Question):
     )
 
 
+class LiveRequest(Question):
+    """Values to try at once, in the unit's memory alone."""
+
+    parameters: Parameters = Field(min_length=1, max_length=400)
+    ttl_s: int = Field(ge=1, le=255, description="The unit ends it after so many seconds.")
+
+
+class Live(Answer):
+    """What is tried on top of the configuration: the values in force that differ from it."""
+
+    parameters: Parameters
+    remaining_s: float | None
+    expires_at: datetime | None
+
+
 class Change(Answer):
     name: str
     old: ParameterValue | None

@@ -120,6 +120,26 @@ class FaultList(Answer):
     next: str | None = None
 
 
+class ConfigSlot(Answer):
+    """One of the two places in the unit's flash its configuration is kept."""
+
+    state: Literal["empty", "confirmed", "provisional", "void", "damaged", "unknown"]
+    generation: int
+    erases: int = Field(description="In the unit's life; this wears it.")
+    active: bool
+
+
+class Upkeep(Answer):
+    """What the unit knows of its own wear. What is not saved yet is lost with its supply."""
+
+    distance_m: int
+    operating_s: int
+    saved_distance_m: int
+    saved_operating_s: int
+    config_slots: list[ConfigSlot]
+    runs_on_default: bool = Field(description="Neither slot is good: the factory's values apply.")
+
+
 class SimulationRider(Answer):
     kind: RiderKind
     torque_nm: float

@@ -12,6 +12,8 @@ from backend.api.models.config import (
     Config,
     ConfigChange,
     ConfigPatch,
+    Live,
+    LiveRequest,
     ParameterList,
     RevisionList,
 )
@@ -90,6 +92,24 @@ def rollback_config(device_id: str, services: Provided, response: Response) -> A
 def list_revisions(device_id: str, services: Provided) -> dict[str, Any]:
     """Who changed what, when and why, newest first."""
     return {"items": services.tuning.revisions(device_id)}
+
+
+@router.get("/live", operation_id="get_live", response_model=Live)
+def get_live(device_id: str, services: Provided) -> Any:
+    """What is tried in the unit's memory now, and until when."""
+    return services.live.read(device_id)
+
+
+@router.post("/live", operation_id="set_live", response_model=Live)
+def set_live(device_id: str, body: LiveRequest, services: Provided) -> Any:
+    """Tries values at once, standing or moving; a restart, a commit or the time ends it."""
+    return services.live.set(device_id, cast("dict[str, Any]", body.parameters), body.ttl_s)
+
+
+@router.delete("/live", operation_id="end_live", response_model=Live)
+def end_live(device_id: str, services: Provided) -> Any:
+    """Ends what is tried: the law runs on the configuration again."""
+    return services.live.end(device_id)
 
 
 @router.get("/fuzzy-table", operation_id="get_fuzzy_table", response_model=FuzzyTable)

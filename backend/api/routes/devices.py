@@ -17,6 +17,7 @@ from backend.api.models.device import (
     SimulationAdvance,
     SimulationChange,
     Snapshot,
+    Upkeep,
 )
 from backend.api.problem import refusals
 from backend.api.services import Provided
@@ -81,6 +82,12 @@ def remove_device(device_id: str, services: Provided) -> None:
 def get_snapshot(device_id: str, services: Provided) -> Any:
     """The newest value of every channel, asked of the unit."""
     return services.devices.snapshot(device_id)
+
+
+@router.get("/devices/{device_id}/service", operation_id="get_service", response_model=Upkeep)
+def get_service(device_id: str, services: Provided) -> Any:
+    """How far and how long the unit ran, and how worn the flash of its configuration is."""
+    return services.devices.upkeep(device_id)
 
 
 @router.get("/devices/{device_id}/faults", operation_id="list_faults", response_model=FaultList)

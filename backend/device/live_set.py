@@ -1,0 +1,140 @@
+"""Values tried in a unit's memory alone: set for some seconds, looked at, ended.
+
+They are over the active configuration for the law, in no flash and in no checksum, moving or not;
+the unit ends them by itself, and with every change of its configuration.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from backend.device.config_transaction import MESSAGE_OVERHEAD_BYTES, read_config
+from backend.device.operation import Operation, ask, ask_all, attempt
+from backend.device.refusals import refused
+from backend.device.violations import unit_violations
+from backend.errors import AccessDenied, FieldError, LimitViolation, PeerProtocolError
+from firmware_protocol._generated import (
+    IMAGE_LENGTH,
+    MTU,
+    PARAMETER_BY_ID,
+    PARAMETERS,
+    CfgStatusRequest,
+    CfgStatusResponse,
+    LiveSetRequest,
+    ParamGetRequest,
+    ParamGetResponse,
+    Status,
+)
+from firmware_protocol.layout import Parameter, Value
+from firmware_protocol.parameters import ITEM_HEAD, set_items, unpack_image
+
+TTL_S_MAX = 255
+
+
+@dataclass(frozen=True)
+class LiveState:
+    """What is tried now. parameters: those that differ from the configuration, by name, with the
+    value in force. left_s: until the unit ends it, 0 when nothing is tried."""
+
+    parameters: dict[str, Value]
+    left_s: float
+
+
+def read_live(mtu: int = MTU) -> Operation[LiveState]:
+    """What is tried, asked of the unit. Raises NoAnswer, DeviceRefused, PeerProtocolError."""
+    status = yield from ask(CfgStatusRequest(), CfgStatusResponse)
+    if status.live_left_ms == 0:
+        return LiveState({}, 0.0)
+    config = yield from read_config(mtu)
+    in_force = yield from values_in_force(mtu)
+    tried = {name: in_force[name] for name in in_force if in_force[name] != config.parameters[name]}
+    return LiveState(tried, status.live_left_ms / 1000.0)
+
+
+def values_in_force(mtu: int = MTU) -> Operation[dict[str, Value]]:
+    """Every parameter as the law uses it now. Raises PeerProtocolError for items that are none."""
+    groups = _groups(mtu - MESSAGE_OVERHEAD_BYTES)
+    requests = [
+        ParamGetRequest(b"".join(row.id.to_bytes(2, "little") for row in rows)) for rows in groups
+    ]
+    answers = yield from ask_all(requests, ParamGetResponse)
+    image = bytearray(IMAGE_LENGTH)
+    missing = {row.id for row in PARAMETERS}
+    for row, data in _items(b"".join(answer.items for answer in answers)):
+        image[row.image_offset : row.image_offset + row.size] = data
+        missing.discard(row.id)
+    if missing:
+        raise PeerProtocolError("The unit left parameters out that it was asked for.")
+    return unpack_image(bytes(image))
+
+
+def set_live(changes: Mapping[str, Value], ttl_s: int, mtu: int = MTU) -> Operation[LiveState]:
+    """Try values for `ttl_s` seconds over what is in force, and read them back.
+
+    changes: checked values by registry name. Raises LimitViolation, AccessDenied, DeviceRefused
+    with nothing more tried than before, PeerProtocolError naming what reads back different.
+    """
+    for items in set_items(changes, mtu - MESSAGE_OVERHEAD_BYTES):
+        request = LiveSetRequest(ttl_s, items)
+        response = yield from attempt(request)
+        if response.status == Status.INVALID_CONFIG:
+            fields = unit_violations(response.payload)
+            words = " ".join(field.message for field in fields)
+            raise LimitViolation(f"The unit refuses these values: {words}", fields=fields)
+        if response.status == Status.ACCESS:
+            raise AccessDenied(
+                "What the maker protects cannot be tried: it needs a token, and a token allows a "
+                "whole configuration. Write it as a change instead."
+            )
+        if response.status != Status.OK:
+            raise refused(request, response)
+    in_force = yield from values_in_force(mtu)
+    wrong = [
+        FieldError(name, "read_back_differs", f"{name} should be {value}, is {in_force[name]}.")
+        for name, value in changes.items()
+        if in_force[name] != value
+    ]
+    if wrong:
+        words = " ".join(field.message for field in wrong)
+        raise PeerProtocolError(
+            f"The unit tries something else than it was told: {words}", "read_back_differs", wrong
+        )
+    return (yield from read_live(mtu))
+
+
+def end_live() -> Operation[None]:
+    """End what is tried; nothing happens where nothing is."""
+    request = LiveSetRequest(0, b"")
+    response = yield from attempt(request)
+    if response.status != Status.OK:
+        raise refused(request, response)
+
+
+def _groups(length_max: int) -> Iterable[list[Parameter]]:
+    """Parameters whose items fit into one answer together."""
+    groups: list[list[Parameter]] = [[]]
+    length = 0
+    for row in PARAMETERS:
+        size = ITEM_HEAD.size + row.size
+        if groups[-1] and length + size > length_max:
+            groups.append([])
+            length = 0
+        groups[-1].append(row)
+        length += size
+    return groups
+
+
+def _items(data: bytes) -> Iterator[tuple[Parameter, bytes]]:
+    """Whole parameters in PARAM_GET's items. Raises PeerProtocolError."""
+    at = 0
+    while at < len(data):
+        row = None
+        if len(data) - at >= ITEM_HEAD.size:
+            identity, first, count = ITEM_HEAD.unpack_from(data, at)
+            row = PARAMETER_BY_ID.get(identity)
+        at += ITEM_HEAD.size
+        if row is None or (first, count) != (0, row.count) or len(data) - at < row.size:
+            raise PeerProtocolError("The unit's values in force cannot be read: an item is cut.")
+        yield row, data[at : at + row.size]
+        at += row.size
