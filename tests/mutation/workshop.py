@@ -28,25 +28,32 @@ PARTS = (
 )
 EXTENSION = "sim_device/firmware/python/_native.abi3.so"
 TESTS_SECONDS_MAX = 120
+# As many as the job has; a planted fault has to be found by them.
+SEEDS = 200
 # pytest's own codes: all passed, some failed.
 PASSED, FAILED = 0, 1
 
 
 @dataclass(frozen=True)
 class Break:
-    """One way to break the code, and the tests that notice."""
+    """One way to break the code, and who notices: tests, or the simulation's judge.
+
+    judged: part of what the judge says. seed: from which one on it is looked for.
+    """
 
     name: str
     file: str
     find: str
     replace: str
-    caught_by: tuple[str, ...]
+    caught_by: tuple[str, ...] = ()
+    judged: str = ""
+    seed: int = 1
 
 
 def breaks() -> list[Break]:
     """All of breaks.toml."""
     rows = tomllib.loads(Path(__file__).with_name("breaks.toml").read_text())["break"]
-    return [Break(**{**row, "caught_by": tuple(row["caught_by"])}) for row in rows]
+    return [Break(**{**row, "caught_by": tuple(row.get("caught_by", ()))}) for row in rows]
 
 
 class Workshop:
@@ -78,14 +85,26 @@ class Workshop:
         path.write_text(text.replace(one.find, one.replace))
         try:
             self._rebuild(path)
-            return self.tests(one.caught_by)
+            return self.tests(one.caught_by) if one.caught_by else self.simulation(one)
         finally:
             path.write_text(text)
             self._rebuild(path)
 
     def tests(self, files: tuple[str, ...]) -> subprocess.CompletedProcess[str]:
         """Run test files against the copy, until the first fails."""
-        command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *files]
+        options = ("-q", "-x", "-p", "no:cacheprovider")
+        return self._python("pytest", *options, *files)
+
+    def simulation(self, one: Break) -> subprocess.CompletedProcess[str]:
+        """Run seeds against the copy until one is broken; by something else does not count."""
+        done = self._python("tests.simulation", str(one.seed), str(SEEDS), "first")
+        noticed = done.returncode == FAILED and one.judged in done.stdout
+        return subprocess.CompletedProcess(
+            done.args, FAILED if noticed else PASSED, done.stdout, done.stderr
+        )
+
+    def _python(self, module: str, *arguments: str) -> subprocess.CompletedProcess[str]:
+        command = [sys.executable, "-m", module, *arguments]
         # A break may hang: the time limit then counts as noticed.
         try:
             return subprocess.run(

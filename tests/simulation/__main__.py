@@ -1,4 +1,7 @@
-"""Tells the story of a seed. Usage: python -m tests.simulation SEED [HOW_MANY]"""
+"""Tells the story of a seed. Usage: python -m tests.simulation SEED [HOW_MANY [first]]
+
+With `first` it ends at the first seed that is broken.
+"""
 
 import sys
 import time
@@ -9,6 +12,7 @@ from tests.simulation.workload import simulate
 def main() -> None:
     first = int(sys.argv[1]) if len(sys.argv) > 1 else 1
     count = int(sys.argv[2]) if len(sys.argv) > 2 else 1
+    first_only = sys.argv[3:] == ["first"]
     started_s = time.perf_counter()
     wrong = []
     for seed in range(first, first + count):
@@ -19,6 +23,8 @@ def main() -> None:
         if verdict.wrong is not None:
             wrong.append(seed)
             print(f"seed {seed}: {verdict.wrong}", flush=True)
+            if first_only:
+                break
     seconds = time.perf_counter() - started_s
     print(f"{count} seeds in {seconds:.1f} s; broken: {wrong or 'none'}")
     sys.exit(1 if wrong else 0)

@@ -14,6 +14,7 @@ BITS_PER_BYTE = 10
 # What an adapter holds; more falls out, as it does in a real one.
 BUFFER_BYTES_MAX = 4096
 RUN_BYTES_MAX = 40
+PIECES_MAX = 6
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,7 @@ class LinkFaults:
     duplicate_per_byte: float = 0.0
     """A run of 1 to 40 bytes arrives twice: a bridge repeats a packet."""
     split: float = 0.0
-    """Part of the deliveries that come byte by byte instead of in one piece."""
+    """Part of the deliveries that come in up to six pieces instead of one."""
     stall_per_s: float = 0.0
     """The line takes nothing for up to 3 s, then everything that waited comes at once."""
     delay_s: float = 0.0
@@ -40,6 +41,8 @@ class LinkFaults:
     """The unit restarts, in the middle of a frame if one is being sent."""
     brown_out_per_commit: float = 0.0
     """The supply fails at some byte of a flash write; the unit comes back a second later."""
+    brown_out_per_ride: float = 0.0
+    """The same in a write to the flash for ride logs."""
     unplug_per_s: float = 0.0
     """The cable is pulled for up to 3 s; what was on its way is gone."""
 
@@ -66,16 +69,20 @@ RANGES = {
     "half_open_per_s": (0.02, 0.15),
     "reset_per_s": (0.01, 0.1),
     "brown_out_per_commit": (0.1, 0.6),
+    "brown_out_per_ride": (0.3, 0.9),
     "unplug_per_s": (0.01, 0.1),
 }
+# How likely each fault is to be there: a seed is nearly calm, rough, or worse than any desk.
+LIKELY = (0.15, 0.35, 0.6)
 
 
 def draw_faults(chance: random.Random) -> LinkFaults:
     """The faults of one seed: each is there or not, and somewhere in its range."""
     rates = {}
+    likely = chance.choice(LIKELY)
     for name, (low, high) in RANGES.items():
         rate = low * (high / low) ** chance.random()
-        if chance.random() < 0.5:
+        if chance.random() < likely:
             rates[name] = rate
     return LinkFaults(**rates)
 
@@ -135,8 +142,15 @@ class FaultyWire:
         if not arrived:
             return []
         if self._chance.random() < self.faults.split:
-            return [bytes([byte]) for byte in arrived]
+            return self._split(bytes(arrived))
         return [bytes(arrived)]
+
+    def _split(self, data: bytes) -> list[bytes]:
+        """In pieces; what is short comes byte by byte."""
+        if len(data) <= PIECES_MAX:
+            return [bytes([byte]) for byte in data]
+        cuts = sorted(self._chance.sample(range(1, len(data)), PIECES_MAX - 1))
+        return [data[a:b] for a, b in zip([0, *cuts], [*cuts, len(data)], strict=True)]
 
     def _misfortune(self, now_s: float, step_s: float) -> None:
         faults, chance = self.faults, self._chance

@@ -14,13 +14,18 @@ from functools import cached_property
 from typing import Any
 
 from backend.device.config_transaction import ConfigImage
+from backend.device.config_trial import TrialStatus
 from backend.device.live_values import LiveValues
 from backend.device.stream import StreamBlock
 from firmware_protocol._generated import (
     CHANNELS,
+    PARAMETER_BY_NAME,
+    AuthChallengeResponse,
     Bank,
     CfgInfoRequest,
     CfgReadRequest,
+    MessageId,
+    Status,
     StreamCountsEvent,
     StrSnapshotResponse,
     StrSubscribeResponse,
@@ -29,7 +34,12 @@ from firmware_protocol.codec import Event, Request, Response, Stream, decode, en
 from firmware_protocol.framing import FrameDecoder, encode_frame
 from firmware_protocol.layout import MISSING, Message, Value
 from firmware_protocol.parameters import pack_image, unpack_image
+from sim_device.firmware.python.unit import LOG_BLOCK_LENGTH
 from sim_device.lockstep import LockstepUnit
+from tests.simulation.violation import Violation
+from tests.simulation.watch_logs import LogWatch
+from tests.simulation.watch_trials import TrialWatch
+from tests.simulation.watch_unlock import UnlockWatch
 
 # The configuration's two slots; the rest of the flash is not about configuration.
 SLOTS_BYTES = 2048
@@ -40,10 +50,6 @@ TORQUE_NOISE_NM = 1e-4
 SPEED_NOISE_KMH = 1e-3
 ANSWER_MS_MAX = 100
 NO_EPOCH = -1
-
-
-class Violation(AssertionError):
-    """A safety or liveness property does not hold."""
 
 
 @dataclass
@@ -61,11 +67,19 @@ class Generation:
 
 @dataclass
 class Intent:
-    """A write somebody asked for. outcome: None while it runs."""
+    """A write somebody asked for. outcome: None while it runs.
+
+    confirm_s: 0 for good, else on trial. keep_asked, return_asked: by its author. authorised: by
+    the maker.
+    """
 
     marker: str
     changes: Mapping[str, Value]
     outcome: str | None = None
+    confirm_s: int = 0
+    keep_asked: bool = False
+    return_asked: bool = False
+    authorised: bool = False
 
 
 @dataclass
@@ -80,10 +94,17 @@ class Watcher:
     """Safety checkers. Every method raises Violation with what was seen."""
 
     def __init__(self, unit: LockstepUnit) -> None:
-        self.generations: list[Generation] = [boot_twin(unit.unit.flash())]
+        flash = unit.unit.flash()
+        self.generations: list[Generation] = [boot_twin(flash)]
+        self.trials = TrialWatch()
+        self.lock = UnlockWatch(flash)
+        self.logs = LogWatch(unit.unit.log())
+        self.life = 1
+        self._flash = flash
+        self._log_changes = unit.unit.log_changes
         self.intents: dict[str, Intent] = {}
         self._unchanged_promised: set[str] = set()
-        self._slots = unit.unit.flash()[:SLOTS_BYTES]
+        self._slots = flash[:SLOTS_BYTES]
         self._decoder = FrameDecoder()
         self._rows: dict[int, list[tuple[int, bytes]]] = {}
         self._snapshots: set[tuple[int, bytes]] = set()
@@ -104,6 +125,9 @@ class Watcher:
         self._decoder = FrameDecoder()
         self._streams.clear()
         self._epoch = NO_EPOCH
+        self.life += 1
+        self._log_changes = -1
+        self.lock.restarted()
 
     def said(self, data: bytes) -> None:
         """Bytes the unit sent, as it sent them."""
@@ -117,10 +141,15 @@ class Watcher:
                 sent = self._streams.setdefault(self._epoch, _SentStream())
                 sent.told.append((stats.built, stats.dropped_tx))
             elif isinstance(message, Response):
-                self._response(message.message)
+                self._response(message)
 
-    def _response(self, answer: Message | None) -> None:
-        if isinstance(answer, StrSnapshotResponse):
+    def _response(self, response: Response) -> None:
+        answer = response.message
+        if response.message_id == MessageId.AUTH_RESPONSE and response.status == Status.AUTH_BAD:
+            self.lock.refused(response.detail)
+        if isinstance(answer, AuthChallengeResponse):
+            self.lock.challenged(answer)
+        elif isinstance(answer, StrSnapshotResponse):
             self._snapshots.add((answer.t_us, bytes(answer.values)))
         elif isinstance(answer, StrSubscribeResponse) and answer.epoch != self._epoch:
             self._epoch = answer.epoch
@@ -142,19 +171,49 @@ class Watcher:
 
     def looked(self, unit: LockstepUnit) -> Generation | None:
         """Look at the flash; the new configuration if there is one."""
-        slots = unit.unit.flash()[:SLOTS_BYTES]
+        if unit.unit.log_changes != self._log_changes:
+            self._log_changes = unit.unit.log_changes
+            self.logs.looked(unit.unit.log())
+        flash = unit.unit.flash()
+        if flash == self._flash and self.trials.current is None:
+            return None
+        unit_s = unit.unit.observe(("t_s",))["t_s"]
+        found = None
+        if flash != self._flash:
+            self._flash = flash
+            self.lock.looked(flash, unit_s)
+            found = self._slots_looked(flash, unit_s)
+        if unit.unit.powered:
+            self.trials.passed(unit_s, self.life)
+        return found
+
+    def _slots_looked(self, flash: bytes, unit_s: float) -> Generation | None:
+        slots = flash[:SLOTS_BYTES]
         if slots == self._slots:
             return None
         self._slots = slots
-        found = boot_twin(unit.unit.flash())
+        current = self.trials.current
+        trial = self.trials.looked(slots, unit_s, self.life)
+        if current is not None and current.ended is not None:
+            current.return_asked = self.intents[current.marker].return_asked
+            if current.ended == "asked" and not current.return_asked:
+                raise Violation(f"{current.marker} was given up; nobody asked and its time ran.")
+        if trial is not None:
+            intent = self._is_one_whole_write(self.active, Generation(trial.number, trial.image))
+            trial.marker, trial.confirm_s = intent.marker, intent.confirm_s
+            if not intent.confirm_s:
+                raise Violation(f"{intent.marker} is on trial; it was to be written for good.")
+        found = boot_twin(flash)
         before = self.active
         if found.image == before.image and found.number == before.number:
             return None
-        self._is_one_whole_write(before, found)
+        intent = self._is_one_whole_write(before, found)
+        if intent.confirm_s and not intent.keep_asked:
+            raise Violation(f"{intent.marker} would last; its author only tried it.")
         self.generations.append(found)
         return found
 
-    def _is_one_whole_write(self, before: Generation, found: Generation) -> None:
+    def _is_one_whole_write(self, before: Generation, found: Generation) -> Intent:
         if found.number != before.number + 1:
             raise Violation(f"Generation {before.number} became {found.number}.")
         marker = str(found.values[MARKER])
@@ -170,11 +229,18 @@ class Watcher:
                 f"{marker} is in the unit; its author was told {intent.outcome!r}, "
                 "which says that nothing changed."
             )
+        raised = raised_limits(before.values, found.values)
+        if raised and not intent.authorised:
+            raise Violation(f"{marker} raised {raised} without the maker's word for it.")
+        return intent
 
     def assist_is_within_limits(self, seen: Mapping[str, Any]) -> None:
         """The demand of this control step against the configurations it may be running on."""
-        running = [generation.values for generation in self.generations[-2:]]
         demand_nm = seen["motor_demand_nm"]
+        if demand_nm == 0.0:
+            return
+        running = [generation.values for generation in self.generations[-2:]]
+        running += self.trials.limits(seen["t_s"])
         limit_nm = max(float(str(values["motor_torque_nm_max"])) for values in running)
         cutoff_kmh = max(float(str(values["assist_cutoff_kmh"])) for values in running)
         if not 0.0 <= demand_nm <= limit_nm + TORQUE_NOISE_NM:
@@ -212,8 +278,9 @@ class Watcher:
     def shown_config(self, config: ConfigImage) -> None:
         """A configuration somebody read: the unit had exactly this one."""
         image = pack_image(config.parameters)
-        had = [past for past in self.generations if past.number == config.generation]
-        if not any(past.image == image for past in had) or zlib.crc32(image) != config.crc32:
+        had = [past.image for past in self.generations if past.number == config.generation]
+        had += [past.image for past in self.trials.trials if past.number == config.generation]
+        if image not in had or zlib.crc32(image) != config.crc32:
             raise Violation(f"Generation {config.generation} was shown; the unit never had it.")
 
     def verified(self, intent: Intent, config: ConfigImage) -> None:
@@ -224,6 +291,30 @@ class Watcher:
             raise Violation(f"{intent.marker} was verified; the unit holds another one.")
         if self.active.number < config.generation:
             raise Violation(f"{intent.marker} was verified and would not survive a restart.")
+
+    def tried(self, intent: Intent, config: ConfigImage) -> None:
+        """A trial that came back as running."""
+        self.shown_config(config)
+        intent.outcome = "on trial"
+        if config.parameters[MARKER] != intent.marker:
+            raise Violation(f"{intent.marker} was said to be on trial; the unit holds another one.")
+
+    def status_told(self, status: TrialStatus, life: int) -> None:
+        """Where the unit says it stands, asked while nothing changes and nothing goes wrong."""
+        current = self.trials.current
+        number = self.active.number if current is None else current.number
+        if (status.on_trial, status.generation) != (current is not None, number):
+            raise Violation(f"{status} is told; the flash has generation {number}.")
+        reasons = self.trials.reasons_in(life)
+        if status.rollback_cause not in reasons:
+            raise Violation(
+                f"The unit says its last trial ended by {status.rollback_cause!r}; "
+                f"it was {reasons}."
+            )
+
+    def again(self, intent: Intent) -> None:
+        """The author of a refused write tries it once more."""
+        self._unchanged_promised.discard(intent.marker)
 
     def refused(self, intent: Intent, outcome: str) -> None:
         """A write whose author was told that the unit is unchanged."""
@@ -236,9 +327,19 @@ class Watcher:
             )
 
 
+def raised_limits(before: Mapping[str, Value], after: Mapping[str, Value]) -> list[str]:
+    """The limits that went up, of those that may only go down."""
+    return [
+        name
+        for name, row in PARAMETER_BY_NAME.items()
+        if row.ratchet and float(str(after[name])) > float(str(before[name]))
+    ]
+
+
 def boot_twin(flash: bytes) -> Generation:
     """What a unit with this flash reports after a restart, asked over a clean line."""
-    twin = LockstepUnit(seed=0, name="twin", flash=flash, boot_id=0xFFFF)
+    no_log = b"\xff" * LOG_BLOCK_LENGTH
+    twin = LockstepUnit(seed=0, name="twin", flash=flash, log=no_log, boot_id=0xFFFF)
     decoder = FrameDecoder()
     info: Any = _asked(twin, decoder, CfgInfoRequest(), 1)
     image = b""

@@ -13,12 +13,17 @@ from backend.device.config_transaction import (
 )
 from backend.device.live_values import LiveValues, ask_values
 from backend.device.states import LinkState
-from backend.errors import PeerProtocolError
+from backend.errors import ConfigConflict, PeerProtocolError
 from firmware_protocol.layout import Value
 from sim_device.configure import ConfigureError
 from sim_device.configure import write_config as write_as_rival
 from sim_device.firmware.python.unit import Unit
-from tests.simulation.watcher import MARKER, Intent, Violation
+from tests.simulation.earlier_life import CUTOFF_KMH
+from tests.simulation.people_logs import Collecting
+from tests.simulation.people_trials import Trials
+from tests.simulation.people_unlock import Unlocking
+from tests.simulation.violation import Violation
+from tests.simulation.watcher import MARKER, Intent
 from tests.simulation.world import Verdict, World
 
 LABELS = ("NB", "NS", "ZO", "PS", "PB")
@@ -29,6 +34,8 @@ SETTLED_S = 8.0
 LAST_CHANGE_S = 3.0
 LEASE_S = 31.0
 FLUSH_STEPS = 6
+# An erased block, its first pages, and what a few seconds add.
+LOG_BYTES_PER_RIDE = 7000
 
 
 class Workload:
@@ -44,9 +51,16 @@ class Workload:
         self._ride_until_s = 0.0
         # Limits go down freely and never up: nobody here has a token.
         self._torque_nm_max = 2.0
-        self._cutoff_kmh = 25.0
+        self._cutoff_kmh = CUTOFF_KMH
         self._settled = False
         self.last_write: Intent | None = None
+        self._trials = Trials(self)
+        self._unlocking = Unlocking(self)
+        self._collecting = Collecting(self)
+        # What these people do most of the time: seeds differ in kind.
+        self._favourite = self._chance.choice(
+            (self._change, self._trials.begin, self._unlocking.begin, self._collecting.begin)
+        )
 
     def step(self) -> None:
         """Do what is due now."""
@@ -58,11 +72,14 @@ class Workload:
             self._act()
         if 0.0 < self._ride_until_s <= world.now_s:
             self._stop()
+        self._trials.step()
+        self._unlocking.step()
+        self._collecting.step()
 
     def _act(self) -> None:
         actions = (
-            (self._read_all, 4),
-            (self._change, 6),
+            (self._read_all, 3),
+            (self._change, 4),
             (self._change_on_an_old_base, 1),
             (self._two_changes_at_once, 1),
             (self._look, 2),
@@ -70,6 +87,10 @@ class Workload:
             (self._stop, 1),
             (self._rival, 1),
             (self._unplug, 1),
+            (self._trials.begin, 3),
+            (self._unlocking.begin, 3),
+            (self._collecting.begin, 3),
+            (self._favourite, 9),
         )
         weights = [weight for _, weight in actions]
         self._chance.choices([action for action, _ in actions], weights)[0]()
@@ -78,26 +99,46 @@ class Workload:
 
     def _read_all(self) -> None:
         world = self.world
-        name = self._name("read")
+        name = self.name("read")
 
         def done(config: ConfigImage) -> None:
             world.watcher.shown_config(config)
-            self._bases.append(config)
-            del self._bases[:-4]
+            self.know(config)
             world.tell("host", f"{name}: generation {config.generation}")
 
-        world.ask(name, read_config(world.session.mtu), done, lambda error: self._told(name, error))
+        world.ask(name, read_config(world.session.mtu), done, lambda error: self.told(name, error))
 
     def _look(self) -> None:
         world = self.world
-        name = self._name("look")
+        name = self.name("look")
 
         def done(values: LiveValues) -> None:
             world.watcher.shown_values(values)
 
-        world.ask(name, ask_values(), done, lambda error: self._told(name, error))
+        world.ask(name, ask_values(), done, lambda error: self.told(name, error))
 
-    def _told(self, name: str, error: BaseException) -> None:
+    def know(self, config: ConfigImage) -> None:
+        """A configuration to make changes on."""
+        self._bases.append(config)
+        del self._bases[:-4]
+
+    def lowered(self, cutoff_kmh: float) -> None:
+        """Somebody lowers this limit; what is drawn from now on is below."""
+        self._cutoff_kmh = min(self._cutoff_kmh, cutoff_kmh)
+
+    def forget(self, base: ConfigImage) -> None:
+        """It is no longer what the unit has."""
+        if base in self._bases:
+            self._bases.remove(base)
+        if not self._bases:
+            self._read_all()
+
+    def newest_base(self) -> ConfigImage | None:
+        """What was read last; None before anything was."""
+        return self._bases[-1] if self._bases else None
+
+    def told(self, name: str, error: BaseException) -> None:
+        """Somebody is told why something did not come about."""
         if not isinstance(error, Exception) or not str(error):
             raise Violation(f"{name} ended with {error!r}, which tells nobody anything.")
         self.world.tell("host", f"{name}: {type(error).__name__}: {error}")
@@ -119,33 +160,40 @@ class Workload:
     def write(self, base: ConfigImage) -> Intent:
         """Start one change on `base`."""
         world = self.world
-        intent = self._intend()
+        intent = self.intend()
         self.last_write = intent
-        arm = world.faults.brown_out_per_commit
-        if arm and world.unit.unit.powered and self._chance.random() < arm:
-            world.unit.unit.cut_power_after(self._chance.randint(1, 1400))
+        self.perhaps_brown_out()
 
         def done(config: ConfigImage) -> None:
             world.figures["writes_verified"] += 1
             world.watcher.verified(intent, config)
-            self._bases.append(config)
+            self.know(config)
             world.tell("host", f"{intent.marker}: verified as generation {config.generation}")
 
         def failed(error: BaseException) -> None:
-            self._told(intent.marker, error)
+            self.told(intent.marker, error)
             if isinstance(error, CommitUnanswered | PeerProtocolError):
                 intent.outcome = "unknown"
                 world.figures["writes_unknown"] += 1
             else:
                 world.figures["writes_refused"] += 1
                 world.watcher.refused(intent, str(error))
+            if isinstance(error, ConfigConflict):
+                self.forget(base)
 
         world.tell("host", f"{intent.marker}: begins on generation {base.generation}")
         operation = write_config(base, intent.changes, world.session.mtu)
         world.ask(intent.marker, operation, done, failed)
         return intent
 
-    def _intend(self) -> Intent:
+    def perhaps_brown_out(self) -> None:
+        """The supply will not outlast the next write, if this seed's supply is bad."""
+        arm, unit = self.world.faults.brown_out_per_commit, self.world.unit.unit
+        if arm and unit.powered and self._chance.random() < arm:
+            unit.cut_power_after(self._chance.randint(1, 1400))
+
+    def intend(self, confirm_s: int = 0) -> Intent:
+        """A new change that lowers limits and never raises them. confirm_s: only for so long."""
         chance = self._chance
         self._writes += 1
         marker = f"w{self._writes}"
@@ -162,11 +210,12 @@ class Workload:
             changes["fuzzy_rules"] = [[chance.choice(LABELS) for _ in range(5)] for _ in range(5)]
         if chance.random() < 0.3:
             changes["mode_names"] = [f"{marker} {slot}" for slot in range(5)]
-        intent = Intent(marker, changes)
+        intent = Intent(marker, changes, confirm_s=confirm_s)
         self.world.watcher.intents[marker] = intent
         return intent
 
-    def _name(self, what: str) -> str:
+    def name(self, what: str) -> str:
+        """Of one question, so that its answer is awaited once."""
         self._asked += 1
         return f"{what} {self._asked}"
 
@@ -180,6 +229,9 @@ class Workload:
         world.unit.select_mode(self._chance.randrange(5))
         world.unit.rider("legs", torque_nm=torque_nm)
         self._ride_until_s = world.now_s + self._chance.uniform(1.0, 6.0)
+        arm = world.faults.brown_out_per_ride
+        if arm and world.unit.unit.powered and self._chance.random() < arm:
+            world.unit.unit.cut_power_in_log_after(self._chance.randint(1, LOG_BYTES_PER_RIDE))
 
     def _stop(self) -> None:
         self._ride_until_s = 0.0
@@ -196,7 +248,7 @@ class Workload:
         if not standing or not world.unit.unit.powered:
             return
         world.unplug(1.0)
-        intent = self._intend()
+        intent = self.intend()
         tapped = _Tapped(world)
         for _ in range(FLUSH_STEPS):
             # As every host does: what was meant for another one is dropped.
@@ -227,6 +279,8 @@ class Workload:
         elif self._bases and world.now_s >= self._next_s:
             self._next_s = math.inf
             self.write(self._bases[-1])
+            self._trials.settle()
+            self._collecting.look_at_all()
         elif self._next_s == math.inf and self._is_busy():
             # A transaction whose BEGIN was never heard of again: its lease is the way out.
             self._bases.clear()

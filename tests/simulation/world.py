@@ -18,8 +18,10 @@ from backend.device.states import LinkState, StateChanged, UnitEvent
 from backend.device.stream import StreamBlock, StreamPlan
 from backend.errors import LinkError
 from sim_device.lockstep import LockstepUnit
+from tests.simulation.earlier_life import earlier_life
 from tests.simulation.link_faults import CALM, FaultyWire, LinkFaults, draw_faults
-from tests.simulation.watcher import Violation, Watcher
+from tests.simulation.violation import Violation
+from tests.simulation.watcher import Watcher
 
 STEP_S = 0.010
 # Long enough for some ten changes and as many faults, short enough for 200 seeds in a minute.
@@ -30,6 +32,9 @@ LINE_RATES = (115_200.0, 1_000_000.0)
 # As the driver does with a port that is open and deaf.
 GREETINGS_BEFORE_REOPEN = 8
 OFF_S = 1.0
+NEVER = 0xFFFFFFFF
+JUDGED = ("t_s", "motor_demand_nm", "speed_kmh")
+STEPS_PER_BOUNDS_CHECK = 5
 # What a session may hold: its own bounds, and bytes of four requests and a goodbye.
 WAITING_MAX = 64
 RUNNING_MAX = 32
@@ -63,7 +68,10 @@ class World:
         self.faults = draw_faults(chance) if faults is None else faults
         self._chance = chance
         self._boot_id = 1
-        self.unit = LockstepUnit(seed=seed, name="simulated", boot_id=1)
+        self._steps = 0
+        self._log_changes = 0
+        self.past = earlier_life(chance.random() < 0.75)
+        self.unit = self._new_life(self.past.flash, self.past.log)
         self.watcher = Watcher(self.unit)
         self.bits_per_second = chance.choice(LINE_RATES)
         bytes_per_s = self.bits_per_second / 10
@@ -79,6 +87,9 @@ class World:
         self._trace = hashlib.sha256()
         self.figures = {"writes_verified": 0, "writes_refused": 0, "writes_unknown": 0}
         self.figures |= {"blocks": 0, "resets": 0, "brown_outs": 0, "unplugs": 0}
+        self.figures |= {"log_brown_outs": 0, "trials_kept": 0, "trials_asked_about": 0}
+        self.figures |= {"limits_raised": 0, "tokens_replayed": 0, "logs_fetched": 0}
+        self.figures |= {"downloads_resumed": 0, "directories_compared": 0}
         self.last_block_s = 0.0
         self.tell("world", f"{self.bits_per_second:,.0f} baud; {self.faults.told() or 'no faults'}")
 
@@ -136,7 +147,9 @@ class World:
         self._plug()
         self._unit_lives()
         self._session_lives()
-        self._check_bounds()
+        self._steps += 1
+        if self._steps % STEPS_PER_BOUNDS_CHECK == 0:
+            self._check_bounds()
 
     def _calm(self) -> None:
         self.tell("world", "the faults stop")
@@ -144,7 +157,8 @@ class World:
         self._up.calm()
         self._down.calm()
         if self.unit.unit.powered:
-            self.unit.unit.cut_power_after(0xFFFFFFFF)
+            self.unit.unit.cut_power_after(NEVER)
+            self.unit.unit.cut_power_in_log_after(NEVER)
 
     def _misfortune(self) -> None:
         faults, chance = self.faults, self._chance
@@ -174,11 +188,17 @@ class World:
     def _unit_lives(self) -> None:
         if self._off_until_s is not None and self.now_s >= self._off_until_s:
             self._boot()
+        self._log_changes = self.unit.unit.log_changes
         self.unit.advance(STEP_S)
         if not self.unit.unit.powered and self._off_until_s is None:
-            self.figures["brown_outs"] += 1
+            log_cut = self._log_changes != self.unit.unit.log_changes
+            self.figures["log_brown_outs" if log_cut else "brown_outs"] += 1
             self.tell("unit", "its supply fails in a flash write")
             self._off_until_s = self.now_s + OFF_S
+        changed = self.watcher.looked(self.unit)
+        if changed is not None:
+            marker = changed.values["fuzzy_table_name"]
+            self.tell("unit", f"generation {changed.number} is in the flash: {marker}")
         self._down_credit = min(
             self._down_credit + self._down.bytes_per_s * STEP_S, 2 * self._down.bytes_per_s * STEP_S
         )
@@ -189,21 +209,19 @@ class World:
             self.watcher.said(data)
             if self.plugged:
                 self._down.put(data)
-        changed = self.watcher.looked(self.unit)
-        if changed is not None:
-            marker = changed.values["fuzzy_table_name"]
-            self.tell("unit", f"generation {changed.number} is in the flash: {marker}")
-        self.watcher.assist_is_within_limits(self.unit.observe())
+        self.watcher.assist_is_within_limits(self.unit.unit.observe(JUDGED))
 
     def _boot(self) -> None:
         self._off_until_s = None
         self._boot_id += 1
-        flash = self.unit.unit.flash()
-        self.unit = LockstepUnit(
-            seed=self.seed, name="simulated", flash=flash, boot_id=self._boot_id
-        )
+        self.unit = self._new_life(self.unit.unit.flash(), self.unit.unit.log())
         self.watcher.restarted()
         self.tell("unit", f"boots with generation {self.watcher.active.number}")
+
+    def _new_life(self, flash: bytes, log: bytes) -> LockstepUnit:
+        return LockstepUnit(
+            seed=self.seed, name="simulated", flash=flash, log=log, boot_id=self._boot_id
+        )
 
     def _session_lives(self) -> None:
         session = self.session
@@ -267,6 +285,9 @@ class World:
         """The story and how it ended."""
         figures = dict(self.figures)
         figures["frames_bad"] = self.session.link_statistics().frames_bad
+        figures["trials"] = len(self.watcher.trials.trials)
+        figures["logs_given_up"] = self.watcher.logs.given_up_unconfirmed
+        figures["attempts"] = self.watcher.lock.attempts
         figures["frames_seen"] = self.watcher.frames_seen
         figures["conservation_checks"] = self.watcher.conservation_checks
         self._trace.update(repr((wrong, figures)).encode())

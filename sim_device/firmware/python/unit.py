@@ -5,13 +5,14 @@ reads a clock, so the same calls give the same bytes.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any, Final
 
 from sim_device.firmware.python._native import ffi, lib
 
 FLASH_LENGTH: Final[int] = lib.UNIT_FLASH_SIZE
 LOG_LENGTH: Final[int] = lib.UNIT_LOG_SIZE
+LOG_BLOCK_LENGTH: Final[int] = lib.UNIT_LOG_BLOCK_SIZE
 UID_LENGTH: Final[int] = lib.UNIT_UID_LENGTH
 UNLOCK_KEY_LENGTH: Final[int] = lib.UNIT_UNLOCK_KEY_LENGTH
 MODE_NOT_SELECTED: Final[int] = lib.UNIT_MODE_NOT_SELECTED
@@ -98,13 +99,14 @@ class Unit:
         bike: `part.name` -> value, over `default_bike()`.
         speed_kmh: the bike starts rolling at this speed.
         flash: `FLASH_LENGTH` bytes of an earlier life, or None for an erased flash.
-        log: `LOG_LENGTH` bytes of the flash for ride logs, or None for an erased one.
+        log: the whole flash for ride logs, or None for an erased one of `LOG_LENGTH` bytes; another
+            length, in whole blocks, makes a smaller flash.
         unlock_key: the maker's public key to provision, or None for what the flash has.
         request: answers SIM_GET and SIM_SET: (message id, request) -> (status, response).
 
     Raises:
         KeyError: a value of `bike` does not exist.
-        ValueError: `uid`, `flash`, `log` or `unlock_key` has another length.
+        ValueError: `uid`, `flash`, `log` or `unlock_key` has a wrong length.
         MemoryError: the unit could not be allocated, or its flash has another unlock key.
     """
 
@@ -125,8 +127,8 @@ class Unit:
             raise ValueError(f"uid has {len(uid)} bytes, not {UID_LENGTH}")
         if flash is not None and len(flash) != FLASH_LENGTH:
             raise ValueError(f"the flash image has {len(flash)} bytes, not {FLASH_LENGTH}")
-        if log is not None and len(log) != LOG_LENGTH:
-            raise ValueError(f"the log's image has {len(log)} bytes, not {LOG_LENGTH}")
+        if log is not None and (not log or len(log) % LOG_BLOCK_LENGTH or len(log) > LOG_LENGTH):
+            raise ValueError(f"the log's image has {len(log)} bytes, not whole blocks")
         if unlock_key is not None and len(unlock_key) != UNLOCK_KEY_LENGTH:
             raise ValueError(f"the key has {len(unlock_key)} bytes, not {UNLOCK_KEY_LENGTH}")
         setup = ffi.new("unit_setup *")
@@ -137,6 +139,7 @@ class Unit:
         setup.uid = uid
         setup.boot_id = boot_id
         setup.flash = ffi.NULL if flash is None else ffi.from_buffer("uint8_t[]", flash)
+        setup.log_size = 0 if log is None else len(log)
         setup.log = ffi.NULL if log is None else ffi.from_buffer("uint8_t[]", log)
         setup.unlock_key = (
             ffi.NULL if unlock_key is None else ffi.from_buffer("uint8_t[]", unlock_key)
@@ -171,10 +174,10 @@ class Unit:
         length = lib.unit_transmit(self._unit, self._transmit_buffer, capacity)
         return bytes(self._transmitted[:length])
 
-    def observe(self) -> dict[str, Any]:
+    def observe(self, names: Iterable[str] = _OBSERVED) -> dict[str, Any]:
         """Speeds, torques, energies and the law's last decision, by name; missing is NaN."""
         lib.unit_observe(self._unit, self._observation)
-        return {name: getattr(self._observation, name) for name in _OBSERVED}
+        return {name: getattr(self._observation, name) for name in names}
 
     @property
     def speed_kmh(self) -> float:
@@ -216,6 +219,10 @@ class Unit:
         """Brown-out after so many more bytes erased or programmed; 0 takes the battery out now."""
         lib.unit_flash_cut_after(self._unit, flash_bytes)
 
+    def cut_power_in_log_after(self, log_bytes: int) -> None:
+        """The same for the flash for ride logs."""
+        lib.unit_log_cut_after(self._unit, log_bytes)
+
     @property
     def powered(self) -> bool:
         """Whether the supply still holds."""
@@ -227,7 +234,7 @@ class Unit:
 
     def log(self) -> bytes:
         """The flash for ride logs as it is now."""
-        return bytes(ffi.buffer(lib.unit_log(self._unit), LOG_LENGTH))
+        return bytes(ffi.buffer(lib.unit_log(self._unit), lib.unit_log_size(self._unit)))
 
     @property
     def log_changes(self) -> int:

@@ -18,8 +18,21 @@ NEW_CUTOFF_KMH = 19.0
 BLOCK_BYTES = 512
 """Small blocks: fewer dull steps of erasing."""
 
-AT_CONFIRMED, AT_VOID, WORD_BYTES = 28, 32, 4
+AT_WORDS, AT_CONFIRMED, AT_VOID, AT_IMAGE, WORD_BYTES = 24, 28, 32, 36, 4
+UNLIMITED = 0xFFFFFFFF
 BIT_OF_MAGIC, BIT_OF_GENERATION, BIT_OF_IMAGE = 0, 12 * 8, (36 + 100) * 8
+
+
+def assert_written_in_order(flash: np.ndarray, whole: np.ndarray) -> None:
+    """An erased slot filled up to somewhere: image, then header, then the words that count.
+
+    whole: the flash after a commit that was not cut.
+    """
+    image, header = slice(AT_IMAGE, BLOCK_BYTES), slice(0, AT_WORDS)
+    if (flash[header] != 0xFF).any():
+        assert (flash[image] == whole[image]).all()
+    if (flash[AT_WORDS:AT_IMAGE] != 0xFF).any():
+        assert (flash[header] == whole[header]).all()
 
 
 def commit_with_power_for(unit: BenchUnit, steps: int) -> Status | int:
@@ -39,12 +52,18 @@ def test_power_lost_after_any_byte_leaves_the_old_or_the_new_configuration(
     flash_before = unit.flash().copy()
     new_config = unit.config() | {"assist_cutoff_kmh": NEW_CUTOFF_KMH}
     new = (old[0] + 1, parameters.pack_image(new_config))
+    assert commit_with_power_for(unit, UNLIMITED) == Status.OK
+    whole = unit.flash().copy()
+    target = slice(0, BLOCK_BYTES) if commits_before % 2 else slice(BLOCK_BYTES, 2 * BLOCK_BYTES)
+    assert (whole[target] != flash_before[target]).any()
     steps = 0
     booted = []
 
     while True:
         unit.flash()[:] = flash_before
         status = commit_with_power_for(unit, steps)
+        if steps >= BLOCK_BYTES:
+            assert_written_in_order(unit.flash()[target], whole[target])
         seen = unit.read_image()
         assert seen == (new if status == Status.OK else old)
 

@@ -82,8 +82,10 @@ static void board_motor_torque_set(void *context, float motor_torque_nm)
 /* Wears one byte. False once the supply has failed. */
 static int flash_wear(unit *self)
 {
-    if (self->flash_bytes_left == 0) return 0;
+    if (!unit_is_powered(self)) return 0;
     if (self->flash_bytes_left != FLASH_NEVER_CUT) self->flash_bytes_left--;
+    /* One supply: what was being written to the other flash ends as well. */
+    if (self->flash_bytes_left == 0) self->log.steps_left = 0;
     return 1;
 }
 
@@ -164,6 +166,8 @@ static void connect_board(unit *self, const unit_setup *setup)
 unit *unit_create(const unit_setup *setup)
 {
     unit *self = calloc(1, sizeof *self);
+    size_t log_size;
+
     if (self == NULL) {
         return NULL;
     }
@@ -178,7 +182,8 @@ unit *unit_create(const unit_setup *setup)
     self->bike = setup->physics;
     self->mode_selected = UNIT_MODE_NOT_SELECTED;
     unit_place(self, setup->speed_kmh, setup->seed);
-    if (log_flash_open(&self->log, UNIT_LOG_BLOCK_SIZE, UNIT_LOG_SIZE, setup->log) < 0) {
+    log_size = setup->log_size != 0 ? setup->log_size : UNIT_LOG_SIZE;
+    if (log_flash_open(&self->log, UNIT_LOG_BLOCK_SIZE, log_size, setup->log) < 0) {
         free(self);
         return NULL;
     }
@@ -285,10 +290,17 @@ void unit_select_mode(unit *self, uint8_t mode) { self->mode_selected = mode; }
 
 void unit_flash_cut_after(unit *self, uint32_t bytes) { self->flash_bytes_left = bytes; }
 
-int unit_is_powered(const unit *self) { return self->flash_bytes_left != 0; }
+void unit_log_cut_after(unit *self, uint32_t bytes) { self->log.steps_left = bytes; }
+
+int unit_is_powered(const unit *self)
+{
+    return self->flash_bytes_left != 0 && self->log.steps_left != 0;
+}
 
 const uint8_t *unit_flash(const unit *self) { return self->flash; }
 
 const uint8_t *unit_log(const unit *self) { return self->log.bytes; }
+
+size_t unit_log_size(const unit *self) { return self->log.size; }
 
 uint32_t unit_log_changes(const unit *self) { return self->log.changes; }

@@ -30,7 +30,8 @@ typedef struct {
     uint8_t uid[UNIT_UID_LENGTH];
     uint32_t boot_id;
     const uint8_t *flash;      /* UNIT_FLASH_SIZE bytes, or NULL for an erased one */
-    const uint8_t *log;        /* UNIT_LOG_SIZE bytes, or NULL for an erased one */
+    size_t log_size;           /* of the flash for ride logs, whole blocks; 0: UNIT_LOG_SIZE */
+    const uint8_t *log;        /* so many bytes, or NULL for an erased one */
     const uint8_t *unlock_key; /* the maker's, 32 bytes, or NULL for what the flash has */
     unit_request request;      /* NULL: the unit knows no board requests */
     void *request_context;
@@ -100,11 +101,13 @@ const uint8_t *unit_flash(const unit *self);
 
 /* The flash for ride logs, and how often it was erased or programmed since the unit was made. */
 const uint8_t *unit_log(const unit *self);
+size_t unit_log_size(const unit *self);
 uint32_t unit_log_changes(const unit *self);
 
 /* Brown-out: the supply fails after `bytes` more bytes were erased or programmed, and with it the
  * whole unit; what the flash holds then is for the next life. 0 takes the battery out now. */
 void unit_flash_cut_after(unit *self, uint32_t bytes);
+void unit_log_cut_after(unit *self, uint32_t bytes); /* of the flash for ride logs */
 int unit_is_powered(const unit *self);
 
 #endif

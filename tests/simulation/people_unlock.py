@@ -1,0 +1,163 @@
+"""Somebody raises a limit: with the maker's word, with another's, with one that was used before."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from backend.device.config_transaction import CommitUnanswered, ConfigImage, write_config
+from backend.errors import ConfigConflict, PeerProtocolError, TokenNeeded
+from firmware_protocol._generated import Access
+from firmware_protocol.layout import Value
+from firmware_protocol.unlock_token import Challenge, Token
+from tests.fakes.maker import Maker
+from tests.simulation.earlier_life import MAKER
+from tests.simulation.watcher import MARKER, Intent
+
+if TYPE_CHECKING:
+    from tests.simulation.workload import Workload
+
+CUTOFF_KMH_MAX = 25.0
+STRANGER = Maker(2)
+
+
+class Unlocking:
+    """Raised limits of one seed."""
+
+    def __init__(self, people: Workload) -> None:
+        self._people = people
+        self._world = people.world
+        self._chance = random.Random(f"{people.world.seed} unlock")
+        self._due: tuple[float, Intent, ConfigImage, Token] | None = None
+        # A raise that was made: what it changed, and with which token.
+        self._used: tuple[Intent, Token] | None = None
+
+    def step(self) -> None:
+        """Show the token that has come from the maker meanwhile."""
+        if self._due is None or self._world.now_s < self._due[0]:
+            return
+        _, intent, base, token = self._due
+        self._due = None
+        self._world.watcher.again(intent)
+        self._people.perhaps_brown_out()
+        self._write(intent, base, token)
+
+    def begin(self) -> None:
+        """Ask for more, or show an old token again."""
+        base = self._people.newest_base()
+        if base is None or self._due is not None:
+            return
+        if self._used is not None and self._chance.random() < 0.6:
+            self._replay(base)
+            return
+        now_kmh = float(str(base.parameters["assist_cutoff_kmh"]))
+        intent = self._people.intend()
+        intent.changes = {
+            MARKER: intent.marker,
+            "assist_cutoff_kmh": min(CUTOFF_KMH_MAX, now_kmh + self._chance.uniform(0.1, 5.0)),
+        }
+        self._write(intent, base, None)
+
+    def _write(self, intent: Intent, base: ConfigImage, token: Token | None) -> None:
+        people, world = self._people, self._world
+
+        def done(config: ConfigImage) -> None:
+            world.figures["limits_raised"] += token is not None
+            world.watcher.verified(intent, config)
+            people.know(config)
+            world.tell("host", f"{intent.marker}: raised as generation {config.generation}")
+            if token is not None:
+                self._used = (intent, token)
+
+        def failed(error: BaseException) -> None:
+            people.told(intent.marker, error)
+            if isinstance(error, CommitUnanswered | PeerProtocolError):
+                intent.outcome = "unknown"
+                return
+            world.watcher.refused(intent, str(error))
+            if isinstance(error, ConfigConflict):
+                people.forget(base)
+            elif isinstance(error, TokenNeeded) and token is None:
+                self._fetch_token(intent, base, error)
+
+        world.tell("host", f"{intent.marker}: should go up" + (", with a token" if token else ""))
+        operation = write_config(base, intent.changes, world.session.mtu, token=token)
+        world.ask(people.name(intent.marker), operation, done, failed)
+
+    def _fetch_token(self, intent: Intent, base: ConfigImage, error: TokenNeeded) -> None:
+        challenge = challenge_of(error)
+        what = self._chance.choice(
+            ("good", "good", "good", "stranger", "other image", "other unit")
+        )
+        if what == "good":
+            intent.authorised = True
+            self._world.watcher.lock.good_tokens_shown += 1
+            token = MAKER.sign(challenge)
+        elif what == "stranger":
+            token = STRANGER.sign(challenge)
+        elif what == "other image":
+            token = MAKER.sign(replace(challenge, image=challenge.image[::-1]))
+        else:
+            token = MAKER.sign(replace(challenge, uid=bytes(12)))
+        self._world.tell("maker", f"{intent.marker}: a token, {what}")
+        due_s = self._world.now_s + self._chance.uniform(0.0, 1.5)
+        self._due = (due_s, intent, base, token)
+
+    # ------------------------------------------------------------------ a token shown twice
+
+    def _replay(self, base: ConfigImage) -> None:
+        """Lower the limit, then show the same token for the same content again."""
+        people, world = self._people, self._world
+        assert self._used is not None
+        raised, token = self._used
+        lower = people.intend()
+        limit_kmh = float(str(raised.changes["assist_cutoff_kmh"])) / 2
+        people.lowered(limit_kmh)
+        lower.changes = {MARKER: lower.marker, "assist_cutoff_kmh": limit_kmh}
+
+        def lowered(config: ConfigImage) -> None:
+            world.watcher.verified(lower, config)
+            people.know(config)
+            self._show_again(config, raised.changes, None, token)
+
+        def failed(error: BaseException) -> None:
+            people.told(lower.marker, error)
+            if isinstance(error, CommitUnanswered | PeerProtocolError):
+                lower.outcome = "unknown"
+            else:
+                world.watcher.refused(lower, str(error))
+
+        operation = write_config(base, lower.changes, world.session.mtu)
+        world.ask(lower.marker, operation, lowered, failed)
+
+    def _show_again(
+        self, base: ConfigImage, changes: dict[str, Value], token: Token | None, old: Token
+    ) -> None:
+        """First without a token, so that a challenge is open; then with the old one.
+
+        If it is taken, the flash has the same change twice, which the judge sees.
+        """
+        people, world = self._people, self._world
+        name = people.name("replay")
+
+        def failed(error: BaseException) -> None:
+            people.told(name, error)
+            if isinstance(error, TokenNeeded) and token is None:
+                world.figures["tokens_replayed"] += 1
+                self._show_again(base, changes, old, old)
+
+        operation = write_config(base, changes, world.session.mtu, token=token)
+        world.ask(name, operation, people.know, failed)
+
+
+def challenge_of(error: TokenNeeded) -> Challenge:
+    """What is to be signed, as the error carries it to the maker."""
+    asked = error.challenge
+    return Challenge(
+        bytes.fromhex(str(asked["uid"])),
+        bytes.fromhex(str(asked["nonce"])),
+        Access[str(asked["level"])],
+        int(asked["expires_us"]),
+        bytes.fromhex(str(asked["image"])),
+    )
