@@ -15,7 +15,7 @@ from firmware_protocol.framing import encode_frame
 
 ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).resolve().parent
-TARGETS = ("receive", "unit", "flash")
+TARGETS = ("receive", "unit", "flash", "ride_log")
 INCLUDES = (
     "firmware_protocol/c",
     "sim_device/firmware/control",
@@ -44,6 +44,16 @@ OPTIONS = (
 EMPTY = "int LLVMFuzzerTestOneInput(const char *d, unsigned long n);\n"
 EMPTY += "int LLVMFuzzerTestOneInput(const char *d, unsigned long n) { return !d && n; }\n"
 LENGTH_MAX = 4096
+# Scripts of pages for fuzz_ride_log.c: place, kind, filling, type, length, log, boot, number, time,
+# its shift, rows. A log of three pages; one of which the second block is torn; two logs.
+RIDE_LOG_PAGES = tuple(
+    bytes([len(pages)]) + b"".join(bytes([*page[:2], 7, *page[2:], 9, 20, 11]) for page in pages)
+    for pages in (
+        ((0, 0, 1, 200, 1, 1, 0), (1, 0, 2, 60, 1, 1, 1), (2, 0, 3, 220, 1, 1, 2)),
+        ((4, 0, 1, 200, 2, 1, 0), (6, 1, 3, 220, 2, 1, 2)),
+        ((0, 2, 1, 200, 1, 0, 0), (2, 0, 1, 200, 5, 1, 0), (4, 0, 6, 5, 5, 1, 2)),
+    )
+)
 
 
 def compiler(folder: Path) -> str | None:
@@ -86,6 +96,9 @@ def write_corpus(target: str, folder: Path) -> Path:
             )
         elif target == "receive":
             (corpus / f"{index:03}").write_bytes(b"\x00" + wire)
+    if target == "ride_log":
+        for number, page in enumerate(RIDE_LOG_PAGES):
+            (corpus / f"{number}").write_bytes(page)
     if target == "flash":
         (corpus / "blank").write_bytes(b"\xff" * 512)
         (corpus / "forged").write_bytes(bytes(range(1, 65)))

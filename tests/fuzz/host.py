@@ -1,6 +1,6 @@
-"""atheris on what the host reads: the wire, CSV and FIT files.
+"""atheris on what the host reads: the wire, CSV and FIT files, ride logs of units.
 
-Usage: python -m tests.fuzz.host wire|csv|fit [libFuzzer options]. Only what is promised may be
+Usage: python -m tests.fuzz.host wire|csv|fit|log [libFuzzer options]. Only what is promised may be
 raised: nothing at all by decoders, an Outcome by readers. FIT's fast reader is compiled C and may
 die of a file; it runs in a child in the server and is left out here.
 """
@@ -10,7 +10,9 @@ import sys
 import atheris
 
 with atheris.instrument_imports(include=["firmware_protocol", "backend"]):
+    from backend.ingest.blocks import Block, put_block, scan
     from backend.ingest.formats import read_file
+    from backend.ingest.ride_logs import read_blocks
     from firmware_protocol.codec import Malformed, decode, encode
     from firmware_protocol.framing import FrameDecoder, encode_frame
 
@@ -43,8 +45,30 @@ def fit(data: bytes) -> None:
     assert read_file("ride.fit", head + data[4:], False).state
 
 
+def log(data: bytes) -> None:
+    """Blocks sealed over whatever they say, between them damage: a ride, a part, or a reason."""
+    from_input = atheris.FuzzedDataProvider(data)
+    file = b""
+    while from_input.remaining_bytes():
+        if from_input.ConsumeBool():
+            file += put_block(any_block(from_input))[: from_input.ConsumeIntInRange(1, 1024)]
+        else:
+            file += from_input.ConsumeBytes(40)
+    assert scan(file).damaged <= len(file)
+    assert read_blocks(file).state
+
+
+def any_block(from_input: atheris.FuzzedDataProvider) -> Block:
+    """A block of a log whose header and payload the input chose."""
+    number = from_input.ConsumeIntInRange
+    kind, log_id, boot_id, seq = number(0, 8), number(0, 2), number(0, 2), number(0, 2**32 - 1)
+    t0_us, n, schema_id = number(0, 2**64 - 1), number(0, 2**16 - 1), number(0, 2)
+    payload = from_input.ConsumeBytes(number(0, 472))
+    return Block(0, number(0, 2), kind, log_id, boot_id, seq, t0_us, n, schema_id, payload)
+
+
 def main() -> None:
-    target = {"wire": wire, "csv": csv, "fit": fit}[sys.argv[1]]
+    target = {"wire": wire, "csv": csv, "fit": fit, "log": log}[sys.argv[1]]
     atheris.Setup([sys.argv[0], *sys.argv[2:]], target)
     atheris.Fuzz()
 

@@ -202,7 +202,8 @@ static void logs_find(ride_log_store *store, const hal *board)
             continue;
         }
         if (header.log_id >= store->next_id) store->next_id = header.log_id + 1;
-        if (header.seq != 0) continue;
+        /* Two beginnings of one log: the recorder makes none, a damaged flash may hold them. */
+        if (header.seq != 0 || place_of_id(store, header.log_id) != RIDE_LOG_NONE) continue;
         place = ride_log_store_free_place(store);
         if (place == RIDE_LOG_NONE) continue;
         log = &store->logs[place];
