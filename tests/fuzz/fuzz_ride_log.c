@@ -2,7 +2,7 @@
  *
  * The input is a script of pages, sealed as the recorder seals them, because behind a CRC the
  * interesting mistakes begin: any log, number, kind and length, at any place of the flash, some
- * torn, some raw. Whatever lies there, the directory is one, and nothing is read beside the flash. */
+ * torn, some raw. Whatever lies there, the directory is one, and nothing else is read. */
 #include <stdlib.h>
 #include <string.h>
 

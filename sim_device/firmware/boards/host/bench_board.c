@@ -328,4 +328,30 @@ uint32_t bench_bulk_sent(const bench_board *board) { return board->app.bulk.fram
 
 uint32_t bench_bulk_repeated(const bench_board *board) { return board->app.bulk.frames_repeated; }
 
+void bench_skip_us(bench_board *board, uint64_t duration_us) { board->now_us += duration_us; }
+
+uint32_t bench_unlock_nonces(bench_board *board, uint8_t level, uint32_t count, uint8_t *nonces)
+{
+    ebl_auth_challenge_response given;
+    uint16_t detail;
+
+    for (uint32_t i = 0; i < count; i++) {
+        if (unlock_challenge(&board->app.lock, &board->hal, level, &given, &detail) !=
+            EBL_STATUS_OK) {
+            return i;
+        }
+        memcpy(nonces + (size_t)i * sizeof given.nonce, given.nonce, sizeof given.nonce);
+    }
+    return count;
+}
+
+uint8_t bench_unlock_attempt(bench_board *board, const uint8_t *signature, uint16_t *detail)
+{
+    ebl_auth_response_request token = {0};
+
+    token.expires_us = UINT64_MAX;
+    memcpy(token.signature, signature, sizeof token.signature);
+    return unlock_respond(&board->app.lock, &board->hal, &token, board->app.store.image, detail);
+}
+
 size_t bench_app_bytes(void) { return sizeof(app); }

@@ -87,6 +87,15 @@ void bench_log_stuck(bench_board *board, int stuck);
 uint32_t bench_bulk_sent(const bench_board *board);
 uint32_t bench_bulk_repeated(const bench_board *board);
 
+/* Time passes at once, without a poll. */
+void bench_skip_us(bench_board *board, uint64_t duration_us);
+
+/* Challenges of the lock past the line, 16 bytes each; returns how many were given. */
+uint32_t bench_unlock_nonces(bench_board *board, uint8_t level, uint32_t count, uint8_t *nonces);
+
+/* An attempt past the line, for what is active. A status, and its detail. */
+uint8_t bench_unlock_attempt(bench_board *board, const uint8_t *signature, uint16_t *detail);
+
 /* RAM that one application takes. */
 size_t bench_app_bytes(void);
 

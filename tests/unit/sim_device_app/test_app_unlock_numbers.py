@@ -1,0 +1,75 @@
+"""Goal: the lock holds against numbers: a million challenges, ten thousand guesses with restarts.
+
+Method: both past the line, which only costs time, through doors of the bench board. A guess costs
+0.1 ms of ours for its Ed25519 check; the protocol page's 100,000 are a matter of `GUESSES`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from sim_device.firmware.python._native import ffi, lib
+
+from firmware_protocol._generated import Access, AuthChallengeRequest, Status
+from tests.fakes.bench_unit import BenchUnit
+from tests.fakes.maker import Maker, provision
+
+NONCES = 1_000_000
+NONCE_BYTES = 16
+BOOTS = 10
+GUESSES = 10_000
+GUESSES_A_BOOT = 7
+DELAY_S_MAX = 60
+JUNK = bytes(64)
+
+
+@pytest.fixture
+def unit() -> BenchUnit:
+    bench = BenchUnit()
+    provision(bench, Maker())
+    return bench
+
+
+def guess(unit: BenchUnit) -> tuple[int, int]:
+    """One attempt with a new challenge: status and detail."""
+    nonce = ffi.new("uint8_t[]", NONCE_BYTES)
+    assert lib.bench_unlock_nonces(unit.board, Access.DEALER, 1, nonce) == 1
+    detail = ffi.new("uint16_t *")
+    status = lib.bench_unlock_attempt(unit.board, JUNK, detail)
+    return status, detail[0]
+
+
+def is_closed(unit: BenchUnit) -> bool:
+    nonce = ffi.new("uint8_t[]", NONCE_BYTES)
+    return int(lib.bench_unlock_nonces(unit.board, Access.DEALER, 1, nonce)) == 0
+
+
+def test_a_million_nonces_over_restarts_are_a_million_nonces(unit: BenchUnit) -> None:
+    nonces = np.zeros((NONCES, NONCE_BYTES), dtype=np.uint8)
+    for part in np.split(nonces, BOOTS):
+        given = lib.bench_unlock_nonces(
+            unit.board, Access.DEALER, len(part), ffi.from_buffer("uint8_t[]", part)
+        )
+        assert given == len(part)
+        unit.boot()
+
+    assert len(np.unique(nonces.view("<u8").view("V16"))) == NONCES
+
+
+def test_ten_thousand_guesses_over_restarts_are_all_counted_and_all_slow(unit: BenchUnit) -> None:
+    """Blocks of 85 records: the count moves between them more than a hundred times."""
+    for attempt in range(1, GUESSES + 1):
+        assert guess(unit) == (Status.AUTH_BAD, attempt)
+        delay_us = min(DELAY_S_MAX, 2 ** min(attempt - 1, 6)) * 1_000_000
+        if attempt % GUESSES_A_BOOT == 0:
+            lib.bench_skip_us(unit.board, delay_us // 2)
+            lib.bench_boot(unit.board, attempt)
+        lib.bench_skip_us(unit.board, delay_us - 1)
+        assert is_closed(unit)
+        lib.bench_skip_us(unit.board, 1)
+
+
+def test_the_doors_past_the_line_are_those_on_it(unit: BenchUnit) -> None:
+    assert guess(unit) == (Status.AUTH_BAD, 1)
+
+    assert unit.ask(AuthChallengeRequest(Access.DEALER)).status == Status.AUTH_DELAY
