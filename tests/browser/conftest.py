@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Playwright, sync_playwright
+from playwright.sync_api import Browser, Playwright, expect, sync_playwright
 
 from tests.browser.chromium import NoChromium, find_chromium
 from tests.browser.desk import ROOT, Desk
@@ -15,6 +15,9 @@ from tests.browser.long_ride import write_long_ride
 from tests.fakes.server import SpindleServer
 
 OpenDesk = Callable[..., Desk]
+
+# As long as a page is waited for: a machine that is busy is no reason to fail.
+expect.set_options(timeout=30_000)
 
 
 @pytest.fixture(scope="session")

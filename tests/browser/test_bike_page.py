@@ -48,7 +48,7 @@ def test_a_second_unit_is_added_chosen_and_removed(
     expect(chooser.locator("option")).to_have_count(2)
     second = next(d for d in server.get("/devices")["items"] if d["id"] != standing)
     expect(page.locator("main")).to_contain_text(second["url"])
-    page.click("text=Disconnect")
+    page.get_by_role("button", name="Disconnect", exact=True).click()
     expect(chooser).to_have_count(0)
     assert [d["id"] for d in server.get("/devices")["items"]] == [standing]
 
@@ -63,7 +63,7 @@ def test_a_port_that_cannot_be_opened_says_why(
     page.press("input[aria-label='Address of a port']", "Enter")
 
     expect(page.locator("[data-testid=banner]")).to_contain_text("127.0.0.1")
-    page.click("text=Disconnect")
+    page.get_by_role("button", name="Disconnect", exact=True).click()
     expect(page.locator(PILL)).to_contain_text("Connected")
     assert [d["id"] for d in server.get("/devices")["items"]] == [device]
 

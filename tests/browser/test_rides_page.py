@@ -172,7 +172,7 @@ def test_a_ride_is_renamed(desk: Desk, server: SpindleServer) -> None:
 
     page.get_by_role("button", name="Rename", exact=True).click()
     page.fill("input[name=name]", "Along the river")
-    page.click("text=Keep")
+    page.get_by_role("button", name="Keep", exact=True).click()
 
     expect(page.locator("h2", has_text="Along the river")).to_be_visible()
     assert "Along the river" in [ride["name"] for ride in server.get("/rides")["items"]]

@@ -16,7 +16,8 @@ def test_a_zero_is_proposed_from_the_reading_and_written(
     desk: Desk, server: SpindleServer, standing: str
 ) -> None:
     page = desk.open("/sensor")
-    page.wait_for_selector("text=steady")
+    # Quoted: "not steady yet" has the word in it as well.
+    page.wait_for_selector('text="steady"')
 
     page.click("text=Zero from current reading")
     offset = page.locator("input[aria-label='Sensor offset']")
