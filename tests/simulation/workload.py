@@ -53,6 +53,7 @@ class Workload:
         self._torque_nm_max = 2.0
         self._cutoff_kmh = CUTOFF_KMH
         self._settled = False
+        self._read_again = False
         self.last_write: Intent | None = None
         self._trials = Trials(self)
         self._unlocking = Unlocking(self)
@@ -270,9 +271,11 @@ class Workload:
         if not self._settled:
             self._settled = True
             self._stop()
-            self._bases.clear()
             self._next_s = world.calm_s + SETTLED_S
-        elif world.now_s >= self._next_s and not self._bases:
+        elif world.now_s >= self._next_s and not (self._read_again and self._bases):
+            # What was read before may have been on trial, and be given up since.
+            self._bases.clear()
+            self._read_again = True
             self._next_s = world.now_s + 1.0
             world.check_liveness()
             self._read_all()
