@@ -13,7 +13,7 @@ MTU = 544
 MAX_OUTSTANDING = 4
 CONTROL_PERIOD_US = 10000
 IMAGE_LENGTH = 413
-SCHEMA_HASH = bytes.fromhex("71a41d39e1f209ce")
+SCHEMA_HASH = bytes.fromhex("5fdf4894d6facdd8")
 
 
 class Status(IntEnum):
@@ -192,6 +192,14 @@ class Event(IntEnum):
     LOG_OVERWRITTEN = 21
 
 
+class LogEvent(IntEnum):
+    """What an EVENT block of a ride log tells: the faults that came or went, or the mode the rider chose."""
+
+    FAULT_SET = 2
+    FAULT_CLEARED = 3
+    ASSIST_MODE = 128
+
+
 class CommitFlags(IntFlag):
     """How CFG_COMMIT makes an image active."""
 
@@ -282,6 +290,7 @@ class MessageId(IntEnum):
     LOG_ACK = 0x0403
     LOG_CLOSE = 0x0404
     LOG_CRC = 0x0405
+    LOG_ERASE = 0x0406
     LOG_CONFIRM = 0x0407
     AUTH_CHALLENGE = 0x0601
     AUTH_RESPONSE = 0x0602
@@ -1259,6 +1268,34 @@ class LogCrcResponse(Message):
 
 
 @dataclass(frozen=True, slots=True)
+class LogEraseRequest(Message):
+    """Frees a log that a host has confirmed; STATE for any other. `erases`: blocks of the logs' flash erased in its life. Answers PENDING first."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_ERASE
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("log_id", "u32"),
+        Field("generation", "u32"),
+    )
+    LENGTH: ClassVar[int] = 8
+
+    log_id: int
+    generation: int
+
+
+@dataclass(frozen=True, slots=True)
+class LogEraseResponse(Message):
+    """Frees a log that a host has confirmed; STATE for any other. `erases`: blocks of the logs' flash erased in its life. Answers PENDING first."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_ERASE
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("erases", "u32"),
+    )
+    LENGTH: ClassVar[int] = 4
+
+    erases: int
+
+
+@dataclass(frozen=True, slots=True)
 class LogConfirmRequest(Message):
     """The host has the whole log safe, and this is its CRC-32; if it is the unit's too, the log may be freed. Answers PENDING first."""
 
@@ -1636,6 +1673,7 @@ REQUEST_BY_ID: dict[int, type[Message]] = {
     0x0403: LogAckRequest,
     0x0404: LogCloseRequest,
     0x0405: LogCrcRequest,
+    0x0406: LogEraseRequest,
     0x0407: LogConfirmRequest,
     0x0601: AuthChallengeRequest,
     0x0602: AuthResponseRequest,
@@ -1680,6 +1718,7 @@ RESPONSE_BY_ID: dict[int, type[Message]] = {
     0x0403: LogAckResponse,
     0x0404: LogCloseResponse,
     0x0405: LogCrcResponse,
+    0x0406: LogEraseResponse,
     0x0407: LogConfirmResponse,
     0x0601: AuthChallengeResponse,
     0x0602: AuthResponseResponse,
@@ -1720,6 +1759,7 @@ ENUM_BY_NAME: dict[str, type[IntEnum]] = {
     "label": Label,
     "falling_torque": FallingTorque,
     "event": Event,
+    "log_event": LogEvent,
 }
 
 PARAMETERS: tuple[Parameter, ...] = (

@@ -1194,6 +1194,48 @@ int ebl_log_crc_response_put(const ebl_log_crc_response *message, uint8_t *bytes
     return EBL_OK;
 }
 
+int ebl_log_erase_request_get(ebl_log_erase_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 8) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->log_id = ebl_get_u32(bytes + 0);
+    message->generation = ebl_get_u32(bytes + 4);
+    return EBL_OK;
+}
+
+int ebl_log_erase_request_put(const ebl_log_erase_request *message, uint8_t *bytes, size_t capacity,
+                             size_t *length)
+{
+    if (capacity < 8) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->log_id);
+    ebl_put_u32(bytes + 4, message->generation);
+    *length = 8;
+    return EBL_OK;
+}
+
+int ebl_log_erase_response_get(ebl_log_erase_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 4) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->erases = ebl_get_u32(bytes + 0);
+    return EBL_OK;
+}
+
+int ebl_log_erase_response_put(const ebl_log_erase_response *message, uint8_t *bytes, size_t capacity,
+                              size_t *length)
+{
+    if (capacity < 4) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->erases);
+    *length = 4;
+    return EBL_OK;
+}
+
 int ebl_log_confirm_request_get(ebl_log_confirm_request *message, const uint8_t *bytes, size_t length)
 {
     if (length < 16) {

@@ -12,7 +12,7 @@
 #define EBL_MAX_OUTSTANDING 4
 #define EBL_CONTROL_PERIOD_US 10000
 #define EBL_IMAGE_LENGTH 413
-#define EBL_MESSAGE_COUNT 41
+#define EBL_MESSAGE_COUNT 42
 #define EBL_EVENT_COUNT 12
 #define EBL_EVENT_HEAD_LENGTH 5
 #define EBL_PARAMETER_COUNT 46
@@ -22,7 +22,7 @@
 #define EBL_FAULTS_ASSIST_OFF 8183
 #define EBL_FAULTS_LATCHED 5107
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 4262
+#define EBL_SCHEMA_LENGTH 4293
 
 enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */
 
@@ -186,6 +186,13 @@ typedef enum {
     EBL_EVENT_LOG_OVERWRITTEN = 21,
 } ebl_event;
 
+/* What an EVENT block of a ride log tells: the faults that came or went, or the mode the rider chose. */
+typedef enum {
+    EBL_LOG_EVENT_FAULT_SET = 2,
+    EBL_LOG_EVENT_FAULT_CLEARED = 3,
+    EBL_LOG_EVENT_ASSIST_MODE = 128,
+} ebl_log_event;
+
 /* How CFG_COMMIT makes an image active. */
 enum {
     EBL_COMMIT_PROVISIONAL = 1,
@@ -270,6 +277,7 @@ enum {
     EBL_MSG_LOG_ACK = 0x0403,
     EBL_MSG_LOG_CLOSE = 0x0404,
     EBL_MSG_LOG_CRC = 0x0405,
+    EBL_MSG_LOG_ERASE = 0x0406,
     EBL_MSG_LOG_CONFIRM = 0x0407,
     EBL_MSG_AUTH_CHALLENGE = 0x0601,
     EBL_MSG_AUTH_RESPONSE = 0x0602,
@@ -957,6 +965,23 @@ typedef struct {
 int ebl_log_crc_response_get(ebl_log_crc_response *message, const uint8_t *bytes, size_t length);
 int ebl_log_crc_response_put(const ebl_log_crc_response *message, uint8_t *bytes, size_t capacity,
                             size_t *length);
+
+#define EBL_LOG_ERASE_REQUEST_LENGTH 8
+typedef struct {
+    uint32_t log_id;
+    uint32_t generation;
+} ebl_log_erase_request;
+int ebl_log_erase_request_get(ebl_log_erase_request *message, const uint8_t *bytes, size_t length);
+int ebl_log_erase_request_put(const ebl_log_erase_request *message, uint8_t *bytes, size_t capacity,
+                             size_t *length);
+
+#define EBL_LOG_ERASE_RESPONSE_LENGTH 4
+typedef struct {
+    uint32_t erases;
+} ebl_log_erase_response;
+int ebl_log_erase_response_get(ebl_log_erase_response *message, const uint8_t *bytes, size_t length);
+int ebl_log_erase_response_put(const ebl_log_erase_response *message, uint8_t *bytes, size_t capacity,
+                              size_t *length);
 
 #define EBL_LOG_CONFIRM_REQUEST_LENGTH 16
 typedef struct {

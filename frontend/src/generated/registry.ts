@@ -174,6 +174,11 @@ export const ENUMS = {
     LOG_CLOSED: 20,
     LOG_OVERWRITTEN: 21,
   },
+  log_event: {
+    FAULT_SET: 2,
+    FAULT_CLEARED: 3,
+    ASSIST_MODE: 128,
+  },
 } as const;
 
 /** Bit numbers. */

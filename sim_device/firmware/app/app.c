@@ -120,6 +120,8 @@ void app_poll(app *unit)
     receive(unit);
     ride_log_poll(&unit->ride_log, unit->board, &unit->store, &unit->events, &unit->link);
     requests_log_poll(unit);
+    unit->counters.log_erases += unit->ride_log.store.erases;
+    unit->ride_log.store.erases = 0;
     link_transmit(&unit->link, unit->board);
 }
 
@@ -152,11 +154,11 @@ static void faults_report(app *unit, const hal_inputs *inputs, uint64_t now_us)
     unit->faults_new = set;
     if (set != 0) {
         event_faults_set(&unit->events, &unit->link, now_us, set);
-        ride_log_event_add(&unit->ride_log, EBL_EVENT_FAULT_SET, set, now_us);
+        ride_log_event_add(&unit->ride_log, EBL_LOG_EVENT_FAULT_SET, set, now_us);
     }
     if (cleared != 0) {
         event_faults_cleared(&unit->events, &unit->link, now_us, cleared);
-        ride_log_event_add(&unit->ride_log, EBL_EVENT_FAULT_CLEARED, cleared, now_us);
+        ride_log_event_add(&unit->ride_log, EBL_LOG_EVENT_FAULT_CLEARED, cleared, now_us);
     }
 }
 
@@ -194,6 +196,7 @@ void app_control_step(app *unit)
 
     counters_step(&unit->counters, inputs.speed_kmh);
     faults_report(unit, &inputs, now_us);
+    ride_log_mode_set(&unit->ride_log, sources.mode, now_us);
     sources.fault_flags = unit->faults.active;
     telemetry_step(&unit->telemetry, &sources, now_us, &unit->link);
     faults_freeze(&unit->faults, unit->faults_new, now_us, unit->telemetry.row);

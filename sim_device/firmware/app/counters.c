@@ -15,7 +15,14 @@
 #define SPEED_KMH_MAX 150.0f /* what is faster is a disturbed sensor */
 #define STANDSTILL_SPEED_KMH_MAX 0.5f
 
-enum { AT_SEQUENCE = 0, AT_DISTANCE = 4, AT_OPERATING = 8, AT_CRC = 12, RECORD_LENGTH = 16 };
+enum {
+    AT_SEQUENCE = 0,
+    AT_DISTANCE = 4,
+    AT_OPERATING = 8,
+    AT_LOG_ERASES = 12,
+    AT_CRC = 16,
+    RECORD_LENGTH = 20
+};
 
 static size_t records_per_area(const counters *state) { return state->area_bytes / RECORD_LENGTH; }
 
@@ -64,6 +71,7 @@ void counters_boot(counters *state, const hal *board, size_t address)
         state->sequence = sequence;
         state->distance_m = ebl_get_u32(record + AT_DISTANCE);
         state->operating_s = ebl_get_u32(record + AT_OPERATING);
+        state->log_erases = ebl_get_u32(record + AT_LOG_ERASES);
         state->next = place + 1;
     }
     state->saved_distance_m = state->distance_m;
@@ -108,6 +116,7 @@ void counters_poll(counters *state, const hal *board, uint64_t now_us)
     ebl_put_u32(record + AT_SEQUENCE, state->sequence + 1);
     ebl_put_u32(record + AT_DISTANCE, state->distance_m);
     ebl_put_u32(record + AT_OPERATING, state->operating_s);
+    ebl_put_u32(record + AT_LOG_ERASES, state->log_erases);
     ebl_put_u32(record + AT_CRC, ebl_crc32(0, record, AT_CRC));
     if (flash_program_verified(board, record_address(state, state->next), record, RECORD_LENGTH) ==
         CONFIG_STORE_OK) {

@@ -1,8 +1,8 @@
-/* What the unit learns of itself while it is used: distance and operating time.
+/* What the unit learns of itself while it is used: distance, operating time, wear.
  *
  * Kept in a log of its own behind the configuration's slots and outside its CRC: two areas of whole
- * blocks, records of 16 bytes one after the other (sequence u32, distance u32, operating time u32,
- * CRC-32 of the three). The newest whole record counts, so a power cut costs what was counted since
+ * blocks, records of 20 bytes one after the other (sequence u32, distance u32, operating time u32,
+ * erases of the ride logs' blocks u32, CRC-32 of the four). The newest whole record counts, so a power cut costs what was counted since
  * the one before. An area is erased when the other is full, and only at a standstill. */
 #ifndef SPINDLE_COUNTERS_H
 #define SPINDLE_COUNTERS_H
@@ -17,6 +17,7 @@
 typedef struct {
     uint32_t distance_m;
     uint32_t operating_s;
+    uint32_t log_erases;   /* blocks of the ride logs' flash */
     float distance_rest_m; /* below a metre */
     uint8_t steps;         /* of the second that has begun */
     float speed_kmh;       /* the latest */

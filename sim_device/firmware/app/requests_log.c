@@ -197,6 +197,43 @@ static void confirm(app *unit, const ebl_header *request, reply *answer)
     check_begin(unit, request, place, 0, asked.length, answer);
 }
 
+static void erase(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_log_erase_request asked;
+    uint8_t place;
+
+    if (ebl_log_erase_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LOG_ERASE_REQUEST_LENGTH);
+        return;
+    }
+    if (!find(unit, asked.log_id, asked.generation, &place, answer)) return;
+    if (!(unit->ride_log.store.logs[place].flags & EBL_LOG_CONFIRMED)) {
+        reply_refuse(answer, EBL_STATUS_STATE, (uint16_t)asked.log_id);
+        return;
+    }
+    check_begin(unit, request, place, 0, 0, answer);
+}
+
+/* Frees the log. Its first block is erased, so that no boot finds it. */
+static void erase_answer(app *unit, reply *answer)
+{
+    ride_log_store *store = &unit->ride_log.store;
+    uint8_t place = unit->log_check.place;
+    ebl_log_erase_response response;
+    size_t length = 0;
+    int put;
+
+    if (ride_log_store_erase(store, unit->board, store->logs[place].first_block) < 0) {
+        reply_refuse(answer, EBL_STATUS_FLASH_FAIL, 0);
+        return;
+    }
+    ride_log_store_release(store, place);
+    response.erases = unit->counters.log_erases + store->erases;
+    put = ebl_log_erase_response_put(&response, reply_fields(answer), reply_capacity(answer),
+                                     &length);
+    reply_with(answer, put, length);
+}
+
 /* What the host is told once the check value is known. */
 static void check_answer(app *unit, reply *answer)
 {
@@ -209,6 +246,8 @@ static void check_answer(app *unit, reply *answer)
         put = ebl_log_crc_response_put(&response, reply_fields(answer), reply_capacity(answer),
                                        &length);
         reply_with(answer, put, length);
+    } else if (check->message_id == EBL_MSG_LOG_ERASE) {
+        erase_answer(unit, answer);
     } else if (check->crc32 != check->expected) {
         reply_refuse(answer, EBL_STATUS_CRC_MISMATCH, (uint16_t)check->crc32);
     } else if (ride_log_store_confirm(&unit->ride_log.store, unit->board, check->place) < 0) {
@@ -216,6 +255,13 @@ static void check_answer(app *unit, reply *answer)
     } else {
         reply_ok(answer);
     }
+}
+
+/* Neither at work nor about to give up the very log. */
+static int flash_is_free(const app *unit)
+{
+    return !unit->board->log_busy(unit->board->log_context) &&
+           unit->ride_log.victim != unit->log_check.place;
 }
 
 void requests_log_poll(app *unit)
@@ -231,8 +277,7 @@ void requests_log_poll(app *unit)
     if (state == RIDE_LOG_CHECK_RUNNING) return;
     if (state == RIDE_LOG_CHECK_GONE) {
         reply_refuse(&answer, EBL_STATUS_NOT_FOUND, (uint16_t)check->log_id);
-    } else if (check->message_id == EBL_MSG_LOG_CONFIRM &&
-               unit->board->log_busy(unit->board->log_context)) {
+    } else if (check->message_id != EBL_MSG_LOG_CRC && !flash_is_free(unit)) {
         return;
     } else {
         check_answer(unit, &answer);
@@ -270,6 +315,7 @@ static request_handler handler_of(uint16_t message_id)
     case EBL_MSG_LOG_CLOSE: return close;
     case EBL_MSG_LOG_CRC: return crc;
     case EBL_MSG_LOG_CONFIRM: return confirm;
+    case EBL_MSG_LOG_ERASE: return erase;
     default: return NULL;
     }
 }

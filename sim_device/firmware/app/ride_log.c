@@ -76,6 +76,13 @@ void ride_log_event_add(ride_log *log, uint8_t code, uint16_t flags, uint64_t no
     log->event_count++;
 }
 
+void ride_log_mode_set(ride_log *log, uint8_t mode, uint64_t now_us)
+{
+    if (mode == log->mode) return;
+    log->mode = mode;
+    ride_log_event_add(log, EBL_LOG_EVENT_ASSIST_MODE, mode, now_us);
+}
+
 void ride_log_clock_set(ride_log *log, uint64_t unix_offset_us)
 {
     log->unix_offset_us = unix_offset_us;
@@ -117,7 +124,7 @@ static void spare_begin(ride_log *log, const hal *board)
         return;
     }
     log->spare = block;
-    if (board->log_erase(board->log_context, (size_t)block * board->log_block_size) < 0) {
+    if (ride_log_store_erase(&log->store, board, block) < 0) {
         /* Tried again later, elsewhere first. */
         log->write_errors++;
         log->victim = RIDE_LOG_NONE;

@@ -36,7 +36,8 @@ typedef struct {
     uint8_t state;
     uint8_t place; /* of the log being written */
     uint8_t reason;
-    uint8_t due; /* blocks to be written before the next rows */
+    uint8_t mode; /* as last told */
+    uint8_t due;  /* blocks to be written before the next rows */
     uint8_t steps_left;
     uint8_t spare_state;
     uint8_t no_room; /* for another block of this log */
@@ -64,8 +65,11 @@ void ride_log_init(ride_log *log, const hal *board);
 /* One control step: the row as telemetry has it. */
 void ride_log_step(ride_log *log, const int16_t *row, uint64_t now_us, int moving);
 
-/* `code`: EBL_EVENT_FAULT_SET or EBL_EVENT_FAULT_CLEARED. */
+/* `code`: an ebl_log_event. */
 void ride_log_event_add(ride_log *log, uint8_t code, uint16_t flags, uint64_t now_us);
+
+/* The mode the rider has chosen; a change is an event. */
+void ride_log_mode_set(ride_log *log, uint8_t mode, uint64_t now_us);
 
 /* What time it is in the world, as soon as somebody has told the unit. */
 void ride_log_clock_set(ride_log *log, uint64_t unix_offset_us);

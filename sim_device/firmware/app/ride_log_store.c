@@ -109,6 +109,12 @@ uint8_t ride_log_store_victim(const ride_log_store *store)
     return oldest;
 }
 
+int ride_log_store_erase(ride_log_store *store, const hal *board, uint16_t block)
+{
+    store->erases++;
+    return board->log_erase(board->log_context, (size_t)block * board->log_block_size);
+}
+
 void ride_log_store_release(ride_log_store *store, uint8_t place)
 {
     for (size_t block = 0; block < store->blocks; block++) {

@@ -35,6 +35,7 @@ typedef struct {
     uint16_t head; /* where the search for a free block begins */
     uint32_t next_id;
     uint32_t overwritten; /* unconfirmed logs given up since boot */
+    uint8_t erases;       /* of blocks, until the unit's counters have them */
 } ride_log_store;
 
 /* Reads the flash. `row_period_us` tells how long a DATA block lasts. */
@@ -59,6 +60,9 @@ int ride_log_store_is_before(const ride_log_store *store, uint16_t block, uint16
 /* The log to be given up next: the oldest confirmed one, else the oldest; never one that is being
  * recorded. RIDE_LOG_NONE where there is none. */
 uint8_t ride_log_store_victim(const ride_log_store *store);
+
+/* Begins to erase a block, and counts it. Negative where the flash refuses. */
+int ride_log_store_erase(ride_log_store *store, const hal *board, uint16_t block);
 
 /* Forgets a log whose first block has been erased. */
 void ride_log_store_release(ride_log_store *store, uint8_t place);

@@ -10,7 +10,7 @@ from sim_device.firmware.python._native import lib
 from firmware_protocol._generated import CountersRequest, CountersResponse
 from tests.fakes.bench_unit import FLASH_BLOCK_BYTES, BenchUnit
 
-RECORD_BYTES = 16
+RECORD_BYTES = 20
 COUNTERS_AT = 2 * FLASH_BLOCK_BYTES
 
 

@@ -22,6 +22,7 @@ from firmware_protocol._generated import (
     LogConfirmRequest,
     LogCrcRequest,
     LogCrcResponse,
+    LogEvent,
     LogFlags,
     LogOpenRequest,
     Status,
@@ -122,6 +123,21 @@ def test_faults_are_in_the_log_with_their_time() -> None:
     told = [block.payload for block in blocks if block.type == EVENT]
     assert [int(payload[8]) for payload in told] == [Event.FAULT_SET, Event.FAULT_CLEARED]
     assert int.from_bytes(told[0][:8], "little") / 1e6 == pytest.approx(3.1, abs=0.05)
+
+
+def test_the_mode_the_rider_chose_is_in_the_log_with_its_time() -> None:
+    unit = unit_with_room()
+    unit.inputs(speed_kmh=18.0, mode_selected=2)
+    unit.advance(3.0)
+    unit.inputs(mode_selected=4)
+
+    ride(unit, 4.0)
+
+    blocks = scan(fetch(unit, logs(unit)[0])).blocks
+    told = [block.payload for block in blocks if block.type == EVENT]
+    assert [payload[8] for payload in told] == [LogEvent.ASSIST_MODE]
+    assert int.from_bytes(told[0][9:11], "little") == 4
+    assert int.from_bytes(told[0][:8], "little") / 1e6 == pytest.approx(3.01, abs=0.05)
 
 
 @pytest.mark.parametrize("told_after_s", [0.0, 4.0], ids=["before", "meanwhile"])
