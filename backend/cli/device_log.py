@@ -1,4 +1,4 @@
-"""`spindle device logs` and `spindle device download`"""
+"""`spindle device logs`, `spindle device download` and `spindle device erase`"""
 
 from __future__ import annotations
 
@@ -33,6 +33,18 @@ def list_logs(options: Namespace) -> int:
     print_table(rows, ["log", "state", "started", "seconds", "bytes", "fetched"])
     if answer["overwritten"]:
         print(f"{answer['overwritten']} logs were overwritten before anybody fetched them.")
+    return 0
+
+
+def erase(options: Namespace) -> int:
+    """Frees a fetched log in the unit's flash."""
+    server = server_of(options)
+    path = f"/devices/{server.device_id(options.unit)}/logs/{options.log}"
+    answer = server.ask("DELETE", path)
+    if options.json:
+        print_json(answer)
+    else:
+        print(f"Log {options.log} is erased; {answer['erases']} blocks of the unit's flash so far.")
     return 0
 
 

@@ -94,6 +94,9 @@ def _add_device(verbs: Any) -> None:
     command = _asking(group, "download", device_log.download, help="make a log of the unit a ride")
     command.add_argument("log", type=int, help="its number in `device logs`")
     command.add_argument("unit", nargs="?", help=unit)
+    command = _asking(group, "erase", device_log.erase, help="free a fetched log in the unit")
+    command.add_argument("log", type=int, help="its number in `device logs`")
+    command.add_argument("unit", nargs="?", help=unit)
 
 
 def _add_ride(verbs: Any) -> None:

@@ -14,6 +14,8 @@ from firmware_protocol._generated import (
     LogConfirmResponse,
     LogCrcRequest,
     LogCrcResponse,
+    LogEraseRequest,
+    LogEraseResponse,
     LogFlags,
     LogListRequest,
     LogListResponse,
@@ -83,6 +85,15 @@ def confirm_log(log: RideLog, crc32: int) -> Operation[None]:
     """Tell the unit that the log is safe here: it may free it. DeviceRefused on another CRC-32."""
     request = LogConfirmRequest(log.log_id, log.generation, log.length, crc32)
     yield from ask(request, LogConfirmResponse)
+
+
+def erase_log(log: RideLog) -> Operation[int]:
+    """Have the unit free a confirmed log; blocks of its flash erased so far in its life.
+
+    Raises DeviceRefused, with STATE for a log that is being written or is not confirmed.
+    """
+    request = LogEraseRequest(log.log_id, log.generation)
+    return (yield from ask(request, LogEraseResponse)).erases
 
 
 def receive_log(

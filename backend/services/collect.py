@@ -29,6 +29,7 @@ from backend.device.ride_logs import (
     RideLogs,
     close_log,
     confirm_log,
+    erase_log,
     list_logs,
     log_crc,
     receive_log,
@@ -103,6 +104,14 @@ class UnitLogs:
 
     items: tuple[UnitLog, ...]
     overwritten: int
+
+
+@dataclass(frozen=True)
+class Erased:
+    """A log that was freed. erases: blocks of the unit's flash for logs erased in its life."""
+
+    log_id: int
+    erases: int
 
 
 class Stopping(SpindleError):
@@ -189,6 +198,28 @@ class Collect:
         if found is None:
             raise NotFound(f"Nobody has begun to fetch ride log {log_id} of {unit_id}.")
         return found
+
+    def erase(self, device_id: str, log_id: int) -> Erased:
+        """Have the unit free a log that is safe here. Raises NotFound, NoAnswer, Conflict.
+
+        Conflict while it is being written or fetched, or before the unit knows that it is safe.
+        """
+        unit_id = self._devices.get(device_id).id
+        log = self._find(unit_id, log_id)
+        with self._lock:
+            download = self._downloads.get((unit_id, log_id))
+        if log.recording or (download is not None and download.state in RUNNING):
+            raise Conflict(f"Ride log {log_id} is being written or fetched.", code="recording")
+        if not log.confirmed:
+            raise Conflict(
+                f"Ride log {log_id} is not fetched and confirmed: erasing it would lose the ride. "
+                "Fetch it first.",
+                code="not_confirmed",
+            )
+        erases = self._again(unit_id, lambda: erase_log(log))
+        with self._lock:
+            self._downloads.pop((unit_id, log_id), None)
+        return Erased(log_id, erases)
 
     def close(self) -> None:
         """Break off; what has come stays on the disk."""

@@ -153,4 +153,8 @@ def test_the_command_lists_and_fetches(workshop: SpindleServer) -> None:
         return done.stdout
 
     assert str(newest) in spindle("device", "logs")
+    refused = workshop.client.delete(f"/devices/{device}/logs/{newest}")
+    assert (refused.status_code, refused.json()["code"]) == (409, "not_confirmed")
     assert "ride" in spindle("device", "download", str(newest))
+    assert "erased" in spindle("device", "erase", str(newest))
+    assert newest not in [log["log_id"] for log in logs(workshop, device)]

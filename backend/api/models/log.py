@@ -35,6 +35,13 @@ class UnitLog(Answer):
     download: LogDownload | None
 
 
+class ErasedLog(Answer):
+    log_id: int
+    erases: int = Field(
+        description="Blocks of the flash for logs erased in its life."
+    )
+
+
 class UnitLogs(Answer):
     """The oldest first. overwritten: given up by the unit before anybody fetched them."""
 

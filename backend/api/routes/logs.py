@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Response, status
 
-from backend.api.models.log import LogDownload, UnitLogs
+from backend.api.models.log import ErasedLog, LogDownload, UnitLogs
 from backend.api.problem import refusals
 from backend.api.services import Provided
 
@@ -20,6 +20,14 @@ DOWNLOAD = "/devices/{device_id}/logs/{log_id}/download"
 def list_logs(device_id: str, services: Provided) -> Any:
     """Rides the unit has recorded by itself; 409 for a unit that keeps none."""
     return services.collect.logs(device_id)
+
+
+@router.delete(
+    "/devices/{device_id}/logs/{log_id}", operation_id="erase_log", response_model=ErasedLog
+)
+def erase_log(device_id: str, log_id: LogId, services: Provided) -> Any:
+    """Frees a log in the unit's flash; 409 unless it was fetched and the unit knows that."""
+    return services.collect.erase(device_id, log_id)
 
 
 @router.post(

@@ -218,6 +218,21 @@ def test_a_log_fetched_again_is_the_ride_that_is_here(shop: Shop) -> None:
     assert len(shop.store.rides.list().items) == 1
 
 
+def test_a_log_is_erased_only_after_it_is_safe_here(shop: Shop) -> None:
+    with pytest.raises(Conflict, match="would lose the ride"):
+        shop.collect.erase(shop.device, 1)
+    done = shop.fetch()
+
+    erased = shop.collect.erase(shop.device, 1)
+
+    assert (erased.log_id, erased.erases > 0) == (1, True)
+    assert shop.collect.logs(shop.device).items == ()
+    assert done.ride_id is not None
+    assert shop.store.rides.get(done.ride_id).state == "done"
+    with pytest.raises(NotFound):
+        shop.collect.erase(shop.device, 1)
+
+
 def test_closing_in_the_middle_keeps_what_has_come(shop: Shop) -> None:
     part = part_of(shop)
     shop.cable.breaks_after = shop.cable.carried + 20_000
