@@ -1,9 +1,10 @@
 /* What the unit learns of itself while it is used: distance, operating time, wear.
  *
  * Kept in a log of its own behind the configuration's slots and outside its CRC: two areas of whole
- * blocks, records of 20 bytes one after the other (sequence u32, distance u32, operating time u32,
- * erases of the ride logs' blocks u32, CRC-32 of the four). The newest whole record counts, so a power cut costs what was counted since
- * the one before. An area is erased when the other is full, and only at a standstill. */
+ * blocks, records of 20 bytes one after the other (sequence, distance, operating time, erases of
+ * the ride logs' blocks, CRC-32 of the four, u32 each). The newest whole record counts, so a power
+ * cut costs what was counted since the one before. An area is erased when the other is full, and
+ * only at a standstill. */
 #ifndef SPINDLE_COUNTERS_H
 #define SPINDLE_COUNTERS_H
 
