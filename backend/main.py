@@ -82,7 +82,7 @@ def open_services(settings: Settings) -> Iterator[Services]:
 
         devices.watch(memory.follow)
         devices.watch(recorder.watch)
-        closing.enter_context(housekeeping(lambda: recorder.tick(time.time_ns() // 1000)))
+        closing.enter_context(housekeeping(partial(tidy, recorder, uploads)))
         for url in settings.device:
             in_background(url, partial(devices.add, url))
         preview = Preview()
@@ -97,6 +97,12 @@ def open_services(settings: Settings) -> Iterator[Services]:
             uploads=uploads,
             collect=collect,
         )
+
+
+def tidy(recorder: Recorder, uploads: Uploads) -> None:
+    """Ends what has been silent too long; fills rides that are over."""
+    recorder.tick(time.time_ns() // 1000)
+    uploads.look_again()
 
 
 def in_background(name: str, work: Callable[[], object]) -> None:

@@ -18,6 +18,8 @@ from backend.domain.energy import (
     held_sum,
     sample_seconds,
 )
+from backend.domain.filled import Filled
+from backend.domain.ride_events import RideEvent
 
 TimesUs = npt.NDArray[np.int64]
 
@@ -107,7 +109,8 @@ class Ride:
 
     state: `live` while it is recorded, `done` when its object is written. origin: `recorded` or
     `imported`. period_us: spacing of the rows, None when they are irregular. completeness: share
-    of the rows that should be there (0..1), None when nobody can say.
+    of the rows that should be there (0..1), None when nobody can say; a stretch filled from a log
+    counts as there. filled: those stretches. events: what happened.
     """
 
     id: int
@@ -122,6 +125,8 @@ class Ride:
     derived: tuple[ChannelSpec, ...]
     context: RideContext
     gaps: tuple[Gap, ...] = ()
+    filled: tuple[Filled, ...] = ()
+    events: tuple[RideEvent, ...] = ()
     completeness: float | None = None
     upload_id: str | None = None
     source_sha256: str | None = None
@@ -151,6 +156,8 @@ class Ride:
             ],
             "device": asdict(self.context),
             "gaps": [asdict(gap) for gap in self.gaps],
+            "filled": [asdict(span) for span in self.filled],
+            "events": [asdict(event) for event in self.events],
             "completeness": self.completeness,
             "upload_id": self.upload_id,
             "object_bytes": self.object_bytes,
@@ -192,13 +199,18 @@ def find_gaps(
 
 
 def summarise(
-    values: Mapping[str, Values], times_us: TimesUs, period_us: int | None
+    values: Mapping[str, Values],
+    times_us: TimesUs,
+    period_us: int | None,
+    seconds: Values | None = None,
 ) -> RideSummary:
     """The ride's figures from physical values by channel name, each (n,), missing as NaN.
 
     values: recorded and derived channels; only those present are used. times_us: int64 (n,).
+    seconds: how long each sample holds, float64 (n,), where the times alone do not tell.
     """
-    seconds = sample_seconds(times_us, pause_us(times_us, period_us))
+    if seconds is None:
+        seconds = sample_seconds(times_us, pause_us(times_us, period_us))
     duration_s = float(times_us[-1] - times_us[0]) / 1e6 if len(times_us) else 0.0
     figures: dict[str, float | None] = {}
     figures |= movement_figures(values, seconds)

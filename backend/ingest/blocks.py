@@ -23,6 +23,7 @@ BLOCKS_SUFFIX = ".ebll"
 ERASED = b"\xff"
 
 CONFIG, SCHEMA, DATA, EVENT, SYNC, END = range(1, 7)
+EVENT_FIELDS = struct.Struct("<QBH")
 SYNC_FIELDS = struct.Struct("<QI")
 # Number of a block that a host appended to a log.
 HOST_SEQ = 0xFFFFFFFF

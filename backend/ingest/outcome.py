@@ -13,6 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from backend.domain.ride import RideContext, RideRows
+from backend.domain.ride_events import RideEvent
 
 COMPLETE = "complete"
 PARTIAL = "partial"
@@ -24,6 +25,7 @@ class ImportedRide:
     """One ride of a file. started_us: Unix time of its first row. notes: what was put right.
 
     context: what the file knows of the bike. start_known: False where `started_us` means nothing.
+    events: what the file tells besides its rows.
     """
 
     started_us: int
@@ -33,6 +35,7 @@ class ImportedRide:
     notes: tuple[str, ...] = ()
     context: RideContext = RideContext()  # noqa: RUF009 - frozen
     start_known: bool = True
+    events: tuple[RideEvent, ...] = ()
 
 
 @dataclass(frozen=True)

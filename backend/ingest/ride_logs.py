@@ -18,10 +18,19 @@ import numpy.typing as npt
 
 from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.ride import RideContext, RideRows
+from backend.domain.ride_events import (
+    ASSIST_MODE,
+    EVENTS_MAX,
+    FAULT_CLEARED,
+    FAULT_SET,
+    RideEvent,
+)
 from backend.ingest.blocks import (
     CONFIG,
     DATA,
     END,
+    EVENT,
+    EVENT_FIELDS,
     HOST_SEQ,
     SCHEMA,
     SYNC,
@@ -33,7 +42,7 @@ from backend.ingest.blocks import (
 )
 from backend.ingest.columns import EPOCH_S, LATEST_S, SPAN_S_MAX
 from backend.ingest.outcome import COMPLETE, PARTIAL, ImportedRide, Outcome, rejected
-from firmware_protocol._generated import CHANNELS, IMAGE_LENGTH, SCHEMA_HASH
+from firmware_protocol._generated import CHANNELS, IMAGE_LENGTH, SCHEMA_HASH, LogEvent
 from firmware_protocol.parameters import unpack_image
 
 CONFIG_HEAD = struct.Struct("<12s8sII")
@@ -45,6 +54,11 @@ ROWS_MAX = 2_000_000
 LOGS_MAX = 64
 PERIOD_US_MIN = 1_000
 PERIOD_US_MAX = 60_000_000
+EVENT_KINDS = {
+    LogEvent.FAULT_SET: FAULT_SET,
+    LogEvent.FAULT_CLEARED: FAULT_CLEARED,
+    LogEvent.ASSIST_MODE: ASSIST_MODE,
+}
 REGISTERED = {channel.id: channel for channel in CHANNELS}
 
 Rows16 = npt.NDArray[np.int16]
@@ -127,6 +141,7 @@ def ride_of_log(blocks: Sequence[Block]) -> LogRide:
         notes=tuple(notes),
         context=replace(context, boot_id=mine[0].boot_id, unit_t0_us=t0_us),
         start_known=started_us is not None,
+        events=tuple(events_of(own, t0_us, int(rows.times_us[-1]))),
     )
     return LogRide(ride, whole, bool(ends))
 
@@ -244,6 +259,20 @@ def laid_out(
         for index, channel in enumerate(group.channels)
     }
     return t0_us, RideRows(group.channels, times_us, counts)
+
+
+def events_of(blocks: Sequence[Block], t0_us: int, length_us: int) -> list[RideEvent]:
+    """What EVENT blocks tell of the ride that begins at unit time `t0_us`, in order of time."""
+    found: list[RideEvent] = []
+    for block in blocks:
+        if block.type != EVENT:
+            continue
+        whole = len(block.payload) - len(block.payload) % EVENT_FIELDS.size
+        for t_us, code, value in EVENT_FIELDS.iter_unpack(block.payload[:whole]):
+            kind = EVENT_KINDS.get(code)
+            if kind is not None and 0 <= t_us - t0_us <= length_us:
+                found.append(RideEvent((t_us - t0_us) / 1e6, kind, value))
+    return sorted(found, key=lambda event: event.t_s)[:EVENTS_MAX]
 
 
 def start_of(blocks: Sequence[Block], t0_us: int) -> int | None:

@@ -19,6 +19,7 @@ import numpy as np
 
 from backend.domain.channels import Counts, channel_from_json
 from backend.domain.ride import RideContext, RideRows
+from backend.domain.ride_events import RideEvent
 from backend.ingest.outcome import REJECTED, ImportedRide, Outcome, rejected
 from backend.ingest.worker import CPU_S, DATA_BYTES, OUT_OF_MEMORY
 
@@ -117,5 +118,6 @@ def decode_ride(entry: dict[str, Any], answer: bytes, at: int) -> tuple[Imported
         notes=tuple(str(note) for note in entry["notes"]),
         context=RideContext(**entry["context"]),
         start_known=bool(entry["start_known"]),
+        events=tuple(RideEvent(**event) for event in entry["events"]),
     )
     return ride, at

@@ -55,6 +55,7 @@ def encode(outcome: Outcome) -> bytes:
                 "notes": ride.notes,
                 "context": asdict(ride.context),
                 "start_known": ride.start_known,
+                "events": [asdict(event) for event in ride.events],
                 "rows": len(ride.rows.times_us),
                 "channels": [channel_to_json(channel) for channel in ride.rows.channels],
             }

@@ -7,7 +7,7 @@ any change matches the record says how far the answer can be trusted.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ import numpy.typing as npt
 from backend import control
 from backend.domain.channels import ChannelSpec, Values
 from backend.domain.energy import RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
+from backend.domain.filled import Filled
 from backend.domain.ride import Ride
 from backend.errors import InvalidRequest
 from backend.services.preview import Preview
@@ -105,7 +106,21 @@ def read_columns(reader: RideReader) -> dict[str, Values]:
     names = [*NEEDED, torque, *OPTIONAL, *(channel.name for channel in COMPARED)]
     chosen = [name for name in names if name in offered]
     counts = reader.counts(chosen, 0, reader.row_count)
-    return {name: offered[name].to_values(counts[name]) for name in chosen}
+    return {
+        name: held(offered[name].to_values(counts[name]), reader.ride.filled, reader.period_us)
+        for name in chosen
+    }
+
+
+def held(values: Values, filled: Sequence[Filled], period_us: int) -> Values:
+    """Values (n,) in which a log's sample holds until the next, as in a ride of the log alone."""
+    for span in filled:
+        start, stop = span.rows(period_us)
+        there = np.flatnonzero(np.isfinite(values[start:stop]))
+        if len(there):
+            latest = np.searchsorted(there, np.arange(stop - start), side="right") - 1
+            values[start:stop] = values[start + there[np.maximum(latest, 0)]]
+    return values
 
 
 def law_inputs(columns: Mapping[str, Values]) -> dict[str, npt.ArrayLike]:

@@ -17,7 +17,9 @@ from typing import Protocol
 from backend.domain.ride import Ride, iso_utc
 from backend.errors import Conflict, InvalidRequest, StoreError
 from backend.ingest import ImportedRide, Outcome, read_in_child
-from backend.services.same_ride import same_ride
+from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED
+from backend.services.fill import fill
+from backend.services.same_ride import same_rides
 from backend.store import Store, Upload
 
 LOG = logging.getLogger(__name__)
@@ -26,6 +28,9 @@ LOG = logging.getLogger(__name__)
 UPLOAD_BYTES_MAX = 256 * 1024 * 1024
 NAME_LENGTH_MAX = 255
 PIECE_BYTES = 1 << 20
+# Code of a file whose ride is still being recorded.
+WAITS = "ride_is_live"
+CONCLUDED = (COMPLETE, PARTIAL, REJECTED)
 
 
 class Reader(Protocol):
@@ -109,9 +114,17 @@ class Uploads:
         self._store.uploads.remove_expired()
         return [self._process(upload.id) for upload in self._store.uploads.waiting()]
 
+    def look_again(self) -> None:
+        """Look at the files that waited for a ride that is over now."""
+        live = set(self._store.rides.live_ids())
+        for upload in self._store.uploads.waiting():
+            if upload.code == WAITS and upload.duplicate_of not in live:
+                self._process(upload.id)
+
     def _process(self, upload_id: str) -> Upload:
         with self._processing:
-            return self._process_next(upload_id)
+            upload = self.get(upload_id)
+            return upload if upload.state in CONCLUDED else self._process_next(upload_id)
 
     def _process_next(self, upload_id: str) -> Upload:
         uploads = self._store.uploads
@@ -127,8 +140,17 @@ class Uploads:
         if (twin := self._twin(upload)) is not None:
             return twin
         outcome = self._read(upload)
-        fresh, known = self._sorted_out(upload, outcome)
+        fresh: list[ImportedRide] = []
+        known: list[Ride] = []
+        rows_filled = 0
         try:
+            for imported in outcome.rides:
+                twins = same_rides(self._store.rides, imported, upload.id)
+                if live := next((ride for ride in twins if ride.state == "live"), None):
+                    return self._wait_for(upload, live)
+                rows_filled += fill(self._store.rides, twins, imported)
+                known += twins
+                fresh += [] if twins else [imported]
             for number, imported in enumerate(fresh):
                 if number < len(upload.ride_ids):
                     # A crash came between this ride and the conclusion.
@@ -146,9 +168,8 @@ class Uploads:
             return uploads.conclude(
                 upload_id,
                 outcome.state,
-                "duplicate",
-                f"This is ride {known[0].id} of {iso_utc(known[0].started_us)[:10]}, which is here "
-                "already; the file is kept beside it and nothing is stored twice.",
+                "filled" if rows_filled else "duplicate",
+                told_of_known(known, rows_filled),
                 outcome.completeness,
                 duplicate_of=known[0].id,
             )
@@ -156,19 +177,12 @@ class Uploads:
             upload_id, outcome.state, outcome.code, outcome.detail, outcome.completeness
         )
 
-    def _sorted_out(
-        self, upload: Upload, outcome: Outcome
-    ) -> tuple[list[ImportedRide], list[Ride]]:
-        """The rides of a file that are new, and those here that the others are."""
-        fresh: list[ImportedRide] = []
-        known: list[Ride] = []
-        for imported in outcome.rides:
-            twin = same_ride(self._store.rides, imported, upload.id)
-            if twin is None:
-                fresh.append(imported)
-            else:
-                known.append(twin)
-        return fresh, known
+    def _wait_for(self, upload: Upload, live: Ride) -> Upload:
+        """Leave a file until the ride it belongs to is over: only then is known what it lacks."""
+        detail = f"This is ride {live.id}, which is being recorded; what it lacks is filled later."
+        return self._store.uploads.conclude(
+            upload.id, "queued", WAITS, detail, duplicate_of=live.id
+        )
 
     def _read(self, upload: Upload) -> Outcome:
         if upload.object_key is None:
@@ -211,4 +225,14 @@ def ride_of(
         derived=(),
         context=imported.context,
         completeness=completeness,
+        events=imported.events,
     )
+
+
+def told_of_known(known: Sequence[Ride], rows_filled: int) -> str:
+    """What became of a file whose ride is here, in words."""
+    first = known[0]
+    found = f"This is ride {first.id} of {iso_utc(first.started_us)[:10]}, which is here already"
+    if rows_filled:
+        return f"{found}; {rows_filled} rows it lacked were filled from the file, which is kept."
+    return f"{found}; the file is kept beside it and nothing is stored twice."

@@ -8,7 +8,7 @@ an hour's.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from itertools import pairwise
 from pathlib import Path
 
@@ -16,11 +16,15 @@ import numpy as np
 
 from backend.domain.channels import ChannelSpec, Counts, Values
 from backend.domain.energy import FACTORS, derivable, derive
+from backend.domain.filled import filled_mask, filled_seconds
 from backend.domain.pyramid import STEPS, Level, first_level, reduce_groups
 from backend.domain.ride import Gap, Ride, RideRows, RideSummary, find_gaps, summarise
+from backend.domain.ride_events import RideEvent, events_of_rows, merged
 from backend.store.objects import Objects, content_key, file_sha256
 from backend.store.parquet import ROW_GROUP_ROWS, RideFile, release_memory, write_rows
 
+# A row of a log is up to so much later than what it shows.
+SAME_EVENT_S = 0.2
 PIECE_ROWS = 4 * ROW_GROUP_ROWS
 
 
@@ -41,6 +45,7 @@ class Digest:
     levels: tuple[Level, ...]
     summary: RideSummary
     gaps: tuple[Gap, ...]
+    events: tuple[RideEvent, ...]
     rows_empty: int
 
 
@@ -53,12 +58,14 @@ def write_object(
     """
     staged = objects.stage()
     try:
-        facts = {
+        facts: dict[str, object] = {
             "started_us": ride.started_us,
             "period_us": ride.period_us,
             "gear_ratio": ride.context.gear_ratio,
             "device_serial": ride.context.device_serial,
         }
+        if ride.filled:
+            facts["filled"] = [asdict(span) for span in ride.filled]
         rows = write_rows(staged, ride.channels, chunks, facts, sample)
         sha256, size = file_sha256(staged), staged.stat().st_size
         key = content_key("rides", sha256, ".parquet")
@@ -75,12 +82,18 @@ def digest(path: Path, ride: Ride) -> Digest:
     times = file.times_us(0, file.row_count)
     empty = np.ones(file.row_count, dtype=bool)
     pairs: dict[str, list[tuple[Counts, Counts]]] = {}
+    seen: list[RideEvent] = []
     for channel in ride.channels:
         counts = columns.counts(channel)
         empty &= counts == channel.missing
+        seen += events_of_rows(channel, counts, times)
         pairs[channel.name] = pyramid(counts)
     for channel in columns.derived:
         pairs[channel.name] = pyramid(columns.counts(channel))
+    seconds = None
+    if ride.filled and ride.period_us is not None:
+        seconds = filled_seconds(ride.filled, empty, ride.period_us)
+        empty &= ~filled_mask(ride.filled, file.row_count, ride.period_us)
     offered = ride.channels + columns.derived
     found = Digest(
         levels=tuple(
@@ -92,8 +105,9 @@ def digest(path: Path, ride: Ride) -> Digest:
             )
             for depth, step in enumerate(STEPS)
         ),
-        summary=summarise(columns, times, ride.period_us),
+        summary=summarise(columns, times, ride.period_us, seconds),
         gaps=find_gaps(times, empty, ride.period_us),
+        events=tuple(merged(seen, ride.events, SAME_EVENT_S)),
         rows_empty=int(np.sum(empty)),
     )
     release_memory()

@@ -11,7 +11,9 @@ from sqlalchemy import Connection, Row, Select, delete, insert, select, update
 
 from backend.domain.channels import ChannelSpec, channel_to_json
 from backend.domain.energy import derivable
+from backend.domain.filled import Filled
 from backend.domain.ride import Gap, Ride, RideContext, RideSummary
+from backend.domain.ride_events import RideEvent
 from backend.errors import FieldError, InvalidRequest
 from backend.store import tables as t
 from backend.store.blobs import channel_list, encode_level
@@ -56,6 +58,8 @@ def ride_from_row(row: Row[Any]) -> Ride:
         derived=derivable([channel.name for channel in channels], context.gear_ratio),
         context=context,
         gaps=tuple(Gap(**gap) for gap in body["gaps"]),
+        filled=tuple(Filled(**span) for span in body["filled"]),
+        events=tuple(RideEvent(**event) for event in body["events"]),
         completeness=body["completeness"],
         upload_id=body["upload_token"],
         source_sha256=body["source_sha256"],
@@ -135,6 +139,7 @@ def finish_row(
             object_sha256=written.sha256,
             object_bytes=written.size_bytes,
             gaps=[asdict(gap) for gap in found.gaps],
+            events=[asdict(event) for event in found.events],
             completeness=completeness,
         )
     )
@@ -148,6 +153,20 @@ def finish_row(
             for level in found.levels
         ],
     )
+
+
+def refill_row(connection: Connection, ride: Ride, object_key: str) -> bool:
+    """Note when a ride began and what it was filled with; False when it has another object."""
+    changed = connection.execute(
+        update(t.ride)
+        .where(t.ride.c.id == ride.id, t.ride.c.object_key == object_key)
+        .values(
+            started_us=ride.started_us,
+            context=asdict(ride.context),
+            filled=[asdict(span) for span in ride.filled],
+        )
+    )
+    return changed.rowcount == 1
 
 
 def remove_ride(connection: Connection, ride_id: int) -> None:

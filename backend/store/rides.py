@@ -26,6 +26,7 @@ from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
 from backend.store import tables as t
 from backend.store.blobs import Rows16, decode_level, decode_tail, encode_tail
 from backend.store.database import Database
+from backend.store.filling import Filling, filled_chunks, grown
 from backend.store.finish import WrittenObject, digest, write_object
 from backend.store.objects import Objects
 from backend.store.parquet import ROW_GROUP_ROWS, RideFile, joined, sliced
@@ -35,6 +36,7 @@ from backend.store.ride_table import (
     cursor_parts,
     finish_row,
     inserted,
+    refill_row,
     remove_ride,
     ride_from_row,
     ride_row,
@@ -175,6 +177,34 @@ class RideStore:
             return ride_id
 
         return self.get(self._database.write(work))
+
+    def fill(self, ride: Ride, filling: Filling) -> Ride:
+        """Put rows from elsewhere into a finished ride; name, notes and number stay.
+
+        The object is written before the ride points to it. The one before is left for the next
+        opening of the store to collect, since somebody may be reading it. Raises StoreError and
+        Conflict, when the ride became another meanwhile; then it is as it was.
+        """
+        if ride.object_key is None or ride.period_us is None:
+            raise Conflict(f"Ride {ride.id} cannot be filled: it is being recorded.")
+        key = ride.object_key
+        file = RideFile(self._objects.local_path(key), ride.channels)
+        new = grown(ride, filling)
+        middle = max(0, new.row_count // 2 - SAMPLE_ROWS // 2)
+        around = filled_chunks(file, ride, filling, middle, middle + SAMPLE_ROWS)
+        sample = joined(ride.channels, list(around))
+        written = write_object(self._objects, new, filled_chunks(file, ride, filling), sample)
+        found = digest(self._objects.local_path(written.key), new)
+        completeness = 1.0 - found.rows_empty / written.row_count
+
+        def work(connection: Connection) -> None:
+            if not refill_row(connection, new, key):
+                raise Conflict(f"Ride {ride.id} is another since it was looked at.")
+            finish_row(connection, ride.id, written, found, completeness)
+
+        self._database.write(work)
+        self._readers.forget(ride.id)
+        return self.get(ride.id)
 
     def live_ids(self) -> list[int]:
         """Rides that are being recorded, or were when the process died."""

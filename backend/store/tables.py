@@ -104,6 +104,8 @@ ride = Table(
     Column("channels", JSON, nullable=False),
     Column("context", JSON, nullable=False),
     Column("gaps", JSON, nullable=False),
+    Column("filled", JSON, nullable=False, server_default="[]"),
+    Column("events", JSON, nullable=False, server_default="[]"),
     Column("completeness", Float),
     Column("upload_id", KEY, ForeignKey("upload.id"), index=True),
     Column("object_key", String(128), index=True),

@@ -37,9 +37,7 @@ class UnitLog(Answer):
 
 class ErasedLog(Answer):
     log_id: int
-    erases: int = Field(
-        description="Blocks of the flash for logs erased in its life."
-    )
+    erases: int = Field(description="Blocks of the flash for logs erased in its life.")
 
 
 class UnitLogs(Answer):

@@ -49,6 +49,28 @@ class Gap(Answer):
     rows_lost: int | None
 
 
+class Filled(Answer):
+    """A stretch the recording lacked, filled from the unit's own log at the log's rate.
+
+    Of the `rows_lost` rows in it `rows_filled` have samples now; nothing was interpolated.
+    """
+
+    from_s: float
+    to_s: float
+    rows_lost: int
+    rows_filled: int
+    period_us: int = Field(description="Spacing of the source's rows.")
+    source: Literal["unit_log"]
+
+
+class RideEvent(Answer):
+    """A fault that came or went (value: bits of `fault_flags`), or the mode chosen (its slot)."""
+
+    t_s: float
+    kind: Literal["fault_set", "fault_cleared", "assist_mode"]
+    value: int
+
+
 class RideChannel(Answer):
     """A channel that can be asked for; `derived` ones are computed from recorded ones."""
 
@@ -82,8 +104,11 @@ class Ride(Answer):
     channels: list[RideChannel]
     device: RideDevice
     gaps: list[Gap]
+    filled: list[Filled]
+    events: list[RideEvent]
     completeness: float | None = Field(
-        description="Share of the rows that should be there, 0 to 1; null when nobody can say."
+        description="Share of the rows that should be there, 0 to 1; what was filled from a log "
+        "counts as there. Null when nobody can say."
     )
     upload_id: str | None
     object_bytes: int | None

@@ -1101,6 +1101,32 @@ export interface components {
                 [key: string]: unknown;
             };
         };
+        /**
+         * Filled
+         * @description A stretch the recording lacked, filled from the unit's own log at the log's rate.
+         *
+         *     Of the `rows_lost` rows in it `rows_filled` have samples now; nothing was interpolated.
+         */
+        Filled: {
+            /** From S */
+            from_s: number;
+            /** To S */
+            to_s: number;
+            /** Rows Lost */
+            rows_lost: number;
+            /** Rows Filled */
+            rows_filled: number;
+            /**
+             * Period Us
+             * @description Spacing of the source's rows.
+             */
+            period_us: number;
+            /**
+             * Source
+             * @constant
+             */
+            source: "unit_log";
+        };
         /** Finding */
         Finding: {
             /** Code */
@@ -1490,9 +1516,13 @@ export interface components {
             device: components["schemas"]["RideDevice"];
             /** Gaps */
             gaps: components["schemas"]["Gap"][];
+            /** Filled */
+            filled: components["schemas"]["Filled"][];
+            /** Events */
+            events: components["schemas"]["RideEvent"][];
             /**
              * Completeness
-             * @description Share of the rows that should be there, 0 to 1; null when nobody can say.
+             * @description Share of the rows that should be there, 0 to 1; what was filled from a log counts as there. Null when nobody can say.
              */
             completeness: number | null;
             /** Upload Id */
@@ -1534,6 +1564,21 @@ export interface components {
             config_crc32: number | null;
             /** Gear Ratio */
             gear_ratio: number | null;
+        };
+        /**
+         * RideEvent
+         * @description A fault that came or went (value: bits of `fault_flags`), or the mode chosen (its slot).
+         */
+        RideEvent: {
+            /** T S */
+            t_s: number;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "fault_set" | "fault_cleared" | "assist_mode";
+            /** Value */
+            value: number;
         };
         /** RideList */
         RideList: {

@@ -1,0 +1,187 @@
+"""Goal: a cable pulled in the middle of a ride costs the recording a stretch, and not the ride.
+
+Method: the real firmware rides in virtual time, the real recorder listens, the cable is out for
+half a minute. Afterwards the unit's own log is fetched. The log's bytes as they came are the truth:
+every row of it in the gap must be in the ride, at its time, and every row heard live must be as it
+was heard.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from backend.domain.ride import Ride
+from backend.ingest import ImportedRide, Outcome
+from backend.ingest.formats import read_file
+from backend.services.collect import Collect
+from backend.services.connect import Devices
+from backend.services.record import Recorder, RecordSettings
+from backend.services.remember import UnitMemory
+from backend.services.upload import Uploads
+from backend.store import Store, open_store
+from sim_device.lockstep import LockstepUnit
+from tests.fakes.server import eventually
+from tests.fakes.unit_link import UnitOpener
+
+URL = "socket://unit:1"
+AWAY_S = 30.0
+MISSING = -32768
+
+
+class FastUnit:
+    """A unit whose time passes ten times as fast as the reader's, a step at a time."""
+
+    def __init__(self, lockstep: LockstepUnit) -> None:
+        self._lockstep = lockstep
+        self._said = bytearray()
+
+    def receive(self, data: bytes) -> object:
+        return self._lockstep.send(data)
+
+    def transmit(self) -> bytes:
+        self._said += self._lockstep.receive()
+        said = bytes(self._said)
+        self._said.clear()
+        return said
+
+    def advance(self, seconds: float) -> None:
+        for _ in range(10):
+            self._lockstep.advance(seconds)
+            self._said += self._lockstep.receive()
+
+
+@dataclass
+class Desk:
+    """One unit on a cable, and a Spindle that records and fetches."""
+
+    unit: LockstepUnit
+    cable: UnitOpener
+    devices: Devices
+    recorder: Recorder
+    store: Store
+    collect: Collect
+    uploads: Uploads
+    device: str
+
+    def ridden_for(self, seconds: float) -> None:
+        """Wait until so much more of the unit's time is recorded."""
+        until = self.rows() + round(seconds * 100)
+        eventually(self.rows, lambda rows: rows >= until)
+
+    def rows(self) -> int:
+        status = self.recorder.status(self.device)
+        return status.rows if status else 0
+
+    def only_ride(self) -> Ride:
+        (ride,) = self.store.rides.list().items
+        return ride
+
+
+def read_here(path: Path, name: str) -> Outcome:
+    return read_file(name, path.read_bytes())
+
+
+@pytest.fixture
+def desk(tmp_path: Path) -> Iterator[Desk]:
+    unit = LockstepUnit(seed=6)
+    cable = UnitOpener(FastUnit(unit), URL)
+    devices = Devices(opener=lambda url: cable)
+    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as store:
+        memory = UnitMemory(devices, store.revisions, lambda unit: None)
+        recorder = Recorder(store.rides, memory.ride_context, RecordSettings())
+        uploads = Uploads(store, reader=read_here)
+        collect = Collect(devices, uploads, tmp_path / "collecting")
+        devices.watch(memory.follow)
+        devices.watch(recorder.watch)
+        device = devices.add(URL).id
+        yield Desk(unit, cable, devices, recorder, store, collect, uploads, device)
+        collect.close()
+        devices.close()
+        recorder.close()
+        memory.close()
+
+
+def test_the_stretch_without_a_cable_comes_from_the_unit_and_the_rest_stays_as_it_was_heard(
+    desk: Desk,
+) -> None:
+    devices, store = desk.devices, desk.store
+    devices.wait_connected(desk.device, 20.0)
+    desk.device = devices.list()[0].id
+    legs = {"kind": "legs", "torque_nm": 25.0, "cadence_rpm_max": 80.0}
+    devices.simulation_set(desk.device, {"rider": legs})
+    desk.ridden_for(15.0)
+    desk.cable.unplug()
+    assert desk.cable.tried.wait(20.0)
+    desk.unit.advance(AWAY_S)
+    desk.cable.plug_in()
+    desk.ridden_for(AWAY_S + 10.0)
+    devices.simulation_set(desk.device, {"rider": {"kind": "off"}, "brake": True})
+    eventually(
+        lambda: [log.state for log in desk.collect.logs(desk.device).items],
+        lambda states: states == ["closed"],
+    )
+    eventually(lambda: desk.only_ride().state, lambda state: state == "done")
+    heard = desk.only_ride()
+    names = [channel.name for channel in heard.channels]
+    before = store.rides.reader(heard.id).counts(names, 0, heard.row_count)
+    store.rides.patch(heard.id, "With a loose cable", "Found it afterwards.")
+    lost = sum(gap.rows_lost or 0 for gap in heard.gaps)
+    assert lost >= AWAY_S * 100
+
+    desk.collect.start(desk.device, 1)
+    done = eventually(
+        lambda: desk.collect.get(desk.device, 1), lambda seen: seen.state in ("done", "failed")
+    )
+
+    assert (done.state, done.ride_id, done.confirmed) == ("done", heard.id, True), done
+    ride = desk.only_ride()
+    assert (ride.name, ride.notes) == ("With a loose cable", "Found it afterwards.")
+    assert ride.row_count == heard.row_count
+    after = store.rides.reader(ride.id).counts(names, 0, ride.row_count)
+    was_empty = np.all([before[name] == MISSING for name in names], axis=0)
+    is_empty = np.all([after[name] == MISSING for name in names], axis=0)
+    for name in names:
+        assert (after[name][~was_empty] == before[name][~was_empty]).all()
+    check_against_log(desk, ride, was_empty, after, done.upload_id)
+    filled = sum(span.rows_filled for span in ride.filled)
+    assert int(was_empty.sum()) == lost
+    assert int(is_empty.sum()) == lost - filled
+    still = sum(gap.rows_lost or 0 for gap in ride.gaps)
+    assert still + sum(span.rows_lost for span in ride.filled) == lost
+    assert ride.completeness is not None
+    assert ride.completeness > 0.99
+
+
+def check_against_log(
+    desk: Desk,
+    ride: Ride,
+    was_empty: np.ndarray[tuple[int], np.dtype[np.bool_]],
+    after: object,
+    upload_id: str | None,
+) -> None:
+    """Every row of the log that fell into a gap is in the ride, at its time, as it was taken."""
+    log = log_of(desk, upload_id)
+    assert ride.context.unit_t0_us is not None
+    assert log.context.unit_t0_us is not None
+    offset_us = log.context.unit_t0_us - ride.context.unit_t0_us
+    places = np.rint((log.rows.times_us + offset_us) / 10_000).astype(int)
+    inside = (places >= 0) & (places < ride.row_count)
+    inside[inside] = was_empty[places[inside]]
+    assert int(inside.sum()) == sum(span.rows_filled for span in ride.filled)
+    assert int(inside.sum()) >= AWAY_S * 10
+    for name, counts in log.rows.counts.items():
+        found = after[name]  # type: ignore[index]
+        assert (found[places[inside]] == counts[inside]).all(), name
+
+
+def log_of(desk: Desk, upload_id: str | None) -> ImportedRide:
+    assert upload_id is not None
+    key = desk.store.uploads.get(upload_id).object_key
+    assert key is not None
+    (log,) = read_file("log.ebll", desk.store.objects.local_path(key).read_bytes()).rides
+    return log
