@@ -73,6 +73,13 @@ class CommitUnanswered(NoAnswer):
     default_code = "commit_unanswered"
 
 
+class OrphanLeft(NoAnswer):
+    """The unit may hold a transaction of ours that we cannot name or did not get it to drop.
+
+    Only a new session ends it before its lease does: the session that sees this says HELLO again.
+    """
+
+
 @dataclass(frozen=True)
 class ConfigImage:
     """A unit's whole configuration as it was at one generation; parameters by registry name."""
@@ -180,7 +187,9 @@ def _commit(
     except CommitUnanswered:
         raise
     except SpindleError as error:
-        yield from _abort(begin.transaction)
+        if not (yield from _abort(begin.transaction)):
+            left = _explained(error)
+            raise OrphanLeft(left.message, fields=left.fields) from error
         if isinstance(error, DeviceRefused) and error.status == Status.ACCESS.name:
             denied = yield from access_refused(error.detail, base.parameters, changes, image)
             raise denied from error
@@ -192,7 +201,8 @@ def _begin(base: ConfigImage) -> Operation[CfgBeginResponse]:
     try:
         response = yield from attempt(request)
     except NoAnswer as error:
-        raise _explained(error) from error
+        # It may have been heard: then a transaction is open whose number we do not know.
+        raise OrphanLeft(_explained(error).message) from error
     if response.status == Status.STALE_BASE:
         raise ConfigConflict(
             f"The unit's configuration is no longer generation {base.generation}: somebody else "
@@ -200,8 +210,8 @@ def _begin(base: ConfigImage) -> Operation[CfgBeginResponse]:
         )
     if response.status == Status.BUSY:
         raise DeviceRefused(
-            "Another change is open or on trial in the unit, perhaps one of ours whose answer was "
-            f"lost. It ends by itself in {response.detail} s, or when what is on trial is kept or "
+            "Another change is open or on trial in the unit. "
+            f"It ends by itself in {response.detail} s, or when what is on trial is kept or "
             "reverted; write once more then. Nothing was changed.",
             status=Status.BUSY.name,
             detail=response.detail,
@@ -244,12 +254,13 @@ def _finish(transaction: int, crc32: int, confirm_s: int) -> Operation[None]:
         )
 
 
-def _abort(transaction: int) -> Operation[None]:
-    """Drop what is staged; if the unit does not hear it, its lease ends it in 30 s."""
+def _abort(transaction: int) -> Operation[bool]:
+    """Drop what is staged; False when the unit did not answer."""
     try:
         yield from attempt(CfgAbortRequest(transaction))
     except SpindleError:
-        return
+        return False
+    return True
 
 
 def _explained(error: SpindleError) -> SpindleError:

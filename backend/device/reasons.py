@@ -50,3 +50,8 @@ def greeting_reason(port_name: str, baud: float | None, error: BaseException) ->
 def newer_version(major: int) -> VersionRefused:
     """Its frames are of another major version of the protocol."""
     return VersionRefused(version_text(str(major)))
+
+
+def orphan_reason() -> str:
+    """A change broke off and may still be open in the unit."""
+    return "A change got no answer; asking the unit who it is again, so that it drops the change."

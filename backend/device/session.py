@@ -19,6 +19,7 @@ from enum import Enum, auto
 from typing import TypeVar
 
 from backend.device.clock_keeper import ClockKeeper
+from backend.device.config_transaction import OrphanLeft
 from backend.device.config_trial import TrialStatus
 from backend.device.handshake import (
     Acquaintance,
@@ -32,6 +33,7 @@ from backend.device.reasons import (
     deaf_reason,
     greeting_reason,
     newer_version,
+    orphan_reason,
     ready_reason,
     restarted_reason,
     silent_reason,
@@ -228,7 +230,13 @@ class Session:
             operation.close()
             on_error(NoAnswer(self.reason, "not_connected"))
             return
-        self._runner.start(operation, on_result, on_error)
+
+        def failed(error: BaseException) -> None:
+            if isinstance(error, OrphanLeft) and self._phase is _Phase.UP:
+                self._greet_again(orphan_reason())
+            on_error(error)
+
+        self._runner.start(operation, on_result, failed)
 
     def receive_log(self, receiver: LogReceiver | None) -> None:
         """Give a ride log's frames to `receiver` from now on; None for nobody."""

@@ -36,6 +36,8 @@ class Direction:
         self._budget = 0.0
         self._lose = lose
         self._half = b""
+        # Everything is lost while this is set.
+        self.broken = False
         self.frames = 0
         self.lost = 0
         self.carried = 0
@@ -53,7 +55,7 @@ class Direction:
         arrived = b""
         for frame in filter(None, frames):
             self.frames += 1
-            if self._lose():
+            if self.broken or self._lose():
                 self.lost += 1
             else:
                 arrived += b"\0" + frame + b"\0"
