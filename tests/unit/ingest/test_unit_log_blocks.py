@@ -123,10 +123,45 @@ def test_the_kind_of_file_is_found_by_its_blocks_or_its_name() -> None:
     assert read_file("ride.ebll", b"EBLL" * 9).code == "no_records"
 
 
+def event_block(seq: int, *events: tuple[float, int, int], tail: bytes = b"") -> bytes:
+    """Events of time since the first row in s, code and value."""
+    rows = [struct.pack("<QBH", T0_US + round(t_s * 1e6), *rest) for t_s, *rest in events]
+    return block(EVENT, seq, b"".join(rows) + tail, n=len(events))
+
+
+def test_faults_and_modes_are_events_of_the_ride_in_order_of_time() -> None:
+    log = [
+        *whole_log(),
+        event_block(12, (4.0, 3, 2), (6.5, 128, 4)),
+        event_block(11, (3.0, 2, 2), (3.5, 77, 1), tail=b"half an event"[:7]),
+        event_block(13, (-4.0, 2, 1), (9e9, 2, 1)),
+    ]
+
+    (ride,) = read_blocks(b"".join(log)).rides
+
+    assert [(event.t_s, event.kind, event.value) for event in ride.events] == [
+        (3.0, "fault_set", 2),
+        (4.0, "fault_cleared", 2),
+        (6.5, "assist_mode", 4),
+    ]
+
+
+def test_a_log_full_of_events_does_not_fill_the_server() -> None:
+    flickering = [
+        event_block(11 + number, *[(1.0, 2 + k % 2, 1) for k in range(40)]) for number in range(50)
+    ]
+
+    (ride,) = read_blocks(b"".join([*whole_log(), *flickering])).rides
+
+    assert len(ride.events) == 200
+
+
 def test_the_outcome_crosses_to_the_server_as_it_is() -> None:
-    outcome = read_blocks(b"".join(whole_log()))
+    outcome = read_blocks(b"".join([*whole_log(), event_block(11, (3.0, 2, 2))]))
 
     copy = decode(encode(outcome))
+
+    assert copy.rides[0].events == outcome.rides[0].events != ()
 
     assert (copy.state, copy.completeness) == (outcome.state, outcome.completeness)
     assert copy.rides[0].context == outcome.rides[0].context

@@ -134,8 +134,10 @@ def test_the_mode_the_rider_chose_is_in_the_log_with_its_time() -> None:
     ride(unit, 4.0)
 
     blocks = scan(fetch(unit, logs(unit)[0])).blocks
+    (found,) = read_blocks(fetch(unit, logs(unit)[0])).rides
     told = [block.payload for block in blocks if block.type == EVENT]
     assert [payload[8] for payload in told] == [LogEvent.ASSIST_MODE]
+    assert [(event.kind, event.value) for event in found.events] == [("assist_mode", 4)]
     assert int.from_bytes(told[0][9:11], "little") == 4
     assert int.from_bytes(told[0][:8], "little") / 1e6 == pytest.approx(3.01, abs=0.05)
 
