@@ -25,6 +25,7 @@ local EBL = {
         ["label"] = { [0] = "NB", [1] = "NS", [2] = "ZO", [3] = "PS", [4] = "PB" },
         ["falling_torque"] = { [0] = "HOLD_ZERO_RATE", [1] = "NO_GAIN" },
         ["event"] = { [1] = "BOOT", [2] = "FAULT_SET", [3] = "FAULT_CLEARED", [4] = "CONFIG_COMMITTED", [5] = "CONFIG_ROLLED_BACK", [6] = "CONFIG_DEFAULTED", [7] = "STREAM_STATS", [8] = "AUTH_CHANGED", [16] = "CONFIG_PROVISIONAL", [17] = "STREAM_COUNTS", [20] = "LOG_CLOSED", [21] = "LOG_OVERWRITTEN" },
+        ["log_event"] = { [2] = "FAULT_SET", [3] = "FAULT_CLEARED", [128] = "ASSIST_MODE" },
     },
     flags = {
         ["commit_flags"] = { [0] = "PROVISIONAL" },
@@ -86,6 +87,7 @@ local EBL = {
         [1027] = { ["name"] = "LOG_ACK", ["request"] = { { ["name"] = "session", ["type"] = "u8", ["count"] = 1 }, { ["name"] = "base", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "bitmap", ["type"] = "u64", ["count"] = 1 } }, ["response"] = {  } },
         [1028] = { ["name"] = "LOG_CLOSE", ["request"] = { { ["name"] = "session", ["type"] = "u8", ["count"] = 1 } }, ["response"] = {  } },
         [1029] = { ["name"] = "LOG_CRC", ["request"] = { { ["name"] = "log_id", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "generation", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "offset", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "length", ["type"] = "u32", ["count"] = 1 } }, ["response"] = { { ["name"] = "crc32", ["type"] = "u32", ["count"] = 1 } } },
+        [1030] = { ["name"] = "LOG_ERASE", ["request"] = { { ["name"] = "log_id", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "generation", ["type"] = "u32", ["count"] = 1 } }, ["response"] = { { ["name"] = "erases", ["type"] = "u32", ["count"] = 1 } } },
         [1031] = { ["name"] = "LOG_CONFIRM", ["request"] = { { ["name"] = "log_id", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "generation", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "length", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "crc32", ["type"] = "u32", ["count"] = 1 } }, ["response"] = {  } },
         [1537] = { ["name"] = "AUTH_CHALLENGE", ["request"] = { { ["name"] = "level", ["type"] = "u8", ["count"] = 1, ["enum"] = "access" } }, ["response"] = { { ["name"] = "nonce", ["type"] = "u8", ["count"] = 16 }, { ["name"] = "uid", ["type"] = "u8", ["count"] = 12 }, { ["name"] = "boot_id", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "level", ["type"] = "u8", ["count"] = 1, ["enum"] = "access" }, { ["name"] = "ttl_s", ["type"] = "u16", ["count"] = 1, ["unit"] = "s" }, { ["name"] = "expires_us", ["type"] = "u64", ["count"] = 1, ["unit"] = "us" } } },
         [1538] = { ["name"] = "AUTH_RESPONSE", ["request"] = { { ["name"] = "transaction", ["type"] = "u16", ["count"] = 1 }, { ["name"] = "expires_us", ["type"] = "u64", ["count"] = 1, ["unit"] = "us" }, { ["name"] = "signature", ["type"] = "u8", ["count"] = 64 } }, ["response"] = { { ["name"] = "level", ["type"] = "u8", ["count"] = 1, ["enum"] = "access" } } },
