@@ -13,7 +13,7 @@ MTU = 544
 MAX_OUTSTANDING = 4
 CONTROL_PERIOD_US = 10000
 IMAGE_LENGTH = 413
-SCHEMA_HASH = bytes.fromhex("5fdf4894d6facdd8")
+SCHEMA_HASH = bytes.fromhex("4ebec6beaead5583")
 
 
 class Status(IntEnum):
@@ -226,6 +226,17 @@ class LimitFlags(IntFlag):
     MARKET = 16384
 
 
+class BaudRates(IntFlag):
+    """Bits a second that a unit's line can run at, as HELLO's baud_bitmap offers them."""
+
+    BAUD_115200 = 1
+    BAUD_230400 = 2
+    BAUD_460800 = 4
+    BAUD_921600 = 8
+    BAUD_1000000 = 16
+    BAUD_2000000 = 32
+
+
 class LogFlags(IntFlag):
     """Where a ride log stands."""
 
@@ -258,9 +269,11 @@ class MessageId(IntEnum):
     HELLO = 0x0001
     PING = 0x0002
     SCHEMA_READ = 0x0003
+    SET_BAUD = 0x0004
     STATS = 0x0005
     BYE = 0x0007
     COUNTERS = 0x0008
+    ALIVE = 0x0009
     CFG_INFO = 0x0100
     CFG_READ = 0x0101
     PARAM_GET = 0x0102
@@ -280,6 +293,7 @@ class MessageId(IntEnum):
     STR_RENEW = 0x0203
     STR_LIST = 0x0204
     STR_SNAPSHOT = 0x0205
+    EVT_ACK = 0x0301
     EVT_FAULT_LIST = 0x0302
     EVT_FAULT_FREEZE = 0x0303
     EVT_FAULT_CLEAR = 0x0304
@@ -414,6 +428,34 @@ class SchemaReadResponse(Message):
 
 
 @dataclass(frozen=True, slots=True)
+class SetBaudRequest(Message):
+    """Another rate for the line. The answer is the last that comes at the old rate; `switch_after_ms` behind it the unit listens at the new one, and is back at the old one unless a request is heard within `prove_within_ms`."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.SET_BAUD
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("bits_per_second", "u32"),
+    )
+    LENGTH: ClassVar[int] = 4
+
+    bits_per_second: int
+
+
+@dataclass(frozen=True, slots=True)
+class SetBaudResponse(Message):
+    """Another rate for the line. The answer is the last that comes at the old rate; `switch_after_ms` behind it the unit listens at the new one, and is back at the old one unless a request is heard within `prove_within_ms`."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.SET_BAUD
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("switch_after_ms", "u16"),
+        Field("prove_within_ms", "u16"),
+    )
+    LENGTH: ClassVar[int] = 4
+
+    switch_after_ms: int
+    prove_within_ms: int
+
+
+@dataclass(frozen=True, slots=True)
 class StatsRequest(Message):
     """What the unit's receiver counted since boot."""
 
@@ -479,6 +521,36 @@ class CountersResponse(Message):
     operating_s: int
     saved_distance_m: int
     saved_operating_s: int
+
+
+@dataclass(frozen=True, slots=True)
+class AliveRequest(Message):
+    """Are you still the one I greeted. bits_per_second 0: no line limits it. events_waiting: kept and not acknowledged; events_pushed_out: kept ones given up for newer ones since boot."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.ALIVE
+
+
+@dataclass(frozen=True, slots=True)
+class AliveResponse(Message):
+    """Are you still the one I greeted. bits_per_second 0: no line limits it. events_waiting: kept and not acknowledged; events_pushed_out: kept ones given up for newer ones since boot."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.ALIVE
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("boot_id", "u32"),
+        Field("session_id", "u32"),
+        Field("uptime_us", "u64"),
+        Field("bits_per_second", "u32"),
+        Field("events_waiting", "u8"),
+        Field("events_pushed_out", "u16"),
+    )
+    LENGTH: ClassVar[int] = 23
+
+    boot_id: int
+    session_id: int
+    uptime_us: int
+    bits_per_second: int
+    events_waiting: int
+    events_pushed_out: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -981,6 +1053,26 @@ class StrSnapshotResponse(Message):
 
     t_us: int
     values: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class EvtAckRequest(Message):
+    """This event has come; the unit need not send it again. With transaction id 0 it is not answered."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.EVT_ACK
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("seq", "u16"),
+    )
+    LENGTH: ClassVar[int] = 2
+
+    seq: int
+
+
+@dataclass(frozen=True, slots=True)
+class EvtAckResponse(Message):
+    """This event has come; the unit need not send it again. With transaction id 0 it is not answered."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.EVT_ACK
 
 
 @dataclass(frozen=True, slots=True)
@@ -1641,9 +1733,11 @@ REQUEST_BY_ID: dict[int, type[Message]] = {
     0x0001: HelloRequest,
     0x0002: PingRequest,
     0x0003: SchemaReadRequest,
+    0x0004: SetBaudRequest,
     0x0005: StatsRequest,
     0x0007: ByeRequest,
     0x0008: CountersRequest,
+    0x0009: AliveRequest,
     0x0100: CfgInfoRequest,
     0x0101: CfgReadRequest,
     0x0102: ParamGetRequest,
@@ -1663,6 +1757,7 @@ REQUEST_BY_ID: dict[int, type[Message]] = {
     0x0203: StrRenewRequest,
     0x0204: StrListRequest,
     0x0205: StrSnapshotRequest,
+    0x0301: EvtAckRequest,
     0x0302: EvtFaultListRequest,
     0x0303: EvtFaultFreezeRequest,
     0x0304: EvtFaultClearRequest,
@@ -1686,9 +1781,11 @@ RESPONSE_BY_ID: dict[int, type[Message]] = {
     0x0001: HelloResponse,
     0x0002: PingResponse,
     0x0003: SchemaReadResponse,
+    0x0004: SetBaudResponse,
     0x0005: StatsResponse,
     0x0007: ByeResponse,
     0x0008: CountersResponse,
+    0x0009: AliveResponse,
     0x0100: CfgInfoResponse,
     0x0101: CfgReadResponse,
     0x0102: ParamGetResponse,
@@ -1708,6 +1805,7 @@ RESPONSE_BY_ID: dict[int, type[Message]] = {
     0x0203: StrRenewResponse,
     0x0204: StrListResponse,
     0x0205: StrSnapshotResponse,
+    0x0301: EvtAckResponse,
     0x0302: EvtFaultListResponse,
     0x0303: EvtFaultFreezeResponse,
     0x0304: EvtFaultClearResponse,

@@ -88,7 +88,10 @@ class Stream:
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """Something happened in the unit. A code we do not know has no `message` and no `fields`."""
+    """Something happened in the unit. A code we do not know has no `message` and no `fields`.
+
+    retransmit: sent before, and not acknowledged.
+    """
 
     seq: int
     code: EventCode | int
@@ -96,6 +99,7 @@ class Event:
     message: Message | None = None
     payload: bytes = b""
     fields: Mapping[str, object] = field(default_factory=dict)
+    retransmit: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,7 +144,7 @@ def decode(frame: bytes, channel_count: int | None = None) -> Decoded:
             return _request(frame, tag, word, retransmit)
         if kind == KIND_RESPONSE:
             return _response(frame, tag, word, retransmit)
-        return _event(frame, word) if tag == 0 else _bulk(frame, tag, word)
+        return _event(frame, word, retransmit) if tag == 0 else _bulk(frame, tag, word)
     except ShortPayload:
         return Malformed(Reason.LENGTH, frame)
 
@@ -204,14 +208,14 @@ def _bulk(frame: bytes, session: int, seq: int) -> Decoded:
     return Bulk(session, seq, offset, bytes(data))
 
 
-def _event(frame: bytes, seq: int) -> Decoded:
+def _event(frame: bytes, seq: int, retransmit: bool) -> Decoded:
     if len(frame) < _HEADER.size + _EVENT.size:
         return Malformed(Reason.LENGTH, frame)
     code, t_us = _EVENT.unpack_from(frame, _HEADER.size)
     payload = frame[_HEADER.size + _EVENT.size :]
     message_type = EVENT_BY_CODE.get(code)
     if message_type is None:
-        return Event(seq, code, t_us, None, payload)
+        return Event(seq, code, t_us, None, payload, {}, retransmit)
     message = message_type.from_bytes(payload)
     names = [column.name for column in message.LAYOUT]
     return Event(
@@ -221,6 +225,7 @@ def _event(frame: bytes, seq: int) -> Decoded:
         message,
         payload,
         {name: getattr(message, name) for name in names},
+        retransmit,
     )
 
 
@@ -251,7 +256,7 @@ def encode(message: Request | Response | Stream | Event | Bulk) -> bytes:
     if isinstance(message, Bulk):
         header = _header(KIND_ASYNC, False, message.session, message.seq)
         return header + _BULK.pack(message.offset, len(message.data), 0) + message.data
-    header = _header(KIND_ASYNC, False, 0, message.seq)
+    header = _header(KIND_ASYNC, message.retransmit, 0, message.seq)
     body = message.message.to_bytes() if message.message is not None else message.payload
     return header + _EVENT.pack(message.code, message.t_us) + body
 

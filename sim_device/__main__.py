@@ -22,6 +22,8 @@ from sim_device.simulator import FlashFile, Stop, new_boot_id, serve
 PROGRAM = "sim_device"
 DEFAULT_SCENARIO = "commute"
 LOOPBACK = "127.0.0.1"
+# Where every unit starts.
+SERIAL_RATE = 115200
 
 
 def _parser(program: str) -> argparse.ArgumentParser:
@@ -55,6 +57,13 @@ def _add_unit(unit: argparse.ArgumentParser) -> None:
     unit.add_argument("--speed", type=_speed, default=1.0, metavar="X", help="times real time")
     unit.add_argument(
         "--virtual", action="store_true", help="time passes only when the host says so"
+    )
+    unit.add_argument(
+        "--serial-rate",
+        type=int,
+        default=0,
+        choices=[0, SERIAL_RATE],
+        help="the line has a rate and begins with this one; 0: bytes take no time (default)",
     )
     unit.add_argument("--seed", type=int, default=0, help="makes noise and serial number")
     unit.add_argument(
@@ -107,6 +116,7 @@ def _serve(arguments: argparse.Namespace) -> None:
         log=log.load() if log is not None else None,
         unlock_key=arguments.unlock_key,
         boot_id=new_boot_id(),
+        line_baud=arguments.serial_rate,
         speed_factor=arguments.speed,
         clock="virtual" if arguments.virtual else "real",
     )

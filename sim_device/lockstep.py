@@ -35,6 +35,7 @@ class LockstepUnit:
         flash: the flash of an earlier life. log: that for ride logs.
         unlock_key: the maker's public key; without one no limit can be raised again.
         boot_id: another one tells the host that the unit was restarted.
+        line_baud: the serial line's rate at boot, 0 for a line where bytes take no time.
         speed_factor, clock: kept for the process that paces the unit (sim_device.simulator).
 
     Raises:
@@ -54,6 +55,7 @@ class LockstepUnit:
         log: bytes | None = None,
         unlock_key: bytes | None = None,
         boot_id: int = 1,
+        line_baud: int = 0,
         speed_factor: float = 1.0,
         clock: str = "real",
     ) -> None:
@@ -75,6 +77,7 @@ class LockstepUnit:
             flash=flash,
             log=log,
             unlock_key=unlock_key,
+            line_baud=line_baud,
             request=self._answer,
         )
         if config_overrides:
@@ -108,6 +111,10 @@ class LockstepUnit:
     def send(self, data: bytes) -> int:
         """Bytes from the host to the unit; returns how many its line took."""
         return self.unit.receive(data)
+
+    def host_baud(self, baud: int | None) -> None:
+        """The host's end of a line with a rate runs at this one; None: at whatever the unit's."""
+        self.unit.host_baud(self.unit.line_baud if baud is None else baud)
 
     def receive(self, bytes_max: int = 8192) -> bytes:
         """Bytes the unit has sent to the host since the last call, at most `bytes_max`."""

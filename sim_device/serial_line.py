@@ -5,7 +5,9 @@ Both are read and written without waiting. A host may come and go; the unit stay
 
 import contextlib
 import os
+import re
 import socket
+import termios
 import tty
 from pathlib import Path
 from typing import Protocol
@@ -26,8 +28,20 @@ class SerialLine(Protocol):
     def write(self, data: bytes) -> int:
         """Bytes to the host; returns how many were taken."""
 
+    def host_baud(self) -> int | None:
+        """The rate the host has set its end to, None where that cannot be seen."""
+
     def close(self) -> None:
         """Leaves nothing behind."""
+
+
+# B115200 -> 115200, and so on for every rate this system has a name for.
+_SPEEDS = {
+    value: int(name[1:])
+    for name, value in vars(termios).items()
+    if re.fullmatch("B[1-9][0-9]*", name)
+}
+_OUTPUT_SPEED = 5
 
 
 class PtyLine:
@@ -64,6 +78,10 @@ class PtyLine:
             return os.write(self._near, data)
         except BlockingIOError:
             return 0
+
+    def host_baud(self) -> int | None:
+        # Both ends of a pseudo-terminal share one set of settings.
+        return _SPEEDS.get(termios.tcgetattr(self._near)[_OUTPUT_SPEED])
 
     def close(self) -> None:
         with contextlib.suppress(OSError):
@@ -118,6 +136,9 @@ class TcpLine:
         except OSError:
             self._drop()
             return 0
+
+    def host_baud(self) -> int | None:
+        return None
 
     def close(self) -> None:
         self._drop()

@@ -21,6 +21,7 @@ from sim_device.log_file import LogFile
 from sim_device.serial_line import SerialLine
 
 SLEEP_S = 0.008
+LINE_PIECE_US = 10_000
 
 # A machine that slept, or cannot keep up, is not caught up with: the unit skips the missed time.
 BEHIND_S_MAX = 1.0
@@ -119,7 +120,7 @@ def serve(
         unit.send(line.read())
         due_us = pace.due_us(now_s, unit.speed_factor)
         if unit.clock == "real":
-            unit.advance(due_us / US_PER_S)
+            _advance(unit, line, due_us)
         elif not waiting:
             unit.poll()
             unit.pay(PIECE_US)
@@ -140,6 +141,19 @@ def serve(
         flash.save(unit.unit.flash())
     if log is not None:
         log.save(unit.unit)
+
+
+def _advance(unit: LockstepUnit, line: SerialLine, due_us: int) -> None:
+    """Time passes for the unit; a line with a rate is looked at all along, as a UART would."""
+    if unit.unit.line_baud == 0:
+        unit.advance(due_us / US_PER_S)
+        return
+    while due_us > 0:
+        piece_us = min(due_us, LINE_PIECE_US)
+        unit.host_baud(line.host_baud())
+        unit.send(line.read())
+        unit.advance(piece_us / US_PER_S)
+        due_us -= piece_us
 
 
 def new_boot_id() -> int:

@@ -213,6 +213,9 @@ class Driver:
         return len(data)
 
     def _send(self, link: Link) -> None:
+        rate = self._session.line.take_change()
+        if rate is not None:
+            self._set_rate(link, rate)
         self._unsent += self._session.bytes_to_send()
         if not self._unsent:
             return
@@ -222,6 +225,15 @@ class Driver:
                 raise LinkError(f"{link.url}: the port takes no bytes; it is opened anew.")
         except LinkError as error:
             self._lose(error)
+
+    def _set_rate(self, link: Link, rate: int) -> None:
+        """What still waits was for the rate before; nobody would understand it now."""
+        self._unsent = b""
+        try:
+            link.set_baudrate(rate)
+        except LinkError as error:
+            LOG.warning("%s", error)
+            self._session.line.refused()
 
     def _open(self) -> None:
         """Open the port; outside the lock, because a simulated unit takes a second to start."""
@@ -236,7 +248,11 @@ class Driver:
             self._link = link
             self._reopen_s = REOPEN_S_MIN
             self._session.port_opened(
-                time.monotonic(), link.url, os.urandom(8), link.bits_per_second
+                time.monotonic(),
+                link.url,
+                os.urandom(8),
+                link.bits_per_second,
+                link.bits_per_second_wanted,
             )
 
     def _drop(self, error: LinkError) -> None:

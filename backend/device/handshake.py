@@ -7,6 +7,7 @@ us, the unit is like any other; else what both know is shown, and writing stays 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from backend.device.config_trial import TrialStatus, trial_status
@@ -56,12 +57,18 @@ class Acquaintance:
     trial: TrialStatus | None
 
 
-def become_acquainted(host_nonce: bytes, schemas: Schemas) -> Operation[Acquaintance]:
-    """HELLO, version, schema, faults, trial. Raises NoAnswer, VersionRefused, DeviceRefused.
+def become_acquainted(
+    host_nonce: bytes,
+    schemas: Schemas,
+    go_faster: Callable[[HelloResponse], Operation[None]],
+) -> Operation[Acquaintance]:
+    """HELLO, version, the line's rate, schema, faults, trial.
 
-    schemas: those known from before; one that is read is added.
+    schemas: those known from before; one that is read is added. Raises NoAnswer, VersionRefused,
+    DeviceRefused.
     """
     hello = yield from _hello(host_nonce)
+    yield from go_faster(hello)
     reason: str | None = None
     channels: tuple[Channel, ...] = CHANNELS
     if hello.schema_hash != SCHEMA_HASH:

@@ -29,11 +29,15 @@ Answer = TypeVar("Answer", bound=Message)
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """One request of an operation. attempts: sendings before NoAnswer. after_s: not sent before."""
+    """One request of an operation. attempts: sendings before NoAnswer. after_s: not sent before.
+
+    timeout_s: how long each waits for its answer, None for what the line needs.
+    """
 
     message: Message
     attempts: int = ATTEMPTS
     after_s: float = 0.0
+    timeout_s: float | None = None
 
 
 # Yields questions that may be on the way together, gets the responses in the same order.
@@ -41,10 +45,13 @@ Operation: TypeAlias = Generator[Sequence[Question], Sequence[Response], Result]
 
 
 def attempt(
-    message: Message, attempts: int = ATTEMPTS, after_s: float = 0.0
+    message: Message,
+    attempts: int = ATTEMPTS,
+    after_s: float = 0.0,
+    timeout_s: float | None = None,
 ) -> Operation[Response]:
     """Ask and return the response whatever its status. Raises NoAnswer."""
-    responses = yield (Question(message, attempts, after_s),)
+    responses = yield (Question(message, attempts, after_s, timeout_s),)
     return responses[0]
 
 

@@ -36,9 +36,9 @@ def restarted_reason() -> str:
     return "The unit was restarted; asking who it is again."
 
 
-def greeting_reason(port_name: str, baud: float | None, error: BaseException) -> str:
+def greeting_reason(port_name: str, rates: str, error: BaseException) -> str:
     """Nobody answered HELLO, or not as the protocol wants."""
-    at = f"{port_name} at {baud:.0f} baud" if baud else port_name
+    at = f"{port_name} at {rates} baud" if rates else port_name
     if isinstance(error, NoAnswer):
         return (
             f"No drive unit answers on {at}. Is it switched on, and is this its port? "

@@ -177,7 +177,10 @@ class RequestTable:
     def _send(self, entry: _UnderWay, now_s: float) -> bytes:
         entry.attempts_left -= 1
         entry.sent_s = now_s
-        entry.due_s = now_s + self.timeout_s(len(entry.wire))
+        patience_s = entry.question.timeout_s
+        if patience_s is None:
+            patience_s = self.timeout_s(len(entry.wire))
+        entry.due_s = now_s + patience_s
         return entry.wire
 
     def _keep_waiting(self, entry: _UnderWay, hint_s: float, now_s: float) -> None:

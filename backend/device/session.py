@@ -20,13 +20,9 @@ from typing import TypeVar
 
 from backend.device.clock_keeper import ClockKeeper
 from backend.device.config_transaction import OrphanLeft
-from backend.device.config_trial import TrialStatus
-from backend.device.handshake import (
-    Acquaintance,
-    VersionRefused,
-    become_acquainted,
-    unit_state,
-)
+from backend.device.event_book import NO_TID, Arrival, EventBook, acknowledgement
+from backend.device.handshake import Acquaintance, VersionRefused, become_acquainted
+from backend.device.line_rate import LineRate
 from backend.device.log_download import LogReceiver
 from backend.device.operation import Operation, attempt
 from backend.device.reasons import (
@@ -41,6 +37,7 @@ from backend.device.reasons import (
 from backend.device.requests import RequestTable
 from backend.device.runner import OnError, OnResult, OperationRunner
 from backend.device.schema import Schemas
+from backend.device.state_keeper import StateKeeper
 from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.statistics import LinkStatistics
 from backend.device.stream import RENEW_S, StreamBlock, StreamPlan, StreamStarted
@@ -50,10 +47,11 @@ from backend.errors import LinkError, NoAnswer, SpindleError
 from firmware_protocol._generated import (
     MTU,
     MTU_BEFORE_HELLO,
+    AliveRequest,
+    AliveResponse,
     BootEvent,
     ByeRequest,
     ConfigRolledBackEvent,
-    PingRequest,
     Status,
     StreamCountsEvent,
     TimSyncResponse,
@@ -82,9 +80,6 @@ REFUSED_PAUSE_S = 5.0
 # A caller that stops reading must not make the session grow: 1000 blocks are 50 s at 100 Hz.
 EVENTS_MAX = 1000
 BYE_TID = 255
-EVENT_SEQ_MODULUS = 1 << 16
-# Of a request that wants no answer.
-NO_TID = 0
 # Rows that come prove only one direction: after two renewals without an answer (5 s) we are not
 # heard.
 RENEWALS_UNANSWERED_MAX = 2
@@ -124,17 +119,17 @@ class Session:
         self._subscription = Subscription(self._statistics)
         self._requests = RequestTable(self._statistics)
         self._runner = OperationRunner(self._requests)
+        self.line = LineRate(self._requests)
         self.clock = ClockKeeper(self._statistics)
         self._log: LogReceiver | None = None
-        self._next_event_seq: int | None = None
+        self._event_book = EventBook(self._statistics)
+        self._standing = StateKeeper(self.notes, self._runner, lambda: self._now_s)
         self._decoder = FrameDecoder(MTU)
         self._bad_before = 0
         self._events: deque[DeviceEvent] = deque()
         self._out = bytearray()
         self._phase = _Phase.OPENING
-        self._until_s = now_s
-        self._heard_s = now_s
-        self._now_s = now_s
+        self._until_s = self._heard_s = self._now_s = now_s
         self._port_name = ""
         self._nonce = bytes(8)
         # The latest restart the unit told of since it was last asked who it is.
@@ -165,6 +160,7 @@ class Session:
         """Let time pass: repetitions, pings, leases, silence."""
         self._now_s = now_s
         if self._phase in (_Phase.FLUSHING, _Phase.PAUSING) and now_s >= self._until_s:
+            self.line.start_over(heard=False)
             self._greet()
         elif self._phase is _Phase.UP:
             self._keep_up()
@@ -187,13 +183,21 @@ class Session:
     # ------------------------------------------------------------------ the port
 
     def port_opened(
-        self, now_s: float, name: str, nonce: bytes, bits_per_second: float | None = None
+        self,
+        now_s: float,
+        name: str,
+        nonce: bytes,
+        bits_per_second: float | None = None,
+        wanted: float | None = None,
     ) -> None:
-        """A port is open. nonce: 8 random bytes, so that no unit mistakes us for our past."""
+        """A port is open. nonce: 8 random bytes, so that no unit mistakes us for our past.
+
+        bits_per_second, wanted: as in backend.link.Link.
+        """
         self._now_s = now_s
         self._port_name = name
         self._nonce = nonce
-        self._requests.bits_per_second = bits_per_second
+        self.line.opened(bits_per_second, wanted)
         self._requests.start_from(nonce[0])
         self._bad_before = self._statistics.frames_bad
         self._decoder = FrameDecoder(MTU)
@@ -276,7 +280,7 @@ class Session:
 
     def link_statistics(self) -> LinkStatistics:
         """A copy of the counters."""
-        return replace(self._statistics)
+        return replace(self._statistics, bits_per_second=self.line.current)
 
     # ------------------------------------------------------------------ inside
 
@@ -303,39 +307,27 @@ class Session:
                 self._requests.shut(newer_version(frame[0] >> 5))
 
     def _unit_event(self, event: Event) -> None:
-        self._statistics.unit_events += 1
-        self._count_event(event.seq)
+        arrival = self._event_book.came(event)
+        self._out += acknowledgement(event)
+        if arrival is Arrival.AGAIN:
+            return
         if isinstance(event.message, StreamCountsEvent):
             self._subscription.counted(event.message)
-        told = self.notes.take(event, self._statistics, self._now_s)
+        late = arrival is Arrival.LATE
+        told = self.notes.take(event, self._statistics, self._now_s, late)
         if told is not None:
             self._tell(told)
-        if isinstance(event.message, ConfigRolledBackEvent):
-            # The event does not say why; the unit does when it is asked.
-            self._ask_state()
+            # What greeting asked for may be older; a return does not say why it was.
+            returned = isinstance(event.message, ConfigRolledBackEvent)
+            if returned or self._phase is not _Phase.UP:
+                self._standing.doubt()
+        if arrival is not Arrival.IN_ORDER:
+            self._standing.doubt()
         if not isinstance(event.message, BootEvent):
             return
         self._boot_heard = event.message.boot_id
         if self._phase is _Phase.UP and self._is_another_life():
             self._greet_again(restarted_reason())
-
-    def _count_event(self, seq: int) -> None:
-        """Count the events between the one before and this; what they told is asked for."""
-        expected = self._next_event_seq
-        self._next_event_seq = (seq + 1) % EVENT_SEQ_MODULUS
-        if expected is None or self._phase is not _Phase.UP:
-            return
-        lost = (seq - expected) % EVENT_SEQ_MODULUS
-        if lost == 0 or lost >= EVENT_SEQ_MODULUS // 2:
-            return
-        self._statistics.unit_events_lost += lost
-        self._ask_state()
-
-    def _ask_state(self) -> None:
-        self._runner.start(unit_state(), self._state_told, lambda error: None)
-
-    def _state_told(self, state: tuple[int, TrialStatus]) -> None:
-        self.notes.refresh(*state, self._now_s)
 
     def _is_another_life(self) -> bool:
         """Whether a restart was heard since HELLO was asked and HELLO was answered before it."""
@@ -346,19 +338,20 @@ class Session:
         self._phase = _Phase.GREETING
         self._boot_heard = None
         self._requests.open(outstanding_max=1)
-        self._runner.start(
-            become_acquainted(self._nonce, self._schemas), self._acquainted, self._not_acquainted
-        )
+        greeting = become_acquainted(self._nonce, self._schemas, self.line.go_faster)
+        self._runner.start(greeting, self._acquainted, self._not_acquainted)
 
     def _acquainted(self, acquaintance: Acquaintance) -> None:
         if self._phase is not _Phase.GREETING:
             return
         self.acquaintance = acquaintance
         if self._is_another_life():
+            self.line.start_over(heard=True)
             self._greet()
             return
+        self.line.proven(self._now_s)
         self.failed_greetings = 0
-        self._next_event_seq = None
+        self._event_book.greeted(acquaintance.identity.boot_id)
         self.notes.begin(acquaintance, self._now_s)
         if acquaintance.read_only_reason is None:
             self.clock.begin(self._now_s)
@@ -387,6 +380,9 @@ class Session:
     def _not_acquainted(self, error: BaseException) -> None:
         if self._phase is not _Phase.GREETING:
             return
+        if isinstance(error, NoAnswer) and self.line.try_another():
+            self._greet()
+            return
         self._phase = _Phase.PAUSING
         refused = isinstance(error, VersionRefused)
         self._until_s = self._now_s + (REFUSED_PAUSE_S if refused else PAUSE_S)
@@ -394,8 +390,8 @@ class Session:
         if refused:
             self._stand(LinkState.CLOSED, str(error))
         else:
-            baud = self._requests.bits_per_second
-            self._stand(self._absent(), greeting_reason(self._port_name, baud, error))
+            reason = greeting_reason(self._port_name, self.line.tried(), error)
+            self._stand(self._absent(), reason)
 
     def _no_stream(self, error: BaseException) -> None:
         if isinstance(error, UnitRestarted):
@@ -407,6 +403,8 @@ class Session:
             self._stand(self.state, f"{self.reason} Live values are not available: {error}")
 
     def _keep_up(self) -> None:
+        if self.state is LinkState.READY:
+            self._standing.settle()
         silent_s = self._now_s - self._heard_s
         if silent_s >= SILENCE_S:
             self._lose(silent_reason(self._port_name))
@@ -419,11 +417,22 @@ class Session:
         elif self._requests.is_idle and self.clock.due(self._now_s):
             self._ask_time()
         elif silent_s >= PING_S and self._requests.is_idle:
-            self._runner.start(attempt(PingRequest()), lambda response: None, lambda error: None)
+            self._runner.start(attempt(AliveRequest()), self._is_alive, lambda error: None)
+
+    def _is_alive(self, response: Response) -> None:
+        """BOOT may have been lost; the line that was silent asks whether it is still the same."""
+        known, now = self.acquaintance, response.message
+        if not isinstance(now, AliveResponse) or known is None:
+            return
+        met = (known.hello.boot_id, known.hello.session_id)
+        if self._phase is _Phase.UP and met != (now.boot_id, now.session_id):
+            self._greet_again(restarted_reason())
 
     def _lose(self, reason: str) -> None:
         self._break_off(NoAnswer(reason))
         self._stand(LinkState.LOST, reason)
+        self.line.lost(self._now_s)
+        self.line.start_over(heard=False)
         self._out += FLUSH
         self._greet()
 
@@ -447,6 +456,7 @@ class Session:
     def _greet_again(self, reason: str) -> None:
         self._break_off(NoAnswer(reason))
         self._stand(LinkState.CONNECTING, reason)
+        self.line.start_over(heard=True)
         self._greet()
 
     def _break_off(self, error: SpindleError) -> None:

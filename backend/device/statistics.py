@@ -16,9 +16,11 @@ class LinkStatistics:
     count of stream frames since its subscription. balance_*: stream frames over all subscriptions,
     up to the unit's latest count that the stream has passed: built = received + lost on the line +
     dropped by the unit, exactly. unit_steps_missed: control steps that came too late for a row.
-    unit_events_lost: numbers of events that did not come; the unit was asked for its state instead.
-    clock_skew_ppm: how much faster than ours the unit's clock runs. clock_uncertainty_ms: how well
-    its time is known, half of the shortest round trip.
+    unit_events_lost: numbers of events that did not come (yet); the unit was asked for its state
+    instead. unit_events_again: repetitions of events that had come.
+    bits_per_second: the line's rate now, None where it has none. clock_skew_ppm: how much faster
+    than ours the unit's clock runs. clock_uncertainty_ms: how well its time is known,
+    half of the shortest round trip.
     """
 
     bytes_received: int = 0
@@ -37,6 +39,7 @@ class LinkStatistics:
     stream_frames_repeated: int = 0
     unit_events: int = 0
     unit_events_lost: int = 0
+    unit_events_again: int = 0
     balance_built: int = 0
     balance_received: int = 0
     balance_lost: int = 0
@@ -47,5 +50,6 @@ class LinkStatistics:
     connections: int = 0
     events_dropped: int = 0
     round_trip_ms: float | None = None
+    bits_per_second: int | None = None
     clock_skew_ppm: float | None = None
     clock_uncertainty_ms: float | None = None

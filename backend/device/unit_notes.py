@@ -59,13 +59,24 @@ class UnitNotes:
         ends_s = now_s + trial.left_s if trial.on_trial else None
         self._config(trial.generation, trial.crc32, ends_s)
 
-    def take(self, event: Event, statistics: LinkStatistics, now_s: float) -> UnitEvent | None:
-        """Note an event; what is worth telling people comes back."""
+    def take(
+        self, event: Event, statistics: LinkStatistics, now_s: float, late: bool = False
+    ) -> UnitEvent | None:
+        """Note an event; what is worth telling people comes back.
+
+        late: newer ones came before it, so it says nothing about how things stand.
+        """
         message = event.message
         if isinstance(message, StreamCountsEvent):
             statistics.unit_frames_built = message.built
             statistics.unit_frames_dropped = message.dropped_tx
             return None
+        if not late:
+            self._note(message, now_s)
+        name = event.code.name if isinstance(event.code, EventCode) else f"EVENT_{event.code}"
+        return UnitEvent(name, event.t_us, event.fields)
+
+    def _note(self, message: object, now_s: float) -> None:
         if isinstance(message, FaultSetEvent | FaultClearedEvent):
             self._fault(message)
         elif isinstance(
@@ -76,8 +87,6 @@ class UnitNotes:
             self._config(message.generation, message.crc32, now_s + message.confirm_s)
         elif isinstance(message, BootEvent):
             self.boot_id = message.boot_id
-        name = event.code.name if isinstance(event.code, EventCode) else f"EVENT_{event.code}"
-        return UnitEvent(name, event.t_us, event.fields)
 
     def _config(self, generation: int, crc32: int, trial_ends_s: float | None) -> None:
         self.config_generation, self.config_crc32 = generation, crc32

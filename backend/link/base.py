@@ -16,8 +16,9 @@ READ_BYTES_MAX = 65536
 class Link(Protocol):
     """An open way to one drive unit.
 
-    url: what it was opened with. bits_per_second: the line's speed, or None where there is no
-    line (pseudo-terminal, tcp) and a frame's travel time is nothing.
+    url: what it was opened with. bits_per_second: the line's rate now, or None where there is no
+    line (pseudo-terminal, tcp) and a frame's travel time is nothing. bits_per_second_wanted: the
+    rate to ask the unit for, None for the fastest it offers.
     """
 
     @property
@@ -25,6 +26,13 @@ class Link(Protocol):
 
     @property
     def bits_per_second(self) -> float | None: ...
+
+    @property
+    def bits_per_second_wanted(self) -> int | None: ...
+
+    def set_baudrate(self, bits_per_second: int) -> None:
+        """Run the line at this rate from now on. Raises LinkError when the port cannot."""
+        ...
 
     def read(self, bytes_max: int = READ_BYTES_MAX) -> bytes:
         """Return what has arrived, b"" when nothing has. Raises LinkError when the way is gone."""

@@ -2,7 +2,10 @@
 
 - `sim`, `sim:NAME?seed=&speed=&scenario=&flash=`: a simulated unit as a child process.
 - `socket://host:port`: a unit behind TCP.
-- `/dev/ttyUSB0`, `COM3`, any other path: a serial port; `?baud=921600` for another speed.
+- `/dev/ttyUSB0`, `COM3`, any other path: a serial port. It opens at 115200 bit/s and then asks the
+  unit for the fastest rate both have; `?baud=115200` stays, `?baud=921600` asks for that one.
+
+A pseudo-terminal and TCP have no rate, unless `?baud=` says that what is behind them has one.
 """
 
 from __future__ import annotations
@@ -13,11 +16,9 @@ from urllib.parse import parse_qs, urlsplit
 from backend.errors import InvalidRequest
 from backend.link.base import Link
 from backend.link.ports import device_with_usb_serial, usb_serial_of
-from backend.link.serial_port import BAUD_DEFAULT, SerialPort
+from backend.link.serial_port import SerialPort, baud_of
 from backend.link.simulated import SimulatedAddress, SimulatedLink
 from backend.link.socket_link import SocketLink
-
-BAUD_MAX = 4_000_000
 
 
 def open_link(url: str) -> Link:
@@ -65,7 +66,10 @@ class Opener:
             return SocketLink(host, port, url=self.url)
         name, baud = _name_and_baud(self.url)
         link = SerialPort(
-            self._present_name(name), self.url, baud, has_line=not _is_pseudo_terminal(name)
+            self._present_name(name),
+            self.url,
+            has_line=baud is not None or not _is_pseudo_terminal(name),
+            wanted=baud,
         )
         if self._usb_serial_number is None:
             self._usb_serial_number = usb_serial_of(name)
@@ -88,12 +92,10 @@ def _host_and_port(url: str) -> tuple[str, int]:
     return host, port
 
 
-def _name_and_baud(url: str) -> tuple[str, int]:
+def _name_and_baud(url: str) -> tuple[str, int | None]:
     name, _, query = url.partition("?")
-    given = parse_qs(query).get("baud", [str(BAUD_DEFAULT)])[-1]
-    if not given.isdigit() or not 300 <= int(given) <= BAUD_MAX:
-        raise InvalidRequest(f"`{url}`: baud is a whole number from 300 to {BAUD_MAX}.")
-    return name, int(given)
+    given = parse_qs(query).get("baud", [None])[-1]
+    return name, None if given is None else baud_of(url, given)
 
 
 def _is_pseudo_terminal(name: str) -> bool:

@@ -21,13 +21,13 @@ from urllib.parse import parse_qs
 
 from backend.errors import InvalidRequest, LinkError
 from backend.link.base import READ_BYTES_MAX
-from backend.link.serial_port import SerialPort
+from backend.link.serial_port import BAUD_DEFAULT, SerialPort, baud_of
 
 # A cold start of Python and numpy on a loaded machine takes about 2 s.
 READY_TIMEOUT_S = 15.0
 STOP_TIMEOUT_S = 2.0
 NAME_DEFAULT = "unit"
-SETTINGS = ("seed", "speed", "clock", "scenario", "flash", "unlock_key")
+SETTINGS = ("seed", "speed", "clock", "scenario", "flash", "unlock_key", "baud")
 CLOCKS = ("real", "virtual")
 # What the child says last is quoted when it fails; more than this helps nobody.
 COMPLAINT_CHARACTERS_MAX = 600
@@ -35,12 +35,13 @@ COMPLAINT_CHARACTERS_MAX = 600
 
 @dataclass(frozen=True)
 class SimulatedAddress:
-    """`sim` or `sim:NAME?seed=&speed=&clock=&scenario=&flash=&unlock_key=`, taken apart.
+    """`sim` or `sim:NAME?seed=&speed=&clock=&scenario=&flash=&unlock_key=&baud=`, taken apart.
 
     Each name is a unit of its own: without a seed the name makes one, so two names never share a
     serial number. clock: `real`, or `virtual` for time that passes only when told to. flash: file
     that keeps the unit's configuration. unlock_key: file with the maker's public key; without one
-    the unit's limits only go down.
+    the unit's limits only go down. baud: its line has a rate like a real one, from 115200 bit/s on,
+    and this is the rate to ask for.
     """
 
     name: str
@@ -50,6 +51,7 @@ class SimulatedAddress:
     flash: str | None
     unlock_key: str | None = None
     clock: str = "real"
+    baud: int | None = None
 
     @classmethod
     def parse(cls, url: str) -> SimulatedAddress:
@@ -73,8 +75,11 @@ class SimulatedAddress:
         clock = settings.get("clock", "real")
         if clock not in CLOCKS:
             raise InvalidRequest(f"{url}: clock is {' or '.join(CLOCKS)}, not {clock}.")
+        baud = baud_of(url, settings["baud"]) if "baud" in settings else None
+        if baud is not None and clock == "virtual":
+            raise InvalidRequest(f"{url}: bytes take time on a line with a rate; clock=real.")
         scenario, flash = settings.get("scenario"), settings.get("flash")
-        return cls(name, seed, speed, scenario, flash, settings.get("unlock_key"), clock)
+        return cls(name, seed, speed, scenario, flash, settings.get("unlock_key"), clock, baud)
 
     def command(self, pty_path: Path) -> list[str]:
         """The command line of the child that serves this address on `pty_path`."""
@@ -82,6 +87,8 @@ class SimulatedAddress:
         words += ["--seed", str(self.seed), "--speed", str(self.speed)]
         if self.clock == "virtual":
             words += ["--virtual"]
+        if self.baud is not None:
+            words += ["--serial-rate", str(BAUD_DEFAULT)]
         if self.scenario is not None:
             words += ["--scenario", self.scenario]
         if self.flash is not None:
@@ -118,7 +125,9 @@ class SimulatedLink:
         self._complaints = (self._folder / "stderr").open("w+b")
         self._child = self._start(address.command(self._folder / "port"))
         try:
-            self._port = SerialPort(self._ready_path(ready_timeout_s), url=url, has_line=False)
+            self._port = SerialPort(
+                self._ready_path(ready_timeout_s), url, address.baud is not None, address.baud
+            )
         except BaseException:
             self._stop()
             raise
@@ -130,8 +139,17 @@ class SimulatedLink:
 
     @property
     def bits_per_second(self) -> float | None:
-        """None: a pseudo-terminal takes no time."""
-        return None
+        """The line's rate now; None without `baud`, where a pseudo-terminal takes no time."""
+        return self._port.bits_per_second
+
+    @property
+    def bits_per_second_wanted(self) -> int | None:
+        """What `baud` asks for."""
+        return self._port.bits_per_second_wanted
+
+    def set_baudrate(self, bits_per_second: int) -> None:
+        """Run the line at this rate from now on."""
+        self._port.set_baudrate(bits_per_second)
 
     @property
     def process_id(self) -> int:

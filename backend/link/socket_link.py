@@ -34,6 +34,14 @@ class SocketLink:
         """None: no serial line limits the speed here."""
         return None
 
+    @property
+    def bits_per_second_wanted(self) -> int | None:
+        """None: there is nothing to ask for."""
+        return None
+
+    def set_baudrate(self, bits_per_second: int) -> None:
+        """Nothing: the rate belongs to whoever holds the serial line behind the socket."""
+
     def read(self, bytes_max: int = READ_BYTES_MAX) -> bytes:
         """Return what has arrived, at most `bytes_max`; b"" when nothing has."""
         try:

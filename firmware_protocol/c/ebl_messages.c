@@ -140,6 +140,48 @@ int ebl_schema_read_response_put(const ebl_schema_read_response *message, uint8_
     return EBL_OK;
 }
 
+int ebl_set_baud_request_get(ebl_set_baud_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 4) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->bits_per_second = ebl_get_u32(bytes + 0);
+    return EBL_OK;
+}
+
+int ebl_set_baud_request_put(const ebl_set_baud_request *message, uint8_t *bytes, size_t capacity,
+                            size_t *length)
+{
+    if (capacity < 4) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->bits_per_second);
+    *length = 4;
+    return EBL_OK;
+}
+
+int ebl_set_baud_response_get(ebl_set_baud_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 4) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->switch_after_ms = ebl_get_u16(bytes + 0);
+    message->prove_within_ms = ebl_get_u16(bytes + 2);
+    return EBL_OK;
+}
+
+int ebl_set_baud_response_put(const ebl_set_baud_response *message, uint8_t *bytes, size_t capacity,
+                             size_t *length)
+{
+    if (capacity < 4) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u16(bytes + 0, message->switch_after_ms);
+    ebl_put_u16(bytes + 2, message->prove_within_ms);
+    *length = 4;
+    return EBL_OK;
+}
+
 int ebl_stats_response_get(ebl_stats_response *message, const uint8_t *bytes, size_t length)
 {
     if (length < 20) {
@@ -191,6 +233,36 @@ int ebl_counters_response_put(const ebl_counters_response *message, uint8_t *byt
     ebl_put_u32(bytes + 8, message->saved_distance_m);
     ebl_put_u32(bytes + 12, message->saved_operating_s);
     *length = 16;
+    return EBL_OK;
+}
+
+int ebl_alive_response_get(ebl_alive_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 23) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->boot_id = ebl_get_u32(bytes + 0);
+    message->session_id = ebl_get_u32(bytes + 4);
+    message->uptime_us = ebl_get_u64(bytes + 8);
+    message->bits_per_second = ebl_get_u32(bytes + 16);
+    message->events_waiting = ebl_get_u8(bytes + 20);
+    message->events_pushed_out = ebl_get_u16(bytes + 21);
+    return EBL_OK;
+}
+
+int ebl_alive_response_put(const ebl_alive_response *message, uint8_t *bytes, size_t capacity,
+                          size_t *length)
+{
+    if (capacity < 23) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->boot_id);
+    ebl_put_u32(bytes + 4, message->session_id);
+    ebl_put_u64(bytes + 8, message->uptime_us);
+    ebl_put_u32(bytes + 16, message->bits_per_second);
+    ebl_put_u8(bytes + 20, message->events_waiting);
+    ebl_put_u16(bytes + 21, message->events_pushed_out);
+    *length = 23;
     return EBL_OK;
 }
 
@@ -817,6 +889,26 @@ int ebl_str_snapshot_response_put(const ebl_str_snapshot_response *message, uint
         memcpy(bytes + 8, message->values, message->values_length);
     }
     *length = 8 + message->values_length;
+    return EBL_OK;
+}
+
+int ebl_evt_ack_request_get(ebl_evt_ack_request *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 2) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->seq = ebl_get_u16(bytes + 0);
+    return EBL_OK;
+}
+
+int ebl_evt_ack_request_put(const ebl_evt_ack_request *message, uint8_t *bytes, size_t capacity,
+                           size_t *length)
+{
+    if (capacity < 2) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u16(bytes + 0, message->seq);
+    *length = 2;
     return EBL_OK;
 }
 

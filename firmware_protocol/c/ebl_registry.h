@@ -12,7 +12,7 @@
 #define EBL_MAX_OUTSTANDING 4
 #define EBL_CONTROL_PERIOD_US 10000
 #define EBL_IMAGE_LENGTH 413
-#define EBL_MESSAGE_COUNT 42
+#define EBL_MESSAGE_COUNT 45
 #define EBL_EVENT_COUNT 12
 #define EBL_EVENT_HEAD_LENGTH 5
 #define EBL_PARAMETER_COUNT 46
@@ -22,7 +22,7 @@
 #define EBL_FAULTS_ASSIST_OFF 8183
 #define EBL_FAULTS_LATCHED 5107
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 4293
+#define EBL_SCHEMA_LENGTH 4441
 
 enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */
 
@@ -217,6 +217,16 @@ enum {
     EBL_LIMIT_MARKET = 16384,
 };
 
+/* Bits a second that a unit's line can run at, as HELLO's baud_bitmap offers them. */
+enum {
+    EBL_BAUD_RATES_BAUD_115200 = 1,
+    EBL_BAUD_RATES_BAUD_230400 = 2,
+    EBL_BAUD_RATES_BAUD_460800 = 4,
+    EBL_BAUD_RATES_BAUD_921600 = 8,
+    EBL_BAUD_RATES_BAUD_1000000 = 16,
+    EBL_BAUD_RATES_BAUD_2000000 = 32,
+};
+
 /* Where a ride log stands. */
 enum {
     EBL_LOG_RECORDING = 1,
@@ -245,9 +255,11 @@ enum {
     EBL_MSG_HELLO = 0x0001,
     EBL_MSG_PING = 0x0002,
     EBL_MSG_SCHEMA_READ = 0x0003,
+    EBL_MSG_SET_BAUD = 0x0004,
     EBL_MSG_STATS = 0x0005,
     EBL_MSG_BYE = 0x0007,
     EBL_MSG_COUNTERS = 0x0008,
+    EBL_MSG_ALIVE = 0x0009,
     EBL_MSG_CFG_INFO = 0x0100,
     EBL_MSG_CFG_READ = 0x0101,
     EBL_MSG_PARAM_GET = 0x0102,
@@ -267,6 +279,7 @@ enum {
     EBL_MSG_STR_RENEW = 0x0203,
     EBL_MSG_STR_LIST = 0x0204,
     EBL_MSG_STR_SNAPSHOT = 0x0205,
+    EBL_MSG_EVT_ACK = 0x0301,
     EBL_MSG_EVT_FAULT_LIST = 0x0302,
     EBL_MSG_EVT_FAULT_FREEZE = 0x0303,
     EBL_MSG_EVT_FAULT_CLEAR = 0x0304,
@@ -532,6 +545,23 @@ int ebl_schema_read_response_get(ebl_schema_read_response *message, const uint8_
 int ebl_schema_read_response_put(const ebl_schema_read_response *message, uint8_t *bytes, size_t capacity,
                                 size_t *length);
 
+#define EBL_SET_BAUD_REQUEST_LENGTH 4
+typedef struct {
+    uint32_t bits_per_second;
+} ebl_set_baud_request;
+int ebl_set_baud_request_get(ebl_set_baud_request *message, const uint8_t *bytes, size_t length);
+int ebl_set_baud_request_put(const ebl_set_baud_request *message, uint8_t *bytes, size_t capacity,
+                            size_t *length);
+
+#define EBL_SET_BAUD_RESPONSE_LENGTH 4
+typedef struct {
+    uint16_t switch_after_ms;
+    uint16_t prove_within_ms;
+} ebl_set_baud_response;
+int ebl_set_baud_response_get(ebl_set_baud_response *message, const uint8_t *bytes, size_t length);
+int ebl_set_baud_response_put(const ebl_set_baud_response *message, uint8_t *bytes, size_t capacity,
+                             size_t *length);
+
 #define EBL_STATS_RESPONSE_LENGTH 20
 typedef struct {
     uint32_t frames_ok;
@@ -554,6 +584,19 @@ typedef struct {
 int ebl_counters_response_get(ebl_counters_response *message, const uint8_t *bytes, size_t length);
 int ebl_counters_response_put(const ebl_counters_response *message, uint8_t *bytes, size_t capacity,
                              size_t *length);
+
+#define EBL_ALIVE_RESPONSE_LENGTH 23
+typedef struct {
+    uint32_t boot_id;
+    uint32_t session_id;
+    uint64_t uptime_us;
+    uint32_t bits_per_second;
+    uint8_t events_waiting;
+    uint16_t events_pushed_out;
+} ebl_alive_response;
+int ebl_alive_response_get(ebl_alive_response *message, const uint8_t *bytes, size_t length);
+int ebl_alive_response_put(const ebl_alive_response *message, uint8_t *bytes, size_t capacity,
+                          size_t *length);
 
 #define EBL_CFG_INFO_RESPONSE_LENGTH 11
 typedef struct {
@@ -811,6 +854,14 @@ typedef struct {
 int ebl_str_snapshot_response_get(ebl_str_snapshot_response *message, const uint8_t *bytes, size_t length);
 int ebl_str_snapshot_response_put(const ebl_str_snapshot_response *message, uint8_t *bytes, size_t capacity,
                                  size_t *length);
+
+#define EBL_EVT_ACK_REQUEST_LENGTH 2
+typedef struct {
+    uint16_t seq;
+} ebl_evt_ack_request;
+int ebl_evt_ack_request_get(ebl_evt_ack_request *message, const uint8_t *bytes, size_t length);
+int ebl_evt_ack_request_put(const ebl_evt_ack_request *message, uint8_t *bytes, size_t capacity,
+                           size_t *length);
 
 #define EBL_EVT_FAULT_LIST_RESPONSE_LENGTH 2
 typedef struct {

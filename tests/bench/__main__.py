@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from tests.bench import law, link, logs, rides, server, wire
+from tests.bench import law, link, logs, rides, server, wire, writes
 from tests.bench.figures import Figure, mark, write
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "benchmarks.md"
@@ -11,6 +11,7 @@ SECTIONS = {
     "The law": law.run,
     "The wire": wire.run,
     "The link": link.run,
+    "Configuration writes": writes.run,
     "Ride logs": logs.run,
     "Rides": rides.run,
     "The server": server.run,

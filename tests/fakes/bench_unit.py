@@ -49,6 +49,8 @@ class BenchUnit:
         self._boot_id = 0
         self._decoder = framing.FrameDecoder()
         self.events: list[codec.Event] = []
+        # Those the unit sent again; nothing here acknowledges them but a test that says so.
+        self.events_repeated: list[codec.Event] = []
         self.streams: list[codec.Stream] = []
         self.bulks: list[codec.Bulk] = []
         self.boot()
@@ -58,6 +60,7 @@ class BenchUnit:
         self._boot_id += 1
         self._decoder = framing.FrameDecoder()
         self.events.clear()
+        self.events_repeated.clear()
         self.streams.clear()
         self.bulks.clear()
         lib.bench_boot(self.board, self._boot_id)
@@ -83,7 +86,7 @@ class BenchUnit:
         for frame in self.take_frames():
             decoded = codec.decode(frame)
             if isinstance(decoded, codec.Event):
-                self.events.append(decoded)
+                (self.events_repeated if decoded.retransmit else self.events).append(decoded)
             elif isinstance(decoded, codec.Stream):
                 self.streams.append(decoded)
             elif isinstance(decoded, codec.Bulk):

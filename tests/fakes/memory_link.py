@@ -17,6 +17,7 @@ class MemoryLink:
     def __init__(self, url: str = "memory", bits_per_second: float | None = None) -> None:
         self.url = url
         self.bits_per_second = bits_per_second
+        self.bits_per_second_wanted: int | None = None
         self.arrived = bytearray()  # what the host wrote
         self.closed = False
         self._coming = bytearray()
@@ -35,6 +36,9 @@ class MemoryLink:
     def vanish(self) -> None:
         """Pull the cable."""
         self._gone = True
+
+    def set_baudrate(self, bits_per_second: int) -> None:
+        self.bits_per_second = float(bits_per_second)
 
     def read(self, bytes_max: int = 65536) -> bytes:
         self._check()

@@ -18,6 +18,7 @@ from firmware_protocol._generated import (
     PARAMETER_BY_ID,
     PARAMETERS,
     SCHEMA_HASH,
+    AliveResponse,
     BootEvent,
     CfgBeginResponse,
     CfgCommitResponse,
@@ -191,6 +192,9 @@ class FakeUnit:
 
     def _on_ping(self, request: Any) -> None:
         return None
+
+    def _on_alive(self, request: Any) -> Message:
+        return AliveResponse(self.boot_id, 1, self.time_us, 0, 0, 0)
 
     def _on_bye(self, request: Any) -> None:
         self._stream = self._staged = None

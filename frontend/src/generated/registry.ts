@@ -203,6 +203,14 @@ export const FLAGS = {
     FAULT: 13,
     MARKET: 14,
   },
+  baud_rates: {
+    BAUD_115200: 0,
+    BAUD_230400: 1,
+    BAUD_460800: 2,
+    BAUD_921600: 3,
+    BAUD_1000000: 4,
+    BAUD_2000000: 5,
+  },
   log_flags: {
     RECORDING: 0,
     CONFIRMED: 1,

@@ -55,6 +55,7 @@ void app_init(app *unit, const hal *board)
     unit->tx_mtu = EBL_MTU_BEFORE_HELLO;
     unit->output.fuzzy_gain = float32_missing();
     link_init(&unit->link);
+    line_rate_init(&unit->line, board);
     telemetry_init(&unit->telemetry);
     config_store_boot(&unit->store, board);
     trial_boot(&unit->trial, &unit->store);
@@ -105,6 +106,17 @@ static void receive(app *unit)
     }
 }
 
+/* A rate that was given back leaves answers behind that promised it. A host that was not heard for
+ * seconds has no streams, and at the first rate they might not fit. */
+static void line_rate_serve(app *unit, uint64_t now_us)
+{
+    switch (line_rate_poll(&unit->line, &unit->link, unit->board, now_us)) {
+    case LINE_RATE_GIVEN_BACK: dispatch_forget(unit, EBL_MSG_SET_BAUD); break;
+    case LINE_RATE_FORGOTTEN: telemetry_end_all(&unit->telemetry); break;
+    default: break;
+    }
+}
+
 void app_poll(app *unit)
 {
     uint64_t now_us = unit->board->now_us(unit->board->context);
@@ -118,6 +130,8 @@ void app_poll(app *unit)
     counters_poll(&unit->counters, unit->board, now_us);
     telemetry_poll(&unit->telemetry, &unit->events, &unit->link, now_us);
     receive(unit);
+    line_rate_serve(unit, now_us);
+    events_poll(&unit->events, &unit->link, now_us);
     ride_log_poll(&unit->ride_log, unit->board, &unit->store, &unit->events, &unit->link);
     requests_log_poll(unit);
     unit->counters.log_erases += unit->ride_log.store.erases;

@@ -18,6 +18,7 @@
 #include "events.h"             // event_log
 #include "faults.h"             // fault_list
 #include "hal.h"                // hal
+#include "line_rate.h"          // line_rate
 #include "link.h"               // unit_link
 #include "ride_log.h"           // ride_log
 #include "ride_log_bulk.h"      // ride_log_bulk
@@ -36,6 +37,7 @@ typedef struct {
 typedef struct {
     const hal *board;
     unit_link link;
+    line_rate line;
     event_log events;
 
     uint32_t session_id; /* one more with every HELLO */

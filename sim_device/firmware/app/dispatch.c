@@ -100,6 +100,7 @@ static void request_execute(app *unit, const ebl_header *request, reply *answer)
 {
     request_handler handler = requests_system(request->word);
 
+    if (handler == NULL) handler = requests_line(request->word);
     if (handler == NULL) handler = requests_config(request->word);
     if (handler == NULL) handler = requests_trial(request->word);
     if (handler == NULL) handler = requests_unlock(request->word);
@@ -185,14 +186,32 @@ void dispatch_answer_later(app *unit, uint8_t tid, uint16_t message_id, const re
     (void)link_send(&unit->link, LINK_RESPONSE, frame, length);
 }
 
-/* The one request that may ask for no answer. It changes nothing when it is heard twice, so it
- * takes no place among the answers that are kept. */
+void dispatch_forget(app *unit, uint16_t message_id)
+{
+    for (size_t i = 0; i < EBL_MAX_OUTSTANDING; i++) {
+        answered_request *answered = &unit->answered[i];
+        ebl_header header;
+
+        if (answered->tid == 0) continue;
+        if (ebl_header_get(&header, answered->frame, answered->length) != EBL_OK) continue;
+        if (header.word == message_id) answered->tid = 0;
+    }
+}
+
+static int is_acknowledgement(const ebl_header *request)
+{
+    return (request->word == EBL_MSG_LOG_ACK || request->word == EBL_MSG_EVT_ACK) &&
+           request->flags == 0;
+}
+
+/* The requests that may ask for no answer. They change nothing when they are heard twice, so they
+ * take no place among the answers that are kept. */
 static void acknowledgement(app *unit, const ebl_header *request)
 {
     uint8_t frame[EBL_HEADER_LENGTH + LATE_ANSWER_LENGTH_MAX];
     reply answer = {frame + EBL_HEADER_LENGTH, LATE_ANSWER_LENGTH_MAX, 0};
 
-    requests_log(unit, request->word)(unit, request, &answer);
+    request_execute(unit, request, &answer);
     if (request->tag == 0) return;
     ebl_header_put(frame, EBL_KIND_RESPONSE, 0, request->tag, request->word);
     (void)link_send(&unit->link, LINK_RESPONSE, frame, EBL_HEADER_LENGTH + answer.length);
@@ -207,7 +226,8 @@ void dispatch_frame(app *unit, const uint8_t *frame, size_t length)
 
     if (readable != EBL_OK && readable != EBL_ERROR_VERSION) return;
     if (request.kind != EBL_KIND_REQUEST) return;
-    if (readable == EBL_OK && request.word == EBL_MSG_LOG_ACK && request.flags == 0) {
+    line_rate_heard(&unit->line, unit->board->now_us(unit->board->context));
+    if (readable == EBL_OK && is_acknowledgement(&request)) {
         acknowledgement(unit, &request);
         return;
     }

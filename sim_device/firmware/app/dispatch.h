@@ -41,6 +41,7 @@ void dispatch_frame(app *unit, const uint8_t *frame, size_t length);
 
 /* NULL where the message is not one of the folder's. */
 request_handler requests_system(uint16_t message_id);
+request_handler requests_line(uint16_t message_id);
 request_handler requests_config(uint16_t message_id);
 request_handler requests_trial(uint16_t message_id);
 request_handler requests_unlock(uint16_t message_id);
@@ -51,6 +52,9 @@ request_handler requests_log(const app *unit, uint16_t message_id);
 
 /* The response that a PENDING promised; it is remembered in its place. At most 8 bytes. */
 void dispatch_answer_later(app *unit, uint8_t tid, uint16_t message_id, const reply *answer);
+
+/* Answers of this message are not given again: a repeated request is executed anew. */
+void dispatch_forget(app *unit, uint16_t message_id);
 
 /* Goes on with what LOG requests began, and the source of bulk frames for the link. */
 void requests_log_poll(app *unit);

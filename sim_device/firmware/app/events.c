@@ -9,21 +9,90 @@
 #define EVENT_CHANNEL 0
 #define RESET_CAUSE_POWER_ON 0
 #define EVENT_HEAD_LENGTH 5 /* code u8, time u32 */
-#define EVENT_FIELDS_LENGTH_MAX 16
+#define EVENT_FIELDS_LENGTH_MAX 18
+
+/* Twice what the slowest adapter and a full line take for an event and its acknowledgement. */
+#define REPEAT_US 250000u
+
+static int frame_send(unit_link *link, uint8_t flags, uint16_t seq, const uint8_t *payload,
+                      size_t length)
+{
+    uint8_t frame[EBL_HEADER_LENGTH + EVENT_HEAD_LENGTH + EVENT_FIELDS_LENGTH_MAX];
+
+    ebl_header_put(frame, EBL_KIND_ASYNC, flags, EVENT_CHANNEL, seq);
+    memcpy(frame + EBL_HEADER_LENGTH, payload, length);
+    return link_send(link, LINK_EVENT, frame, EBL_HEADER_LENGTH + length);
+}
+
+static void kept_remove(event_log *events, size_t place)
+{
+    events->kept_count--;
+    memmove(&events->kept[place], &events->kept[place + 1],
+            (events->kept_count - place) * sizeof events->kept[0]);
+}
+
+/* All but those that HELLO or the next second tells anew. */
+static int is_kept(uint8_t code)
+{
+    return code != EBL_EVENT_BOOT && code != EBL_EVENT_STREAM_COUNTS;
+}
+
+static void keep(event_log *events, uint64_t now_us, const uint8_t *payload, size_t length)
+{
+    kept_event *kept;
+
+    if (length > EVENT_KEPT_BYTES_MAX) return;
+    if (events->kept_count == 0) events->repeat_us = now_us + REPEAT_US;
+    if (events->kept_count == EVENTS_KEPT_MAX) {
+        kept_remove(events, 0);
+        if (events->pushed_out < UINT16_MAX) events->pushed_out++;
+    }
+    kept = &events->kept[events->kept_count++];
+    kept->seq = events->seq;
+    kept->length = (uint8_t)length;
+    memcpy(kept->payload, payload, length);
+}
+
+void events_attend(event_log *events, int attended, uint64_t now_us)
+{
+    events->attended = attended != 0;
+    events->repeat_us = now_us + REPEAT_US;
+}
+
+void events_acknowledge(event_log *events, uint16_t seq)
+{
+    for (size_t i = 0; i < events->kept_count; i++) {
+        if (events->kept[i].seq != seq) continue;
+        kept_remove(events, i);
+        return;
+    }
+}
+
+void events_poll(event_log *events, unit_link *link, uint64_t now_us)
+{
+    if (!events->attended || events->kept_count == 0 || now_us < events->repeat_us) return;
+    /* A line that has not taken the last ones would only be fuller for it. */
+    if (!link_has_told(link)) return;
+    events->repeat_us = now_us + REPEAT_US;
+    for (size_t i = 0; i < events->kept_count; i++) {
+        const kept_event *kept = &events->kept[i];
+
+        (void)frame_send(link, EBL_FLAG_RETRANSMIT, kept->seq, kept->payload, kept->length);
+    }
+}
 
 /* The number is used up even if the line has no room, so the host sees the gap. */
 static void event_send(event_log *events, unit_link *link, uint64_t now_us, uint8_t code,
                        const uint8_t *fields, size_t length)
 {
-    uint8_t frame[EBL_HEADER_LENGTH + EVENT_HEAD_LENGTH + EVENT_FIELDS_LENGTH_MAX];
-    uint8_t *payload = frame + EBL_HEADER_LENGTH;
+    uint8_t payload[EVENT_HEAD_LENGTH + EVENT_FIELDS_LENGTH_MAX];
 
-    ebl_header_put(frame, EBL_KIND_ASYNC, 0, EVENT_CHANNEL, events->seq);
-    events->seq++;
     payload[0] = code;
     ebl_put_u32(payload + 1, (uint32_t)now_us);
     memcpy(payload + EVENT_HEAD_LENGTH, fields, length);
-    (void)link_send(link, LINK_EVENT, frame, EBL_HEADER_LENGTH + EVENT_HEAD_LENGTH + length);
+    if (is_kept(code)) keep(events, now_us, payload, EVENT_HEAD_LENGTH + length);
+    (void)frame_send(link, 0, events->seq, payload, EVENT_HEAD_LENGTH + length);
+    events->seq++;
 }
 
 void event_boot(event_log *events, unit_link *link, uint64_t now_us, uint32_t boot_id)

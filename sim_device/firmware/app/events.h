@@ -7,9 +7,33 @@
 
 #include "link.h" // unit_link
 
+#define EVENTS_KEPT_MAX 8
+#define EVENT_KEPT_BYTES_MAX 17 /* code, time, and 12 bytes of fields */
+
+/* An event that matters: it is sent again until the host has it, or newer ones took its place. */
 typedef struct {
-    uint16_t seq; /* of the next event; counts also those the line had no room for */
+    uint16_t seq;
+    uint8_t length;
+    uint8_t payload[EVENT_KEPT_BYTES_MAX];
+} kept_event;
+
+typedef struct {
+    uint16_t seq;     /* of the next event; counts also those the line had no room for */
+    uint8_t attended; /* a host is there: repeating makes sense */
+    uint8_t kept_count;
+    uint16_t pushed_out; /* kept events given up for newer ones since boot */
+    uint64_t repeat_us;
+    kept_event kept[EVENTS_KEPT_MAX]; /* the oldest first */
 } event_log;
+
+/* A host came, or left. */
+void events_attend(event_log *events, int attended, uint64_t now_us);
+
+/* The host has this one. */
+void events_acknowledge(event_log *events, uint16_t seq);
+
+/* Sends again what was not acknowledged. */
+void events_poll(event_log *events, unit_link *link, uint64_t now_us);
 
 void event_boot(event_log *events, unit_link *link, uint64_t now_us, uint32_t boot_id);
 

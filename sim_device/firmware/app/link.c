@@ -74,7 +74,9 @@ static int next_frame(unit_link *link)
 {
     size_t bulk_length;
 
-    for (int priority = 0; priority < LINK_PRIORITIES; priority++) {
+    const int priorities = link->answers_only ? LINK_RESPONSE + 1 : LINK_PRIORITIES;
+
+    for (int priority = 0; priority < priorities; priority++) {
         link_queue *queue = &link->queues[priority];
         uint8_t prefix[LENGTH_BYTES];
         size_t length;
@@ -86,6 +88,7 @@ static int next_frame(unit_link *link)
         frame_encode(link, length);
         return 1;
     }
+    if (link->answers_only) return 0;
     bulk_length = link->bulk == NULL ? 0
                                      : link->bulk(link->bulk_context, link->frame,
                                                   sizeof link->frame - EBL_CHECK_LENGTH);
@@ -93,6 +96,13 @@ static int next_frame(unit_link *link)
     frame_encode(link, bulk_length);
     return 1;
 }
+
+int link_has_answered(const unit_link *link)
+{
+    return link->queues[LINK_RESPONSE].used == 0 && link->wire_sent == link->wire_length;
+}
+
+int link_has_told(const unit_link *link) { return link->queues[LINK_EVENT].used == 0; }
 
 void link_transmit(unit_link *link, const hal *board)
 {

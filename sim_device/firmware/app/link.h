@@ -50,7 +50,8 @@ typedef struct {
     uint16_t wire_length;
     uint16_t wire_sent;
     uint32_t dropped_tx;
-    link_source bulk; /* NULL: none */
+    uint8_t answers_only; /* the rest waits: the line is about to change its rate */
+    link_source bulk;     /* NULL: none */
     void *bulk_context;
 } unit_link;
 
@@ -58,6 +59,12 @@ void link_init(unit_link *link);
 
 /* Queues a frame (header and payload, without CRC). False, and counted, where the queue is full. */
 int link_send(unit_link *link, link_priority priority, const uint8_t *frame, size_t length);
+
+/* Whether no answer waits and no frame is half sent. */
+int link_has_answered(const unit_link *link);
+
+/* Whether an event sent now would be the next frame but answers. */
+int link_has_told(const unit_link *link);
 
 /* Gives the line what it takes now. */
 void link_transmit(unit_link *link, const hal *board);

@@ -11,7 +11,7 @@ static void subscribe(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_str_subscribe_request asked;
     ebl_str_subscribe_response response;
-    telemetry_line line = {unit->tx_mtu, unit->board->serial_baud};
+    telemetry_line line = {unit->tx_mtu, line_rate_for_streams(&unit->line, unit->board)};
     uint16_t detail = 0;
     uint8_t status;
     size_t length = 0;
@@ -83,7 +83,8 @@ static void list(app *unit, const ebl_header *request, reply *answer)
     int put;
 
     (void)request;
-    response.budget_bytes_per_s = admission_budget_bytes_per_s(unit->board->serial_baud);
+    response.budget_bytes_per_s =
+        admission_budget_bytes_per_s(line_rate_for_streams(&unit->line, unit->board));
     response.entries = entries;
     for (size_t i = 0; i < TELEMETRY_STREAMS; i++) {
         const telemetry_stream *stream = &unit->telemetry.streams[i];

@@ -6,7 +6,6 @@
 #include "ebl_registry.h" // ebl_hello_request_get
 
 #define MTU_MIN EBL_MTU_BEFORE_HELLO
-#define BAUD_115200 1
 
 static const uint16_t firmware_version[3] = {0, 1, 0};
 
@@ -25,6 +24,7 @@ static void session_start(app *unit)
     transaction_drop(&unit->transaction);
     app_lock(unit);
     log_session_end(unit);
+    events_attend(&unit->events, 1, unit->board->now_us(unit->board->context));
     memset(unit->answered, 0, sizeof unit->answered);
 }
 
@@ -46,7 +46,7 @@ static void hello_fill(const app *unit, ebl_hello_response *response)
     response->tx_mtu = unit->tx_mtu;
     response->max_outstanding = EBL_MAX_OUTSTANDING;
     response->access = EBL_ACCESS_DEALER;
-    response->baud_bitmap = BAUD_115200;
+    response->baud_bitmap = line_rate_offered(unit->board);
     response->uptime_us = unit->board->now_us(unit->board->context);
 }
 
@@ -144,6 +144,7 @@ static void bye(app *unit, const ebl_header *request, reply *answer)
     transaction_drop(&unit->transaction);
     app_lock(unit);
     log_session_end(unit);
+    events_attend(&unit->events, 0, unit->board->now_us(unit->board->context));
     reply_ok(answer);
 }
 

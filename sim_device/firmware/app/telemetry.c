@@ -227,6 +227,16 @@ static uint8_t bandwidth_check(const telemetry *state, const ebl_str_subscribe_r
     return EBL_STATUS_BANDWIDTH;
 }
 
+int telemetry_fits(const telemetry *state, uint32_t baud)
+{
+    uint32_t needed = 0;
+
+    for (size_t i = 0; i < TELEMETRY_STREAMS; i++) {
+        if (state->streams[i].active) needed += telemetry_bytes_per_s(&state->streams[i]);
+    }
+    return baud == 0 || needed <= admission_budget_bytes_per_s(baud);
+}
+
 static uint8_t subscription_check(const ebl_str_subscribe_request *request, uint16_t tx_mtu,
                                   uint16_t *detail)
 {

@@ -71,6 +71,9 @@ uint8_t telemetry_subscribe(telemetry *state, const ebl_str_subscribe_request *r
                             const telemetry_line *line, uint64_t now_us,
                             ebl_str_subscribe_response *response, uint16_t *detail);
 
+/* Whether the streams that run would leave a line of this rate its reserve. */
+int telemetry_fits(const telemetry *state, uint32_t baud);
+
 /* Ends a stream and tells its last counts. */
 uint8_t telemetry_unsubscribe(telemetry *state, event_log *events, unit_link *link, uint64_t now_us,
                               uint8_t stream_id);

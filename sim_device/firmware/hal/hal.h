@@ -45,6 +45,13 @@ typedef struct {
     size_t (*serial_writable)(void *context);
     uint32_t serial_baud; /* bits per second of the line now; 0: nothing limits it, or not known */
 
+    /* Other rates, as bits of ebl_baud_rates. set: 0, and serial_baud is the new rate at once;
+     * negative where the UART cannot. drained: 1 when all that was written has left the line. NULL
+     * and 0 where the line has one rate. */
+    uint16_t serial_bauds;
+    int (*serial_baud_set)(void *context, uint32_t baud);
+    int (*serial_drained)(void *context);
+
     void (*inputs_read)(void *context, hal_inputs *inputs);
     void (*motor_torque_set)(void *context, float motor_torque_nm);
 

@@ -102,6 +102,7 @@ class Unit:
         log: the whole flash for ride logs, or None for an erased one of `LOG_LENGTH` bytes; another
             length, in whole blocks, makes a smaller flash.
         unlock_key: the maker's public key to provision, or None for what the flash has.
+        line_baud: the serial line's rate at boot, or 0 for one that takes no time.
         request: answers SIM_GET and SIM_SET: (message id, request) -> (status, response).
 
     Raises:
@@ -121,6 +122,7 @@ class Unit:
         flash: bytes | None = None,
         log: bytes | None = None,
         unlock_key: bytes | None = None,
+        line_baud: int = 0,
         request: BoardRequest | None = None,
     ) -> None:
         if len(uid) != UID_LENGTH:
@@ -138,6 +140,7 @@ class Unit:
         setup.seed = seed
         setup.uid = uid
         setup.boot_id = boot_id
+        setup.line_baud = line_baud
         setup.flash = ffi.NULL if flash is None else ffi.from_buffer("uint8_t[]", flash)
         setup.log_size = 0 if log is None else len(log)
         setup.log = ffi.NULL if log is None else ffi.from_buffer("uint8_t[]", log)
@@ -173,6 +176,15 @@ class Unit:
         capacity = min(bytes_max, _TRANSMIT_CAPACITY)
         length = lib.unit_transmit(self._unit, self._transmit_buffer, capacity)
         return bytes(self._transmitted[:length])
+
+    def host_baud(self, baud: int) -> None:
+        """The far end of a line with a rate sends and listens at this one from now on."""
+        lib.unit_host_baud(self._unit, baud)
+
+    @property
+    def line_baud(self) -> int:
+        """The unit's own rate now, 0 where its line has none."""
+        return int(lib.unit_line_baud(self._unit))
 
     def observe(self, names: Iterable[str] = _OBSERVED) -> dict[str, Any]:
         """Speeds, torques, energies and the law's last decision, by name; missing is NaN."""

@@ -119,7 +119,7 @@ def test_a_silent_unit_is_pinged_and_after_a_second_and_a_half_lost() -> None:
     unit = FakeUnit()
     bench = Bench(unit).connect()
     bench.run(10.0)
-    assert unit.executed.count(MessageId.PING) in range(17, 21)
+    assert unit.executed.count(MessageId.ALIVE) in range(17, 21)
 
     unit.silent = True
     bench.run(0.9)

@@ -74,6 +74,17 @@ static size_t serial_writable(void *context)
     return queue->length < queue->capacity ? queue->capacity - queue->length : 0;
 }
 
+static int serial_baud_set(void *context, uint32_t baud)
+{
+    ((bench_board *)context)->hal.serial_baud = baud;
+    return 0;
+}
+
+static int serial_drained(void *context)
+{
+    return ((const bench_board *)context)->to_host.length == 0;
+}
+
 static void inputs_read(void *context, hal_inputs *inputs)
 {
     *inputs = ((const bench_board *)context)->inputs;
@@ -271,6 +282,15 @@ void bench_line_capacity(bench_board *board, size_t bytes)
 }
 
 void bench_line_baud(bench_board *board, uint32_t baud) { board->hal.serial_baud = baud; }
+
+void bench_line_offers(bench_board *board, uint16_t bauds)
+{
+    board->hal.serial_bauds = bauds;
+    board->hal.serial_baud_set = serial_baud_set;
+    board->hal.serial_drained = serial_drained;
+}
+
+uint32_t bench_line_baud_now(const bench_board *board) { return board->hal.serial_baud; }
 
 void bench_inputs_get(const bench_board *board, hal_inputs *inputs) { *inputs = board->inputs; }
 

@@ -49,6 +49,10 @@ void bench_line_capacity(bench_board *board, size_t bytes);
 /* What the unit believes the line carries, bits per second; 0: no limit. */
 void bench_line_baud(bench_board *board, uint32_t baud);
 
+/* Rates that SET_BAUD may ask for, as bits of ebl_baud_rates; 0: the line has one rate. */
+void bench_line_offers(bench_board *board, uint16_t bauds);
+uint32_t bench_line_baud_now(const bench_board *board);
+
 void bench_inputs_get(const bench_board *board, hal_inputs *inputs);
 void bench_inputs_set(bench_board *board, const hal_inputs *inputs);
 

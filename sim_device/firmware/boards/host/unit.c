@@ -8,6 +8,7 @@
 #include "ebl_registry.h" // EBL_DEVICE_CLASS_MID_DRIVE_SIMULATED
 #include "hal.h"          // hal
 #include "log_flash.h"    // log_flash_open
+#include "uart_line.h"    // uart_line_advance
 
 #define PHYSICS_PERIOD_US 1000u
 #define CONTROL_PERIOD_US 10000u
@@ -17,6 +18,9 @@
 #define RPM_PER_RAD_S (30.0 / 3.14159265358979323846)
 #define KMH_PER_MS 3.6
 #define FLASH_NEVER_CUT UINT32_MAX
+#define UNIT_BAUD_RATES                                                                            \
+    (EBL_BAUD_RATES_BAUD_115200 | EBL_BAUD_RATES_BAUD_230400 | EBL_BAUD_RATES_BAUD_460800 |        \
+     EBL_BAUD_RATES_BAUD_921600 | EBL_BAUD_RATES_BAUD_1000000)
 
 struct unit {
     app app;
@@ -29,6 +33,9 @@ struct unit {
     uint8_t mode_selected;
     byte_queue from_host;
     byte_queue to_host;
+    uart_line up; /* towards the host; both only where the line has a rate */
+    uart_line down;
+    uint32_t host_baud;
     uint8_t flash[UNIT_FLASH_SIZE];
     log_flash log;
     uint32_t flash_bytes_left; /* until the supply fails; FLASH_NEVER_CUT: it does not */
@@ -46,13 +53,29 @@ static size_t board_serial_read(void *context, uint8_t *bytes, size_t capacity)
 
 static size_t board_serial_write(void *context, const uint8_t *bytes, size_t length)
 {
-    if (!unit_is_powered(context)) return 0;
-    return byte_queue_put(&((unit *)context)->to_host, bytes, length);
+    unit *self = context;
+    if (!unit_is_powered(self)) return 0;
+    if (self->host_baud != 0) return uart_line_send(&self->up, bytes, length);
+    return byte_queue_put(&self->to_host, bytes, length);
 }
 
 static size_t board_serial_writable(void *context)
 {
-    return byte_queue_free(&((const unit *)context)->to_host);
+    const unit *self = context;
+    if (self->host_baud != 0) return uart_line_room(&self->up);
+    return byte_queue_free(&self->to_host);
+}
+
+static int board_serial_baud_set(void *context, uint32_t baud)
+{
+    ((unit *)context)->hal.serial_baud = baud;
+    return 0;
+}
+
+static int board_serial_drained(void *context)
+{
+    const unit *self = context;
+    return uart_line_is_drained(&self->up, self->now_us);
 }
 
 static void board_inputs_read(void *context, hal_inputs *inputs)
@@ -160,6 +183,15 @@ static void connect_board(unit *self, const unit_setup *setup)
         .boot_id = setup->boot_id,
     };
     self->hal = board;
+    if (setup->line_baud != 0) {
+        self->hal.serial_baud = setup->line_baud;
+        self->hal.serial_bauds = UNIT_BAUD_RATES;
+        self->hal.serial_baud_set = board_serial_baud_set;
+        self->hal.serial_drained = board_serial_drained;
+        self->host_baud = setup->line_baud;
+        uart_line_init(&self->up, UART_LINE_BYTES);
+        uart_line_init(&self->down, BYTE_QUEUE_CAPACITY);
+    }
     log_flash_connect(&self->log, &self->hal, &self->now_us);
 }
 
@@ -209,6 +241,18 @@ void unit_destroy(unit *self)
     free(self);
 }
 
+/* A millisecond of the line. What the host sends is there when the unit looks; what the unit sent
+ * has left when the host looks. */
+static void line_advance(unit *self)
+{
+    const uint64_t end_us = self->now_us + PHYSICS_PERIOD_US;
+    if (self->host_baud == 0) return;
+    uart_line_advance(&self->down, self->now_us, end_us, self->host_baud, self->hal.serial_baud,
+                      &self->from_host);
+    uart_line_advance(&self->up, self->now_us, end_us, self->hal.serial_baud, self->host_baud,
+                      &self->to_host);
+}
+
 void unit_advance_us(unit *self, uint64_t duration_us)
 {
     self->target_us += duration_us;
@@ -217,6 +261,7 @@ void unit_advance_us(unit *self, uint64_t duration_us)
             if (self->now_us % CONTROL_PERIOD_US == 0) app_control_step(&self->app);
             app_poll(&self->app);
         }
+        line_advance(self);
         physics_step(&self->bike, &self->state, &self->stimulus, PHYSICS_PERIOD_US * 1e-6);
         self->now_us += PHYSICS_PERIOD_US;
     }
@@ -229,8 +274,16 @@ void unit_poll(unit *self)
 
 size_t unit_receive(unit *self, const uint8_t *bytes, size_t length)
 {
+    if (self->host_baud != 0) return uart_line_send(&self->down, bytes, length);
     return byte_queue_put(&self->from_host, bytes, length);
 }
+
+void unit_host_baud(unit *self, uint32_t baud)
+{
+    if (self->host_baud != 0 && baud != 0) self->host_baud = baud;
+}
+
+uint32_t unit_line_baud(const unit *self) { return self->hal.serial_baud; }
 
 size_t unit_transmit(unit *self, uint8_t *bytes, size_t capacity)
 {

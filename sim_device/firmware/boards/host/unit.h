@@ -33,7 +33,8 @@ typedef struct {
     size_t log_size;           /* of the flash for ride logs, whole blocks; 0: UNIT_LOG_SIZE */
     const uint8_t *log;        /* so many bytes, or NULL for an erased one */
     const uint8_t *unlock_key; /* the maker's, 32 bytes, or NULL for what the flash has */
-    unit_request request;      /* NULL: the unit knows no board requests */
+    uint32_t line_baud; /* the serial line's rate at boot; 0: bytes take no time and have no rate */
+    unit_request request; /* NULL: the unit knows no board requests */
     void *request_context;
 } unit_setup;
 
@@ -81,6 +82,12 @@ void unit_poll(unit *self);
 /* Bytes from the host to the unit, and back. Return how many were taken. */
 size_t unit_receive(unit *self, const uint8_t *bytes, size_t length);
 size_t unit_transmit(unit *self, uint8_t *bytes, size_t capacity);
+
+/* The far end of a line that has a rate sends and listens at this one from now on. */
+void unit_host_baud(unit *self, uint32_t baud);
+
+/* The unit's own rate now; 0: its line has none. */
+uint32_t unit_line_baud(const unit *self);
 
 void unit_observe(const unit *self, unit_observation *seen);
 

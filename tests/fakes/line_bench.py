@@ -1,0 +1,118 @@
+"""A session and the simulated unit on a serial line whose two ends each have a rate, in virtual
+time: at different rates they hear noise, as from a real UART."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+from backend.device.operation import Operation
+from backend.device.session import Session
+from backend.device.states import LinkState
+from backend.device.stream import StreamPlan
+from backend.errors import LinkError
+from firmware_protocol.framing import FrameDecoder, encode_frame
+from sim_device.lockstep import LockstepUnit
+
+Result = TypeVar("Result")
+
+STEP_S = 0.001
+FIRST = 115200
+
+
+class LineBench:
+    """`to_unit` and `to_host` see each whole frame and say whether it arrives.
+
+    rates: what the host's port was set to. turn_around_s: how late the host hears.
+    """
+
+    def __init__(
+        self, wanted: int | None = None, plan: StreamPlan | None = None, line_baud: int = FIRST
+    ) -> None:
+        self.unit = LockstepUnit(line_baud=line_baud)
+        self.wanted = wanted
+        self.now_s = 100.0
+        self.session = Session(self.now_s, plan)
+        self.rates: list[int] = []
+        self.port_rates_max = 4_000_000
+        self.sent: list[bytes] = []
+        self.to_unit: Callable[[bytes], bool] = lambda frame: True
+        self.to_host: Callable[[bytes], bool] = lambda frame: True
+        self._decoder = FrameDecoder()
+        self._plugged = False
+
+    def plug_in(self) -> LineBench:
+        self._plugged = True
+        self.unit.host_baud(FIRST)
+        self.rates.append(FIRST)
+        self.session.port_opened(self.now_s, "the line", b"12345678", FIRST, self.wanted)
+        return self
+
+    def unplug(self) -> None:
+        self._plugged = False
+        self.session.port_failed(self.now_s, LinkError("The cable was pulled."))
+
+    def restart_unit(self) -> None:
+        """Switch the unit off and on; it begins at its first rate."""
+        self.unit = LockstepUnit(line_baud=FIRST, boot_id=2)
+        self.unit.host_baud(self.rates[-1])
+
+    def connect(self) -> LineBench:
+        self.plug_in()
+        self.run_until(lambda: self.session.state is LinkState.READY)
+        return self
+
+    @property
+    def unit_rate(self) -> int:
+        return self.unit.unit.line_baud
+
+    def run(self, seconds: float) -> None:
+        for _ in range(round(seconds / STEP_S)):
+            self.step()
+
+    def run_until(self, done: Callable[[], bool], patience_s: float = 30.0) -> None:
+        for _ in range(round(patience_s / STEP_S)):
+            if done():
+                return
+            self.step()
+        raise AssertionError(f"not within {patience_s} s: {self.session.reason}")
+
+    def step(self) -> None:
+        """A millisecond."""
+        self.now_s += STEP_S
+        self.unit.advance(STEP_S)
+        heard = self.unit.receive()
+        if not self._plugged:
+            return
+        self.session.receive(self._let_through(heard), self.now_s)
+        self.session.tick(self.now_s)
+        rate = self.session.line.take_change()
+        if rate is not None and rate > self.port_rates_max:
+            self.session.line.refused()
+        elif rate is not None:
+            self.rates.append(rate)
+            self.unit.host_baud(rate)
+        data = self.session.bytes_to_send()
+        for frame in FrameDecoder().feed(data):
+            self.sent.append(frame)
+            if self.to_unit(frame):
+                self.unit.send(encode_frame(frame))
+
+    def ask(self, operation: Operation[Result]) -> Result:
+        """Run an operation to its end; its error is raised here."""
+        results: list[Result] = []
+        errors: list[BaseException] = []
+        self.session.start(operation, results.append, errors.append)
+        self.run_until(lambda: bool(results or errors))
+        if errors:
+            raise errors[0]
+        return results[0]
+
+    def _let_through(self, heard: bytes) -> bytes:
+        """Whole frames one by one where a test chooses among them, otherwise bytes as they come."""
+        passed = b""
+        bad = self._decoder.stats.crc_errors + self._decoder.stats.cobs_errors
+        for frame in self._decoder.feed(heard):
+            passed += encode_frame(frame) if self.to_host(frame) else b""
+        noisy = self._decoder.stats.crc_errors + self._decoder.stats.cobs_errors > bad
+        return passed + (b"\0" + heard if noisy else b"")
