@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from firmware_protocol._generated import FallingTorque, Inference, Label, Law
+from firmware_protocol._generated import FallingTorque, Inference, Label, Law, Market, Taper
 from firmware_protocol.parameters import default_config
 from sim_device.firmware.python import build
 from sim_device.firmware.python.law import (
@@ -41,6 +41,13 @@ def rough_ride(seed: int) -> npt.NDArray[np.void]:
             "cadence_rpm": np.where(random.random(STEPS) < 0.02, -5, random.uniform(0, 90, STEPS)),
             "motor_speed_rpm": random.uniform(0, 3200, STEPS),
             "battery_voltage_v": random.uniform(29, 42, STEPS),
+            "motor_temperature_degc": random.uniform(90, 135, STEPS),
+            "controller_temperature_degc": np.where(
+                random.random(STEPS) < 0.5, np.nan, random.uniform(60, 105, STEPS)
+            ),
+            "torque_age_ms": np.where(random.random(STEPS) < 0.02, 51, random.integers(0, 40)),
+            "walk_button": np.repeat(random.random(STEPS // 50) < 0.3, 50),
+            "inhibit": np.repeat(random.random(STEPS // 50) < 0.05, 50),
             "mode": np.repeat(random.integers(0, 6, STEPS // 100), 100),
             "brake": np.repeat(random.random(STEPS // 50) < 0.1, 50),
         }
@@ -56,6 +63,14 @@ def config_of(inference: str, falling: str) -> dict[str, Any]:
         "fuzzy_gain_points": [0.05, 0.11, 0.27, 0.33, 0.48],
         "assist_cutoff_band_kmh": 2.0,
         "sensor_offset_counts": 12.5,
+        "mode_tapers": ["NONE", "NONE", "JAPAN_1_TO_1", "TAPER_SPEEDS", "JAPAN_2_TO_1"],
+        "mode_tables": [0, 0, 0, 0, 1],
+        "mode_ramp_up_nm_per_s": [2000, 150, 90, 300, 2000],
+        "mode_ramp_down_nm_per_s": [2000, 150, 700, 300, 2000],
+        "mode_torque_pct": [100, 40, 70, 85, 100],
+        "second_gain_points": [0.0, 0.1, 0.21, 0.33, 0.5],
+        "market": "JAPAN" if falling == "NO_GAIN" else "EU_EPAC",
+        "walk_speed_kmh": 4.5,
     }
 
 
@@ -91,6 +106,19 @@ def config_record(c: dict[str, Any]) -> bytes:
         c["gear_ratio"],
         c["motor_torque_constant_nm_per_a"],
         c["motor_resistance_ohm"],
+        *(Taper[name] for name in c["mode_tapers"]),
+        *c["mode_tables"],
+        *c["mode_ramp_up_nm_per_s"],
+        *c["mode_ramp_down_nm_per_s"],
+        *(pct / 100 for pct in c["mode_torque_pct"]),
+        Inference[c["second_inference"]],
+        *c["fuzzy_speed_points_kmh"],
+        *c["fuzzy_torque_rate_points"],
+        *c["second_gain_points"],
+        *(Label[label] for row in c["second_rules"] for label in row),
+        c["walk_speed_kmh"],
+        Market[c["market"]],
+        c["assist_cutoff_extra_kmh"],
     ]
     return np.array(values, np.float32).tobytes()
 

@@ -148,6 +148,7 @@ static uint8_t mode_select(const app *unit, const hal_inputs *inputs)
 /* The law refuses what is not a number, so that is what a broken sensor becomes. */
 static void assist_input_from(const hal_inputs *inputs, uint8_t mode, assist_input *input)
 {
+    memset(input, 0, sizeof *input);
     input->torque_raw_counts = faults_torque_is_plausible(inputs->torque_raw_counts)
                                    ? inputs->torque_raw_counts
                                    : float32_missing();
@@ -155,8 +156,12 @@ static void assist_input_from(const hal_inputs *inputs, uint8_t mode, assist_inp
     input->cadence_rpm = inputs->cadence_rpm;
     input->motor_speed_rpm = inputs->motor_speed_rpm;
     input->battery_voltage_v = inputs->battery_voltage_v;
+    input->motor_temperature_degc = inputs->motor_temperature_degc;
+    input->controller_temperature_degc = inputs->controller_temperature_degc;
+    input->torque_age_ms = inputs->torque_age_ms;
     input->mode = mode;
     input->brake = inputs->brake;
+    input->walk_button = inputs->walk_button;
 }
 
 static void faults_report(app *unit, const hal_inputs *inputs, uint64_t now_us)

@@ -29,8 +29,19 @@
 #define ASSIST_LIMIT_BATTERY_VOLTAGE 0x0200
 #define ASSIST_LIMIT_INPUT_REFUSED 0x0400
 #define ASSIST_LIMIT_MODE_OFF 0x0800
+#define ASSIST_LIMIT_TEMPERATURE 0x1000
+#define ASSIST_LIMIT_FAULT 0x2000 /* inhibited from outside, or no fresh torque reading */
+#define ASSIST_LIMIT_MARKET 0x4000
 
 typedef enum { ASSIST_LAW_OFF = 0, ASSIST_LAW_FIXED = 1, ASSIST_LAW_FUZZY = 2 } assist_law;
+
+/* How the fixed law's ratio falls with speed. The two Japanese ones are ceilings, in market.h. */
+typedef enum {
+    ASSIST_TAPER_SPEEDS = 0,
+    ASSIST_TAPER_NONE = 1,
+    ASSIST_TAPER_JAPAN_1_TO_1 = 2,
+    ASSIST_TAPER_JAPAN_2_TO_1 = 3
+} assist_taper;
 
 typedef struct {
     float step_s; /* control period, 0.01 s */
@@ -58,6 +69,15 @@ typedef struct {
     float gear_ratio;
     float motor_torque_constant_nm_per_a;
     float motor_resistance_ohm;
+    uint8_t mode_tapers[ASSIST_MODE_SLOTS];         /* assist_taper */
+    uint8_t mode_tables[ASSIST_MODE_SLOTS];         /* 0: table, 1: second_table */
+    float mode_ramp_up_nm_per_s[ASSIST_MODE_SLOTS]; /* the slower of this and the ramp of all */
+    float mode_ramp_down_nm_per_s[ASSIST_MODE_SLOTS];
+    float mode_torque_share[ASSIST_MODE_SLOTS]; /* of motor_torque_nm_max, 0 to 1 */
+    fuzzy_table second_table;
+    float walk_speed_kmh;          /* 0: no walk assist */
+    uint8_t market;                /* market of market.h */
+    float assist_cutoff_extra_kmh; /* for a market that allows more than 25 km/h */
 } assist_config;
 
 typedef struct {
@@ -66,8 +86,13 @@ typedef struct {
     float cadence_rpm;
     float motor_speed_rpm;
     float battery_voltage_v;
-    uint8_t mode; /* slot 0 to 4; any other is refused */
+    float motor_temperature_degc; /* NaN: not measured, and nothing is lowered for it */
+    float controller_temperature_degc;
+    uint16_t torque_age_ms; /* since torque_raw_counts was measured; too old ends the assist */
+    uint8_t mode;           /* slot 0 to 4; any other is refused */
     uint8_t brake;
+    uint8_t walk_button;
+    uint8_t inhibit; /* a fault forbids any torque */
 } assist_input;
 
 typedef struct {
@@ -87,6 +112,11 @@ typedef struct {
     uint16_t history_next;
     uint16_t pedal_steps_left; /* steps assist may go on without forward pedalling; 0 at rest */
     float assist_torque_nm;    /* at the crank, after every limit: where the ramps go on from */
+    float walk_integral_nm;
+    uint8_t walk_phase;       /* of walk.c; 0 at rest: a held button must be let go first */
+    uint16_t push_steps;      /* of the present half of the window of push_peak_nm */
+    float push_peak_nm[2];    /* hardest push in this half window and in the one before */
+    float motor_power_mean_w; /* at the shaft: what a continuous rating is held against */
 } assist_state;
 
 enum { ASSIST_OK = 0, ASSIST_INPUT_REFUSED = -1, ASSIST_CONFIG_REFUSED = -2 };
@@ -94,7 +124,8 @@ enum { ASSIST_OK = 0, ASSIST_INPUT_REFUSED = -1, ASSIST_CONFIG_REFUSED = -2 };
 /* One control step. A NaN, an infinity, a number no sensor can give (beyond a million) or an
  * unknown mode gives zero torque, sets INPUT_REFUSED and leaves the filter as it was.
  * Returns ASSIST_OK or ASSIST_INPUT_REFUSED; the output is valid either way. `config` must have
- * passed assist_config_check: a step does not check it again. */
+ * passed assist_config_check: a step does not check it again. A torque reading that is too old is
+ * NaN in the output, and the assist goes down on a ramp of its own. */
 int assist_step(const assist_config *config, assist_state *state, const assist_input *input,
                 assist_output *output);
 

@@ -1,6 +1,7 @@
 /* Is this a configuration a bike can have? The registry's ranges are narrower; these only make sure
  * that no step divides by zero, overflows or reads past an array. */
 #include "assist.h" // assist_config_check
+#include "market.h" // MARKET_COUNT
 
 static const float LARGEST = 1.0e6f;
 static const float SMALLEST = 1.0e-6f;
@@ -27,7 +28,13 @@ static int law_accepted(const assist_config *config)
 
     for (slot = 0; slot < ASSIST_MODE_SLOTS; ++slot) {
         if (config->mode_laws[slot] > ASSIST_LAW_FUZZY) return 0;
+        if (config->mode_tapers[slot] > ASSIST_TAPER_JAPAN_2_TO_1) return 0;
+        if (config->mode_tables[slot] > 1) return 0;
         if (!not_negative(config->mode_ratios[slot])) return 0;
+        if (!positive(config->mode_ramp_up_nm_per_s[slot])) return 0;
+        if (!positive(config->mode_ramp_down_nm_per_s[slot])) return 0;
+        if (!(config->mode_torque_share[slot] >= 0.0f)) return 0;
+        if (config->mode_torque_share[slot] > 1.0f) return 0;
     }
     return not_negative(config->fixed_taper_start_kmh) &&
            not_negative(config->fixed_taper_end_kmh) &&
@@ -35,12 +42,15 @@ static int law_accepted(const assist_config *config)
            positive(config->assist_ramp_up_nm_per_s) &&
            positive(config->assist_ramp_down_nm_per_s) &&
            not_negative(config->pedal_torque_nm_min) && config->fuzzy_falling_torque <= 1 &&
-           fuzzy_table_check(&config->table) == FUZZY_OK;
+           fuzzy_table_check(&config->table) == FUZZY_OK &&
+           fuzzy_table_check(&config->second_table) == FUZZY_OK;
 }
 
 static int limits_accepted(const assist_config *config)
 {
-    return not_negative(config->assist_cutoff_kmh) &&
+    return config->market < MARKET_COUNT && not_negative(config->walk_speed_kmh) &&
+           not_negative(config->assist_cutoff_extra_kmh) &&
+           not_negative(config->assist_cutoff_kmh) &&
            not_negative(config->assist_cutoff_band_kmh) &&
            not_negative(config->motor_torque_nm_max) &&
            not_negative(config->battery_current_a_max) &&

@@ -19,22 +19,37 @@ float torque_rate_of(const assist_config *config, float torque_nm, float earlier
 float apply_law(const assist_config *config, const assist_input *input, float earlier_torque_nm,
                 assist_output *output);
 
+/* walk.c: whether the button is followed in this step; torque at the crank that holds the set speed
+ * while it is; and the end of it until the button is pressed anew. */
+void walk_follow(const assist_config *config, assist_state *state, const assist_input *input);
+int walk_is_on(const assist_state *state);
+float apply_walk(const assist_config *config, assist_state *state, const assist_input *input,
+                 assist_output *output);
+void walk_refuse(assist_state *state);
+
 /* cutoffs.c: the soft ramp below the cut-off speed. Before the ramps, which go on from the torque
  * that was given: behind them the same share would be taken again at every step. */
 float apply_cutoff_band(const assist_config *config, const assist_input *input, float demand_nm,
                         assist_output *output);
 
-/* ramps.c */
-float apply_ramps(const assist_config *config, float previous_nm, float wanted_nm,
-                  assist_output *output);
+/* ramps.c: is the torque reading fresh enough to act on? It is held for a moment, then let go. */
+int torque_is_fresh(const assist_input *input);
+float apply_ramps(const assist_config *config, const assist_input *input, float previous_nm,
+                  float wanted_nm, assist_output *output);
 
 /* cutoffs.c: whatever takes the torque away at once. */
 float apply_cutoffs(const assist_config *config, assist_state *state, const assist_input *input,
                     float demand_nm, assist_output *output);
 
-/* limits.c: what motor and battery can give; crank torque in, motor torque out. */
+/* limits.c: what motor, battery and heat allow; crank torque in, motor torque out. */
 float apply_limits(const assist_config *config, const assist_input *input, float demand_nm,
                    assist_output *output);
+
+/* market.c: the cut-off speed that holds, the rider's hardest push of late, and the last word. */
+float market_cutoff_kmh(const assist_config *config);
+void market_push_note(const assist_config *config, assist_state *state, float torque_nm);
+float apply_market(const assist_config *config, assist_state *state, const assist_input *input,
+                   float motor_nm, assist_output *output);
 
 /* Lowers the demand to the limit and says so. Whatever lowers it after the ramps decides in their
  * place, so their bits go. */

@@ -11,7 +11,16 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from firmware_protocol._generated import FallingTorque, Inference, Label, Law
+from firmware_protocol._generated import (
+    PARAMETERS,
+    FallingTorque,
+    Inference,
+    Label,
+    Law,
+    Market,
+    Taper,
+)
+from firmware_protocol.parameters import default_config
 from sim_device.firmware.python._native import ffi, lib
 
 ENGINE = "sim_device/firmware/control (C99, float32)"
@@ -28,11 +37,25 @@ INPUT_DTYPE = np.dtype(
         ("cadence_rpm", np.float32),
         ("motor_speed_rpm", np.float32),
         ("battery_voltage_v", np.float32),
+        ("motor_temperature_degc", np.float32),
+        ("controller_temperature_degc", np.float32),
+        ("torque_age_ms", np.uint16),
         ("mode", np.uint8),
         ("brake", np.uint8),
+        ("walk_button", np.uint8),
+        ("inhibit", np.uint8),
     ],
     align=True,
 )
+INPUT_DEFAULTS = {
+    "motor_temperature_degc": np.nan,
+    "controller_temperature_degc": np.nan,
+    "torque_age_ms": 0,
+    "walk_button": 0,
+    "inhibit": 0,
+}
+"""What a ride need not tell: not measured, fresh, not pressed, no fault."""
+
 OUTPUT_DTYPE = np.dtype(
     [
         ("rider_torque_nm", np.float32),
@@ -68,7 +91,11 @@ PLAIN_PARAMETERS = (
     "gear_ratio",
     "motor_torque_constant_nm_per_a",
     "motor_resistance_ohm",
+    "walk_speed_kmh",
+    "assist_cutoff_extra_kmh",
 )
+FIRST_LATER_ID = 0x0600
+"""Parameters from here on may be missing, as in the configuration of an old ride."""
 
 
 class LawRefused(ValueError):
@@ -150,7 +177,8 @@ def assist_run(
 ) -> dict[str, npt.NDArray[Any]]:
     """A whole ride from rest through a fresh law.
 
-    inputs: (n,) or one value for each name of INPUT_DTYPE. Returns (n,) for each name of
+    inputs: (n,) or one value for each name of INPUT_DTYPE; those of INPUT_DEFAULTS may be missing.
+    Returns (n,) for each name of
     OUTPUT_DTYPE. Raises LawRefused for a bad configuration or unequal lengths.
     """
     outputs = AssistLaw(config, step_s).run(pack_inputs(inputs))
@@ -160,6 +188,7 @@ def assist_run(
 def pack_inputs(inputs: Mapping[str, npt.ArrayLike]) -> npt.NDArray[np.void]:
     """Vectors or single values by name -> INPUT_DTYPE (n,). Raises LawRefused."""
     names = INPUT_DTYPE.names or ()
+    inputs = {**INPUT_DEFAULTS, **inputs}
     if set(inputs) != set(names):
         wrong = ", ".join(sorted(set(inputs) ^ set(names)))
         raise LawRefused(f"inputs missing or unknown: {wrong}; the law takes {', '.join(names)}")
@@ -169,8 +198,8 @@ def pack_inputs(inputs: Mapping[str, npt.ArrayLike]) -> npt.NDArray[np.void]:
         raise LawRefused(f"inputs of unequal lengths: {sorted(lengths)}")
     packed = np.empty(lengths.pop() if lengths else 1, INPUT_DTYPE)
     for name, column in columns.items():
-        whole = INPUT_DTYPE[name].kind == "u"
-        packed[name] = _bytes_or_refused(column) if whole else column
+        kind = INPUT_DTYPE[name]
+        packed[name] = _whole_or_largest(column, kind) if kind.kind == "u" else column
     return packed
 
 
@@ -181,11 +210,13 @@ def _numbers(values: npt.ArrayLike, name: str) -> npt.NDArray[Any]:
     return numbers
 
 
-def _bytes_or_refused(numbers: npt.NDArray[Any]) -> npt.NDArray[np.uint8]:
-    """What is missing or no byte becomes 255: a mode the law refuses, a brake that is pulled."""
+def _whole_or_largest(numbers: npt.NDArray[Any], kind: np.dtype[Any]) -> npt.NDArray[Any]:
+    """What is missing or does not fit becomes the largest: a mode the law refuses, a brake that is
+    pulled, a reading that is too old."""
+    largest = np.iinfo(kind).max
     with np.errstate(invalid="ignore"):
-        fits = (numbers >= 0) & (numbers <= 255)
-    return np.where(fits, numbers, 255).astype(np.uint8)
+        fits = (numbers >= 0) & (numbers <= largest)
+    return np.where(fits, numbers, largest).astype(kind)
 
 
 def _vector(values: npt.ArrayLike, name: str) -> Floats:
@@ -209,17 +240,41 @@ def _fill_table(native: Any, table: Config) -> None:
         )
 
 
+def _second_table(config: Config) -> Config:
+    """The second table as the first one's parameters: it shares the points of speed and rate."""
+    return {
+        **config,
+        "fuzzy_inference": config["second_inference"],
+        "fuzzy_gain_points": config["second_gain_points"],
+        "fuzzy_rules": config["second_rules"],
+    }
+
+
+def _fill_modes(native: Any, config: Config) -> None:
+    native.mode_laws = [Law[name] for name in config["mode_laws"]]
+    native.mode_ratios = config["mode_ratios"]
+    native.mode_tapers = [Taper[name] for name in config["mode_tapers"]]
+    native.mode_tables = config["mode_tables"]
+    native.mode_ramp_up_nm_per_s = config["mode_ramp_up_nm_per_s"]
+    native.mode_ramp_down_nm_per_s = config["mode_ramp_down_nm_per_s"]
+    native.mode_torque_share = [pct / 100 for pct in config["mode_torque_pct"]]
+
+
 def _native_config(config: Config, step_s: float) -> Any:
+    defaults = default_config()
+    later = {row.name: defaults[row.name] for row in PARAMETERS if row.id >= FIRST_LATER_ID}
+    config = {**later, **config}
     native = ffi.new("assist_config *")
     native.step_s = step_s
     _fill_table(ffi.addressof(native, "table"), config)
+    _fill_table(ffi.addressof(native, "second_table"), _second_table(config))
     try:
         for name in PLAIN_PARAMETERS:
             setattr(native, name, config[name])
         native.torque_rate_interval_s = config["torque_rate_interval_ms"] / 1000
         native.pedal_stop_s = config["pedal_stop_ms"] / 1000
-        native.mode_laws = [Law[name] for name in config["mode_laws"]]
-        native.mode_ratios = config["mode_ratios"]
+        _fill_modes(native, config)
+        native.market = Market[config["market"]]
         native.fuzzy_falling_torque = FallingTorque[config["fuzzy_falling_torque"]]
     except KeyError as missing:
         raise LawRefused(f"configuration: {missing} is missing or not a choice") from missing

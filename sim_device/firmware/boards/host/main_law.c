@@ -1,15 +1,15 @@
 /* The law as a program of its own, without Python: float32 records in, float32 records out.
  *
- * Standard input: one configuration record (73 floats, in the order of read_config), then one input
- * record (7 floats) a step. Standard output: one output record (7 floats) a step. All in the
+ * Standard input: one configuration record (142 floats, in the order of read_config), then one input
+ * record (12 floats) a step. Standard output: one output record (7 floats) a step. All in the
  * machine's byte order. Ends with 0 at the end of the input, 1 for a broken record, 2 for a
  * configuration the law refuses. A test compares it bit for bit with the law's other two doors. */
 #include "assist.h" // assist_step
 
 #include <stdio.h>
 
-#define CONFIG_FLOATS 73
-#define INPUT_FLOATS 7
+#define CONFIG_FLOATS 142
+#define INPUT_FLOATS 12
 #define OUTPUT_FLOATS 7
 
 typedef struct {
@@ -38,6 +38,21 @@ static void read_table(record *from, fuzzy_table *table)
     for (index = 0; index < FUZZY_SETS * FUZZY_SETS; ++index) {
         table->rules[index / FUZZY_SETS][index % FUZZY_SETS] = take_byte(from);
     }
+}
+
+static void read_later(record *from, assist_config *config)
+{
+    unsigned slot;
+
+    for (slot = 0; slot < ASSIST_MODE_SLOTS; ++slot) config->mode_tapers[slot] = take_byte(from);
+    for (slot = 0; slot < ASSIST_MODE_SLOTS; ++slot) config->mode_tables[slot] = take_byte(from);
+    take_many(from, config->mode_ramp_up_nm_per_s, ASSIST_MODE_SLOTS);
+    take_many(from, config->mode_ramp_down_nm_per_s, ASSIST_MODE_SLOTS);
+    take_many(from, config->mode_torque_share, ASSIST_MODE_SLOTS);
+    read_table(from, &config->second_table);
+    config->walk_speed_kmh = take(from);
+    config->market = take_byte(from);
+    config->assist_cutoff_extra_kmh = take(from);
 }
 
 static void read_config(const float *floats, assist_config *config)
@@ -70,6 +85,7 @@ static void read_config(const float *floats, assist_config *config)
     config->gear_ratio = take(&from);
     config->motor_torque_constant_nm_per_a = take(&from);
     config->motor_resistance_ohm = take(&from);
+    read_later(&from, config);
 }
 
 static assist_input input_of(const float *floats)
@@ -81,8 +97,13 @@ static assist_input input_of(const float *floats)
     input.cadence_rpm = floats[2];
     input.motor_speed_rpm = floats[3];
     input.battery_voltage_v = floats[4];
-    input.mode = (uint8_t)floats[5];
-    input.brake = (uint8_t)floats[6];
+    input.motor_temperature_degc = floats[5];
+    input.controller_temperature_degc = floats[6];
+    input.torque_age_ms = (uint16_t)floats[7];
+    input.mode = (uint8_t)floats[8];
+    input.brake = (uint8_t)floats[9];
+    input.walk_button = (uint8_t)floats[10];
+    input.inhibit = (uint8_t)floats[11];
     return input;
 }
 
@@ -96,7 +117,7 @@ static int write_output(const assist_output *output)
     floats[3] = output->assist_ratio;
     floats[4] = output->fuzzy_gain;
     floats[5] = output->motor_torque_nm;
-    floats[6] = (float)output->limit_flags; /* 12 bits: exact */
+    floats[6] = (float)output->limit_flags; /* 15 bits: exact */
     return fwrite(floats, sizeof floats, 1, stdout) == 1;
 }
 
