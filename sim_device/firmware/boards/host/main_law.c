@@ -1,7 +1,7 @@
 /* The law as a program of its own, without Python: float32 records in, float32 records out.
  *
- * Standard input: one configuration record (142 floats, in the order of read_config), then one input
- * record (12 floats) a step. Standard output: one output record (7 floats) a step. All in the
+ * Standard input: one configuration record (142 floats, in the order of read_config), then one
+ * input record (12 floats) a step. Standard output: one output record (7 floats) a step. All in the
  * machine's byte order. Ends with 0 at the end of the input, 1 for a broken record, 2 for a
  * configuration the law refuses. A test compares it bit for bit with the law's other two doors. */
 #include "assist.h" // assist_step
