@@ -70,15 +70,15 @@ def test_a_free_ratio_does_not_fall() -> None:
 
 
 def test_each_mode_has_the_table_it_was_given() -> None:
-    config = {**default_config(), "mode_tables": [0, 0, 0, 0, 1]}
-    second = {**config, "fuzzy_inference": config["second_inference"]}
+    gentle = [0.0, 0.05, 0.1, 0.15, 0.2]
+    config = {**default_config(), "mode_tables": [0, 0, 0, 0, 1], "second_gain_points": gentle}
 
-    first_gain = run(mode=SPORT, config=config, speed_kmh=12.3)["fuzzy_gain"][-1]
-    second_gain = run(mode=BOOST, config=config, speed_kmh=12.3)["fuzzy_gain"][-1]
+    first_gain = run(1, torque_raw_counts=[0.0], mode=SPORT, config=config)["fuzzy_gain"]
+    second_gain = run(1, torque_raw_counts=[0.0], mode=BOOST, config=config)["fuzzy_gain"]
 
-    assert first_gain == pytest.approx(gain_points(config, [12.3], [0.0])[0], abs=1e-3)
-    assert second_gain == pytest.approx(gain_points(second, [12.3], [0.0])[0], abs=1e-3)
-    assert abs(first_gain - second_gain) > 0.005
+    # At 10 km/h and no rise the rule is ZO: the middle one of each table's gains.
+    assert (first_gain, second_gain) == (pytest.approx([0.3]), pytest.approx([0.1]))
+    assert gain_points(config, [10.0], [0.0]) == pytest.approx([0.3])
 
 
 def test_the_slower_of_two_ramps_decides() -> None:
