@@ -96,8 +96,8 @@ class Workshop:
         return self._python("pytest", *options, *files)
 
     def simulation(self, one: Break) -> subprocess.CompletedProcess[str]:
-        """Run seeds against the copy until one is broken; by something else does not count."""
-        done = self._python("tests.simulation", str(one.seed), str(SEEDS), "first")
+        """Run seeds against the copy until the judge says what was planted."""
+        done = self._python("tests.simulation", str(one.seed), str(SEEDS), one.judged)
         noticed = done.returncode == FAILED and one.judged in done.stdout
         return subprocess.CompletedProcess(
             done.args, FAILED if noticed else PASSED, done.stdout, done.stderr

@@ -1,6 +1,6 @@
-"""Tells the story of a seed. Usage: python -m tests.simulation SEED [HOW_MANY [first]]
+"""Tells the story of a seed. Usage: python -m tests.simulation SEED [HOW_MANY [TEXT]]
 
-With `first` it ends at the first seed that is broken.
+With TEXT it ends at the first seed of which the judge says that.
 """
 
 import sys
@@ -12,7 +12,7 @@ from tests.simulation.workload import simulate
 def main() -> None:
     first = int(sys.argv[1]) if len(sys.argv) > 1 else 1
     count = int(sys.argv[2]) if len(sys.argv) > 2 else 1
-    first_only = sys.argv[3:] == ["first"]
+    wanted = sys.argv[3] if len(sys.argv) > 3 else None
     started_s = time.perf_counter()
     wrong = []
     for seed in range(first, first + count):
@@ -23,7 +23,7 @@ def main() -> None:
         if verdict.wrong is not None:
             wrong.append(seed)
             print(f"seed {seed}: {verdict.wrong}", flush=True)
-            if first_only:
+            if wanted is not None and wanted in verdict.wrong:
                 break
     seconds = time.perf_counter() - started_s
     print(f"{count} seeds in {seconds:.1f} s; broken: {wrong or 'none'}")
