@@ -6,13 +6,16 @@
 
 import argparse
 import json
+import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from sim_device.controls import SPEED_FACTOR_MAX, SPEED_FACTOR_MIN
-from sim_device.lockstep import LockstepUnit
+from sim_device.emulated import EmulatedSetup
+from sim_device.emulator import BOARD, BOARD_VARIABLE, EmulatorError
+from sim_device.lockstep import LockstepUnit, uid_of
 from sim_device.log_file import LogFile
 from sim_device.scenario import list_scenarios, run
 from sim_device.scenario_file import ScenarioError, load, names
@@ -24,6 +27,7 @@ DEFAULT_SCENARIO = "commute"
 LOOPBACK = "127.0.0.1"
 # Where every unit starts.
 SERIAL_RATE = 115200
+HOST_BOARD = "host"
 
 
 def _parser(program: str) -> argparse.ArgumentParser:
@@ -65,9 +69,18 @@ def _add_unit(unit: argparse.ArgumentParser) -> None:
         choices=[0, SERIAL_RATE],
         help="the line has a rate and begins with this one; 0: bytes take no time (default)",
     )
+    unit.add_argument(
+        "--board",
+        default=os.environ.get(BOARD_VARIABLE, HOST_BOARD),
+        choices=(HOST_BOARD, BOARD),
+        help="where the firmware runs: here, or on a microcontroller in QEMU (default %(default)s)",
+    )
     unit.add_argument("--seed", type=int, default=0, help="makes noise and serial number")
     unit.add_argument(
-        "--flash", type=Path, metavar="FILE", help="keeps its configuration, FILE.log its ride logs"
+        "--flash",
+        type=Path,
+        metavar="FILE",
+        help="keeps its configuration, FILE.log its ride logs; of another board, FILE.log all",
     )
     unit.add_argument(
         "--unlock-key", type=_unlock_key, metavar="FILE", help="the maker's public key (*.pub)"
@@ -106,27 +119,53 @@ def _live_names() -> list[str]:
 
 def _serve(arguments: argparse.Namespace) -> None:
     stop = Stop()
+    if arguments.board != HOST_BOARD:
+        _serve_board(arguments, stop)
+        return
     flash = FlashFile(arguments.flash) if arguments.flash is not None else None
     log = LogFile(Path(f"{arguments.flash}.log")) if arguments.flash is not None else None
-    unit = LockstepUnit(
-        arguments.seed,
-        name="process",
-        scenario=None if arguments.scenario == "none" else arguments.scenario,
+    unit = _bike(
+        arguments,
         flash=flash.load() if flash is not None else None,
         log=log.load() if log is not None else None,
         unlock_key=arguments.unlock_key,
         boot_id=new_boot_id(),
         line_baud=arguments.serial_rate,
-        speed_factor=arguments.speed,
-        clock="virtual" if arguments.virtual else "real",
     )
     pty: Path | None = arguments.pty
     line: SerialLine = PtyLine(pty) if pty is not None else TcpLine(*arguments.tcp)
     try:
-        print(f"ready {line.address}", flush=True)
+        _ready(line.address)
         serve(unit, line, stop, flash, log)
     finally:
         line.close()
+
+
+def _serve_board(arguments: argparse.Namespace, stop: Stop) -> None:
+    flash: Path | None = arguments.flash
+    EmulatedSetup(
+        bike=_bike(arguments, bike_alone=True),
+        uid=uid_of("process", arguments.seed),
+        unlock_key=arguments.unlock_key,
+        memory_file=flash.with_name(f"{flash.name}.log") if flash is not None else None,
+        pty=arguments.pty,
+        tcp=arguments.tcp,
+    ).run(_ready, stop)
+
+
+def _bike(arguments: argparse.Namespace, **firmware: Any) -> LockstepUnit:
+    return LockstepUnit(
+        arguments.seed,
+        name="process",
+        scenario=None if arguments.scenario == "none" else arguments.scenario,
+        speed_factor=arguments.speed,
+        clock="virtual" if arguments.virtual else "real",
+        **firmware,
+    )
+
+
+def _ready(address: str) -> None:
+    print(f"ready {address}", flush=True)
 
 
 def _scenario(arguments: argparse.Namespace) -> None:
@@ -170,7 +209,7 @@ def main(words: Sequence[str] | None = None) -> int:
     except ScenarioError as error:
         print(f"{program}: {error}", file=sys.stderr)
         return 2
-    except (OSError, ValueError, MemoryError) as error:
+    except (OSError, ValueError, MemoryError, EmulatorError) as error:
         print(f"{program}: {error}", file=sys.stderr)
         return 1
     return 0

@@ -37,6 +37,7 @@ class LockstepUnit:
         boot_id: another one tells the host that the unit was restarted.
         line_baud: the serial line's rate at boot, 0 for a line where bytes take no time.
         speed_factor, clock: kept for the process that paces the unit (sim_device.simulator).
+        bike_alone: the firmware runs on another board (sim_device.emulated).
 
     Raises:
         ScenarioError: there is no such live scenario.
@@ -58,6 +59,7 @@ class LockstepUnit:
         line_baud: int = 0,
         speed_factor: float = 1.0,
         clock: str = "real",
+        bike_alone: bool = False,
     ) -> None:
         self.seed = seed
         self.speed_factor = speed_factor
@@ -78,7 +80,8 @@ class LockstepUnit:
             log=log,
             unlock_key=unlock_key,
             line_baud=line_baud,
-            request=self._answer,
+            request=self.answer,
+            bike_alone=bike_alone,
         )
         if config_overrides:
             write_config(self.unit, config_overrides)
@@ -179,7 +182,8 @@ class LockstepUnit:
         """
         self._apply(parse_changes(json.dumps(changes)))
 
-    def _answer(self, message_id: int, request: bytes) -> tuple[int, bytes]:
+    def answer(self, message_id: int, request: bytes) -> tuple[int, bytes]:
+        """Status and body for a board request: SIM_GET and SIM_SET."""
         if message_id not in (MessageId.SIM_GET, MessageId.SIM_SET):
             return Status.UNKNOWN_MSG, b""
         if message_id == MessageId.SIM_SET:

@@ -9,6 +9,7 @@ import re
 import socket
 import termios
 import tty
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Protocol
 
@@ -51,17 +52,14 @@ class PtyLine:
     """
 
     def __init__(self, link: Path) -> None:
-        if link.exists() and not link.is_symlink():
-            raise FileExistsError(f"{link} exists and is not a symbolic link; choose another path")
+        _check_link(link)
         # The far end stays open here too: otherwise the line would fail while no host has it open.
         self._near, self._far = os.openpty()
         tty.setraw(self._far)
         os.set_blocking(self._near, False)
         self._device = os.ttyname(self._far)
         self._link = link
-        fresh = link.with_name(f"{link.name}.{os.getpid()}")
-        fresh.symlink_to(self._device)
-        fresh.replace(link)
+        _make_link(link, self._device)
 
     @property
     def address(self) -> str:
@@ -84,11 +82,40 @@ class PtyLine:
         return _SPEEDS.get(termios.tcgetattr(self._near)[_OUTPUT_SPEED])
 
     def close(self) -> None:
-        with contextlib.suppress(OSError):
-            if str(self._link.readlink()) == self._device:
-                self._link.unlink()
+        _remove_link(self._link, self._device)
         os.close(self._near)
         os.close(self._far)
+
+
+@contextlib.contextmanager
+def linked(link: Path, device: str) -> Iterator[None]:
+    """A symbolic link to a device that is there already, for as long as the context lasts.
+
+    Raises FileExistsError if `link` is something other than a symbolic link.
+    """
+    _check_link(link)
+    _make_link(link, device)
+    try:
+        yield
+    finally:
+        _remove_link(link, device)
+
+
+def _check_link(link: Path) -> None:
+    if link.exists() and not link.is_symlink():
+        raise FileExistsError(f"{link} exists and is not a symbolic link; choose another path")
+
+
+def _make_link(link: Path, device: str) -> None:
+    fresh = link.with_name(f"{link.name}.{os.getpid()}")
+    fresh.symlink_to(device)
+    fresh.replace(link)
+
+
+def _remove_link(link: Path, device: str) -> None:
+    with contextlib.suppress(OSError):
+        if str(link.readlink()) == device:
+            link.unlink()
 
 
 class TcpLine:

@@ -1,17 +1,52 @@
-"""Fixtures that stories and browser tests share: one real server with one simulated unit."""
+"""Fixtures that stories and browser tests share: one real server with one simulated unit.
+
+`pytest --unit=qemu` runs the same tests with the firmware on an emulated Cortex-M4F
+(sim_device/firmware/boards/mps2_an386) in place of the host build.
+"""
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Iterator
 
 import pytest
 
+from sim_device import emulator
+from tests.fakes import board_rig
 from tests.fakes.server import SpindleServer
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Which build of the firmware the units under test run."""
+    parser.addoption("--unit", choices=("host", "qemu"), default="host")
 
 
 def pytest_configure(config: pytest.Config) -> None:
     """The client of these tests is httpx, which is what the command uses too."""
     config.addinivalue_line("filterwarnings", "ignore:Using `httpx` with `starlette.testclient`")
+    if config.getoption("--unit") == "qemu":
+        reason = emulator.missing()
+        if reason is not None:
+            pytest.exit(reason, returncode=1)
+        os.environ[emulator.BOARD_VARIABLE] = emulator.BOARD
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """What only the host build can show is left out on the board."""
+    if config.getoption("--unit") == "qemu":
+        for item in items:
+            for mark in item.iter_markers("host_build"):
+                item.add_marker(pytest.mark.skip(reason=mark.args[0]))
+
+
+def pytest_collection_finish(session: pytest.Session) -> None:
+    """Tests of the unit's C get the board's C; stories start boards of their own."""
+    on_board = session.config.getoption("--unit") == "qemu"
+    if on_board and "sim_device.firmware.python.law" in sys.modules and session.items:
+        rig = board_rig.Rig()
+        rig.take_over()
+        session.config.add_cleanup(rig.close)
 
 
 @pytest.fixture(scope="session")

@@ -186,14 +186,13 @@ static int is_moving(const hal_inputs *inputs)
     return inputs->speed_kmh > MOVING_KMH || inputs->cadence_rpm > MOVING_RPM;
 }
 
-static void inputs_read(const app *unit, hal_inputs *inputs)
+void app_inputs_prepare(hal_inputs *inputs)
 {
     memset(inputs, 0, sizeof *inputs);
     inputs->sensor_temperature_degc = float32_missing();
     inputs->motor_temperature_degc = float32_missing();
     inputs->controller_temperature_degc = float32_missing();
     inputs->mode_selected = HAL_MODE_NOT_SELECTED;
-    unit->board->inputs_read(unit->board->context, inputs);
 }
 
 void app_control_step(app *unit)
@@ -207,7 +206,8 @@ void app_control_step(app *unit)
         unit->assist_config = unit->assist_config_next;
         unit->assist_config_pending = 0;
     }
-    inputs_read(unit, &inputs);
+    app_inputs_prepare(&inputs);
+    unit->board->inputs_read(unit->board->context, &inputs);
     sources.mode = mode_select(unit, &inputs);
     assist_input_from(&inputs, sources.mode, &input);
     (void)assist_step(&unit->assist_config, &unit->assist_state, &input, &unit->output);

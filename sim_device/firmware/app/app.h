@@ -77,6 +77,9 @@ void app_poll(app *unit);
 /* One control period: inputs, law, motor, faults, a row of telemetry. */
 void app_control_step(app *unit);
 
+/* The inputs as inputs_read gets them: nothing measured, nothing pressed. */
+void app_inputs_prepare(hal_inputs *inputs);
+
 /* What the law gave in the latest control step. */
 const assist_output *app_output(const app *unit);
 

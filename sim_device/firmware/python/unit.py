@@ -15,6 +15,7 @@ LOG_LENGTH: Final[int] = lib.UNIT_LOG_SIZE
 LOG_BLOCK_LENGTH: Final[int] = lib.UNIT_LOG_BLOCK_SIZE
 UID_LENGTH: Final[int] = lib.UNIT_UID_LENGTH
 UNLOCK_KEY_LENGTH: Final[int] = lib.UNIT_UNLOCK_KEY_LENGTH
+ASSIST_OUTPUT_LENGTH: Final[int] = ffi.sizeof("assist_output")
 MODE_NOT_SELECTED: Final[int] = lib.UNIT_MODE_NOT_SELECTED
 
 # One read takes what a line of 8 KiB can hold.
@@ -104,6 +105,7 @@ class Unit:
         unlock_key: the maker's public key to provision, or None for what the flash has.
         line_baud: the serial line's rate at boot, or 0 for one that takes no time.
         request: answers SIM_GET and SIM_SET: (message id, request) -> (status, response).
+        bike_alone: the firmware runs on another board; `sensors` and `drive` stand for its wires.
 
     Raises:
         KeyError: a value of `bike` does not exist.
@@ -124,6 +126,7 @@ class Unit:
         unlock_key: bytes | None = None,
         line_baud: int = 0,
         request: BoardRequest | None = None,
+        bike_alone: bool = False,
     ) -> None:
         if len(uid) != UID_LENGTH:
             raise ValueError(f"uid has {len(uid)} bytes, not {UID_LENGTH}")
@@ -141,6 +144,7 @@ class Unit:
         setup.uid = uid
         setup.boot_id = boot_id
         setup.line_baud = line_baud
+        setup.bike_alone = int(bike_alone)
         setup.flash = ffi.NULL if flash is None else ffi.from_buffer("uint8_t[]", flash)
         setup.log_size = 0 if log is None else len(log)
         setup.log = ffi.NULL if log is None else ffi.from_buffer("uint8_t[]", log)
@@ -190,6 +194,18 @@ class Unit:
         """Speeds, torques, energies and the law's last decision, by name; missing is NaN."""
         lib.unit_observe(self._unit, self._observation)
         return {name: getattr(self._observation, name) for name in names}
+
+    def sensors(self) -> bytes:
+        """What the sensors see now: the bytes of a hal_inputs, the same on every board."""
+        inputs = ffi.new("hal_inputs *")
+        lib.unit_inputs(self._unit, inputs)
+        return bytes(ffi.buffer(inputs))
+
+    def drive(self, output: bytes, mode: int) -> None:
+        """What the firmware elsewhere decided: the bytes of an assist_output. Raises ValueError."""
+        if len(output) != ASSIST_OUTPUT_LENGTH:
+            raise ValueError(f"an assist_output of {len(output)} bytes: build the board again")
+        lib.unit_drive(self._unit, ffi.cast("assist_output *", ffi.from_buffer(output)), mode)
 
     @property
     def speed_kmh(self) -> float:

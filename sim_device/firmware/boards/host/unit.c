@@ -31,6 +31,7 @@ struct unit {
     uint64_t now_us;
     uint64_t target_us;
     uint8_t mode_selected;
+    uint8_t bike_alone;
     byte_queue from_host;
     byte_queue to_host;
     uart_line up; /* towards the host; both only where the line has a rate */
@@ -95,6 +96,20 @@ static void board_inputs_read(void *context, hal_inputs *inputs)
     inputs->battery_soc_pct = (float)state->battery.soc_pct;
     inputs->mode_selected = self->mode_selected;
     inputs->brake = self->stimulus.road.brake ? 1 : 0;
+}
+
+
+void unit_inputs(unit *self, hal_inputs *inputs)
+{
+    app_inputs_prepare(inputs);
+    board_inputs_read(self, inputs);
+}
+
+void unit_drive(unit *self, const assist_output *output, uint8_t mode)
+{
+    self->stimulus.motor_torque_nm = (double)output->motor_torque_nm;
+    self->app.output = *output;
+    self->app.config.assist_mode_at_start = mode;
 }
 
 static void board_motor_torque_set(void *context, float motor_torque_nm)
@@ -211,6 +226,7 @@ unit *unit_create(const unit_setup *setup)
     memcpy(self->uid, setup->uid, sizeof self->uid);
     self->request = setup->request;
     self->request_context = setup->request_context;
+    self->bike_alone = setup->bike_alone;
     self->bike = setup->physics;
     self->mode_selected = UNIT_MODE_NOT_SELECTED;
     unit_place(self, setup->speed_kmh, setup->seed);
@@ -257,7 +273,7 @@ void unit_advance_us(unit *self, uint64_t duration_us)
 {
     self->target_us += duration_us;
     while (self->now_us + PHYSICS_PERIOD_US <= self->target_us) {
-        if (unit_is_powered(self)) {
+        if (unit_is_powered(self) && !self->bike_alone) {
             if (self->now_us % CONTROL_PERIOD_US == 0) app_control_step(&self->app);
             app_poll(&self->app);
         }

@@ -8,6 +8,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "assist.h"  // assist_output
+#include "hal.h"     // hal_inputs
 #include "physics.h" // physics_config
 
 #define UNIT_UID_LENGTH 12
@@ -36,6 +38,7 @@ typedef struct {
     uint32_t line_baud; /* the serial line's rate at boot; 0: bytes take no time and have no rate */
     unit_request request; /* NULL: the unit knows no board requests */
     void *request_context;
+    uint8_t bike_alone; /* 1: the firmware runs on another board, and only its bike is here */
 } unit_setup;
 
 /* What an observer beside the bike sees, and what the law last decided. */
@@ -90,6 +93,10 @@ void unit_host_baud(unit *self, uint32_t baud);
 uint32_t unit_line_baud(const unit *self);
 
 void unit_observe(const unit *self, unit_observation *seen);
+
+/* For a bike alone: what the sensors of its unit see now, and what that unit last decided. */
+void unit_inputs(unit *self, hal_inputs *inputs);
+void unit_drive(unit *self, const assist_output *output, uint8_t mode);
 
 /* The bike and what happens to it, to be changed between two advances. A change of masses needs
  * unit_begin_ledger, because energy would appear from nowhere. */

@@ -1,0 +1,121 @@
+/* The drive unit on the AN386: what a product's main() is. */
+#include <stddef.h>
+
+#include "app.h"   // app_init
+#include "chip.h"  // chip_sleep
+#include "clock.h" // clock_now_us
+#include "flash.h" // flash_connect
+#include "plant.h" // plant_inputs
+#include "uart.h"  // uart_read
+
+#define HOST_BAUD 1000000u
+#define CONTROL_PERIOD_US 10000u
+#define HARDWARE_REVISION 2u
+
+/* Steps so late are given up: the computer that emulates the board was elsewhere. */
+#define CONTROL_LATE_US 1000000u
+
+static app unit;
+static hal board;
+
+/* Of the loop's present round. A control step has the time it was due at, as if a timer had called
+ * it, so that rows of telemetry lie evenly. */
+static uint64_t round_us;
+
+static uint64_t now_us(void *context)
+{
+    (void)context;
+    return round_us;
+}
+
+static size_t serial_read(void *context, uint8_t *bytes, size_t capacity)
+{
+    (void)context;
+    return uart_read(UART_HOST, bytes, capacity);
+}
+
+static size_t serial_write(void *context, const uint8_t *bytes, size_t length)
+{
+    (void)context;
+    return uart_write(UART_HOST, bytes, length);
+}
+
+static size_t serial_writable(void *context)
+{
+    (void)context;
+    return uart_writable(UART_HOST);
+}
+
+static void inputs_read(void *context, hal_inputs *inputs)
+{
+    (void)context;
+    plant_inputs(inputs);
+}
+
+/* The bench is told after the step, with what else it wants to know. */
+static void motor_torque_set(void *context, float motor_torque_nm)
+{
+    (void)context;
+    (void)motor_torque_nm;
+}
+
+static int board_request(void *context, uint16_t message_id, const uint8_t *request, size_t length,
+                         uint8_t *response, size_t capacity, size_t *response_length)
+{
+    (void)context;
+    return plant_request(message_id, request, length, response, capacity, response_length);
+}
+
+static void board_connect(void)
+{
+    const flash_identity *identity;
+    ebl_config factory;
+
+    board.now_us = now_us;
+    board.serial_read = serial_read;
+    board.serial_write = serial_write;
+    board.serial_writable = serial_writable;
+    board.serial_baud = HOST_BAUD;
+    board.inputs_read = inputs_read;
+    board.motor_torque_set = motor_torque_set;
+    board.board_request = board_request;
+    board.device_class = EBL_DEVICE_CLASS_MID_DRIVE_SIMULATED;
+    board.hardware_revision = HARDWARE_REVISION;
+    identity = flash_connect(&board);
+    ebl_config_default(&factory);
+    (void)app_provision(&board, &factory); /* what it could not write the boot reports */
+    if (identity->unlock_key_present) {
+        (void)app_provision_unlock_key(&board, identity->unlock_key);
+    }
+}
+
+int main(void)
+{
+    uint64_t step_us = 0;
+
+    clock_open();
+    uart_open(UART_HOST, HOST_BAUD);
+    chip_interrupts_on();
+    plant_open();
+    board_connect();
+    app_init(&unit, &board);
+    for (;;) {
+        int passing;
+
+        plant_poll();
+        passing = clock_pass();
+        round_us = clock_now_us();
+        if (round_us > step_us + CONTROL_LATE_US) step_us = round_us;
+        if (round_us >= step_us) {
+            round_us = step_us;
+            step_us += CONTROL_PERIOD_US;
+            app_control_step(&unit);
+            plant_step_tell(app_output(&unit), unit.config.assist_mode_at_start);
+        }
+        app_poll(&unit);
+        if (!passing && round_us + CONTROL_PERIOD_US > clock_now_us()) {
+            plant_passed_tell();
+            chip_sleep();
+        }
+    }
+}

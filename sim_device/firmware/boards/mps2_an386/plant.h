@@ -1,0 +1,63 @@
+/* The board's sensors and motor: registers in memory that a test bench reads and writes, and a
+ * serial line that rings.
+ *
+ * QEMU keeps the memory in a file that the bench maps. Once a control step the board writes what
+ * its motor should do and rings; the bench writes what the sensors see ten milliseconds later and
+ * rings back. Until then they show what they last did. A ring is one byte of any value. */
+#ifndef SPINDLE_MPS2_PLANT_H
+#define SPINDLE_MPS2_PLANT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "assist.h" // assist_output
+#include "hal.h"    // hal_inputs
+
+#define PLANT_REQUEST_BYTES 1024
+
+/* Counts wrap and begin at 0: the bench clears all of it before power on. What the bench writes comes
+ * first. */
+typedef struct {
+    uint32_t written;    /* odd while the bench writes the inputs */
+    uint32_t has_clock;  /* 1: the bench has the board's clock in hand */
+    uint32_t granted_us; /* ever */
+    uint32_t answers;
+    uint32_t answer_status;
+    uint32_t answer_length;
+    uint8_t answer[PLANT_REQUEST_BYTES];
+
+    uint32_t steps; /* control steps ever */
+    uint32_t passed_us; /* of what was granted */
+    uint32_t mode;
+    uint32_t requests;
+    uint32_t request_id;
+    uint32_t request_length;
+    uint8_t request[PLANT_REQUEST_BYTES];
+
+    hal_inputs inputs;
+    uint8_t spare[256 - sizeof(hal_inputs)];
+    assist_output output;
+} plant_registers;
+
+#define PLANT_REGISTERS ((volatile plant_registers *)0x21010000u)
+
+/* Waits for a bench that has the clock in hand before power on: not a microsecond passes without
+ * it. */
+void plant_open(void);
+
+/* Reads what the bench has written. */
+void plant_poll(void);
+
+/* Leaves the inputs as they are while no bench is there. */
+void plant_inputs(hal_inputs *inputs);
+
+/* Tells the bench of a control step, and of granted time that has passed. */
+void plant_step_tell(const assist_output *output, uint8_t mode);
+void plant_passed_tell(void);
+
+/* As hal.board_request. Waits for the bench, which no product does. A bench that is not there is
+ * UNKNOWN_MSG; one that is silent for two seconds INTERNAL. */
+int plant_request(uint16_t message_id, const uint8_t *request, size_t length, uint8_t *response,
+                  size_t capacity, size_t *response_length);
+
+#endif

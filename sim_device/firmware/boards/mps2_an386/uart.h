@@ -1,0 +1,26 @@
+/* The board's two serial lines: a ring for each direction, filled and emptied by interrupts. */
+#ifndef SPINDLE_MPS2_UART_H
+#define SPINDLE_MPS2_UART_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef enum {
+    UART_HOST = 0,  /* the product's line */
+    UART_PLANT = 1, /* the test bench's: stands for sensors and motor */
+    UART_COUNT = 2
+} uart_line;
+
+void uart_open(uart_line line, uint32_t baud);
+
+/* Both return how many bytes were moved, without waiting. */
+size_t uart_read(uart_line line, uint8_t *bytes, size_t capacity);
+size_t uart_write(uart_line line, const uint8_t *bytes, size_t length);
+
+/* Bytes that uart_write would take now. */
+size_t uart_writable(uart_line line);
+
+/* Serves both lines. */
+void uart_interrupt(void);
+
+#endif
