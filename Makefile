@@ -6,6 +6,10 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := .make
 
+# What runs against the emulated board in CI; `make test-board-all` adds the other stories.
+BOARD_TESTS := tests/board tests/conformance tests/unit/sim_device_app \
+	tests/stories/test_tuning_changes_the_bike.py tests/stories/test_faults_are_told.py
+
 C_SOURCES := $(wildcard firmware_protocol/c/*.[ch] sim_device/firmware/*/*.[ch] \
 	sim_device/firmware/boards/host/*.[ch] sim_device/physics/*.[ch] third_party/*/*.[ch])
 WEB_SOURCES := $(shell find frontend -type f -not -path '*/node_modules/*' -not -path '*/dist/*')
@@ -29,6 +33,14 @@ setup: $(STAMP)/native $(STAMP)/web ## install and build everything, start nothi
 test: setup $(STAMP)/chromium lint ## every test there is, a real browser included
 	cd frontend && npm run --silent test
 	$(BIN)/pytest
+
+.PHONY: test-board
+test-board: $(STAMP)/native $(STAMP)/arm ## the unit's tests against the firmware on an emulated Cortex-M4F
+	$(BIN)/pytest --unit=qemu $(BOARD_TESTS)
+
+.PHONY: test-board-all
+test-board-all: setup $(STAMP)/arm ## the same with every story: about five minutes
+	$(BIN)/pytest --unit=qemu $(BOARD_TESTS) tests/stories
 
 .PHONY: test-fast
 test-fast: $(STAMP)/native ## unit and conformance tests without the slow ones
@@ -118,6 +130,11 @@ $(STAMP)/web: $(STAMP)/web-modules $(WEB_SOURCES)
 
 $(STAMP)/chromium: $(STAMP)/python
 	.ci/ensure-chromium $(BIN)
+	@touch $@
+
+$(STAMP)/arm:
+	@mkdir -p $(STAMP)
+	.ci/ensure-arm
 	@touch $@
 
 $(STAMP)/rivals: tests/bench/rivals.lock $(STAMP)/python

@@ -19,6 +19,7 @@ ROOMS = {
     "protocol": ROOT / "firmware_protocol" / "c",
     "app": FIRMWARE / "app",
     "host": FIRMWARE / "boards" / "host",
+    "mps2_an386": FIRMWARE / "boards" / "mps2_an386",
     "physics": ROOT / "sim_device" / "physics",
     "monocypher": ROOT / "third_party" / "monocypher",
 }
@@ -32,6 +33,7 @@ ALLOWED: dict[str, set[str]] = {
     "monocypher": set(),
     "app": {"control", "hal", "protocol", "monocypher"},
     "host": {"app", "control", "hal", "physics", "protocol"},
+    "mps2_an386": {"app", "control", "hal", "host", "protocol"},
 }
 
 # Rooms that also run on a microcontroller: no heap, no printing, no libm.

@@ -41,6 +41,7 @@ def damaged(random: np.random.Generator, line: bytes) -> bytes:
     return np.delete(harmed, places[: len(places) // 3]).tobytes()
 
 
+@pytest.mark.host_build("five minutes of volume")
 def test_both_write_and_read_a_million_frames_alike() -> None:
     random = np.random.default_rng(2026)
     host, unit = framing.FrameDecoder(), wire.FrameDecoder()

@@ -27,6 +27,7 @@ def compiler() -> str:
     return found
 
 
+@pytest.mark.host_build("compiles for the host")
 def test_noise_on_the_line_breaks_no_rule_of_c(tmp_path: Path) -> None:
     program = tmp_path / "wire_storm"
     include = f"-I{ROOT / 'firmware_protocol' / 'c'}"

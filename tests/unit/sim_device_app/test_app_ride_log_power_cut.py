@@ -28,7 +28,10 @@ POLL_US = 1000
 SPEEDS_KMH = (10.0, 11.0, 12.0, 13.0)
 STANDSTILL_S = 21
 
-pytestmark = pytest.mark.slow
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.host_build("hundreds of boots, one for every byte of flash"),
+]
 
 
 @dataclass(frozen=True)

@@ -162,6 +162,7 @@ def noise_on_an_open_transaction(unit: RecordedUnit) -> None:
             unit.advance(noise.choice([0.01, 0.2, 1.0]))
 
 
+@pytest.mark.host_build("compiles for the host")
 @pytest.mark.parametrize("story", [a_hosts_story, noise_on_an_open_transaction])
 def test_a_watched_build_touches_nothing_it_must_not_and_says_the_same(
     sanitized: Path, story: object

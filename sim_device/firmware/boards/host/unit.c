@@ -98,7 +98,6 @@ static void board_inputs_read(void *context, hal_inputs *inputs)
     inputs->brake = self->stimulus.road.brake ? 1 : 0;
 }
 
-
 void unit_inputs(unit *self, hal_inputs *inputs)
 {
     app_inputs_prepare(inputs);

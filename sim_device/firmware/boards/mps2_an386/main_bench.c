@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "bench_board.h" // bench_send
-#include "chip.h"        // chip_sleep
+#include "chip.h"        // chip_interrupts_on
 #include "uart.h"        // uart_read
 
 #define BAUD 1000000u
@@ -57,7 +57,10 @@ uint32_t rig_line_in(bench_board *board, uint32_t length)
     uint32_t taken = 0;
 
     while (taken < length && taken < sizeof line) {
-        taken += (uint32_t)uart_read(UART_HOST, line + taken, sizeof line - taken);
+        uint32_t more = (uint32_t)uart_read(UART_HOST, line + taken, sizeof line - taken);
+
+        taken += more;
+        if (more == 0) uart_sleep(UART_HOST);
     }
     return (uint32_t)bench_send(board, line, taken);
 }
@@ -98,7 +101,7 @@ int main(void)
     for (;;) {
         (void)uart_read(UART_PLANT, bells, sizeof bells);
         if (CALL->number == CALL->done) {
-            chip_sleep();
+            uart_sleep(UART_PLANT);
             continue;
         }
         call();

@@ -26,7 +26,6 @@ static void ring(void)
     (void)uart_write(UART_PLANT, &bell, sizeof bell);
 }
 
-
 static void look(void)
 {
     uint32_t written = PLANT_REGISTERS->written;

@@ -26,7 +26,7 @@ typedef struct {
     uint32_t answer_length;
     uint8_t answer[PLANT_REQUEST_BYTES];
 
-    uint32_t steps; /* control steps ever */
+    uint32_t steps;     /* control steps ever */
     uint32_t passed_us; /* of what was granted */
     uint32_t mode;
     uint32_t requests;

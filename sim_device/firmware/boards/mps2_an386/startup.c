@@ -1,5 +1,5 @@
 #include "chip.h"
-#include "uart.h" // uart_interrupt
+#include "uart.h" // uart_interrupt_host
 
 /* From the linker script. */
 extern uint32_t data_start[];
@@ -53,13 +53,12 @@ __attribute__((section(".vectors"), used)) static const handler vectors[] = {
     0,
     fault_handler, /* PendSV */
     tick_handler,  /* SysTick: only wakes */
-    uart_interrupt,
-    uart_interrupt,
-    uart_interrupt,
-    uart_interrupt,
+    uart_interrupt_host,
+    uart_interrupt_host,
+    uart_interrupt_plant,
+    uart_interrupt_plant,
 };
 
-typedef char vectors_are_complete[sizeof vectors / sizeof vectors[0] ==
-                                          CORE_VECTORS + BOARD_VECTORS
+typedef char vectors_are_complete[sizeof vectors / sizeof vectors[0] == CORE_VECTORS + BOARD_VECTORS
                                       ? 1
                                       : -1];

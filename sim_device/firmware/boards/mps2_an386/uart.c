@@ -20,37 +20,38 @@ static ring_pair lines[UART_COUNT];
 
 /* A byte that finds the ring full is left in the port: the next one then overruns, and the frame's
  * check value tells. */
-static void receive(ring_pair *line)
+static void receive(ring_pair *line, uint32_t state)
 {
-    while ((line->port->state & CHIP_UART_RX_FULL) != 0 &&
-           line->received_in - line->received_out < RECEIVE_BYTES) {
-        line->received[line->received_in % RECEIVE_BYTES] = (uint8_t)line->port->data;
-        line->received_in++;
-    }
+    if ((state & CHIP_UART_RX_FULL) == 0) return;
+    if (line->received_in - line->received_out == RECEIVE_BYTES) return;
+    line->received[line->received_in % RECEIVE_BYTES] = (uint8_t)line->port->data;
+    line->received_in++;
 }
 
-static void send(ring_pair *line)
+static void send(ring_pair *line, uint32_t state)
 {
-    while ((line->port->state & CHIP_UART_TX_FULL) == 0 && line->sent_in != line->sent_out) {
+    while ((state & CHIP_UART_TX_FULL) == 0 && line->sent_in != line->sent_out) {
         line->port->data = line->sent[line->sent_out % SEND_BYTES];
         line->sent_out++;
+        state = line->port->state;
     }
 }
 
 /* Clears first and looks then: a byte that comes in between raises the interrupt again. */
 static void serve(ring_pair *line)
 {
-    if (line->port == 0) return;
+    uint32_t state;
+
     line->port->interrupts = CHIP_UART_PENDING_ALL;
-    line->port->state = CHIP_UART_RX_OVERRUN;
-    receive(line);
-    send(line);
+    state = line->port->state;
+    if ((state & CHIP_UART_RX_OVERRUN) != 0) line->port->state = CHIP_UART_RX_OVERRUN;
+    receive(line, state);
+    send(line, state);
 }
 
-void uart_interrupt(void)
-{
-    for (int line = 0; line < UART_COUNT; line++) serve(&lines[line]);
-}
+void uart_interrupt_host(void) { serve(&lines[UART_HOST]); }
+
+void uart_interrupt_plant(void) { serve(&lines[UART_PLANT]); }
 
 void uart_open(uart_line line, uint32_t baud)
 {
@@ -66,14 +67,15 @@ size_t uart_read(uart_line line, uint8_t *bytes, size_t capacity)
 {
     ring_pair *ring = &lines[line];
     size_t taken = 0;
+    int was_full = ring->received_in - ring->received_out == RECEIVE_BYTES;
 
     while (taken < capacity && ring->received_in != ring->received_out) {
         bytes[taken++] = ring->received[ring->received_out % RECEIVE_BYTES];
         ring->received_out++;
     }
-    if (taken > 0) {
+    if (was_full && taken > 0) {
         chip_interrupts_off();
-        receive(ring);
+        receive(ring, ring->port->state);
         chip_interrupts_on();
     }
     return taken;
@@ -95,7 +97,15 @@ size_t uart_write(uart_line line, const uint8_t *bytes, size_t length)
     }
     chip_interrupts_off();
     ring->sent_in += (uint32_t)taken;
-    send(ring);
+    send(ring, ring->port->state);
     chip_interrupts_on();
     return taken;
+}
+
+/* With interrupts off a pending one still ends the sleep: none can slip in before it. */
+void uart_sleep(uart_line line)
+{
+    chip_interrupts_off();
+    if (lines[line].received_in == lines[line].received_out) chip_sleep();
+    chip_interrupts_on();
 }

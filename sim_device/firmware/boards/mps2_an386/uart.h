@@ -20,7 +20,11 @@ size_t uart_write(uart_line line, const uint8_t *bytes, size_t length);
 /* Bytes that uart_write would take now. */
 size_t uart_writable(uart_line line);
 
-/* Serves both lines. */
-void uart_interrupt(void);
+/* Sleeps until an interrupt, unless the line has brought something already. */
+void uart_sleep(uart_line line);
+
+/* For the vector table. */
+void uart_interrupt_host(void);
+void uart_interrupt_plant(void);
 
 #endif
