@@ -51,7 +51,7 @@ void *_sbrk(ptrdiff_t increment)
     return (void *)before;
 }
 
-/* Takes so many bytes from the first line, as soon as they are there, and gives them to the unit. */
+/* Takes so many bytes from the first line, as soon as they are there, for the unit. */
 uint32_t rig_line_in(bench_board *board, uint32_t length)
 {
     uint32_t taken = 0;

@@ -15,8 +15,8 @@
 
 #define PLANT_REQUEST_BYTES 1024
 
-/* Counts wrap and begin at 0: the bench clears all of it before power on. What the bench writes comes
- * first. */
+/* Counts wrap and begin at 0: the bench clears all of it before power on. What the bench writes
+ * comes first. */
 typedef struct {
     uint32_t written;    /* odd while the bench writes the inputs */
     uint32_t has_clock;  /* 1: the bench has the board's clock in hand */
