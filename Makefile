@@ -36,7 +36,7 @@ test: setup $(STAMP)/chromium lint ## every test there is, a real browser includ
 
 .PHONY: test-board
 test-board: $(STAMP)/native $(STAMP)/arm ## the unit's tests against the firmware on an emulated Cortex-M4F
-	$(BIN)/pytest --unit=qemu $(BOARD_TESTS) $(BOARD_STORIES)
+	$(BIN)/pytest --unit=qemu -m "not board_long" $(BOARD_TESTS) $(BOARD_STORIES)
 
 .PHONY: test-board-all
 test-board-all: setup $(STAMP)/arm ## the same with every story: about five minutes

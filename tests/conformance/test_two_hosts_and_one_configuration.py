@@ -10,6 +10,7 @@ from __future__ import annotations
 import zlib
 from dataclasses import dataclass, field
 
+import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import (
@@ -279,4 +280,4 @@ TwoHosts.TestCase.settings = settings(
     deadline=None,
     suppress_health_check=list(HealthCheck),
 )
-test_two_hosts_never_mix_a_change = TwoHosts.TestCase
+test_two_hosts_never_mix_a_change = pytest.mark.board_long(TwoHosts.TestCase)

@@ -64,6 +64,7 @@ def test_learning_does_not_touch_the_configuration() -> None:
     assert (unit.flash()[:COUNTERS_AT] == slots).all()
 
 
+@pytest.mark.board_long
 def test_the_log_goes_round_and_never_forgets() -> None:
     unit = BenchUnit(flash_block_bytes=512, flash_bytes=4 * 512)
     minutes = 3 * 2 * (512 // RECORD_BYTES)
@@ -80,6 +81,7 @@ def test_the_log_goes_round_and_never_forgets() -> None:
     assert seen > 0.85 * 60 * minutes
 
 
+@pytest.mark.board_long
 def test_an_area_is_not_erased_while_the_bike_rolls() -> None:
     unit = BenchUnit(flash_block_bytes=64, flash_bytes=64 * 32)
     unit.inputs(speed_kmh=20.0)
@@ -92,6 +94,7 @@ def test_an_area_is_not_erased_while_the_bike_rolls() -> None:
     assert counters(unit).saved_operating_s > 60 * 20
 
 
+@pytest.mark.board_long
 def test_power_lost_in_any_byte_of_a_saving_leaves_the_count_before_or_after() -> None:
     unit = BenchUnit(flash_block_bytes=512, flash_bytes=4 * 512)
     unit.advance(61.0)

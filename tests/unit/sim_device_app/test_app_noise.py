@@ -84,6 +84,7 @@ def test_whatever_comes_down_the_line_the_unit_still_answers(kind: object) -> No
     assert parameters.violations(unit.config()) == []
 
 
+@pytest.mark.board_long
 def test_every_good_request_among_noise_gets_exactly_one_answer() -> None:
     noise = random.Random(2)
     unit = BenchUnit()

@@ -41,7 +41,7 @@ def commit_with_power_for(unit: BenchUnit, steps: int) -> Status | int:
     return unit.write({"assist_cutoff_kmh": NEW_CUTOFF_KMH}).status
 
 
-@pytest.mark.host_build("hundreds of boots, one for every byte of flash")
+@pytest.mark.board_long
 @pytest.mark.parametrize("commits_before", [0, 1, 2])
 def test_power_lost_after_any_byte_leaves_the_old_or_the_new_configuration(
     commits_before: int,
@@ -83,7 +83,7 @@ def test_power_lost_after_any_byte_leaves_the_old_or_the_new_configuration(
     assert steps > BLOCK_BYTES + len(new[1])
 
 
-@pytest.mark.host_build("hundreds of boots, one for every byte of flash")
+@pytest.mark.board_long
 @pytest.mark.parametrize("commits_before", [0, 1, 2])
 def test_power_lost_anywhere_in_a_trial_brings_back_the_old_configuration(
     commits_before: int,
@@ -114,7 +114,7 @@ def test_power_lost_anywhere_in_a_trial_brings_back_the_old_configuration(
     assert steps > BLOCK_BYTES + len(old[1])
 
 
-@pytest.mark.host_build("hundreds of boots, one for every byte of flash")
+@pytest.mark.board_long
 @pytest.mark.parametrize("ending", [CfgConfirmRequest, CfgRollbackRequest])
 def test_power_lost_anywhere_in_the_end_of_a_trial_leaves_the_old_or_the_new(
     ending: type[CfgConfirmRequest | CfgRollbackRequest],

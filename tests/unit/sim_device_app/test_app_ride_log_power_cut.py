@@ -30,7 +30,7 @@ STANDSTILL_S = 21
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.host_build("hundreds of boots, one for every byte of flash"),
+    pytest.mark.board_long,
 ]
 
 

@@ -14,6 +14,8 @@ from firmware_protocol._generated import Access, AuthChallengeRequest, Status
 from tests.fakes.bench_unit import BenchUnit
 from tests.fakes.maker import Maker, provision
 
+pytestmark = pytest.mark.board_long
+
 NONCES = 1_000_000
 NONCE_BYTES = 16
 BOOTS = 10
