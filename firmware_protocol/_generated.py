@@ -1129,7 +1129,7 @@ class EvtFaultFreezeResponse(Message):
 
 @dataclass(frozen=True, slots=True)
 class EvtFaultClearRequest(Message):
-    """Forgets freeze frames and counts of these faults; one that is active stays, with its frame."""
+    """At standstill ends those of these latched faults whose cause has been gone for a second, then forgets freeze frames and counts of these faults; one that is active stays, with its frame."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.EVT_FAULT_CLEAR
     LAYOUT: ClassVar[tuple[Field, ...]] = (
@@ -1142,7 +1142,7 @@ class EvtFaultClearRequest(Message):
 
 @dataclass(frozen=True, slots=True)
 class EvtFaultClearResponse(Message):
-    """Forgets freeze frames and counts of these faults; one that is active stays, with its frame."""
+    """At standstill ends those of these latched faults whose cause has been gone for a second, then forgets freeze frames and counts of these faults; one that is active stays, with its frame."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.EVT_FAULT_CLEAR
     LAYOUT: ClassVar[tuple[Field, ...]] = (
@@ -2043,7 +2043,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         length=4, min=0.0, max=5.0, enum=None,
         increasing=False, access=1, image_offset=259,
         default=0.0,
-        doc="Width of the soft ramp below the cut-off speed; 0 cuts hard.",
+        doc="Width of the soft ramp below the cut-off speed; 0 cuts hard, and a rider at that speed feels each stroke cut.",
     ),
     Parameter(
         id=0x0402, name="motor_torque_nm_max", group="limits",
@@ -2311,7 +2311,7 @@ FAULTS: tuple[Fault, ...] = (
     Fault(
         9, "TORQUE_STUCK", 2,
         "No assist: the pedal sensor does not follow your feet. See your dealer.",
-        "The torque reading did not move by two counts while the cranks turned five times under power. Check the amplifier and the rotor board; legs always vary.",
+        "The torque reading did not move by two counts while the cranks turned five times under power, although they had before. Check the amplifier and the rotor board; legs always vary.",
     ),
     Fault(
         10, "TORQUE_DRIFT", 1,

@@ -623,7 +623,7 @@ export const PARAMETERS = {
     ratchet: false,
     default: 0.0,
     access: "DEALER",
-    doc: "Width of the soft ramp below the cut-off speed; 0 cuts hard.",
+    doc: "Width of the soft ramp below the cut-off speed; 0 cuts hard, and a rider at that speed feels each stroke cut.",
   },
   motor_torque_nm_max: {
     id: 1026,
@@ -1224,7 +1224,7 @@ export const FAULTS = {
     bit: 9,
     severity: "LATCHED",
     rider_text: "No assist: the pedal sensor does not follow your feet. See your dealer.",
-    mechanic_text: "The torque reading did not move by two counts while the cranks turned five times under power. Check the amplifier and the rotor board; legs always vary.",
+    mechanic_text: "The torque reading did not move by two counts while the cranks turned five times under power, although they had before. Check the amplifier and the rotor board; legs always vary.",
   },
   TORQUE_DRIFT: {
     bit: 10,

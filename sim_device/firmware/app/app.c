@@ -146,7 +146,8 @@ static uint8_t mode_select(const app *unit, const hal_inputs *inputs)
 }
 
 /* The law refuses what is not a number, so that is what a broken sensor becomes. */
-static void assist_input_from(const hal_inputs *inputs, uint8_t mode, assist_input *input)
+static void assist_input_from(const hal_inputs *inputs, uint8_t mode, int inhibit,
+                              assist_input *input)
 {
     memset(input, 0, sizeof *input);
     input->torque_raw_counts = faults_torque_is_plausible(inputs->torque_raw_counts)
@@ -162,23 +163,29 @@ static void assist_input_from(const hal_inputs *inputs, uint8_t mode, assist_inp
     input->mode = mode;
     input->brake = inputs->brake;
     input->walk_button = inputs->walk_button;
+    input->inhibit = (uint8_t)inhibit;
+}
+
+void app_faults_cleared(app *unit, uint16_t cleared, uint64_t now_us)
+{
+    if (cleared == 0) return;
+    event_faults_cleared(&unit->events, &unit->link, now_us, cleared);
+    ride_log_event_add(&unit->ride_log, EBL_LOG_EVENT_FAULT_CLEARED, cleared, now_us);
 }
 
 static void faults_report(app *unit, const hal_inputs *inputs, uint64_t now_us)
 {
+    const fault_law law = {unit->output.motor_torque_nm, unit->assist_state.torque_filtered_nm};
     uint16_t set;
     uint16_t cleared;
 
-    faults_step(&unit->faults, inputs, unit->config.battery_voltage_v_min, &set, &cleared);
+    faults_step(&unit->faults, inputs, &unit->config, &law, &set, &cleared);
     unit->faults_new = set;
     if (set != 0) {
         event_faults_set(&unit->events, &unit->link, now_us, set);
         ride_log_event_add(&unit->ride_log, EBL_LOG_EVENT_FAULT_SET, set, now_us);
     }
-    if (cleared != 0) {
-        event_faults_cleared(&unit->events, &unit->link, now_us, cleared);
-        ride_log_event_add(&unit->ride_log, EBL_LOG_EVENT_FAULT_CLEARED, cleared, now_us);
-    }
+    app_faults_cleared(unit, cleared, now_us);
 }
 
 static int is_moving(const hal_inputs *inputs)
@@ -209,12 +216,12 @@ void app_control_step(app *unit)
     app_inputs_prepare(&inputs);
     unit->board->inputs_read(unit->board->context, &inputs);
     sources.mode = mode_select(unit, &inputs);
-    assist_input_from(&inputs, sources.mode, &input);
+    faults_report(unit, &inputs, now_us); /* before the law: what it finds holds in this step */
+    assist_input_from(&inputs, sources.mode, faults_inhibit(&unit->faults), &input);
     (void)assist_step(&unit->assist_config, &unit->assist_state, &input, &unit->output);
     unit->board->motor_torque_set(unit->board->context, unit->output.motor_torque_nm);
 
     counters_step(&unit->counters, inputs.speed_kmh);
-    faults_report(unit, &inputs, now_us);
     ride_log_mode_set(&unit->ride_log, sources.mode, now_us);
     sources.fault_flags = unit->faults.active;
     telemetry_step(&unit->telemetry, &sources, now_us, &unit->link);

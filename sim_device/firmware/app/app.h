@@ -97,6 +97,9 @@ uint8_t app_access_to_stage(const app *unit);
 uint8_t app_access_check(const app *unit, const uint8_t *image, uint16_t *detail);
 void app_lock(app *unit);
 
+/* For the rooms of this folder: tells the host and the ride log of faults that are over. */
+void app_faults_cleared(app *unit, uint16_t cleared, uint64_t now_us);
+
 /* For the rooms of this folder: the image in force becomes the law's at the next control step. */
 void app_config_apply(app *unit);
 

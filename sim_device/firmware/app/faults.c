@@ -2,66 +2,82 @@
 
 #include <string.h>
 
-/* The converter's word has 16 bits: at its ends a broken bridge arm looks like a strong rider. */
-#define TORQUE_RAW_COUNTS_MAX 32767.0f
+#include "fault_signs.h" // fault_signs
 
-/* No e-bike goes faster; what does is a disturbed speed sensor. */
-#define SPEED_KMH_MAX 150.0f
+#define GOOD_STEPS 100 /* 1 s */
 
-/* A pack under load recovers by about this much when the load goes: without the gap the fault
- * would flicker with every pedal stroke. */
-#define BATTERY_RECOVERY_V 1.0f
-
-#define SENSOR_BAD_STEPS 10  /* 0.1 s: shorter than a pedal stroke, longer than a spark */
-#define BATTERY_BAD_STEPS 50 /* 0.5 s: a sag while starting is not an empty battery */
-#define GOOD_STEPS 100       /* 1 s */
-
-int faults_torque_is_plausible(float torque_raw_counts)
+/* Bad control steps of 10 ms until a fault is set. What a sign itself has waited for takes one. */
+static uint16_t bad_steps_max(uint16_t flag)
 {
-    return torque_raw_counts > -TORQUE_RAW_COUNTS_MAX && torque_raw_counts < TORQUE_RAW_COUNTS_MAX;
+    switch (flag) {
+    case EBL_FAULT_OVER_CURRENT: return 2;     /* the bridge's own trip is faster than any step */
+    case EBL_FAULT_UNDER_VOLTAGE: return 5;    /* 50 ms: a contact that bounces is shorter */
+    case EBL_FAULT_BATTERY_LOW: return 50;     /* 0.5 s: a sag while starting is not empty */
+    case EBL_FAULT_TORQUE_LINK: return 20;     /* with the hold 0.25 s: the ramp is over by then */
+    case EBL_FAULT_SPEED_MISMATCH: return 100; /* 1 s: a wheel that slips, a pulse that is late */
+    case EBL_FAULT_BATTERY_CUT:
+    case EBL_FAULT_TORQUE_STUCK:
+    case EBL_FAULT_TORQUE_DRIFT: return 1;
+    default: return 10; /* 0.1 s: shorter than a pedal stroke, longer than a spark */
+    }
 }
 
-static int speed_is_plausible(float speed_kmh)
-{
-    return speed_kmh >= 0.0f && speed_kmh < SPEED_KMH_MAX;
-}
-
-/* Counts one step of one fault; `set` and `cleared` gain its bit when it changes. */
-static void fault_count(fault_list *faults, uint8_t bit, int bad, uint16_t bad_steps_max,
-                        uint16_t *set, uint16_t *cleared)
+/* Counts one step of one fault; `set` and `cleared` gain its bit when it changes. A latched fault
+ * that a step cannot judge has no cause any more, for whoever clears it. */
+static void fault_count(fault_list *faults, unsigned bit, fault_sign sign, uint16_t *set,
+                        uint16_t *cleared)
 {
     uint16_t flag = (uint16_t)(1u << bit);
+    int latched = (flag & EBL_FAULTS_LATCHED) != 0;
 
-    if (bad) {
+    if (sign == FAULT_SIGN_NONE && !latched) return;
+    if (sign == FAULT_SIGN_BAD) {
         faults->good_steps[bit] = 0;
-        if (faults->bad_steps[bit] < bad_steps_max) faults->bad_steps[bit]++;
-        if (faults->bad_steps[bit] < bad_steps_max || (faults->active & flag)) return;
+        if (faults->bad_steps[bit] < bad_steps_max(flag)) faults->bad_steps[bit]++;
+        if (faults->bad_steps[bit] < bad_steps_max(flag) || (faults->active & flag)) return;
         faults->active |= flag;
         *set |= flag;
     } else {
         faults->bad_steps[bit] = 0;
         if (faults->good_steps[bit] < GOOD_STEPS) faults->good_steps[bit]++;
-        if (faults->good_steps[bit] < GOOD_STEPS || !(faults->active & flag)) return;
+        if (faults->good_steps[bit] < GOOD_STEPS || !(faults->active & flag) || latched) return;
         faults->active &= (uint16_t)~flag;
         *cleared |= flag;
     }
 }
 
-void faults_step(fault_list *faults, const hal_inputs *inputs, float battery_voltage_v_min,
-                 uint16_t *set, uint16_t *cleared)
+void faults_step(fault_list *faults, const hal_inputs *inputs, const ebl_config *config,
+                 const fault_law *law, uint16_t *set, uint16_t *cleared)
 {
-    float battery_floor_v = battery_voltage_v_min;
+    fault_sign signs[FAULT_KINDS];
 
-    if (faults->active & EBL_FAULT_BATTERY_LOW) battery_floor_v += BATTERY_RECOVERY_V;
     *set = 0;
     *cleared = 0;
-    fault_count(faults, 0, !faults_torque_is_plausible(inputs->torque_raw_counts), SENSOR_BAD_STEPS,
-                set, cleared);
-    fault_count(faults, 1, !speed_is_plausible(inputs->speed_kmh), SENSOR_BAD_STEPS, set, cleared);
-    fault_count(faults, 2, !(inputs->battery_voltage_v >= battery_floor_v), BATTERY_BAD_STEPS, set,
-                cleared);
+    fault_signs(faults, inputs, config, law, signs);
+    for (unsigned bit = 0; bit < FAULT_KINDS; bit++) {
+        fault_count(faults, bit, signs[bit], set, cleared);
+    }
 }
 
+int faults_inhibit(const fault_list *faults)
+{
+    return (faults->active & EBL_FAULTS_ASSIST_OFF) != 0;
+}
+
+uint16_t faults_clear_latched(fault_list *faults, uint16_t flags)
+{
+    uint16_t cleared = 0;
+
+    for (unsigned bit = 0; bit < FAULT_KINDS; bit++) {
+        uint16_t flag = (uint16_t)(1u << bit);
+
+        if (!(flags & faults->active & EBL_FAULTS_LATCHED & flag)) continue;
+        if (faults->good_steps[bit] < GOOD_STEPS) continue;
+        faults->active &= (uint16_t)~flag;
+        cleared |= flag;
+    }
+    return cleared;
+}
 int faults_latch(fault_list *faults, uint16_t flag)
 {
     int is_new = (faults->active & flag) == 0;

@@ -1,14 +1,18 @@
-/* What is wrong with the unit now: set after a few bad control steps, cleared after many good. */
+/* What is wrong with the unit now, and what that forbids.
+ *
+ * A fault is set after a few bad control steps. One that only warns, or ends the assist while it
+ * lasts, clears itself after many good ones. A latched one stays until the rider switches the unit
+ * off, or until `faults_clear_latched` at standstill once its cause is gone: EN 15194 4.2.13 wants
+ * no restart after a hazard without an action of the rider, and pedalling is none. */
 #ifndef SPINDLE_FAULTS_H
 #define SPINDLE_FAULTS_H
 
 #include <stdint.h>
 
-#include "assist.h"       // assist_config
-#include "ebl_registry.h" // EBL_FAULT_TORQUE_SENSOR
+#include "ebl_registry.h" // EBL_FAULT_TORQUE_SENSOR, ebl_config
 #include "hal.h"          // hal_inputs
 
-#define FAULT_KINDS 4
+#define FAULT_KINDS EBL_FAULT_COUNT
 
 /* What the bike did when a fault was last set. */
 typedef struct {
@@ -17,19 +21,47 @@ typedef struct {
     int16_t row[EBL_CHANNEL_COUNT]; /* counts, in the order of ebl_channels */
 } fault_frame;
 
+/* What takes longer than a step to see. */
+typedef struct {
+    float raw_low_counts; /* of the torque reading, in this turn of the cranks under power */
+    float raw_high_counts;
+    float crank_turns; /* of this turn, 0 to 1 */
+    uint8_t rose;      /* in this turn the reading went up, and down */
+    uint8_t fell;
+    uint8_t lively_turns; /* in a row in which it did both */
+    uint8_t still_turns;  /* in a row in which it did neither */
+    float rest_low_nm;    /* of the averaged torque, since the bike came to rest */
+    float rest_high_nm;
+    uint16_t rest_steps;
+} fault_watch;
+
 typedef struct {
     uint16_t active; /* EBL_FAULT_* bits */
     uint16_t bad_steps[FAULT_KINDS];
     uint16_t good_steps[FAULT_KINDS];
+    fault_watch watch;
     fault_frame frames[FAULT_KINDS];
 } fault_list;
+
+/* What the law made of the step before: the torque the motor was told, and the rider's average. */
+typedef struct {
+    float motor_torque_nm;
+    float rider_torque_filtered_nm;
+} fault_law;
 
 /* True if a bridge can give this reading: a number, and not pinned to the end of its word. */
 int faults_torque_is_plausible(float torque_raw_counts);
 
 /* Looks at one control step's inputs. The bits that changed go to `set` and `cleared`. */
-void faults_step(fault_list *faults, const hal_inputs *inputs, float battery_voltage_v_min,
-                 uint16_t *set, uint16_t *cleared);
+void faults_step(fault_list *faults, const hal_inputs *inputs, const ebl_config *config,
+                 const fault_law *law, uint16_t *set, uint16_t *cleared);
+
+/* True while a fault forbids any torque. */
+int faults_inhibit(const fault_list *faults);
+
+/* Clears those of these latched faults whose cause is gone; to be called at standstill. Returns
+ * the bits that were cleared. */
+uint16_t faults_clear_latched(fault_list *faults, uint16_t flags);
 
 /* A fault that does not come from the inputs and stays until `faults_clear`. True if new. */
 int faults_latch(fault_list *faults, uint16_t flag);

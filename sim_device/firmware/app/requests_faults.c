@@ -57,6 +57,10 @@ static void faults_clear_request(app *unit, const ebl_header *request, reply *an
         reply_refuse(answer, EBL_STATUS_LENGTH, EBL_EVT_FAULT_CLEAR_REQUEST_LENGTH);
         return;
     }
+    if (transaction_flash_status(unit->board) != EBL_STATUS_NOT_STOPPED) {
+        app_faults_cleared(unit, faults_clear_latched(&unit->faults, asked.fault_flags),
+                           unit->board->now_us(unit->board->context));
+    }
     faults_forget(&unit->faults, asked.fault_flags);
     response.fault_flags = unit->faults.active;
     put = ebl_evt_fault_clear_response_put(&response, reply_fields(answer), reply_capacity(answer),

@@ -21,6 +21,7 @@ from firmware_protocol._generated import (
 from tests.fakes.bench_unit import BenchUnit
 
 TORQUE_BIT = 0
+BATTERY_BIT = 2
 UNIX_US = 1_790_000_000_000_000
 
 
@@ -72,11 +73,12 @@ def test_a_fault_keeps_the_row_of_the_step_that_set_it(unit: BenchUnit) -> None:
 
 def test_the_latest_time_counts_and_how_often_it_came(unit: BenchUnit) -> None:
     for speed_kmh in (5.0, 10.0, 15.0):
-        unit.inputs(speed_kmh=speed_kmh)
-        break_torque_sensor(unit)
-        mend_torque_sensor(unit)
+        unit.inputs(speed_kmh=speed_kmh, battery_voltage_v=29.5)
+        unit.advance(1.0)
+        unit.inputs(battery_voltage_v=36.0)
+        unit.advance(2.0)
 
-    frame = frozen(unit)
+    frame = frozen(unit, BATTERY_BIT)
 
     assert (frame.active, frame.count) == (0, 3)
     assert channel(frame, "speed_kmh") == pytest.approx(15.0)

@@ -113,16 +113,16 @@ def test_faults_are_in_the_log_with_their_time() -> None:
     unit = unit_with_room()
     unit.inputs(speed_kmh=18.0)
     unit.advance(3.0)
-    unit.inputs(torque_raw_counts=float("nan"))
+    unit.inputs(battery_voltage_v=29.5)
     unit.advance(2.0)
-    unit.inputs(torque_raw_counts=0.0)
+    unit.inputs(battery_voltage_v=36.0)
 
     ride(unit, 4.0)
 
     blocks = scan(fetch(unit, logs(unit)[0])).blocks
     told = [block.payload for block in blocks if block.type == EVENT]
     assert [int(payload[8]) for payload in told] == [Event.FAULT_SET, Event.FAULT_CLEARED]
-    assert int.from_bytes(told[0][:8], "little") / 1e6 == pytest.approx(3.1, abs=0.05)
+    assert int.from_bytes(told[0][:8], "little") / 1e6 == pytest.approx(3.5, abs=0.05)
 
 
 def test_the_mode_the_rider_chose_is_in_the_log_with_its_time() -> None:

@@ -1,0 +1,251 @@
+"""Goal: what is dangerous ends the assist in time, keeps what the bike did, and does not let the
+motor start again by itself.
+
+Method: real firmware on the bench board; each sensor says what it says when its part breaks. Times
+are those of docs/safety.md; levels are from thesis_checks 5 (A14) and 6. EN 15194 4.2.13: pedalling
+is no action of the rider, so it clears nothing.
+"""
+
+from typing import Any
+
+import pytest
+from sim_device.firmware.python._native import lib
+
+from firmware_protocol._generated import (
+    FAULTS,
+    Event,
+    EvtFaultClearRequest,
+    EvtFaultClearResponse,
+    EvtFaultFreezeRequest,
+    EvtFaultListRequest,
+    EvtFaultListResponse,
+    FaultFlags,
+    Severity,
+    Status,
+)
+from tests.fakes.bench_unit import BenchUnit
+
+TOUR = 2
+RIDING: dict[str, Any] = {
+    "torque_raw_counts": 3000.0,
+    "cadence_rpm": 60.0,
+    "speed_kmh": 22.0,
+    "motor_speed_rpm": 2270.0,
+    "battery_voltage_v": 38.0,
+    "mode_selected": TOUR,
+    "motor_current_a": 5.0,
+    "battery_current_a": 4.0,
+    "motor_temperature_degc": 60.0,
+    "controller_temperature_degc": 45.0,
+}
+STANDING = {"speed_kmh": 0.0, "motor_speed_rpm": 0.0, "cadence_rpm": 0.0, "torque_raw_counts": 0.0}
+
+# What breaks, the fault, and the longest time from there to a motor without torque.
+LATCHED = [
+    ({"torque_raw_counts": 32767.0}, FaultFlags.TORQUE_SENSOR, 0.01),
+    ({"torque_raw_counts": float("nan")}, FaultFlags.TORQUE_SENSOR, 0.01),
+    ({"speed_kmh": float("nan")}, FaultFlags.SPEED_SENSOR, 0.01),
+    ({"speed_age_ms": 1001}, FaultFlags.SPEED_SENSOR, 0.1),
+    ({"motor_current_a": 30.0}, FaultFlags.OVER_CURRENT, 0.02),
+    ({"battery_current_a": 19.0}, FaultFlags.OVER_CURRENT, 0.02),
+    ({"battery_voltage_v": 26.5}, FaultFlags.UNDER_VOLTAGE, 0.01),
+    ({"battery_cut": 1}, FaultFlags.BATTERY_CUT, 0.01),
+    ({"motor_temperature_degc": 130.0}, FaultFlags.MOTOR_TEMPERATURE, 0.1),
+    ({"controller_temperature_degc": 100.0}, FaultFlags.CONTROLLER_TEMPERATURE, 0.1),
+    ({"speed_kmh": 2.0}, FaultFlags.SPEED_MISMATCH, 1.0),
+]
+MENDED = {**RIDING, "speed_age_ms": 0, "battery_cut": 0, "torque_age_ms": 0}
+
+
+@pytest.fixture
+def unit() -> BenchUnit:
+    unit = BenchUnit()
+    unit.hello()
+    unit.inputs(**RIDING)
+    unit.advance(4.0)
+    assert motor_nm(unit) > 0.1
+    return unit
+
+
+def motor_nm(unit: BenchUnit) -> float:
+    return float(lib.bench_motor_torque_nm(unit.board))
+
+
+def flags(unit: BenchUnit) -> int:
+    message = unit.ask(EvtFaultListRequest()).message
+    assert isinstance(message, EvtFaultListResponse)
+    return message.fault_flags
+
+
+def clear(unit: BenchUnit) -> int:
+    message = unit.ask(EvtFaultClearRequest(0xFFFF)).message
+    assert isinstance(message, EvtFaultClearResponse)
+    return message.fault_flags
+
+
+@pytest.mark.parametrize(("broken", "flag", "seconds"), LATCHED, ids=str)
+def test_a_hazard_ends_the_assist_in_time_and_keeps_it_ended(
+    unit: BenchUnit, broken: dict[str, Any], flag: FaultFlags, seconds: float
+) -> None:
+    unit.inputs(**broken)
+    unit.advance(seconds + 0.01)
+    assert motor_nm(unit) == 0.0
+    unit.advance(1.0)
+    assert flags(unit) & flag
+
+    unit.inputs(**MENDED)
+    unit.advance(5.0)  # the rider pedals on
+
+    assert motor_nm(unit) == 0.0
+    assert flags(unit) & flag
+    assert clear(unit) & flag  # not while the bike rolls
+
+
+@pytest.mark.parametrize(("broken", "flag", "seconds"), LATCHED, ids=str)
+def test_a_hazard_is_cleared_at_standstill_once_its_cause_is_gone(
+    unit: BenchUnit, broken: dict[str, Any], flag: FaultFlags, seconds: float
+) -> None:
+    unit.inputs(**broken)
+    unit.advance(seconds + 0.2)
+    unit.inputs(**{**MENDED, **STANDING})
+    unit.advance(0.5)
+    too_early = clear(unit)
+    unit.advance(1.0)
+
+    assert too_early & flag
+    assert clear(unit) & flag == 0
+    assert (Event.FAULT_CLEARED, flag) in [
+        (event.code, event.fields["fault_flags"] & flag)
+        for event in unit.events
+        if event.code == Event.FAULT_CLEARED
+    ]
+    unit.inputs(**MENDED)
+    unit.advance(3.0)
+    assert motor_nm(unit) > 0.1
+
+
+def test_a_hazard_whose_cause_stays_is_not_cleared(unit: BenchUnit) -> None:
+    unit.inputs(motor_temperature_degc=131.0)
+    unit.advance(1.0)
+    unit.inputs(**STANDING, motor_temperature_degc=111.0)  # cooler, and still hot
+    unit.advance(2.0)
+    assert clear(unit) == FaultFlags.MOTOR_TEMPERATURE
+
+    unit.inputs(motor_temperature_degc=109.0)
+    unit.advance(2.0)
+    assert clear(unit) == 0
+
+
+def test_switching_off_and_on_clears_a_hazard_that_is_over(unit: BenchUnit) -> None:
+    unit.inputs(motor_current_a=40.0)
+    unit.advance(0.5)
+    unit.inputs(**MENDED)
+
+    unit.boot()
+    unit.advance(3.0)
+
+    assert flags(unit) == 0
+    assert motor_nm(unit) > 0.1
+
+
+def test_a_fault_keeps_what_the_bike_did(unit: BenchUnit) -> None:
+    unit.inputs(battery_cut=1)
+    unit.advance(0.1)
+
+    bit = int(FaultFlags.BATTERY_CUT).bit_length() - 1
+    assert unit.ask(EvtFaultFreezeRequest(bit)).status == Status.OK
+
+
+def test_a_sag_of_the_battery_is_no_fault(unit: BenchUnit) -> None:
+    unit.inputs(battery_voltage_v=29.5)
+    unit.advance(0.3)
+    assert motor_nm(unit) == 0.0
+
+    unit.inputs(battery_voltage_v=36.0)
+    unit.advance(2.0)
+
+    assert flags(unit) == 0
+    assert motor_nm(unit) > 0.1
+
+
+def test_an_interrupted_rotor_comes_back_by_itself(unit: BenchUnit) -> None:
+    unit.inputs(torque_age_ms=60)
+    unit.advance(0.15)
+    ramped_out = motor_nm(unit)
+    unit.advance(0.2)
+    assert flags(unit) == FaultFlags.TORQUE_LINK
+
+    unit.inputs(torque_age_ms=0)
+    unit.advance(3.0)
+
+    assert ramped_out == 0.0
+    assert flags(unit) == 0
+    assert motor_nm(unit) > 0.1
+
+
+def turns(unit: BenchUnit, count: int, swing: float) -> None:
+    """Turns of the cranks at 60 rpm, with legs of 30 Nm and this much up and down."""
+    for step in range(count * 20):
+        unit.inputs(torque_raw_counts=3000.0 + swing * (1 if step % 10 < 5 else -1))
+        unit.advance(0.05)
+
+
+def test_a_reading_that_stops_following_the_legs_is_stuck(unit: BenchUnit) -> None:
+    turns(unit, 5, swing=600.0)
+    assert flags(unit) == 0
+
+    turns(unit, 7, swing=0.0)
+
+    assert flags(unit) == FaultFlags.TORQUE_STUCK
+    assert motor_nm(unit) == 0.0
+
+
+def test_a_servo_that_pushes_evenly_is_not_a_stuck_sensor(unit: BenchUnit) -> None:
+    turns(unit, 30, swing=0.0)
+
+    assert flags(unit) == 0
+
+
+@pytest.mark.parametrize(
+    ("rest_nm", "drifted"), [(2.0, False), (4.0, True), (-4.0, True), (20.0, False)]
+)
+def test_a_zero_that_moved_is_seen_at_rest_and_a_foot_or_a_weight_is_not(
+    unit: BenchUnit, rest_nm: float, drifted: bool
+) -> None:
+    unit.inputs(**{**STANDING, "torque_raw_counts": 100.0 * rest_nm})
+    unit.advance(9.0)
+    assert (flags(unit) == FaultFlags.TORQUE_DRIFT) == drifted
+
+    unit.inputs(torque_raw_counts=0.0)
+    unit.advance(12.0)
+    assert flags(unit) == 0
+
+
+def test_a_motor_in_an_easy_gear_is_not_a_lost_speed_sensor(unit: BenchUnit) -> None:
+    unit.inputs(speed_kmh=9.0)  # the configured gear would give 22 km/h; a big cog gives 9
+    unit.advance(3.0)
+
+    assert flags(unit) == 0
+
+
+def test_the_walk_button_pushes_the_bike_through_the_whole_unit(unit: BenchUnit) -> None:
+    unit.inputs(**{**STANDING, "walk_button": 0})
+    unit.advance(3.0)
+
+    unit.inputs(walk_button=1, speed_kmh=3.0)
+    unit.advance(1.0)
+    pushed = motor_nm(unit)
+    unit.inputs(walk_button=0)
+    unit.advance(0.02)
+
+    assert 0.1 < pushed <= 1.0
+    assert motor_nm(unit) == 0.0
+
+
+def test_every_fault_says_what_to_do(unit: BenchUnit) -> None:
+    assert [fault.name for fault in FAULTS] == [flag.name for flag in FaultFlags]
+    for fault in FAULTS:
+        assert fault.rider_text.endswith(".")
+        assert len(fault.mechanic_text) > len("Check it.")
+    latched = {fault.name for fault in FAULTS if fault.severity == Severity.LATCHED}
+    assert {flag.name for _, flag, _ in LATCHED} <= latched
