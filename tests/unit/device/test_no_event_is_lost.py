@@ -17,7 +17,7 @@ from firmware_protocol.codec import Event
 from tests.fakes.bench_unit import BenchUnit
 from tests.fakes.serial_wire import SerialWire
 
-LOW_V, GOOD_V = 20.0, 40.0
+LOW_V, GOOD_V = 29.0, 40.0
 # A low battery is a fault after half a second, and over after another two at the most.
 TELLING_S = 3.0
 

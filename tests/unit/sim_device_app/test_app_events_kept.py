@@ -41,7 +41,7 @@ def battery(unit: BenchUnit, voltage_v: float) -> None:
 def break_and_mend(unit: BenchUnit, times: int) -> None:
     """Two events each time: a fault that comes, and that goes."""
     for _ in range(times):
-        battery(unit, 20.0)
+        battery(unit, 29.0)
         battery(unit, 40.0)
 
 
@@ -57,7 +57,7 @@ def alive(unit: BenchUnit) -> AliveResponse:
 
 def test_an_event_is_sent_again_until_it_is_acknowledged() -> None:
     unit = with_a_host()
-    battery(unit, 20.0)
+    battery(unit, 29.0)
     (told,) = unit.events
 
     unit.advance(4 * REPEAT_S)
@@ -142,7 +142,7 @@ def test_without_a_host_nothing_is_repeated_and_the_next_one_hears_it(ends: str)
 def test_a_line_that_takes_nothing_is_not_filled_with_repetitions() -> None:
     unit = with_a_host()
     unit.line_room(0)
-    unit.inputs(battery_voltage_v=20.0)
+    unit.inputs(battery_voltage_v=29.0)
     unit.advance_deaf(10.0)
 
     unit.line_room(65536)
