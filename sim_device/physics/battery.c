@@ -5,6 +5,8 @@
 
 #define CELLS_IN_SERIES 10.0
 #define S_PER_H 3600.0
+#define REFERENCE_DEGC 20.0
+#define EMPTY_SOC_PCT 15.0 /* below it the resistance doubles towards empty */
 
 typedef struct {
     double soc_pct;
@@ -33,20 +35,52 @@ double battery_open_circuit_v(double soc_pct)
     return CELLS_IN_SERIES * CHARGE_CURVE[CHARGE_POINTS - 1].cell_v;
 }
 
-void battery_reset(const battery_config *config, battery_state *state)
+double battery_resistance_ohm(const battery_config *config, double soc_pct)
 {
-    state->soc_pct = config->soc_pct_start;
-    state->voltage_v = battery_open_circuit_v(state->soc_pct);
-    state->current_a = 0.0;
+    const double colder_k = fmax(REFERENCE_DEGC - config->temperature_degc, 0.0);
+    const double emptier = fmax(EMPTY_SOC_PCT - soc_pct, 0.0) / EMPTY_SOC_PCT;
+    return config->resistance_ohm * (1.0 + config->resistance_share_per_k_cold * colder_k) *
+           (1.0 + emptier);
 }
 
-void battery_step(const battery_config *config, battery_state *state, double power_w, double dt_s)
+void battery_reset(const battery_config *config, battery_state *state)
 {
-    const double open_v = battery_open_circuit_v(state->soc_pct);
+    const battery_state rested = {
+        .soc_pct = config->soc_pct_start,
+        .voltage_v = battery_open_circuit_v(config->soc_pct_start),
+    };
+    *state = rested;
+}
+
+/* The management waits a moment: a spark is no reason to leave a rider without light. */
+static void watch(const battery_config *config, battery_state *state, int fault_cut, double dt_s)
+{
+    const int out_of_bounds = state->voltage_v < config->cut_voltage_v_min ||
+                              state->current_a > config->cut_current_a_max;
+    state->over_s = out_of_bounds ? state->over_s + dt_s : 0.0;
+    if (fault_cut || state->over_s > config->cut_after_s) {
+        state->cut = 1;
+    }
+}
+
+void battery_step(const battery_config *config, battery_state *state, double power_w, int fault_cut,
+                  double dt_s)
+{
+    if (state->cut) {
+        state->voltage_v = 0.0;
+        state->current_a = 0.0;
+        state->polarisation_v -= state->polarisation_v * dt_s / config->polarisation_s;
+        return;
+    }
+    const double resistance_ohm = battery_resistance_ohm(config, state->soc_pct);
+    const double open_v = battery_open_circuit_v(state->soc_pct) - state->polarisation_v;
     /* P = (U - iR)i has its maximum at i = U/2R; the smaller root is the one a load settles at. */
-    const double root = fmax(open_v * open_v - 4.0 * config->resistance_ohm * power_w, 0.0);
-    state->current_a = (open_v - sqrt(root)) / (2.0 * config->resistance_ohm);
-    state->voltage_v = open_v - state->current_a * config->resistance_ohm;
+    const double root = fmax(open_v * open_v - 4.0 * resistance_ohm * fmax(power_w, 0.0), 0.0);
+    state->current_a = (open_v - sqrt(root)) / (2.0 * resistance_ohm);
+    state->voltage_v = open_v - state->current_a * resistance_ohm;
+    const double settled_v = state->current_a * config->polarisation_ohm;
+    state->polarisation_v += (settled_v - state->polarisation_v) * dt_s / config->polarisation_s;
     const double charge_ah = state->current_a * dt_s / S_PER_H;
     state->soc_pct = fmax(state->soc_pct - 100.0 * charge_ah / config->capacity_ah, 0.0);
+    watch(config, state, fault_cut, dt_s);
 }

@@ -5,25 +5,38 @@ double drivetrain_chain_ratio(const drivetrain_config *config)
     return config->chainring_teeth / config->cog_teeth;
 }
 
+double drivetrain_gear_share(const drivetrain_config *config)
+{
+    return config->literal_4_14 ? 1.0 : config->gear_efficiency;
+}
+
+double drivetrain_chain_share(const drivetrain_config *config)
+{
+    return config->literal_4_14 ? drivetrain_chain_ratio(config) : config->chain_efficiency;
+}
+
 static double acceleration(const drivetrain_config *config, const drivetrain_load *load,
                            const drivetrain_flow *flow)
 {
     const double ratio = config->gear_ratio;
-    const double gear_share = config->gear_efficiency * config->chain_efficiency;
+    const double chain_share = drivetrain_chain_share(config);
+    const double gear_share = drivetrain_gear_share(config) * chain_share;
     double inertia = load->bike_inertia_kg_m2;
     double net_nm = -load->pull_nm;
     if (flow->crank_engaged) {
-        inertia += config->chain_efficiency * config->crank_inertia_kg_m2;
-        net_nm += config->chain_efficiency * load->crank_nm;
+        inertia += chain_share * config->crank_inertia_kg_m2;
+        net_nm += chain_share * load->crank_nm;
     }
     if (flow->motor_engaged) {
         inertia += gear_share * ratio * ratio * load->motor_inertia_kg_m2;
         net_nm += gear_share * ratio * load->motor_shaft_nm;
     }
-    if (!load->moving && net_nm <= load->friction_nm) {
+    const int driven = flow->crank_engaged || flow->motor_engaged;
+    const double friction_nm = load->friction_nm + (driven ? config->chain_drag_nm : 0.0);
+    if (!load->moving && net_nm <= friction_nm) {
         return 0.0;
     }
-    return (net_nm - load->friction_nm) / inertia;
+    return (net_nm - friction_nm) / inertia;
 }
 
 drivetrain_flow drivetrain_solve(const drivetrain_config *config, const drivetrain_load *load)

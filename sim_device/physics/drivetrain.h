@@ -11,8 +11,11 @@ typedef struct {
     double chainring_teeth;
     double cog_teeth;
     double gear_efficiency;
+    double gear_drag_nm; /* at the motor's shaft whenever it turns, whatever the load */
     double chain_efficiency;
+    double chain_drag_nm;       /* at the chainring while it is driven */
     double crank_inertia_kg_m2; /* cranks and pedals, without the legs */
+    int literal_4_14;           /* eq. 4.14 as printed: i_1 times the power put in (I-11) */
 } drivetrain_config;
 
 /* What acts on the chainring in one instant. */
@@ -38,6 +41,11 @@ typedef struct {
 
 /* Wheel turns per crank turn. */
 double drivetrain_chain_ratio(const drivetrain_config *config);
+
+/* Share of the torque that leaves the gears, and the chain. Eq. 4.14 as printed knows no losses and
+ * drops the division by the chain's ratio. */
+double drivetrain_gear_share(const drivetrain_config *config);
+double drivetrain_chain_share(const drivetrain_config *config);
 
 /* Acceleration and transmitted torques: the energy-consistent equation of thesis_checks I-11 with
  * both efficiencies on the drive terms. A clutch that would have to pull opens. A standing bike

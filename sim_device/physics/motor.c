@@ -3,48 +3,73 @@
 #include <math.h>
 
 #define RAD_S_PER_RPM (3.14159265358979323846 / 30.0)
+#define REFERENCE_DEGC 20.0
+#define STILL_RAD_S 1e-9
 
-/* Largest electromagnetic torque whose electrical power, T*omega + (T/K)^2 R, is `power_w`. */
-static double torque_at_power(const motor_config *config, double power_w, double speed_rad_s)
+double motor_resistance_ohm(const motor_config *config, double winding_degc)
 {
-    const double k_squared = config->torque_constant_nm_per_a * config->torque_constant_nm_per_a;
-    const double root =
-        sqrt(speed_rad_s * speed_rad_s + 4.0 * config->resistance_ohm * power_w / k_squared);
-    return k_squared * (root - speed_rad_s) / (2.0 * config->resistance_ohm);
+    const double warmer_k = winding_degc - REFERENCE_DEGC;
+    const double winding = config->winding_share * config->resistance_share_per_k * warmer_k;
+    return config->resistance_ohm * (1.0 + winding);
 }
 
-static double torque_limit(const motor_config *config, double speed_rad_s, double voltage_v)
+/* Largest electromagnetic torque whose electrical power, T*omega + (T/K)^2 R, is `power_w`. */
+static double torque_at_power(double torque_constant, double resistance_ohm, double power_w,
+                              double speed_rad_s)
+{
+    const double k_squared = torque_constant * torque_constant;
+    const double root =
+        sqrt(speed_rad_s * speed_rad_s + 4.0 * resistance_ohm * power_w / k_squared);
+    return k_squared * (root - speed_rad_s) / (2.0 * resistance_ohm);
+}
+
+double motor_torque_limit_nm(const motor_config *config, double speed_rad_s, double voltage_v,
+                             double winding_degc)
 {
     if (speed_rad_s >= config->speed_rpm_max * RAD_S_PER_RPM) {
         return 0.0;
     }
-    const double back_emf_v = config->torque_constant_nm_per_a * speed_rad_s;
-    const double by_voltage =
-        config->torque_constant_nm_per_a * (voltage_v - back_emf_v) / config->resistance_ohm;
+    const double k = config->torque_constant_nm_per_a;
+    const double resistance_ohm = motor_resistance_ohm(config, winding_degc);
+    const double by_voltage = k * (voltage_v - k * speed_rad_s) / resistance_ohm;
     const double power_w = fmin(config->bus_power_w_max, config->bus_current_a_max * voltage_v);
-    return fmax(fmin(by_voltage, torque_at_power(config, power_w, speed_rad_s)), 0.0);
+    const double by_power = torque_at_power(k, resistance_ohm, power_w, speed_rad_s);
+    return fmax(fmin(by_voltage, by_power), 0.0);
 }
 
 motor_drive motor_drive_at(const motor_config *config, double demand_nm, double speed_rad_s,
-                           double voltage_v)
+                           double voltage_v, double winding_degc)
 {
     motor_drive drive = {0};
     drive.friction_torque_nm = config->friction_nm_s * speed_rad_s;
+    drive.friction_torque_nm += speed_rad_s > STILL_RAD_S ? config->hysteresis_nm : 0.0;
     if (demand_nm > 0.0) {
         const double wanted = fmin(demand_nm, config->torque_nm_max) + drive.friction_torque_nm;
         drive.electromagnetic_torque_nm =
-            fmin(wanted, torque_limit(config, speed_rad_s, voltage_v));
+            fmin(wanted, motor_torque_limit_nm(config, speed_rad_s, voltage_v, winding_degc));
     }
     drive.shaft_torque_nm = drive.electromagnetic_torque_nm - drive.friction_torque_nm;
     drive.current_a = drive.electromagnetic_torque_nm / config->torque_constant_nm_per_a;
-    drive.copper_loss_w = drive.current_a * drive.current_a * config->resistance_ohm;
+    drive.copper_loss_w =
+        drive.current_a * drive.current_a * motor_resistance_ohm(config, winding_degc);
     return drive;
 }
 
-double motor_temperature_after(const motor_config *config, double temperature_degc, double heat_w,
-                               double dt_s)
+void motor_heat_reset(const motor_config *config, motor_heat *heat)
 {
-    const double away_w =
-        (temperature_degc - config->ambient_degc) / config->heat_resistance_k_per_w;
-    return temperature_degc + dt_s * (heat_w - away_w) / config->heat_capacity_j_per_k;
+    heat->winding_degc = config->ambient_degc;
+    heat->housing_degc = config->ambient_degc;
+    heat->bridge_degc = config->ambient_degc;
+}
+
+void motor_heat_step(const motor_config *config, motor_heat *heat, double copper_w,
+                     double friction_w, double dt_s)
+{
+    const double bridge_w = (1.0 - config->winding_share) * copper_w;
+    const double inward_w = (heat->winding_degc - heat->housing_degc) / config->winding_k_per_w;
+    const double outward_w = (heat->housing_degc - config->ambient_degc) / config->housing_k_per_w;
+    const double bridge_out_w = (heat->bridge_degc - config->ambient_degc) / config->bridge_k_per_w;
+    heat->winding_degc += dt_s * (copper_w - bridge_w - inward_w) / config->winding_heat_j_per_k;
+    heat->housing_degc += dt_s * (inward_w + friction_w - outward_w) / config->housing_heat_j_per_k;
+    heat->bridge_degc += dt_s * (bridge_w - bridge_out_w) / config->bridge_heat_j_per_k;
 }

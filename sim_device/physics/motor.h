@@ -1,21 +1,36 @@
-/* The motor with its inverter: what torque it can give, what that costs, how warm it gets.
+/* The motor with its inverter: what torque it can give and what that costs.
  *
  * Thesis eq. 4.8 and 4.9 with the constants of thesis_checks I-5. The demand is torque at the shaft
- * (T_f of eq. 4.9): the inverter's inner loop makes up for the motor's own friction. */
+ * (T_f of eq. 4.9): the inverter's inner loop makes up for the motor's own friction. The currents
+ * are those of the equivalent direct-current machine; motor_foc.h has the same machine in d and q.
+ */
 #ifndef SPINDLE_MOTOR_H
 #define SPINDLE_MOTOR_H
 
+typedef enum { MOTOR_AVERAGE = 0, MOTOR_FOC = 1 } motor_model;
+
 typedef struct {
+    int model; /* motor_model */
     double torque_constant_nm_per_a;
-    double resistance_ohm; /* winding, bridge and lead */
-    double friction_nm_s;  /* torque per rad/s */
+    double resistance_ohm;         /* winding, bridge and lead at 20 degrees */
+    double winding_share;          /* of the resistance and its heat; the rest is the bridge */
+    double resistance_share_per_k; /* copper: 0.00393 */
+    double friction_nm_s;          /* bearings, air and eddy currents: torque per rad/s */
+    double hysteresis_nm;          /* iron: the same torque at every speed */
     double inertia_kg_m2;
     double torque_nm_max;
     double speed_rpm_max;
     double bus_current_a_max;
     double bus_power_w_max;
-    double heat_capacity_j_per_k;
-    double heat_resistance_k_per_w;
+    double inductance_h;         /* of a phase; detailed model only */
+    double pole_pairs;           /* detailed model only */
+    double current_bandwidth_hz; /* of the current loop; detailed model only */
+    double winding_heat_j_per_k;
+    double housing_heat_j_per_k;
+    double winding_k_per_w; /* winding to housing */
+    double housing_k_per_w; /* housing to air */
+    double bridge_heat_j_per_k;
+    double bridge_k_per_w;
     double ambient_degc;
 } motor_config;
 
@@ -24,16 +39,33 @@ typedef struct {
     double friction_torque_nm;
     double shaft_torque_nm; /* electromagnetic less friction; negative while it spins down */
     double current_a;
-    double copper_loss_w;
+    double copper_loss_w; /* winding and bridge */
+    double magnetic_w;    /* into the field of the windings; 0 on average */
 } motor_drive;
+
+typedef struct {
+    double winding_degc;
+    double housing_degc;
+    double bridge_degc;
+} motor_heat;
+
+/* Resistance with a winding at `winding_degc`. */
+double motor_resistance_ohm(const motor_config *config, double winding_degc);
+
+/* Largest electromagnetic torque at `speed_rad_s` from `voltage_v`, whatever holds it back. */
+double motor_torque_limit_nm(const motor_config *config, double speed_rad_s, double voltage_v,
+                             double winding_degc);
 
 /* What the motor gives at `speed_rad_s` from a battery at `voltage_v` when asked for `demand_nm`.
  * Never brakes: a demand of zero or less switches the bridge off. */
 motor_drive motor_drive_at(const motor_config *config, double demand_nm, double speed_rad_s,
-                           double voltage_v);
+                           double voltage_v, double winding_degc);
 
-/* Winding temperature after `dt_s` at `heat_w`: one thermal mass to ambient. */
-double motor_temperature_after(const motor_config *config, double temperature_degc, double heat_w,
-                               double dt_s);
+void motor_heat_reset(const motor_config *config, motor_heat *heat);
+
+/* Temperatures after `dt_s`: copper warms the winding, friction and iron the housing, the bridge
+ * its share of the resistance (two nodes of thesis_checks 6, and one for the controller). */
+void motor_heat_step(const motor_config *config, motor_heat *heat, double copper_w,
+                     double friction_w, double dt_s);
 
 #endif

@@ -3,19 +3,27 @@
 #include <math.h>
 
 #define PI 3.14159265358979323846
+#define DEG_PER_RAD (180.0 / PI)
 #define RPM_PER_RAD_S (30.0 / PI)
 #define KMH_PER_MS 3.6
 
-/* Metres the bike moves per radian of the chainring. */
+/* Keep the noises of one seed apart. */
+#define LEGS_STREAM 0x6C6567732E6C6567u
+#define LINK_STREAM 0x6C696E6B726F746Fu
+
+/* Metres the rear tyre moves per radian of the chainring. */
 static double metres_per_rad(const physics_config *config)
 {
     return config->road.wheel_radius_m * drivetrain_chain_ratio(&config->drivetrain);
 }
 
-static double bike_inertia_kg_m2(const physics_config *config)
+/* What turns with the chainring: the whole bike, or only its rear wheel while the tyre slips. */
+static double wheel_inertia_kg_m2(const physics_config *config, int slipping)
 {
     const double reach_m = metres_per_rad(config);
-    return road_moving_mass_kg(&config->road) * reach_m * reach_m;
+    const double mass_kg =
+        slipping ? road_rear_wheel_mass_kg(&config->road) : road_moving_mass_kg(&config->road);
+    return mass_kg * reach_m * reach_m;
 }
 
 typedef struct {
@@ -39,10 +47,14 @@ static motion advance(double speed, double acceleration, double dt_s, int fricti
 typedef struct {
     road_forces road;
     motor_drive motor;
+    double gear_drag_nm;
     double rider_nm;
     double leg_drag_nm;
+    double grip_n;
+    int slipping;
     drivetrain_flow flow;
     motion chainring;
+    motion bike;
     motion crank;
     motion motor_shaft;
 } instant;
@@ -58,47 +70,101 @@ static double motor_speed_to_limit(const physics_config *config, const physics_s
     return state->motor_speed_rad_s + dt_s * torque_nm / config->motor.inertia_kg_m2;
 }
 
-static void gather(const physics_config *config, const physics_state *state,
-                   const physics_command *command, double dt_s, instant *now)
+static motor_drive motor_pull(const physics_config *config, physics_state *state,
+                              const physics_command *command, int engaged, double dt_s)
+{
+    const double voltage_v = state->battery.voltage_v;
+    const double winding_degc = state->heat.winding_degc;
+    const double demand_nm = command->faults.motor_hall ? 0.0 : command->motor_torque_nm;
+    const double speed_rad_s = motor_speed_to_limit(config, state, demand_nm, engaged, dt_s);
+    if (config->motor.model == MOTOR_FOC) {
+        return motor_foc_drive(&config->motor, &state->foc, demand_nm, speed_rad_s, voltage_v,
+                               winding_degc, dt_s);
+    }
+    return motor_drive_at(&config->motor, demand_nm, speed_rad_s, voltage_v, winding_degc);
+}
+
+static drivetrain_load load_of(const physics_config *config, const physics_state *state,
+                               const instant *now, double chainring_rad_s, int slipping)
 {
     const double reach_m = metres_per_rad(config);
-    const double chainring_rad_s = state->speed_ms / reach_m;
+    const road_forces *road = &now->road;
+    const double pull_n = slipping ? now->grip_n : road->grade_n + road->air_n;
+    const double friction_n = slipping ? 0.0 : road->rolling_n + road->brake_n + road->dyno_n;
+    const drivetrain_load load = {
+        .bike_inertia_kg_m2 = wheel_inertia_kg_m2(config, slipping),
+        .pull_nm = pull_n * reach_m,
+        .friction_nm = friction_n * reach_m,
+        .crank_nm = now->rider_nm - now->leg_drag_nm,
+        .motor_shaft_nm = now->motor.shaft_torque_nm - now->gear_drag_nm,
+        .motor_inertia_kg_m2 = config->motor.inertia_kg_m2,
+        .moving = slipping || state->speed_ms > 0.0,
+        .crank_engaged = state->crank_speed_rad_s >= chainring_rad_s,
+        .motor_engaged =
+            state->motor_speed_rad_s >= chainring_rad_s * config->drivetrain.gear_ratio,
+    };
+    return load;
+}
+
+/* The tyre lets go when the road would have to give more than its grip. */
+static int tyre_lets_go(const physics_config *config, const instant *now)
+{
+    const double outer_kg =
+        road_moving_mass_kg(&config->road) - road_rear_wheel_mass_kg(&config->road);
+    const double pushed_n = outer_kg * now->flow.acceleration_rad_s2 * metres_per_rad(config) +
+                            now->road.grade_n + now->road.air_n + now->road.rolling_n;
+    return pushed_n > now->grip_n;
+}
+
+static void gather(const physics_config *config, physics_state *state,
+                   const physics_command *command, double dt_s, instant *now)
+{
+    const double chainring_rad_s = state->wheel_speed_ms / metres_per_rad(config);
     now->road = road_forces_at(&config->road, &command->road, state->speed_ms,
                                drivetrain_chain_ratio(&config->drivetrain),
                                config->drivetrain.chain_efficiency);
     const int motor_engaged =
         state->motor_speed_rad_s >= chainring_rad_s * config->drivetrain.gear_ratio;
-    const double motor_rad_s =
-        motor_speed_to_limit(config, state, command->motor_torque_nm, motor_engaged, dt_s);
-    now->motor = motor_drive_at(&config->motor, command->motor_torque_nm, motor_rad_s,
-                                state->battery.voltage_v);
-    now->rider_nm = rider_torque_nm(&config->rider, &command->rider, state->crank_angle_rad,
-                                    state->crank_speed_rad_s);
+    now->motor = motor_pull(config, state, command, motor_engaged, dt_s);
+    now->gear_drag_nm = state->motor_speed_rad_s > 0.0 ? config->drivetrain.gear_drag_nm : 0.0;
+    now->rider_nm = rider_torque_nm(&config->rider, &state->rider, &command->rider,
+                                    state->crank_angle_rad, state->crank_speed_rad_s);
     now->leg_drag_nm = 0.0;
     if (state->crank_speed_rad_s != 0.0) {
         now->leg_drag_nm =
             copysign(rider_drag_nm(&config->rider, &command->rider), state->crank_speed_rad_s);
     }
-    const drivetrain_load load = {
-        .bike_inertia_kg_m2 = bike_inertia_kg_m2(config),
-        .pull_nm = (now->road.grade_n + now->road.air_n) * reach_m,
-        .friction_nm = (now->road.rolling_n + now->road.brake_n + now->road.dyno_n) * reach_m,
-        .crank_nm = now->rider_nm - now->leg_drag_nm,
-        .motor_shaft_nm = now->motor.shaft_torque_nm,
-        .motor_inertia_kg_m2 = config->motor.inertia_kg_m2,
-        .moving = state->speed_ms > 0.0,
-        .crank_engaged = state->crank_speed_rad_s >= chainring_rad_s,
-        .motor_engaged = motor_engaged,
-    };
+    now->grip_n = road_grip_n(&config->road, &command->road);
+    now->slipping = state->slipping;
+    drivetrain_load load = load_of(config, state, now, chainring_rad_s, now->slipping);
     now->flow = drivetrain_solve(&config->drivetrain, &load);
+    if (!now->slipping && tyre_lets_go(config, now)) {
+        now->slipping = 1;
+        load = load_of(config, state, now, chainring_rad_s, 1);
+        now->flow = drivetrain_solve(&config->drivetrain, &load);
+    }
 }
 
 static void move(const physics_config *config, const physics_state *state, double dt_s,
                  instant *now)
 {
     const double ratio = config->drivetrain.gear_ratio;
-    const double chainring_rad_s = state->speed_ms / metres_per_rad(config);
+    const double reach_m = metres_per_rad(config);
+    const double chainring_rad_s = state->wheel_speed_ms / reach_m;
     now->chainring = advance(chainring_rad_s, now->flow.acceleration_rad_s2, dt_s, 1);
+    now->bike.speed = now->chainring.speed * reach_m;
+    now->bike.travel = now->chainring.travel * reach_m;
+    if (now->slipping) {
+        const double outer_kg =
+            road_moving_mass_kg(&config->road) - road_rear_wheel_mass_kg(&config->road);
+        const double held_n =
+            now->road.grade_n + now->road.air_n + now->road.rolling_n + now->road.brake_n;
+        const double net_n = now->grip_n - held_n;
+        /* On ice uphill the grip may not do: the bike stands with a foot down. */
+        const double bike_ms2 =
+            state->speed_ms > 0.0 ? net_n / outer_kg : fmax(net_n, 0.0) / outer_kg;
+        now->bike = advance(state->speed_ms, bike_ms2, dt_s, 1);
+    }
     now->crank = now->chainring;
     if (!now->flow.crank_engaged) {
         const double alpha =
@@ -108,8 +174,9 @@ static void move(const physics_config *config, const physics_state *state, doubl
     now->motor_shaft.speed = now->chainring.speed * ratio;
     now->motor_shaft.travel = now->chainring.travel * ratio;
     if (!now->flow.motor_engaged) {
-        const double alpha = now->motor.shaft_torque_nm / config->motor.inertia_kg_m2;
-        now->motor_shaft = advance(state->motor_speed_rad_s, alpha, dt_s, 0);
+        const double torque_nm = now->motor.shaft_torque_nm - now->gear_drag_nm;
+        const double alpha = torque_nm / config->motor.inertia_kg_m2;
+        now->motor_shaft = advance(state->motor_speed_rad_s, alpha, dt_s, torque_nm < 0.0);
     }
 }
 
@@ -121,18 +188,35 @@ static double meet(double inertia, double *speed, double other_inertia, double o
     return 0.5 * slip * slip * inertia * other_inertia / (inertia + other_inertia);
 }
 
+/* A slipping wheel that is no faster than the road grips again, with all that turns along. */
+static void close_grip(const physics_config *config, physics_state *state, instant *now,
+                       double *inertia, double *chainring_rad_s)
+{
+    const double reach_m = metres_per_rad(config);
+    state->slipping = now->slipping && *chainring_rad_s * reach_m > now->bike.speed;
+    if (!now->slipping || state->slipping) {
+        return;
+    }
+    const double outer_kg =
+        road_moving_mass_kg(&config->road) - road_rear_wheel_mass_kg(&config->road);
+    const double outer = outer_kg * reach_m * reach_m;
+    state->ledger.slip_j += meet(*inertia, chainring_rad_s, outer, now->bike.speed / reach_m);
+    *inertia += outer;
+}
+
 /* A free crank or motor that has become faster than the chainring drops into its clutch. */
 static void close_clutches(const physics_config *config, physics_state *state, instant *now)
 {
     const double ratio = config->drivetrain.gear_ratio;
     const double crank_inertia = config->drivetrain.crank_inertia_kg_m2;
     const double motor_inertia = config->motor.inertia_kg_m2 * ratio * ratio;
-    double inertia = bike_inertia_kg_m2(config);
+    double inertia = wheel_inertia_kg_m2(config, now->slipping);
     inertia += now->flow.crank_engaged ? crank_inertia : 0.0;
     inertia += now->flow.motor_engaged ? motor_inertia : 0.0;
     state->crank_engaged = now->flow.crank_engaged;
     state->motor_engaged = now->flow.motor_engaged;
     double speed = now->chainring.speed;
+    close_grip(config, state, now, &inertia, &speed);
     if (!state->crank_engaged && now->crank.speed > speed) {
         state->ledger.clutch_j += meet(inertia, &speed, crank_inertia, now->crank.speed);
         inertia += crank_inertia;
@@ -143,9 +227,10 @@ static void close_clutches(const physics_config *config, physics_state *state, i
             meet(inertia, &speed, motor_inertia, now->motor_shaft.speed / ratio);
         state->motor_engaged = 1;
     }
-    state->speed_ms = speed * metres_per_rad(config);
-    /* Taken back from the bike's speed, so that an engaged part compares equal in the next step. */
-    const double chainring_rad_s = state->speed_ms / metres_per_rad(config);
+    state->wheel_speed_ms = speed * metres_per_rad(config);
+    state->speed_ms = state->slipping ? now->bike.speed : state->wheel_speed_ms;
+    /* Taken back from the wheel, so that an engaged part compares equal in the next step. */
+    const double chainring_rad_s = state->wheel_speed_ms / metres_per_rad(config);
     state->crank_speed_rad_s = state->crank_engaged ? chainring_rad_s : now->crank.speed;
     state->motor_speed_rad_s =
         state->motor_engaged ? chainring_rad_s * ratio : now->motor_shaft.speed;
@@ -154,23 +239,72 @@ static void close_clutches(const physics_config *config, physics_state *state, i
 static void book(const physics_config *config, physics_ledger *ledger, const instant *now,
                  double dt_s)
 {
+    const drivetrain_config *drive = &config->drivetrain;
     const double chainring_rad = now->chainring.travel;
-    const double travel_m = chainring_rad * metres_per_rad(config);
-    const double gear_out_nm = config->drivetrain.gear_efficiency * now->flow.motor_nm;
+    const double travel_m = now->bike.travel;
+    const double gear_out_nm = drivetrain_gear_share(drive) * now->flow.motor_nm;
     const double chain_in_nm = now->flow.crank_nm + gear_out_nm;
+    const int driven = now->flow.crank_engaged || now->flow.motor_engaged;
     ledger->rider_work_j += now->rider_nm * now->crank.travel;
     ledger->legs_j += now->leg_drag_nm * now->crank.travel;
     ledger->motor_electric_j += now->motor.electromagnetic_torque_nm * now->motor_shaft.travel +
-                                now->motor.copper_loss_w * dt_s;
+                                (now->motor.copper_loss_w + now->motor.magnetic_w) * dt_s;
     ledger->copper_j += now->motor.copper_loss_w * dt_s;
     ledger->motor_friction_j += now->motor.friction_torque_nm * now->motor_shaft.travel;
-    ledger->gear_j += (now->flow.motor_nm - gear_out_nm) * chainring_rad;
-    ledger->chain_j += (1.0 - config->drivetrain.chain_efficiency) * chain_in_nm * chainring_rad;
+    ledger->gear_j += (now->flow.motor_nm - gear_out_nm) * chainring_rad +
+                      now->gear_drag_nm * now->motor_shaft.travel;
+    /* What the printed equation makes out of nothing is no negative loss: it stays unexplained. */
+    const double chain_share = drive->literal_4_14 ? 1.0 : drive->chain_efficiency;
+    ledger->chain_j += (1.0 - chain_share) * chain_in_nm * chainring_rad;
+    ledger->chain_j += driven ? drive->chain_drag_nm * chainring_rad : 0.0;
     ledger->potential_j += now->road.grade_n * travel_m;
     ledger->air_j += now->road.air_n * travel_m;
     ledger->rolling_j += now->road.rolling_n * travel_m;
     ledger->brake_j += now->road.brake_n * travel_m;
     ledger->dyno_j += now->road.dyno_n * travel_m;
+    if (now->slipping) {
+        ledger->slip_j += now->grip_n * (chainring_rad * metres_per_rad(config) - travel_m);
+    }
+}
+
+static void warm(const physics_config *config, physics_state *state, const instant *now,
+                 const physics_command *command, double dt_s)
+{
+    const double motor_rad_s = now->motor_shaft.travel / dt_s;
+    const double friction_w = now->motor.friction_torque_nm * motor_rad_s;
+    const double electric_w = now->motor.electromagnetic_torque_nm * motor_rad_s +
+                              now->motor.copper_loss_w + now->motor.magnetic_w;
+    motor_heat_step(&config->motor, &state->heat, now->motor.copper_loss_w, friction_w, dt_s);
+    battery_step(&config->battery, &state->battery, electric_w, command->faults.battery_cut, dt_s);
+    rider_tire(&config->rider, &state->rider, now->rider_nm * now->crank.travel / dt_s, dt_s);
+}
+
+/* What the sensors make of it: the speed at the wheel, and every 2 ms a word from the spindle. */
+static void sense(const physics_config *config, physics_state *state,
+                  const physics_command *command, double dt_s)
+{
+    switch (command->faults.speed_sensor) {
+    case SPEED_SENSOR_LOST:
+        state->seen_speed_ms = 0.0;
+        state->seen_speed_age_s += dt_s;
+        break;
+    case SPEED_SENSOR_STUCK: break;
+    default:
+        state->seen_speed_ms = state->wheel_speed_ms;
+        state->seen_speed_age_s = 0.0;
+        break;
+    }
+    state->steps++;
+    state->link.arrived = 0;
+    if (state->steps % ROTOR_LINK_PERIOD_MS != 0) {
+        return;
+    }
+    const int16_t counts = torque_sensor_read(
+        &config->sensor, &state->sensor, state->spindle_torque_nm, state->crank_angle_rad,
+        command->faults.torque_sensor, ROTOR_LINK_PERIOD_MS * dt_s);
+    rotor_link_exchange(&config->link, &state->link, counts,
+                        torque_sensor_temperature_degc(&state->sensor),
+                        state->crank_angle_rad * DEG_PER_RAD, command->faults.link_lost);
 }
 
 void physics_step(const physics_config *config, physics_state *state,
@@ -182,7 +316,7 @@ void physics_step(const physics_config *config, physics_state *state,
     close_clutches(config, state, &now);
     book(config, &state->ledger, &now, dt_s);
 
-    const double travel_m = now.chainring.travel * metres_per_rad(config);
+    const double travel_m = now.bike.travel;
     state->t_s += dt_s;
     state->distance_m += travel_m;
     state->height_m += travel_m * sin(command->road.grade_deg * PI / 180.0);
@@ -192,45 +326,42 @@ void physics_step(const physics_config *config, physics_state *state,
     state->motor_shaft_nm =
         now.motor.electromagnetic_torque_nm > 0.0 ? now.motor.shaft_torque_nm : 0.0;
     state->motor_current_a = now.motor.current_a;
-    const double motor_rad_s = now.motor_shaft.travel / dt_s;
-    const double friction_w = now.motor.friction_torque_nm * motor_rad_s;
-    state->motor_temperature_degc = motor_temperature_after(
-        &config->motor, state->motor_temperature_degc, now.motor.copper_loss_w + friction_w, dt_s);
-    const double electric_w =
-        now.motor.electromagnetic_torque_nm * motor_rad_s + now.motor.copper_loss_w;
-    battery_step(&config->battery, &state->battery, electric_w, dt_s);
-    state->torque_counts = torque_sensor_read(&config->sensor, &state->sensor, now.flow.crank_nm);
+    warm(config, state, &now, command, dt_s);
+    sense(config, state, command, dt_s);
 }
 
-static double kinetic_j(const physics_config *config, const physics_state *state)
+static double stored_j(const physics_config *config, const physics_state *state)
 {
-    const double mass_kg = road_moving_mass_kg(&config->road);
+    const double rear_kg = road_rear_wheel_mass_kg(&config->road);
+    const double outer_kg = road_moving_mass_kg(&config->road) - rear_kg;
     const double crank_inertia = config->drivetrain.crank_inertia_kg_m2;
-    return 0.5 * mass_kg * state->speed_ms * state->speed_ms +
+    const rotor_values current_a = state->foc.current_a;
+    const double field_j =
+        0.75 * config->motor.inductance_h * (current_a.d * current_a.d + current_a.q * current_a.q);
+    return 0.5 * outer_kg * state->speed_ms * state->speed_ms +
+           0.5 * rear_kg * state->wheel_speed_ms * state->wheel_speed_ms +
            0.5 * crank_inertia * state->crank_speed_rad_s * state->crank_speed_rad_s +
-           0.5 * config->motor.inertia_kg_m2 * state->motor_speed_rad_s * state->motor_speed_rad_s;
+           0.5 * config->motor.inertia_kg_m2 * state->motor_speed_rad_s * state->motor_speed_rad_s +
+           field_j;
 }
 
 void physics_begin_ledger(const physics_config *config, physics_state *state)
 {
     const physics_ledger empty = {0};
     state->ledger = empty;
-    state->ledger.kinetic_start_j = kinetic_j(config, state);
+    state->ledger.stored_start_j = stored_j(config, state);
 }
 
 double physics_energy_balance_error_pct(const physics_config *config, const physics_state *state)
 {
-    const physics_ledger *ledger = &state->ledger;
-    const double in_j = ledger->rider_work_j + ledger->motor_electric_j;
-    if (in_j < 1.0) {
-        return (double)NAN;
-    }
-    const double losses_j = ledger->copper_j + ledger->motor_friction_j + ledger->gear_j +
-                            ledger->chain_j + ledger->clutch_j + ledger->legs_j +
-                            ledger->rolling_j + ledger->air_j + ledger->brake_j + ledger->dyno_j;
-    const double stored_j =
-        kinetic_j(config, state) - ledger->kinetic_start_j + ledger->potential_j;
-    return 100.0 * fabs(in_j - stored_j - losses_j) / in_j;
+    return ledger_balance_error_pct(&state->ledger, stored_j(config, state));
+}
+
+int physics_is_energy_consistent(const physics_config *config)
+{
+    const int printed_dyno =
+        config->road.source == LOAD_DYNO && config->road.dyno_convention == DYNO_THESIS;
+    return !config->drivetrain.literal_4_14 && !printed_dyno;
 }
 
 physics_kinematics physics_kinematics_at(const physics_config *config, double speed_kmh)
@@ -251,10 +382,22 @@ void physics_reset(const physics_config *config, physics_state *state, double sp
     const physics_state rest = {0};
     *state = rest;
     state->speed_ms = speed_kmh / KMH_PER_MS;
+    state->wheel_speed_ms = state->speed_ms;
+    state->seen_speed_ms = state->speed_ms;
     state->crank_speed_rad_s = state->speed_ms / metres_per_rad(config);
     state->motor_speed_rad_s = state->crank_speed_rad_s * config->drivetrain.gear_ratio;
-    state->motor_temperature_degc = config->motor.ambient_degc;
-    state->sensor.random = seed;
+    motor_heat_reset(&config->motor, &state->heat);
     battery_reset(&config->battery, &state->battery);
+    rider_reset(&config->rider, &state->rider);
+    torque_sensor_reset(&config->sensor, &state->sensor);
+    rotor_link_reset(&state->link, torque_sensor_temperature_degc(&state->sensor));
+    physics_seed(state, seed);
     physics_begin_ledger(config, state);
+}
+
+void physics_seed(physics_state *state, uint64_t seed)
+{
+    state->rider.random = seed ^ LEGS_STREAM;
+    state->sensor.random = seed;
+    rotor_link_seed(&state->link, seed ^ LINK_STREAM);
 }

@@ -9,9 +9,12 @@
 
 #include "battery.h"       // battery_config
 #include "drivetrain.h"    // drivetrain_config
+#include "ledger.h"        // physics_ledger
 #include "motor.h"         // motor_config
+#include "motor_foc.h"     // motor_foc_state
 #include "rider.h"         // rider_command
 #include "road.h"          // road_command
+#include "rotor_link.h"    // rotor_link_config
 #include "torque_sensor.h" // torque_sensor_config
 
 typedef struct {
@@ -21,49 +24,53 @@ typedef struct {
     battery_config battery;
     rider_config rider;
     torque_sensor_config sensor;
+    rotor_link_config link;
 } physics_config;
+
+typedef enum { SPEED_SENSOR_SOUND = 0, SPEED_SENSOR_LOST = 1, SPEED_SENSOR_STUCK = 2 } speed_fault;
+
+/* What is broken; all zero is a sound bike. */
+typedef struct {
+    int torque_sensor;          /* torque_sensor_fault */
+    int speed_sensor;           /* speed_fault */
+    int link_lost;              /* no carrier between spindle and housing */
+    int motor_hall;             /* the motor does not know where its rotor is, and stands still */
+    int battery_cut;            /* the battery's management opens its switch */
+    double motor_warmer_k;      /* what the motor's thermometer shows too much */
+    double controller_warmer_k; /* and the controller's */
+} physics_faults;
 
 typedef struct {
     rider_command rider;
     road_command road;
+    physics_faults faults;
     double motor_torque_nm; /* at the motor's shaft */
 } physics_command;
-
-/* Joules since the last physics_begin_ledger. */
-typedef struct {
-    double rider_work_j;
-    double motor_electric_j; /* from the battery's terminals */
-    double kinetic_start_j;
-    double potential_j;
-    double copper_j;
-    double motor_friction_j;
-    double gear_j;
-    double chain_j;
-    double clutch_j;
-    double legs_j;
-    double rolling_j;
-    double air_j;
-    double brake_j;
-    double dyno_j;
-} physics_ledger;
 
 typedef struct {
     double t_s;
     double distance_m;
     double height_m;
     double speed_ms;
+    double wheel_speed_ms;    /* of the rear tyre; more than speed_ms while it slips */
     double crank_speed_rad_s; /* negative backwards */
     double crank_angle_rad;   /* 0 to 2 pi */
     double motor_speed_rad_s;
     double spindle_torque_nm; /* what passes the strain gauges */
     double motor_shaft_nm;
     double motor_current_a;
-    double motor_temperature_degc;
+    double seen_speed_ms; /* by the speed sensor, at the wheel */
+    double seen_speed_age_s;
     int crank_engaged;
     int motor_engaged;
-    int16_t torque_counts;
+    int slipping;
+    uint32_t steps;
+    motor_heat heat;
+    motor_foc_state foc;
     battery_state battery;
+    rider_state rider;
     torque_sensor_state sensor;
+    rotor_link_state link;
     physics_ledger ledger;
 } physics_state;
 
@@ -74,16 +81,23 @@ void physics_default(physics_config *config);
 void physics_reset(const physics_config *config, physics_state *state, double speed_kmh,
                    uint64_t seed);
 
+/* Starts the noise of legs, sensor and link afresh; everything else goes on. */
+void physics_seed(physics_state *state, uint64_t seed);
+
 /* One step of `dt_s` (0.001). Velocity first, then position with the mean velocity of the step,
- * so that work and kinetic energy agree to rounding. */
+ * so that work and kinetic energy agree to rounding. Every second step ends with an exchange of the
+ * rotor link. */
 void physics_step(const physics_config *config, physics_state *state,
                   const physics_command *command, double dt_s);
 
 /* Starts the books afresh; needed after the configuration changed under a moving bike. */
 void physics_begin_ledger(const physics_config *config, physics_state *state);
 
-/* |work in - change of kinetic and potential energy - losses| over work in; NaN below a joule. */
+/* |work in - change of stored energy - losses| over work in, so far; NaN below a joule. */
 double physics_energy_balance_error_pct(const physics_config *config, const physics_state *state);
+
+/* 0 where the run follows a printed equation that does not conserve energy: I-9, I-11. */
+int physics_is_energy_consistent(const physics_config *config);
 
 /* Rotation at `speed_kmh` with everything engaged (thesis eq. 2.7 to 2.9). */
 typedef struct {

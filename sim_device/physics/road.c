@@ -4,15 +4,18 @@
 
 #define RAD_PER_DEG (3.14159265358979323846 / 180.0)
 
+/* The dynamometer only brakes: a slope downwards is no load (thesis_checks 4.6). */
 static double dyno_force_n(const road_config *config, const road_command *command,
                            double chain_ratio, double chain_efficiency)
 {
-    const double force_n = command->dyno_nm / config->dyno_roller_radius_m;
+    const double lift_n =
+        config->mass_kg * config->gravity_m_s2 * sin(command->grade_deg * RAD_PER_DEG);
+    const double force_n = command->dyno_nm / config->dyno_roller_radius_m + fmax(lift_n, 0.0);
     if (config->dyno_convention == DYNO_PHYSICAL) {
         return force_n;
     }
     /* The printed relation puts dyno / ratio on the cranks; this is the tyre force that does. */
-    const double crank_nm = command->dyno_nm / chain_ratio;
+    const double crank_nm = force_n * config->dyno_roller_radius_m / chain_ratio;
     return crank_nm * chain_efficiency / (chain_ratio * config->wheel_radius_m);
 }
 
@@ -20,12 +23,13 @@ road_forces road_forces_at(const road_config *config, const road_command *comman
                            double chain_ratio, double chain_efficiency)
 {
     road_forces forces = {0};
+    const double weight_n = config->mass_kg * config->gravity_m_s2;
     forces.brake_n = command->brake ? config->brake_force_n : 0.0;
     if (config->source == LOAD_DYNO) {
         forces.dyno_n = dyno_force_n(config, command, chain_ratio, chain_efficiency);
+        forces.rolling_n = config->roller_coefficient * weight_n;
         return forces;
     }
-    const double weight_n = config->mass_kg * config->gravity_m_s2;
     const double grade_rad = command->grade_deg * RAD_PER_DEG;
     const double air_ms = speed_ms + command->wind_ms;
     forces.grade_n = weight_n * sin(grade_rad);
@@ -36,7 +40,27 @@ road_forces road_forces_at(const road_config *config, const road_command *comman
 
 double road_moving_mass_kg(const road_config *config)
 {
-    const double mass_kg = config->source == LOAD_DYNO ? config->dyno_mass_kg : config->mass_kg;
-    return mass_kg +
-           config->wheel_inertia_kg_m2 / (config->wheel_radius_m * config->wheel_radius_m);
+    const double wheels_kg =
+        config->wheel_inertia_kg_m2 / (config->wheel_radius_m * config->wheel_radius_m);
+    if (config->source != LOAD_DYNO) {
+        return config->mass_kg + wheels_kg;
+    }
+    const double roller_squared = config->dyno_roller_radius_m * config->dyno_roller_radius_m;
+    return config->dyno_mass_kg + wheels_kg +
+           (config->flywheel_kg_m2 + config->rollers_kg_m2) / roller_squared;
+}
+
+double road_rear_wheel_mass_kg(const road_config *config)
+{
+    return 0.5 * config->wheel_inertia_kg_m2 / (config->wheel_radius_m * config->wheel_radius_m);
+}
+
+double road_grip_n(const road_config *config, const road_command *command)
+{
+    if (config->source == LOAD_DYNO || !(config->grip > 0.0)) {
+        return HUGE_VAL;
+    }
+    const double pressed_n = config->rear_wheel_share * config->mass_kg * config->gravity_m_s2 *
+                             cos(command->grade_deg * RAD_PER_DEG);
+    return config->grip * pressed_n;
 }

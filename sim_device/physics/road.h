@@ -22,13 +22,18 @@ typedef struct {
     double brake_force_n; /* of a pulled lever */
     int dyno_convention;  /* dyno_convention */
     double dyno_roller_radius_m;
-    double dyno_mass_kg; /* flywheel and rollers as a mass at the tyre */
+    double flywheel_kg_m2; /* the bench's, on the roller's shaft */
+    double rollers_kg_m2;
+    double dyno_mass_kg;       /* more of it, as a mass at the tyre */
+    double roller_coefficient; /* rubber on the rollers */
+    double grip;               /* tyre on the road; 0: never slips */
+    double rear_wheel_share;   /* of the weight */
 } road_config;
 
 typedef struct {
-    double grade_deg;
-    double wind_ms; /* headwind positive */
-    double dyno_nm; /* at the roller */
+    double grade_deg; /* on the bench: the lift, and the load that eq. 4.3 gives it */
+    double wind_ms;   /* headwind positive */
+    double dyno_nm;   /* at the roller */
     int brake;
 } road_command;
 
@@ -47,5 +52,11 @@ road_forces road_forces_at(const road_config *config, const road_command *comman
 
 /* What has to be accelerated along the road, wheels included (thesis eq. 4.5). */
 double road_moving_mass_kg(const road_config *config);
+
+/* The part of it that is the rear wheel. */
+double road_rear_wheel_mass_kg(const road_config *config);
+
+/* Most the rear tyre can push with at this slope; infinite where it never slips. */
+double road_grip_n(const road_config *config, const road_command *command);
 
 #endif

@@ -226,10 +226,22 @@ class Unit:
         road.dyno_nm = dyno_nm
         road.brake = int(brake)
 
+    def set_faults(self, faults: dict[str, float]) -> None:
+        """`name` -> value of physics_faults in physics.h; what is not named is sound."""
+        lib.unit_stimulus(self._unit).faults = faults
+
+    def hold_walk_button(self, held: bool) -> None:
+        """Holds or releases the button for walk assist."""
+        lib.unit_hold_walk_button(self._unit, int(held))
+
     def change_bike(self, values: dict[str, float]) -> None:
         """Changes `part.name` values of the bike and starts its energy ledger afresh."""
-        _change(lib.unit_bike(self._unit), values)
+        self.change_surroundings(values)
         lib.unit_begin_ledger(self._unit)
+
+    def change_surroundings(self, values: dict[str, float]) -> None:
+        """Changes `part.name` values that hold no energy; the ledger goes on."""
+        _change(lib.unit_bike(self._unit), values)
 
     def place(self, speed_kmh: float, seed: int) -> None:
         """Puts the bike on the road at this speed; ledger, distance and noise start afresh."""

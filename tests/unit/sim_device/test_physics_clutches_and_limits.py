@@ -54,7 +54,7 @@ def test_pedalling_backwards_moves_nothing_but_the_cranks() -> None:
     assert pedalling.state.crank_speed_rad_s * RPM_PER_RAD_S == pytest.approx(-60.0, abs=5.0)
     assert pedalling.speed_kmh == coasting.speed_kmh
     assert pedalling.state.spindle_torque_nm == 0.0
-    assert pedalling.state.torque_counts == 0
+    assert abs(pedalling.state.sensor.counts) <= 1
 
 
 def test_a_motor_asked_for_torque_catches_up_within_a_twentieth_of_a_second() -> None:
@@ -116,7 +116,7 @@ def test_no_torque_comes_from_a_motor_above_3000_rpm() -> None:
 
     motor = ffi.addressof(bike.config, "motor")
     voltage_v = bike.state.battery.voltage_v
-    drive = lib.motor_drive_at(motor, 2.0, bike.state.motor_speed_rad_s, voltage_v)
+    drive = lib.motor_drive_at(motor, 2.0, bike.state.motor_speed_rad_s, voltage_v, 20.0)
 
     assert drive.electromagnetic_torque_nm == 0.0
 
@@ -186,7 +186,9 @@ def test_the_battery_sags_under_load_and_counts_its_charge() -> None:
     battery = bike.state.battery
     sag_v = battery.current_a * bike.config.battery.resistance_ohm
     assert battery.current_a > 1.0
-    assert battery.voltage_v == pytest.approx(rest_v - sag_v, abs=0.1)
+    # The RC pair of 40 s has come to 1 - exp(-20/40) of its voltage (thesis_checks 6).
+    slow_v = battery.current_a * bike.config.battery.polarisation_ohm * (1 - math.exp(-0.5))
+    assert battery.voltage_v == pytest.approx(rest_v - sag_v - slow_v, abs=0.06)
     drawn_wh = bike.state.ledger.motor_electric_j / 3600
     share_pct = 100 * drawn_wh / (bike.config.battery.capacity_ah * battery.voltage_v)
     fallen_pct = bike.config.battery.soc_pct_start - battery.soc_pct
@@ -201,4 +203,4 @@ def test_the_sensor_gives_hundredths_and_keeps_to_sixteen_bits() -> None:
         bike.rider(torque_nm)
         bike.config.road.brake_force_n = 1e6
         bike.advance(0.002)
-        assert bike.state.torque_counts == counts
+        assert bike.state.sensor.counts == pytest.approx(counts, abs=1)

@@ -8,6 +8,7 @@
 #include "ebl_registry.h" // EBL_DEVICE_CLASS_MID_DRIVE_SIMULATED
 #include "hal.h"          // hal
 #include "log_flash.h"    // log_flash_open
+#include "plant_inputs.h" // plant_inputs
 #include "uart_line.h"    // uart_line_advance
 
 #define PHYSICS_PERIOD_US 1000u
@@ -30,8 +31,10 @@ struct unit {
     physics_command stimulus;
     uint64_t now_us;
     uint64_t target_us;
+    rotor_receiver receiver;
     uint8_t mode_selected;
     uint8_t bike_alone;
+    uint8_t walk_button;
     byte_queue from_host;
     byte_queue to_host;
     uart_line up; /* towards the host; both only where the line has a rate */
@@ -82,20 +85,9 @@ static int board_serial_drained(void *context)
 static void board_inputs_read(void *context, hal_inputs *inputs)
 {
     const unit *self = context;
-    const physics_state *state = &self->state;
-    inputs->torque_raw_counts = (float)state->torque_counts;
-    inputs->sensor_temperature_degc = (float)self->bike.sensor.temperature_degc;
-    inputs->speed_kmh = (float)(state->speed_ms * KMH_PER_MS);
-    inputs->crank_angle_deg = (float)(state->crank_angle_rad * DEG_PER_RAD);
-    inputs->cadence_rpm = (float)(state->crank_speed_rad_s * RPM_PER_RAD_S);
-    inputs->motor_speed_rpm = (float)(state->motor_speed_rad_s * RPM_PER_RAD_S);
-    inputs->motor_current_a = (float)state->motor_current_a;
-    inputs->motor_temperature_degc = (float)state->motor_temperature_degc;
-    inputs->battery_voltage_v = (float)state->battery.voltage_v;
-    inputs->battery_current_a = (float)state->battery.current_a;
-    inputs->battery_soc_pct = (float)state->battery.soc_pct;
+    plant_inputs(&self->state, &self->stimulus, &self->receiver, inputs);
     inputs->mode_selected = self->mode_selected;
-    inputs->brake = self->stimulus.road.brake ? 1 : 0;
+    inputs->walk_button = self->walk_button;
 }
 
 void unit_inputs(unit *self, hal_inputs *inputs)
@@ -278,6 +270,7 @@ void unit_advance_us(unit *self, uint64_t duration_us)
         }
         line_advance(self);
         physics_step(&self->bike, &self->state, &self->stimulus, PHYSICS_PERIOD_US * 1e-6);
+        plant_rotor_exchange(&self->state, &self->receiver);
         self->now_us += PHYSICS_PERIOD_US;
     }
 }
@@ -312,17 +305,23 @@ void unit_observe(const unit *self, unit_observation *seen)
     const unit_observation now = {
         .t_s = (double)self->now_us * 1e-6,
         .speed_kmh = state->speed_ms * KMH_PER_MS,
+        .wheel_speed_kmh = state->wheel_speed_ms * KMH_PER_MS,
         .distance_m = state->distance_m,
         .height_m = state->height_m,
         .cadence_rpm = state->crank_speed_rad_s * RPM_PER_RAD_S,
         .crank_angle_deg = state->crank_angle_rad * DEG_PER_RAD,
         .spindle_torque_nm = state->spindle_torque_nm,
-        .torque_raw_counts = state->torque_counts,
+        .rider_torque_nm = (double)law->rider_torque_nm,
+        .torque_raw_counts = (double)self->receiver.torque_raw_counts,
+        .torque_age_ms = self->receiver.age_ms,
+        .sensor_temperature_degc = self->receiver.temperature_degc,
         .motor_demand_nm = self->stimulus.motor_torque_nm,
         .motor_torque_nm = state->motor_shaft_nm,
         .motor_speed_rpm = state->motor_speed_rad_s * RPM_PER_RAD_S,
         .motor_current_a = state->motor_current_a,
-        .motor_temperature_degc = state->motor_temperature_degc,
+        .motor_temperature_degc = state->heat.winding_degc,
+        .motor_housing_degc = state->heat.housing_degc,
+        .controller_temperature_degc = state->heat.bridge_degc,
         .battery_voltage_v = state->battery.voltage_v,
         .battery_current_a = state->battery.current_a,
         .battery_soc_pct = state->battery.soc_pct,
@@ -330,6 +329,8 @@ void unit_observe(const unit *self, unit_observation *seen)
         .fuzzy_gain = (double)law->fuzzy_gain,
         .rider_work_j = state->ledger.rider_work_j,
         .motor_electric_j = state->ledger.motor_electric_j,
+        .losses_j = ledger_losses_j(&state->ledger),
+        .rider_reserve_j = state->rider.reserve_j,
         .energy_balance_error_pct = physics_energy_balance_error_pct(&self->bike, state),
         .assist_mode = self->mode_selected < ASSIST_MODE_SLOTS
                            ? self->mode_selected
@@ -337,6 +338,14 @@ void unit_observe(const unit *self, unit_observation *seen)
         .limit_flags = law->limit_flags,
         .crank_engaged = state->crank_engaged,
         .motor_engaged = state->motor_engaged,
+        .slipping = state->slipping,
+        .battery_cut = state->battery.cut,
+        .energy_consistent = physics_is_energy_consistent(&self->bike),
+        .link_exchanges = state->link.exchanges,
+        .words_damaged = state->link.words_damaged,
+        .words_good = self->receiver.words_good,
+        .words_bad = self->receiver.words_bad,
+        .words_lost = self->receiver.words_lost,
     };
     *seen = now;
 }
@@ -350,11 +359,14 @@ void unit_begin_ledger(unit *self) { physics_begin_ledger(&self->bike, &self->st
 void unit_place(unit *self, double speed_kmh, uint64_t seed)
 {
     physics_reset(&self->bike, &self->state, speed_kmh, seed);
+    rotor_receiver_init(&self->receiver, torque_sensor_temperature_degc(&self->state.sensor));
 }
 
-void unit_seed_noise(unit *self, uint64_t seed) { self->state.sensor.random = seed; }
+void unit_seed_noise(unit *self, uint64_t seed) { physics_seed(&self->state, seed); }
 
 void unit_select_mode(unit *self, uint8_t mode) { self->mode_selected = mode; }
+
+void unit_hold_walk_button(unit *self, int held) { self->walk_button = held ? 1 : 0; }
 
 void unit_flash_cut_after(unit *self, uint32_t bytes) { self->flash_bytes_left = bytes; }
 

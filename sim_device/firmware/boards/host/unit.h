@@ -45,17 +45,23 @@ typedef struct {
 typedef struct {
     double t_s;
     double speed_kmh;
+    double wheel_speed_kmh;
     double distance_m;
     double height_m;
     double cadence_rpm;
     double crank_angle_deg;
     double spindle_torque_nm;
-    double torque_raw_counts;
+    double rider_torque_nm;   /* as the law has it; NaN if it was refused */
+    double torque_raw_counts; /* as the receiver gives it out */
+    double torque_age_ms;
+    double sensor_temperature_degc; /* of the last word */
     double motor_demand_nm;
     double motor_torque_nm;
     double motor_speed_rpm;
     double motor_current_a;
-    double motor_temperature_degc;
+    double motor_temperature_degc; /* winding */
+    double motor_housing_degc;
+    double controller_temperature_degc;
     double battery_voltage_v;
     double battery_current_a;
     double battery_soc_pct;
@@ -63,11 +69,21 @@ typedef struct {
     double fuzzy_gain; /* NaN where the mode does not use it */
     double rider_work_j;
     double motor_electric_j;
+    double losses_j;
+    double rider_reserve_j;          /* W' left, of a rider that tires */
     double energy_balance_error_pct; /* NaN before any work was done */
     int assist_mode;
     int limit_flags;
     int crank_engaged;
     int motor_engaged;
+    int slipping;
+    int battery_cut;
+    int energy_consistent;   /* 0: a printed equation that makes energy (I-9, I-11) */
+    uint32_t link_exchanges; /* with the rotor, 500 a second */
+    uint32_t words_damaged;  /* in truth; the other three are what the receiver noticed */
+    uint32_t words_good;
+    uint32_t words_bad;
+    uint32_t words_lost;
 } unit_observation;
 
 typedef struct unit unit;
@@ -110,6 +126,9 @@ void unit_seed_noise(unit *self, uint64_t seed);
 
 /* Presses the handlebar's mode button; UNIT_MODE_NOT_SELECTED leaves the choice to the unit. */
 void unit_select_mode(unit *self, uint8_t mode);
+
+/* The handlebar's button for walk assist. */
+void unit_hold_walk_button(unit *self, int held);
 
 const uint8_t *unit_flash(const unit *self);
 

@@ -1,0 +1,50 @@
+#include "plant_inputs.h"
+
+#define DEG_PER_RAD (180.0 / 3.14159265358979323846)
+#define RPM_PER_RAD_S (30.0 / 3.14159265358979323846)
+#define KMH_PER_MS 3.6
+#define MS_PER_S 1000.0
+#define SPEED_AGE_MS_MAX 60000.0
+
+rotor_calibration plant_rotor_calibration(void)
+{
+    const rotor_calibration as_drawn = {
+        .zero_counts_per_k = 2.0f,
+        .span_share_per_k = 2e-4f,
+        .reference_degc = 20.0f,
+    };
+    return as_drawn;
+}
+
+void plant_rotor_exchange(const physics_state *state, rotor_receiver *receiver)
+{
+    if (!state->link.arrived) return;
+    const rotor_calibration calibration = plant_rotor_calibration();
+    rotor_receiver_exchange(receiver, &calibration, state->link.present, state->link.word);
+}
+
+void plant_inputs(const physics_state *state, const physics_command *command,
+                  const rotor_receiver *receiver, hal_inputs *inputs)
+{
+    const physics_faults *faults = &command->faults;
+    const double speed_age_ms = state->seen_speed_age_s * MS_PER_S;
+    inputs->torque_raw_counts = receiver->torque_raw_counts;
+    inputs->torque_age_ms = receiver->age_ms;
+    inputs->sensor_temperature_degc = (float)receiver->temperature_degc;
+    inputs->speed_kmh = (float)(state->seen_speed_ms * KMH_PER_MS);
+    inputs->speed_age_ms =
+        (uint16_t)(speed_age_ms < SPEED_AGE_MS_MAX ? speed_age_ms : SPEED_AGE_MS_MAX);
+    inputs->crank_angle_deg = (float)(state->crank_angle_rad * DEG_PER_RAD);
+    inputs->cadence_rpm = (float)(state->crank_speed_rad_s * RPM_PER_RAD_S);
+    inputs->motor_speed_rpm =
+        faults->motor_hall ? 0.0f : (float)(state->motor_speed_rad_s * RPM_PER_RAD_S);
+    inputs->motor_current_a = (float)state->motor_current_a;
+    inputs->motor_temperature_degc = (float)(state->heat.winding_degc + faults->motor_warmer_k);
+    inputs->controller_temperature_degc =
+        (float)(state->heat.bridge_degc + faults->controller_warmer_k);
+    inputs->battery_voltage_v = (float)state->battery.voltage_v;
+    inputs->battery_current_a = (float)state->battery.current_a;
+    inputs->battery_soc_pct = (float)state->battery.soc_pct;
+    inputs->battery_cut = state->battery.cut ? 1 : 0;
+    inputs->brake = command->road.brake ? 1 : 0;
+}
