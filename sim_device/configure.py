@@ -37,7 +37,7 @@ def write_config(unit: Unit, changes: dict[str, Any]) -> None:
 
     Raises ConfigureError with the unit's status and detail.
     """
-    exchange = _Exchange(unit)
+    exchange = Exchange(unit)
     info: Any = exchange.ask(CfgInfoRequest())
     staged = unpack_image(_read_image(exchange, info.image_length)) | changes
     begun: Any = exchange.ask(
@@ -56,7 +56,7 @@ def write_config(unit: Unit, changes: dict[str, Any]) -> None:
     )
 
 
-def _read_image(exchange: "_Exchange", length: int) -> bytes:
+def _read_image(exchange: "Exchange", length: int) -> bytes:
     image = b""
     while len(image) < length:
         wanted = min(READ_LENGTH, length - len(image))
@@ -69,8 +69,9 @@ def _read_image(exchange: "_Exchange", length: int) -> bytes:
     return image
 
 
-class _Exchange:
-    """One question at a time; everything but its answer is dropped."""
+class Exchange:
+    """One question at a time, the unit's clock moving on until it is answered; everything but the
+    answer is dropped."""
 
     def __init__(self, unit: Unit) -> None:
         self._unit = unit
@@ -78,8 +79,8 @@ class _Exchange:
         self._tid = 0
 
     def ask(self, message: Message) -> Message:
-        self._tid = self._tid % 255 + 1
-        self._unit.receive(encode_frame(encode(Request(self._tid, message))))
+        """The answer's payload. Raises ConfigureError for a refusal and for silence."""
+        self.tell(message)
         for _ in range(ANSWER_MS_MAX):
             self._unit.advance_us(1000)
             for frame in self._decoder.feed(self._unit.transmit()):
@@ -90,6 +91,11 @@ class _Exchange:
                 if answer.message_id == message.MESSAGE_ID:
                     return self._accepted(answer)
         raise ConfigureError(f"{type(message).__name__}: no answer in {ANSWER_MS_MAX} ms")
+
+    def tell(self, message: Message) -> None:
+        """Sends without waiting for the answer; the clock stands."""
+        self._tid = self._tid % 255 + 1
+        self._unit.receive(encode_frame(encode(Request(self._tid, message))))
 
     def _accepted(self, answer: Response) -> Message:
         if answer.status != Status.OK or answer.message is None:

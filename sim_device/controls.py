@@ -9,7 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from sim_device.scenario_file import ScenarioError, Setting, load, names, read_phase_value
+from sim_device.scenario_file import load, names
+from sim_device.scenario_phase import FAULTS, ScenarioError, Setting, read_phase_value
 
 SPEED_FACTOR_MIN = 0.01
 SPEED_FACTOR_MAX = 1000.0
@@ -18,14 +19,24 @@ CLOCKS = ("real", "virtual")
 LOAD_SOURCES = {"road": 0, "dyno": 1}
 
 # A host may send back what it was given: these say something, and change nothing.
-_READ_ONLY = {"t_s", "advance_left_s", "energy_balance_error_pct", "energy_consistent"}
+_READ_ONLY = {
+    "t_s",
+    "advance_left_s",
+    "rotor_link",
+    "energy_balance_error_pct",
+    "energy_consistent",
+}
 
 
 @dataclass
 class Changes:
-    """Checked changes; None or an empty dict means as it was."""
+    """Checked changes; None or an empty dict means as it was.
+
+    by_hand: what is broken and around the bike. It lasts through the phases of a scenario.
+    """
 
     phase: dict[str, Any] = field(default_factory=dict)
+    by_hand: dict[str, Any] = field(default_factory=dict)
     bike: dict[str, float] = field(default_factory=dict)
     dyno_nm: float | None = None
     scenario: str | None = None
@@ -65,6 +76,15 @@ def _members(field: str, value: object, known: set[str]) -> dict[str, Any]:
 
 def _phase_value(changes: Changes, name: str, given: object) -> None:
     changes.phase[name] = read_phase_value(name, name, given)
+
+
+def _by_hand(changes: Changes, name: str, given: object) -> None:
+    changes.by_hand[name] = read_phase_value(name, name, given)
+
+
+def _faults(changes: Changes, name: str, given: object) -> None:
+    for key, value in _members(name, given, set(FAULTS)).items():
+        changes.by_hand[key] = read_phase_value(f"{name}.{key}", key, value)
 
 
 def _rider(changes: Changes, name: str, given: object) -> None:
@@ -131,6 +151,10 @@ _READERS: dict[str, Callable[[Changes, str, object], None]] = {
     "rider": _rider,
     "road": _road,
     "brake": _phase_value,
+    "faults": _faults,
+    "ambient_degc": _by_hand,
+    "grip": _by_hand,
+    "walk_button": _by_hand,
     "assist_mode": _phase_value,
     "load_source": _load_source,
     "dyno_nm": _dyno_nm,

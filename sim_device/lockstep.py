@@ -12,10 +12,29 @@ from typing import Any, Final
 from firmware_protocol._generated import MessageId, Status
 from sim_device.configure import write_config
 from sim_device.controls import Changes, parse_changes
-from sim_device.firmware.python.unit import UID_LENGTH, Unit, finite_or_none
-from sim_device.scenario_file import RIDER_KINDS, Phase, ScenarioError, ScenarioFile, load
+from sim_device.firmware.python.unit import UID_LENGTH, Unit, default_bike, finite_or_none
+from sim_device.scenario_file import ScenarioFile, load
+from sim_device.scenario_phase import (
+    RIDER_KINDS,
+    SPEED_SENSOR_FAULTS,
+    TORQUE_SENSOR_FAULTS,
+    Phase,
+    ScenarioError,
+)
 
 US_PER_S: Final[int] = 1_000_000
+
+# A phase's values that are the bike's: which they are, and what they are on the pinned bike.
+_SURROUNDINGS: Final[dict[str, tuple[tuple[str, ...], float]]] = {
+    "ambient_degc": (
+        ("motor.ambient_degc", "sensor.ambient_degc", "battery.temperature_degc"),
+        20.0,
+    ),
+    "grip": (("road.grip",), 0.0),
+    "bit_error_rate": (("link.bit_error_rate",), 0.0),
+    "burst_share": (("link.burst_share",), 0.0),
+    "coupling": (("link.coupling",), 1.0),
+}
 
 
 def uid_of(name: str, seed: int) -> bytes:
@@ -30,7 +49,7 @@ class LockstepUnit:
         seed: of the noise; with `name` it also makes the serial number.
         config_overrides: parameters by registry name, written over the wire before anything moves.
         name: tells units with equal seeds apart.
-        scenario: a live scenario to ride from the start.
+        scenario: a live scenario to ride from the start, by name or as it was read.
         bike: `part.name` -> value, over the pinned bike W1.
         flash: the flash of an earlier life. log: that for ride logs.
         unlock_key: the maker's public key; without one no limit can be raised again.
@@ -50,7 +69,7 @@ class LockstepUnit:
         config_overrides: dict[str, Any] | None = None,
         *,
         name: str = "lockstep",
-        scenario: str | None = None,
+        scenario: str | ScenarioFile | None = None,
         bike: dict[str, float] | None = None,
         flash: bytes | None = None,
         log: bytes | None = None,
@@ -68,6 +87,9 @@ class LockstepUnit:
         self._bike: dict[str, float] = {"road.source": 0.0, "road.mass_kg": 100.0} | (bike or {})
         self._dyno_nm = 0.0
         self._phase = Phase(seconds=1.0)
+        self._scripted = self._phase
+        self._by_hand: dict[str, Any] = {}
+        self._before_scenario: dict[str, float] = {}
         self._scenario: ScenarioFile | None = None
         self._running = False
         self._script_us = 0
@@ -85,7 +107,9 @@ class LockstepUnit:
         )
         if config_overrides:
             write_config(self.unit, config_overrides)
-        if scenario is not None:
+        if isinstance(scenario, ScenarioFile):
+            self._start(scenario)
+        elif scenario is not None:
             self.simulation_set({"scenario": scenario})
 
     def advance(self, seconds: float) -> None:
@@ -171,8 +195,17 @@ class LockstepUnit:
             "mass_kg": self._bike["road.mass_kg"],
             "assist_mode": seen["assist_mode"],
             "brake": phase.brake,
-            "energy_balance_error_pct": finite_or_none(seen["energy_balance_error_pct"]),
-            "energy_consistent": True,
+            "walk_button": phase.walk_button,
+            "ambient_degc": self._bike.get("sensor.ambient_degc", 20.0),
+            "grip": self._bike.get("road.grip", 0.0),
+            "faults": phase.faults,
+            "rotor_link": {
+                "words_good": seen["words_good"],
+                "words_bad": seen["words_bad"],
+                "words_lost": seen["words_lost"],
+            },
+            "energy_balance_error_pct": _rounded(seen["energy_balance_error_pct"]),
+            "energy_consistent": bool(seen["energy_consistent"]),
         }
 
     def simulation_set(self, changes: dict[str, Any]) -> None:
@@ -210,6 +243,7 @@ class LockstepUnit:
             self._start(load(changes.scenario))
         if changes.phase:
             self._running = self._running and set(changes.phase) == {"assist_mode"}
+        self._by_hand |= changes.by_hand
         if changes.running is not None:
             self._running = changes.running and self._scenario is not None
         self._perform(replace(self._phase, **changes.phase))
@@ -228,11 +262,26 @@ class LockstepUnit:
 
     def _start(self, scenario: ScenarioFile) -> None:
         self._scenario, self._running, self._script_us = scenario, True, 0
+        self._by_hand = {}
+        self._leave_scenario_bike()
         if scenario.bike:
+            self._before_scenario = {path: self._bike_value(path) for path in scenario.bike}
             self._change_bike(scenario.bike)
+            self.unit.renew()
         if scenario.speed_kmh is not None:
             self.unit.place(scenario.speed_kmh, self.seed)
         self._follow_script()
+
+    def _leave_scenario_bike(self) -> None:
+        """Gives back what the scenario before had changed of the bike and around it."""
+        usual = {path: value for paths, value in _SURROUNDINGS.values() for path in paths}
+        around = {path: value for path, value in usual.items() if path in self._bike}
+        if around or self._before_scenario:
+            self._change_bike(around | self._before_scenario)
+        self._before_scenario = {}
+
+    def _bike_value(self, path: str) -> float:
+        return self._bike[path] if path in self._bike else default_bike()[path]
 
     def _follow_script(self) -> None:
         if self._scenario is None:
@@ -243,7 +292,7 @@ class LockstepUnit:
             self._running = False
             return
         phase = _phase_at(self._scenario, now_us % duration_us)
-        if phase is not self._phase:
+        if phase is not self._scripted:
             self._perform(phase)
 
     def _until_next_phase_us(self, otherwise_us: int) -> int:
@@ -257,8 +306,10 @@ class LockstepUnit:
                 break
         return end_us - into_us
 
-    def _perform(self, phase: Phase) -> None:
-        self._phase = phase
+    def _perform(self, scripted: Phase) -> None:
+        self._scripted = scripted
+        self._phase = phase = replace(scripted, **self._by_hand)
+        self._surround(phase)
         self.unit.set_rider(RIDER_KINDS[phase.rider], phase.torque_nm, phase.cadence_rpm_max)
         self.unit.set_road(
             grade_deg=phase.grade_deg,
@@ -266,8 +317,39 @@ class LockstepUnit:
             dyno_nm=self._dyno_nm,
             brake=phase.brake,
         )
+        self.unit.set_faults(
+            {
+                "torque_sensor": TORQUE_SENSOR_FAULTS[phase.torque_sensor],
+                "speed_sensor": SPEED_SENSOR_FAULTS[phase.speed_sensor],
+                "link_lost": int(phase.link_lost),
+                "motor_hall": int(phase.motor_hall),
+                "battery_cut": int(phase.battery_cut),
+                "motor_warmer_k": phase.motor_warmer_k,
+                "controller_warmer_k": phase.controller_warmer_k,
+            }
+        )
+        self.unit.hold_walk_button(phase.walk_button)
         if phase.assist_mode is not None:
             self.unit.select_mode(phase.assist_mode)
+
+    def _surround(self, phase: Phase) -> None:
+        """Puts air, road and link into the state the phase names; what it leaves out stays."""
+        changed = {
+            path: float(value)
+            for name, (paths, usual) in _SURROUNDINGS.items()
+            if (value := getattr(phase, name)) is not None
+            for path in paths
+            if self._bike.get(path, usual) != value
+        }
+        if changed:
+            self._bike.update(changed)
+            self.unit.change_surroundings(changed)
+
+
+def _rounded(value: float) -> float | None:
+    """A percentage as short as it is worth: the answer has to fit a frame."""
+    finite = finite_or_none(value)
+    return None if finite is None else round(finite, 6)
 
 
 def _phase_at(scenario: ScenarioFile, into_us: int) -> Phase:

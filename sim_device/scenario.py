@@ -6,24 +6,31 @@ motor drives the bike. Nothing is taken from the law's own opinion of the speed.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from firmware_protocol._generated import Law
 from firmware_protocol.parameters import default_config
 from sim_device.firmware.python.unit import finite_or_none, kinematics
 from sim_device.lockstep import LockstepUnit
-from sim_device.scenario_file import ScenarioError, ScenarioFile, Value, load, names
+from sim_device.scenario_calibration import calibrate
+from sim_device.scenario_field_ride import field_ride
+from sim_device.scenario_file import ScenarioFile, load, load_file, names
+from sim_device.scenario_phase import ScenarioError, Value
 
 Settings = dict[str, Any]
 Result = dict[str, Any]
 
 SAMPLE_S = 0.01
 J_PER_WH = 3600.0
+TAPER_OFF_KMH = (24.99, 25.0)
+NOT_CONSISTENT = "not energy consistent"
 
 # First crossing of 24.95 km/h counts as 25 (thesis_checks 4.1): the fixed law only creeps there.
 LIMIT_KMH = 24.95
 # A hair below the cut-off, so that the motor still assists when the slope begins.
 SLOPE_FROM_KMH = 24.999
+UNTAPERED_FROM_KMH = TAPER_OFF_KMH[0]
 SLOPE_LOST_KMH = 14.7
 
 START_S_MAX = 120.0
@@ -44,13 +51,13 @@ def run(name: str, settings: dict[str, object] | None = None) -> Result:
     """Runs a scenario and returns its figures (contract.md, Scenarios).
 
     Args:
-        name: one of `list_scenarios()`.
+        name: one of `list_scenarios()`, or the path of a TOML file with phases.
         settings: values over the scenario's defaults; texts are read as the default's type.
 
     Raises:
         ScenarioError: no such scenario or setting, or a value out of its range; named.
     """
-    scenario = load(name)
+    scenario = load_file(Path(name)) if name.endswith(".toml") else load(name)
     unknown = sorted(set(settings or {}) - set(scenario.settings))
     if unknown:
         known = ", ".join(scenario.settings) or "none"
@@ -58,15 +65,16 @@ def run(name: str, settings: dict[str, object] | None = None) -> Result:
     values: dict[str, Value] = {key: entry.default for key, entry in scenario.settings.items()}
     for key, given in (settings or {}).items():
         values[key] = scenario.settings[key].read(f"{name}: {key}", given)
-    measure = _ride if scenario.live else _MEASUREMENTS[name]
-    return {"scenario": name, "settings": values, "seed": scenario.seed} | measure(scenario, values)
+    measure = _MEASUREMENTS.get(name, _ride)
+    seed = values.get("seed", scenario.seed)
+    return {"scenario": name, "settings": values, "seed": seed} | measure(scenario, values)
 
 
 def _described(scenario: ScenarioFile) -> Result:
     return {
         "name": scenario.name,
         "doc": scenario.doc,
-        "kind": "live" if scenario.live else "measured",
+        "kind": "measured" if scenario.name in _MEASUREMENTS else "live",
         "settings": {
             key: {
                 "default": entry.default,
@@ -89,8 +97,16 @@ class _Sample:
 class _Trial:
     """A unit under test, sampled every control step from the moment `begin` is called."""
 
-    def __init__(self, scenario: ScenarioFile, law: str, bike: dict[str, float]) -> None:
-        self.unit = LockstepUnit(scenario.seed, name=scenario.name, bike=scenario.bike | bike)
+    def __init__(
+        self,
+        scenario: ScenarioFile,
+        law: str,
+        bike: dict[str, float],
+        config: dict[str, Any] | None = None,
+    ) -> None:
+        self.unit = LockstepUnit(
+            scenario.seed, config, name=scenario.name, bike=scenario.bike | bike
+        )
         self.unit.select_mode(_mode_of(law))
         self.samples: list[_Sample] = []
         self._t0_s = 0.0
@@ -127,11 +143,26 @@ class _Trial:
         }
 
     def energy(self) -> Result:
-        seen = self.unit.observe()
-        return {
-            "energy_balance_error_pct": finite_or_none(seen["energy_balance_error_pct"]),
-            "energy_consistent": True,
-        }
+        return _energy(self.unit.observe())
+
+
+def _energy(seen: Result) -> Result:
+    """How well the books close, and a label where they cannot: a printed equation makes energy."""
+    told: Result = {
+        "energy_balance_error_pct": finite_or_none(seen["energy_balance_error_pct"]),
+        "energy_consistent": bool(seen["energy_consistent"]),
+    }
+    if not seen["energy_consistent"]:
+        told["label"] = NOT_CONSISTENT
+    return told
+
+
+def _config_of(settings: Settings) -> dict[str, Any]:
+    """The fixed law as configured, or without its taper: full assist up to the cut-off."""
+    if settings["taper"] == "on":
+        return {}
+    start_kmh, end_kmh = TAPER_OFF_KMH
+    return {"fixed_taper_start_kmh": start_kmh, "fixed_taper_end_kmh": end_kmh}
 
 
 def _mode_of(law: str) -> int:
@@ -145,7 +176,8 @@ def _mode_of(law: str) -> int:
 
 
 def _start(scenario: ScenarioFile, settings: Settings) -> Result:
-    trial = _Trial(scenario, settings["law"], {"road.mass_kg": settings["mass_kg"]})
+    bike = {"road.mass_kg": settings["mass_kg"]}
+    trial = _Trial(scenario, settings["law"], bike, _config_of(settings))
     trial.begin()
     trial.unit.rider(settings["rider"], settings["rider_torque_nm"], CADENCE_RPM_UNLIMITED)
     trial.advance_until(lambda seen: seen.speed_kmh >= LIMIT_KMH, START_S_MAX)
@@ -157,9 +189,16 @@ def _start(scenario: ScenarioFile, settings: Settings) -> Result:
 
 def _slope(scenario: ScenarioFile, settings: Settings) -> Result:
     # On a flywheel too heavy to change its speed until filter and ramp have settled.
-    bench = {"road.source": 1.0, "road.dyno_mass_kg": FLYWHEEL_KG}
-    trial = _Trial(scenario, settings["law"], bench)
-    trial.unit.place(SLOPE_FROM_KMH)
+    bench = {
+        "road.source": 1.0,
+        "road.dyno_mass_kg": FLYWHEEL_KG,
+        "road.drag_area_m2": settings["drag_area_m2"],
+        "road.rolling_coefficient": settings["rolling_coefficient"],
+        "drivetrain.literal_4_14": float(settings["model"] == "literal_4_14"),
+        "motor.model": float(settings["motor"] == "foc"),
+    }
+    trial = _Trial(scenario, settings["law"], bench, _config_of(settings))
+    trial.unit.place(SLOPE_FROM_KMH if settings["taper"] == "on" else UNTAPERED_FROM_KMH)
     trial.unit.rider(settings["rider"], settings["rider_torque_nm"], CADENCE_RPM_UNLIMITED)
     trial.unit.advance(SETTLE_S)
     trial.unit.simulation_set(
@@ -197,12 +236,13 @@ def _resistance(scenario: ScenarioFile, settings: Settings) -> Result:
         trial.unit.rider("constant", servo_nm, CADENCE_RPM_UNLIMITED)
         trial.unit.advance(SAMPLE_S)
         if trial.unit.observe()["speed_kmh"] > 0.0:
-            return {"breakaway_torque_nm": round(servo_nm, 3)}
-    return {"breakaway_torque_nm": None}
+            break
+    moved = trial.unit.observe()["speed_kmh"] > 0.0
+    return {"breakaway_torque_nm": round(servo_nm, 3) if moved else None} | trial.energy()
 
 
 def _ride(scenario: ScenarioFile, _settings: Settings) -> Result:
-    unit = LockstepUnit(scenario.seed, name=scenario.name, scenario=scenario.name)
+    unit = LockstepUnit(scenario.seed, name=scenario.name, scenario=scenario)
     unit.advance(scenario.duration_s)
     seen = unit.observe()
     return {
@@ -211,9 +251,14 @@ def _ride(scenario: ScenarioFile, _settings: Settings) -> Result:
         "climb_m": seen["height_m"],
         "rider_wh": seen["rider_work_j"] / J_PER_WH,
         "motor_wh": seen["motor_electric_j"] / J_PER_WH,
-        "energy_balance_error_pct": finite_or_none(seen["energy_balance_error_pct"]),
-        "energy_consistent": True,
-    }
+        "battery_soc_pct": seen["battery_soc_pct"],
+        "motor_temperature_degc": seen["motor_temperature_degc"],
+        "sensor_temperature_degc": seen["sensor_temperature_degc"],
+        "fault_flags": seen["fault_flags"],
+        "words_good": seen["words_good"],
+        "words_bad": seen["words_bad"],
+        "words_lost": seen["words_lost"],
+    } | _energy(seen)
 
 
 _MEASUREMENTS: dict[str, Callable[[ScenarioFile, Settings], Result]] = {
@@ -221,4 +266,6 @@ _MEASUREMENTS: dict[str, Callable[[ScenarioFile, Settings], Result]] = {
     "slope": _slope,
     "kinematics": _kinematics,
     "resistance": _resistance,
+    "calibration": calibrate,
+    "field_ride": field_ride,
 }

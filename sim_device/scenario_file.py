@@ -1,101 +1,35 @@
 """Scenario files: what is ridden or measured, with the seed inside.
 
-A *measured* scenario has `settings` that its measurement (sim_device.scenario) reads. A *live* one
-has `phases` that a rider works through in real or virtual time. Everything is checked on reading;
-the message names the file, the place and what is allowed.
+A scenario with `phases` can be ridden, in real or virtual time; one with `settings` is measured by
+sim_device.scenario, which reads them. Everything is checked on reading; the message names the file,
+the line, the place and what is allowed.
 """
 
 import tomllib
 from dataclasses import dataclass, fields
 from functools import cache
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
-Value = float | int | str
+from sim_device.firmware.python.unit import default_bike
+from sim_device.scenario_lines import Source
+from sim_device.scenario_phase import Phase, ScenarioError, Setting, Value, read_phase_value
 
-RIDER_KINDS = {"off": 0, "constant": 1, "legs": 2}
-
-# What a person and a road can do; beyond it a typing error is likelier than a wish.
-TORQUE_NM_MAX = 300.0
-CADENCE_RPM_MAX = 250.0
-GRADE_DEG_MAX = 30.0
-WIND_MS_MAX = 40.0
 SPEED_KMH_MAX = 100.0
-PHASE_S_MAX = 36_000.0
 PHASES_MAX = 1000
+FILE_BYTES_MAX = 1_000_000
 
-
-class ScenarioError(ValueError):
-    """A scenario, a setting or a control value that does not exist or is out of its range.
-
-    field: where in the question the fault is (`rider.torque_nm`), empty where it is in no field.
-    """
-
-    def __init__(self, message: str, field: str = "") -> None:
-        super().__init__(message)
-        self.field = field
-
-
-@dataclass(frozen=True)
-class Setting:
-    """One value a measured scenario can be run with."""
-
-    default: Value
-    doc: str = ""
-    min: float | None = None
-    max: float | None = None
-    choices: tuple[Value, ...] = ()
-
-    def read(self, where: str, given: object) -> Value:
-        """`given`, a text from the command line included, as a value of this setting.
-
-        Raises ScenarioError, naming `where`, what was given and what is allowed.
-        """
-        value = self._typed(where, given)
-        if self.choices and value not in self.choices:
-            allowed = ", ".join(str(choice) for choice in self.choices)
-            raise ScenarioError(f"{where} is {given!r}; it can be: {allowed}", where)
-        if isinstance(value, str):
-            return value
-        below = self.min is not None and not value >= self.min
-        above = self.max is not None and not value <= self.max
-        if below or above:
-            message = f"{where} is {given}; it lies from {self.min} to {self.max}"
-            raise ScenarioError(message, where)
-        return value
-
-    def _typed(self, where: str, given: object) -> Value:
-        wanted = type(self.default)
-        try:
-            if isinstance(given, str):
-                return wanted(given)
-            if wanted is float and isinstance(given, int | float) and not isinstance(given, bool):
-                return float(given)
-            if wanted is int and isinstance(given, int) and not isinstance(given, bool):
-                return given
-        except ValueError:
-            pass
-        kind = {int: "a whole number", float: "a number", str: "a text"}[wanted]
-        raise ScenarioError(f"{where} is {given!r}, not {kind}", where)
-
-
-@dataclass(frozen=True)
-class Phase:
-    """What rider and road do for `seconds`; the fields' names are those of the TOML file."""
-
-    seconds: float
-    rider: str = "off"
-    torque_nm: float = 0.0
-    cadence_rpm_max: float = 100.0
-    grade_deg: float = 0.0
-    wind_ms: float = 0.0
-    brake: bool = False
-    assist_mode: int | None = None
+Numbers = dict[str, float]
 
 
 @dataclass(frozen=True)
 class ScenarioFile:
-    """A scenario as it was read; `bike` holds `part.name` values over the pinned bike W1."""
+    """A scenario as it was read.
+
+    bike: `part.name` values over the pinned bike W1. states: named specimens of a part of it, with
+    `rig.name` values for what is around them.
+    """
 
     name: str
     doc: str
@@ -104,7 +38,8 @@ class ScenarioFile:
     phases: tuple[Phase, ...]
     repeat: bool
     speed_kmh: float | None
-    bike: dict[str, float]
+    bike: Numbers
+    states: dict[str, Numbers]
 
     @property
     def live(self) -> bool:
@@ -115,95 +50,117 @@ class ScenarioFile:
         return sum(phase.seconds for phase in self.phases)
 
 
-_PHASE_RANGES = {
-    "seconds": Setting(1.0, min=0.01, max=PHASE_S_MAX),
-    "rider": Setting("off", choices=tuple(RIDER_KINDS)),
-    "torque_nm": Setting(0.0, min=-TORQUE_NM_MAX, max=TORQUE_NM_MAX),
-    "cadence_rpm_max": Setting(100.0, min=0.0, max=CADENCE_RPM_MAX),
-    "grade_deg": Setting(0.0, min=-GRADE_DEG_MAX, max=GRADE_DEG_MAX),
-    "wind_ms": Setting(0.0, min=-WIND_MS_MAX, max=WIND_MS_MAX),
-    "assist_mode": Setting(0, min=0, max=4),
-}
-_SCENARIO_KEYS = {"doc", "seed", "settings", "phases", "repeat", "speed_kmh", "bike"}
+_SCENARIO_KEYS = {"doc", "seed", "settings", "phases", "repeat", "speed_kmh", "bike", "states"}
 _SETTING_KEYS = {field.name for field in fields(Setting)}
-
-
-def read_phase_value(where: str, name: str, given: object) -> Any:
-    """One value of a phase, checked; used for live controls too. Raises ScenarioError."""
-    if name == "brake":
-        if not isinstance(given, bool):
-            raise ScenarioError(f"{where} is {given!r}, not true or false", where)
-        return given
-    if name not in _PHASE_RANGES:
-        known = ", ".join([*_PHASE_RANGES, "brake"])
-        raise ScenarioError(f"{where} is not known; there are: {known}")
-    return _PHASE_RANGES[name].read(where, given)
+_RIG = {"rig.pan_nm", "rig.scatter_nm"}
 
 
 def parse(name: str, text: str) -> ScenarioFile:
-    """Reads a scenario. Raises ScenarioError with the file's name and the place."""
-    where = f"scenario {name}"
+    """Reads a scenario. Raises ScenarioError with the file's name, the line and the place."""
+    source = Source(name, text)
     try:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise ScenarioError(f"{where}: {error}") from error
-    _refuse_unknown(where, table, _SCENARIO_KEYS)
+        raise ScenarioError(f"scenario {name}: {error}") from error
+    _refuse_unknown(source, "", table, _SCENARIO_KEYS)
     if not isinstance(table.get("doc"), str) or not isinstance(table.get("seed"), int):
-        raise ScenarioError(f"{where}: needs a text `doc` and a whole number `seed`")
+        raise ScenarioError(f"scenario {name}: needs a text `doc` and a whole number `seed`")
+    bike = default_bike()
     return ScenarioFile(
         name=name,
         doc=table["doc"],
         seed=table["seed"],
-        settings=_settings(where, table.get("settings", {})),
-        phases=_phases(where, table.get("phases", [])),
-        repeat=bool(table.get("repeat", False)),
-        speed_kmh=_start_speed_kmh(where, table.get("speed_kmh")),
-        bike={
-            f"{part}.{key}": float(Setting(0.0).read(f"{where}, bike.{part}.{key}", value))
-            for part, values in table.get("bike", {}).items()
-            for key, value in values.items()
+        settings=_settings(source, _tables(source, table, "settings")),
+        phases=_phases(source, table.get("phases", [])),
+        repeat=_flag(source, table, "repeat"),
+        speed_kmh=_start_speed_kmh(source, table.get("speed_kmh")),
+        bike=_numbers(source, "bike", _tables(source, table, "bike"), set(bike)),
+        states={
+            state: _numbers(
+                source, f"states.{state}", _tables(source, states, state), set(bike) | _RIG
+            )
+            for states in (_tables(source, table, "states"),)
+            for state in states
         },
     )
 
 
-def _start_speed_kmh(where: str, given: object) -> float | None:
+def _tables(source: Source, table: dict[str, Any], key: str) -> dict[str, Any]:
+    """The tables under `key`, none if it is not there."""
+    found = table.get(key, {})
+    if not isinstance(found, dict) or not all(isinstance(entry, dict) for entry in found.values()):
+        where = source.at("", key)
+        raise ScenarioError(f"{where}: {key} holds tables, as in [{key}.name]")
+    return found
+
+
+def _flag(source: Source, table: dict[str, Any], key: str) -> bool:
+    given = table.get(key, False)
+    if not isinstance(given, bool):
+        raise ScenarioError(f"{source.at('', key)}: {key} is {given!r}, not true or false")
+    return given
+
+
+def _numbers(source: Source, table: str, parts: dict[str, Any], known: set[str]) -> Numbers:
+    numbers = {}
+    for part, values in parts.items():
+        for key, value in values.items():
+            where = f"{source.at(f'{table}.{part}', key)}, {table}.{part}.{key}"
+            if f"{part}.{key}" not in known:
+                near = ", ".join(sorted(name for name in known if name.startswith(f"{part}.")))
+                parts_known = ", ".join(sorted({name.split(".")[0] for name in known}))
+                raise ScenarioError(f"{where} is not known; there are: {near or parts_known}")
+            numbers[f"{part}.{key}"] = float(Setting(0.0).read(where, value))
+    return numbers
+
+
+def _start_speed_kmh(source: Source, given: object) -> float | None:
     if given is None:
         return None
     setting = Setting(0.0, min=0.0, max=SPEED_KMH_MAX)
-    return float(setting.read(f"{where}: speed_kmh", given))
+    return float(setting.read(f"{source.at('', 'speed_kmh')}: speed_kmh", given))
 
 
-def _refuse_unknown(where: str, table: dict[str, Any], known: set[str]) -> None:
+def _refuse_unknown(source: Source, at: str, table: dict[str, Any], known: set[str]) -> None:
     unknown = sorted(set(table) - known)
     if unknown:
         allowed = ", ".join(sorted(known))
+        where = source.at(at, unknown[0]) + (f", {at}" if at else "")
         raise ScenarioError(f"{where}: unknown {', '.join(unknown)}; there are: {allowed}")
 
 
-def _settings(where: str, table: dict[str, dict[str, Any]]) -> dict[str, Setting]:
+def _settings(source: Source, table: dict[str, dict[str, Any]]) -> dict[str, Setting]:
     settings = {}
     for name, entry in table.items():
-        _refuse_unknown(f"{where}, setting {name}", entry, _SETTING_KEYS)
-        if "default" not in entry:
-            raise ScenarioError(f"{where}, setting {name}: needs a default")
-        settings[name] = Setting(**{**entry, "choices": tuple(entry.get("choices", ()))})
+        at = f"settings.{name}"
+        where = f"{source.at(at)}, setting {name}"
+        _refuse_unknown(source, at, entry, _SETTING_KEYS)
+        if not isinstance(entry.get("default"), float | int | str):
+            raise ScenarioError(f"{where}: needs a default")
+        setting = Setting(**{**entry, "choices": tuple(entry.get("choices", ()))})
+        setting.read(f"{where}: default", setting.default)
+        settings[name] = setting
     return settings
 
 
-def _phases(where: str, rows: list[dict[str, Any]]) -> tuple[Phase, ...]:
+def _phases(source: Source, rows: object) -> tuple[Phase, ...]:
     """Each phase keeps what the one before it did, except for what it names.
 
     The mode button is pressed only where a phase names it: a choice made by hand stays.
     """
+    if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+        raise ScenarioError(f"{source.at('', 'phases')}: phases are tables, as in [[phases]]")
     if len(rows) > PHASES_MAX:
-        raise ScenarioError(f"{where}: {len(rows)} phases, at most {PHASES_MAX}")
+        raise ScenarioError(f"{source.at()}: {len(rows)} phases, at most {PHASES_MAX}")
     phases: list[Phase] = []
     current: dict[str, Any] = {}
     for number, row in enumerate(rows, start=1):
+        at = f"phases {number}"
         if "seconds" not in row:
-            raise ScenarioError(f"{where}, phase {number}: needs `seconds`")
+            raise ScenarioError(f"{source.at(at)}, phase {number}: needs `seconds`")
         for name, given in row.items():
-            current[name] = read_phase_value(f"{where}, phase {number}: {name}", name, given)
+            where = f"{source.at(at, name)}, phase {number}: {name}"
+            current[name] = read_phase_value(where, name, given)
         phases.append(Phase(**current))
         current.pop("assist_mode", None)
     return tuple(phases)
@@ -218,8 +175,35 @@ def load(name: str) -> ScenarioFile:
     return parse(name, source.read_text(encoding="utf-8"))
 
 
+def load_file(path: Path) -> ScenarioFile:
+    """A scenario of one's own, to be ridden. Raises ScenarioError, OSError if it cannot be read."""
+    if path.stat().st_size > FILE_BYTES_MAX:
+        raise ScenarioError(f"{path} has more than {FILE_BYTES_MAX} bytes: no scenario is so long")
+    try:
+        scenario = parse(path.name, path.read_text(encoding="utf-8"))
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f"{path} is not UTF-8 text: {error}") from error
+    if not scenario.live:
+        raise ScenarioError(f"scenario {path.name}: needs [[phases]] to be ridden")
+    return scenario
+
+
 def names() -> tuple[str, ...]:
     """Every scenario that comes with Spindle."""
     folder = files("sim_device") / "scenarios"
     found = [entry.name for entry in folder.iterdir()]
     return tuple(sorted(name.removesuffix(".toml") for name in found if name.endswith(".toml")))
+
+
+__all__ = [
+    "Phase",
+    "ScenarioError",
+    "ScenarioFile",
+    "Setting",
+    "Value",
+    "load",
+    "load_file",
+    "names",
+    "parse",
+    "read_phase_value",
+]

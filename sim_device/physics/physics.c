@@ -386,13 +386,20 @@ void physics_reset(const physics_config *config, physics_state *state, double sp
     state->seen_speed_ms = state->speed_ms;
     state->crank_speed_rad_s = state->speed_ms / metres_per_rad(config);
     state->motor_speed_rad_s = state->crank_speed_rad_s * config->drivetrain.gear_ratio;
+    physics_renew(config, state);
+    rotor_link_reset(&state->link, torque_sensor_temperature_degc(&state->sensor));
+    physics_seed(state, seed);
+    physics_begin_ledger(config, state);
+}
+
+void physics_renew(const physics_config *config, physics_state *state)
+{
+    const uint64_t noise = state->sensor.random;
     motor_heat_reset(&config->motor, &state->heat);
     battery_reset(&config->battery, &state->battery);
     rider_reset(&config->rider, &state->rider);
     torque_sensor_reset(&config->sensor, &state->sensor);
-    rotor_link_reset(&state->link, torque_sensor_temperature_degc(&state->sensor));
-    physics_seed(state, seed);
-    physics_begin_ledger(config, state);
+    state->sensor.random = noise;
 }
 
 void physics_seed(physics_state *state, uint64_t seed)

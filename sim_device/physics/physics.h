@@ -84,6 +84,9 @@ void physics_reset(const physics_config *config, physics_state *state, double sp
 /* Starts the noise of legs, sensor and link afresh; everything else goes on. */
 void physics_seed(physics_state *state, uint64_t seed);
 
+/* A fresh battery, rider and sensor at the air's temperature; the bike rolls on. */
+void physics_renew(const physics_config *config, physics_state *state);
+
 /* One step of `dt_s` (0.001). Velocity first, then position with the mean velocity of the step,
  * so that work and kinetic energy agree to rounding. Every second step ends with an exchange of the
  * rotor link. */

@@ -247,6 +247,10 @@ class Unit:
         """Puts the bike on the road at this speed; ledger, distance and noise start afresh."""
         lib.unit_place(self._unit, speed_kmh, seed)
 
+    def renew(self) -> None:
+        """A fresh battery, rider and sensor, as the bike has them now; it rolls on."""
+        lib.unit_renew(self._unit)
+
     def seed_noise(self, seed: int) -> None:
         """Starts the sensor's noise afresh."""
         lib.unit_seed_noise(self._unit, seed)

@@ -336,6 +336,7 @@ void unit_observe(const unit *self, unit_observation *seen)
                            ? self->mode_selected
                            : self->app.config.assist_mode_at_start,
         .limit_flags = law->limit_flags,
+        .fault_flags = self->app.faults.active,
         .crank_engaged = state->crank_engaged,
         .motor_engaged = state->motor_engaged,
         .slipping = state->slipping,
@@ -361,6 +362,8 @@ void unit_place(unit *self, double speed_kmh, uint64_t seed)
     physics_reset(&self->bike, &self->state, speed_kmh, seed);
     rotor_receiver_init(&self->receiver, torque_sensor_temperature_degc(&self->state.sensor));
 }
+
+void unit_renew(unit *self) { physics_renew(&self->bike, &self->state); }
 
 void unit_seed_noise(unit *self, uint64_t seed) { physics_seed(&self->state, seed); }
 

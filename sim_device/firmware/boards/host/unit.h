@@ -74,6 +74,7 @@ typedef struct {
     double energy_balance_error_pct; /* NaN before any work was done */
     int assist_mode;
     int limit_flags;
+    int fault_flags;
     int crank_engaged;
     int motor_engaged;
     int slipping;
@@ -122,6 +123,8 @@ void unit_begin_ledger(unit *self);
 
 /* Puts the bike on the road at this speed, its energy ledger and noise started afresh. */
 void unit_place(unit *self, double speed_kmh, uint64_t seed);
+/* A fresh battery, rider and sensor on the bike as it rolls; its configuration may have changed. */
+void unit_renew(unit *self);
 void unit_seed_noise(unit *self, uint64_t seed);
 
 /* Presses the handlebar's mode button; UNIT_MODE_NOT_SELECTED leaves the choice to the unit. */
