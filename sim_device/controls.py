@@ -5,6 +5,7 @@ the unit's business (sim_device.lockstep).
 """
 
 import json
+import zlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -16,6 +17,8 @@ SPEED_FACTOR_MIN = 0.01
 SPEED_FACTOR_MAX = 1000.0
 ADVANCE_S_MAX = 24 * 3600.0
 CLOCKS = ("real", "virtual")
+# A frame of 544 bytes holds some 530 of text.
+PLAIN_BYTES_MAX = 500
 LOAD_SOURCES = {"road": 0, "dyno": 1}
 
 # A host may send back what it was given: these say something, and change nothing.
@@ -59,6 +62,19 @@ def parse_changes(text: str) -> Changes:
         if name in _READERS:
             _READERS[name](changes, name, given)
     return changes
+
+
+def pack(told: dict[str, Any]) -> bytes:
+    """The answer's text: JSON, and where that would not fit a frame, deflated (zlib)."""
+    text = json.dumps(told, separators=(",", ":")).encode()
+    return text if len(text) <= PLAIN_BYTES_MAX else zlib.compress(text)
+
+
+def unpack(text: bytes) -> dict[str, Any]:
+    """What `pack` packed: JSON begins with a brace, zlib never does."""
+    plain = text if text.startswith(b"{") else zlib.decompress(text)
+    found: dict[str, Any] = json.loads(plain)
+    return found
 
 
 def _members(field: str, value: object, known: set[str]) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from typing import Any, Final
 
 from firmware_protocol._generated import MessageId, Status
 from sim_device.configure import write_config
-from sim_device.controls import Changes, parse_changes
+from sim_device.controls import Changes, pack, parse_changes
 from sim_device.firmware.python.unit import UID_LENGTH, Unit, default_bike, finite_or_none
 from sim_device.scenario_file import ScenarioFile, load
 from sim_device.scenario_phase import (
@@ -224,7 +224,7 @@ class LockstepUnit:
                 self._apply(parse_changes(request.decode("utf-8", errors="replace")))
             except ScenarioError as error:
                 return Status.RANGE, f"{error.field}\n{error}".encode()
-        return Status.OK, json.dumps(self.simulation_get(), separators=(",", ":")).encode()
+        return Status.OK, pack(self.simulation_get())
 
     def _apply(self, changes: Changes) -> None:
         self._keep_time(changes)

@@ -65,7 +65,7 @@ def _log(unit: LockstepUnit, seconds: int, log_hz: int) -> int:
     line = _subscribe(unit, log_hz)
     decoder = FrameDecoder()
     came = bytearray(seconds * log_hz)
-    first_us: int | None = None
+    last_us, since_first_us = None, 0
     # A second more brings the last rows out of the unit's frame.
     for second in range(0, seconds + PIECE_S, PIECE_S):
         if second % RENEW_EVERY_S == 0:
@@ -75,8 +75,10 @@ def _log(unit: LockstepUnit, seconds: int, log_hz: int) -> int:
             rows = decode(frame)
             if not isinstance(rows, Stream) or rows.stream_id != STREAM_ID:
                 continue
-            first_us = rows.t0_us if first_us is None else first_us
-            at = ((rows.t0_us - first_us) % 2**32 + period_us // 2) // period_us
+            # The frame's clock has 32 bits and goes round in 72 minutes.
+            since_first_us += 0 if last_us is None else (rows.t0_us - last_us) % 2**32
+            last_us = rows.t0_us
+            at = (since_first_us + period_us // 2) // period_us
             for row in range(at, min(at + len(rows.values), len(came))):
                 came[row] = 1
     return sum(came)

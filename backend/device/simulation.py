@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import zlib
 from collections.abc import Mapping
 from typing import Any
 
@@ -15,6 +16,9 @@ from firmware_protocol._generated import (
     SimSetResponse,
     Status,
 )
+
+TEXT_BYTES_MAX = 16_384
+"""A frame of half a kilobyte cannot mean more; a hostile one shall not."""
 
 
 def simulation_get() -> Operation[dict[str, Any]]:
@@ -46,9 +50,18 @@ def _refusal(text: str) -> InvalidRequest:
     return InvalidRequest(message, fields=faults)
 
 
+def _inflated(text: bytes) -> bytes:
+    inflator = zlib.decompressobj()
+    try:
+        return inflator.decompress(text, TEXT_BYTES_MAX)
+    except zlib.error:
+        return text
+
+
 def _object(text: bytes) -> dict[str, Any]:
     try:
-        found = json.loads(text)
+        # What does not fit a frame as it is comes deflated.
+        found = json.loads(text if text.startswith(b"{") else _inflated(text))
     except ValueError as error:
         raise PeerProtocolError(f"The simulated unit does not answer in JSON ({error}).") from error
     if not isinstance(found, dict):

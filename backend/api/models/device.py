@@ -151,6 +151,14 @@ class SimulationRoad(Answer):
     wind_ms: float
 
 
+class SimulationRotorLink(Answer):
+    """Words of the link between spindle and housing, as the unit's receiver counted them."""
+
+    words_good: int
+    words_bad: int
+    words_lost: int
+
+
 class Simulation(BaseModel):
     """What rider, road and clock of a simulated unit do now. A unit may tell more than this."""
 
@@ -169,6 +177,11 @@ class Simulation(BaseModel):
     mass_kg: float
     assist_mode: int
     brake: bool
+    walk_button: bool
+    ambient_degc: float
+    grip: float
+    faults: dict[str, bool | float | str] = Field(description="What is broken; empty: nothing.")
+    rotor_link: SimulationRotorLink
     energy_balance_error_pct: float | None
     energy_consistent: bool
 
@@ -182,6 +195,21 @@ class SimulationRiderChange(Question):
 class SimulationRoadChange(Question):
     grade_deg: float | None = None
     wind_ms: float | None = None
+
+
+class SimulationFaults(Question):
+    """What is to be broken, until it is told to be sound again."""
+
+    torque_sensor: Literal["sound", "stuck", "open_high", "open_low", "drifting"] | None = None
+    speed_sensor: Literal["sound", "lost", "stuck"] | None = None
+    link_lost: bool | None = None
+    motor_hall: bool | None = None
+    battery_cut: bool | None = None
+    motor_warmer_k: float | None = None
+    controller_warmer_k: float | None = None
+    bit_error_rate: float | None = None
+    burst_share: float | None = None
+    coupling: float | None = None
 
 
 class SimulationAdvance(Question):
@@ -208,3 +236,7 @@ class SimulationChange(Question):
     mass_kg: float | None = None
     assist_mode: int | None = None
     brake: bool | None = None
+    walk_button: bool | None = None
+    ambient_degc: float | None = None
+    grip: float | None = Field(default=None, description="Of the rear tyre; 0: it never slips.")
+    faults: SimulationFaults | None = None

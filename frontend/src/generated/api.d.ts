@@ -1726,6 +1726,20 @@ export interface components {
             assist_mode: number;
             /** Brake */
             brake: boolean;
+            /** Walk Button */
+            walk_button: boolean;
+            /** Ambient Degc */
+            ambient_degc: number;
+            /** Grip */
+            grip: number;
+            /**
+             * Faults
+             * @description What is broken; empty: nothing.
+             */
+            faults: {
+                [key: string]: boolean | number | string;
+            };
+            rotor_link: components["schemas"]["SimulationRotorLink"];
             /** Energy Balance Error Pct */
             energy_balance_error_pct: number | null;
             /** Energy Consistent */
@@ -1770,6 +1784,42 @@ export interface components {
             assist_mode?: number | null;
             /** Brake */
             brake?: boolean | null;
+            /** Walk Button */
+            walk_button?: boolean | null;
+            /** Ambient Degc */
+            ambient_degc?: number | null;
+            /**
+             * Grip
+             * @description Of the rear tyre; 0: it never slips.
+             */
+            grip?: number | null;
+            faults?: components["schemas"]["SimulationFaults"] | null;
+        };
+        /**
+         * SimulationFaults
+         * @description What is to be broken, until it is told to be sound again.
+         */
+        SimulationFaults: {
+            /** Torque Sensor */
+            torque_sensor?: ("sound" | "stuck" | "open_high" | "open_low" | "drifting") | null;
+            /** Speed Sensor */
+            speed_sensor?: ("sound" | "lost" | "stuck") | null;
+            /** Link Lost */
+            link_lost?: boolean | null;
+            /** Motor Hall */
+            motor_hall?: boolean | null;
+            /** Battery Cut */
+            battery_cut?: boolean | null;
+            /** Motor Warmer K */
+            motor_warmer_k?: number | null;
+            /** Controller Warmer K */
+            controller_warmer_k?: number | null;
+            /** Bit Error Rate */
+            bit_error_rate?: number | null;
+            /** Burst Share */
+            burst_share?: number | null;
+            /** Coupling */
+            coupling?: number | null;
         };
         /** SimulationRider */
         SimulationRider: {
@@ -1805,6 +1855,18 @@ export interface components {
             grade_deg?: number | null;
             /** Wind Ms */
             wind_ms?: number | null;
+        };
+        /**
+         * SimulationRotorLink
+         * @description Words of the link between spindle and housing, as the unit's receiver counted them.
+         */
+        SimulationRotorLink: {
+            /** Words Good */
+            words_good: number;
+            /** Words Bad */
+            words_bad: number;
+            /** Words Lost */
+            words_lost: number;
         };
         /**
          * Snapshot

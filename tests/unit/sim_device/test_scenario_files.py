@@ -1,5 +1,7 @@
 """Goal: a scenario that is wrong says what, where and what would be right; nothing is guessed."""
 
+from pathlib import Path
+
 import pytest
 
 from sim_device.scenario import list_scenarios, run
@@ -9,7 +11,9 @@ HEAD = 'doc = "A ride."\nseed = 1\n'
 
 
 def test_the_scenarios_of_the_contract_are_there() -> None:
-    assert {"start", "slope", "kinematics", "resistance", "commute"} <= set(names())
+    asked = "start slope resistance kinematics calibration field_ride commute alpine_climb"
+    more = "stop_and_go cold_morning worn_battery sensor_fault link_bursts slippery_start"
+    assert {*asked.split(), *more.split()} <= set(names())
     assert {row["name"] for row in list_scenarios()} == set(names())
 
 
@@ -64,7 +68,7 @@ def test_a_phase_keeps_what_the_one_before_did() -> None:
     [
         ("doc = ", "scenario ride: "),
         ("seed = 1", "needs a text `doc` and a whole number `seed`"),
-        (HEAD + "colour = 1", "scenario ride: unknown colour; there are: "),
+        (HEAD + "colour = 1", "scenario ride, line 3: unknown colour; there are: "),
         (HEAD + "speed_kmh = 900", "speed_kmh is 900"),
         (HEAD + "[bike.road]\nmass_kg='much'", "bike.road.mass_kg is 'much', not a number"),
         (HEAD + "[[phases]]\nrider='legs'", "phase 1: needs `seconds`"),
@@ -73,8 +77,19 @@ def test_a_phase_keeps_what_the_one_before_did() -> None:
         (HEAD + "[[phases]]\nseconds=1\ngrade_deg=80", "phase 1: grade_deg is 80"),
         (HEAD + "[[phases]]\nseconds=1\nbrake=1", "phase 1: brake is 1, not true or false"),
         (HEAD + "[[phases]]\nseconds=1\nhorn=1", "phase 1: horn is not known"),
+        (HEAD + "\n\n[[phases]]\nseconds=1\n[[phases]]\nseconds=0", "line 8, phase 2: seconds"),
+        (HEAD + "[[phases]]\nseconds=1\ntorque_sensor='lame'", "line 5, phase 1: torque_sensor"),
+        (HEAD + "[[phases]]\nseconds=1\nbit_error_rate=2", "bit_error_rate is 2; it lies from 0.0"),
+        (HEAD + "phases = 3", "line 3: phases are tables"),
+        (HEAD + "settings = 3", "line 3: settings holds tables"),
+        (HEAD + "repeat = 1", "line 3: repeat is 1, not true or false"),
+        (
+            HEAD + "[bike.link]\ncolour = 1",
+            "line 4, bike.link.colour is not known; there are: link",
+        ),
+        (HEAD + "[settings.mass_kg]\ndefault=1\nmin=2", "setting mass_kg: default is 1; it lies"),
         (HEAD + "[settings.mass_kg]\nmin=1", "setting mass_kg: needs a default"),
-        (HEAD + "[settings.mass_kg]\ndefault=1\nmost=2", "setting mass_kg: unknown most"),
+        (HEAD + "[settings.mass_kg]\ndefault=1\nmost=2", "line 5, settings.mass_kg: unknown most"),
     ],
 )
 def test_a_wrong_file_is_refused_with_the_place(text: str, complaint: str) -> None:
@@ -88,3 +103,29 @@ def test_the_commute_rests_long_enough_for_a_ride_to_end() -> None:
     assert commute.repeat
     assert commute.phases[-1].rider == "off"
     assert commute.phases[-1].seconds >= 60.0
+
+
+def test_a_scenario_of_one_s_own_is_ridden_by_its_path(tmp_path: Path) -> None:
+    path = tmp_path / "hill.toml"
+    phase = "[[phases]]\nseconds=20\nrider='legs'\ntorque_nm=40\ngrade_deg=1\n"
+    path.write_text(HEAD + phase)
+
+    ridden = run(str(path))
+
+    assert ridden["duration_s"] == 20.0
+    assert ridden["climb_m"] > 1.0
+
+
+def test_a_file_without_phases_cannot_be_ridden(tmp_path: Path) -> None:
+    path = tmp_path / "nothing.toml"
+    path.write_text(HEAD)
+
+    with pytest.raises(ScenarioError, match=r"scenario nothing.toml: needs \[\[phases\]\]"):
+        run(str(path))
+
+
+@pytest.mark.parametrize("name", [name for name in names() if load(name).live])
+def test_the_same_seed_rides_the_same_ride(name: str) -> None:
+    settings = {"hours": 0.02} if name == "field_ride" else {}
+
+    assert run(name, settings) == run(name, settings)

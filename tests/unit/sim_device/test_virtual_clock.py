@@ -71,7 +71,7 @@ def test_the_unit_answers_while_its_time_stands() -> None:
 
     hello, simulation = host.answers()
     assert hello.tid == 1
-    seen = json.loads(simulation.message.text)  # type: ignore[union-attr]
+    seen = unpack(simulation.message.text)  # type: ignore[union-attr]
     assert (seen["clock"], seen["t_s"], seen["advance_left_s"]) == ("virtual", 0.0, 0.0)
 
 
