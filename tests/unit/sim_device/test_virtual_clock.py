@@ -14,6 +14,7 @@ import pytest
 from firmware_protocol._generated import HelloRequest, SimGetRequest, SimSetRequest
 from firmware_protocol.codec import Request, Response, decode, encode
 from firmware_protocol.framing import FrameDecoder, encode_frame
+from sim_device.controls import unpack
 from sim_device.lockstep import LockstepUnit
 from sim_device.scenario_file import ScenarioError
 from sim_device.simulator import serve
