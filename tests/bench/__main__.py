@@ -3,12 +3,13 @@
 import sys
 from pathlib import Path
 
-from tests.bench import law, link, logs, rides, server, wire, writes
+from tests.bench import law, link, logs, plant, rides, server, wire, writes
 from tests.bench.figures import Figure, mark, write
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "benchmarks.md"
 SECTIONS = {
     "The law": law.run,
+    "The simulator": plant.run,
     "The wire": wire.run,
     "The link": link.run,
     "Configuration writes": writes.run,
