@@ -82,6 +82,10 @@ gen: $(STAMP)/native $(STAMP)/web-modules ## regenerate everything that comes fr
 bench: setup $(STAMP)/rivals ## ratios against named rivals in one run, into docs/benchmarks.md
 	$(BIN)/python -m tests.bench
 
+.PHONY: reproduction
+reproduction: $(STAMP)/native ## the thesis beside what the simulator does, into docs/
+	$(BIN)/python -m tests.reproduction
+
 .PHONY: lock
 lock: $(STAMP)/python ## pin versions and hashes again, without registry addresses
 	$(BIN)/uv pip compile -q pyproject.toml --universal --generate-hashes --no-emit-index-url \

@@ -58,16 +58,33 @@ def run(name: str, settings: dict[str, object] | None = None) -> Result:
         ScenarioError: no such scenario or setting, or a value out of its range; named.
     """
     scenario = load_file(Path(name)) if name.endswith(".toml") else load(name)
-    unknown = sorted(set(settings or {}) - set(scenario.settings))
+    values = _values(scenario, settings or {})
+    measure = _MEASUREMENTS.get(name, _ride)
+    seed = values.get("seed", scenario.seed)
+    return {"scenario": name, "settings": values, "seed": seed} | measure(scenario, values)
+
+
+def trace(name: str, settings: dict[str, object] | None = None) -> list[tuple[float, float]]:
+    """Seconds and km/h of every control step of `start` or `slope`. Raises ScenarioError."""
+    scenario = load(name)
+    trials = {"start": _start_trial, "slope": _slope_trial}
+    if name not in trials:
+        raise ScenarioError(f"{name} has no trace; there are: {', '.join(trials)}")
+    trial = trials[name](scenario, _values(scenario, settings or {}))
+    return [(seen.t_s, seen.speed_kmh) for seen in trial.samples]
+
+
+def _values(scenario: ScenarioFile, settings: dict[str, object]) -> dict[str, Value]:
+    """The scenario's settings with those given read into them."""
+    name = scenario.name
+    unknown = sorted(set(settings) - set(scenario.settings))
     if unknown:
         known = ", ".join(scenario.settings) or "none"
         raise ScenarioError(f"{name} has no setting {', '.join(unknown)}; there are: {known}")
     values: dict[str, Value] = {key: entry.default for key, entry in scenario.settings.items()}
-    for key, given in (settings or {}).items():
+    for key, given in settings.items():
         values[key] = scenario.settings[key].read(f"{name}: {key}", given)
-    measure = _MEASUREMENTS.get(name, _ride)
-    seed = values.get("seed", scenario.seed)
-    return {"scenario": name, "settings": values, "seed": seed} | measure(scenario, values)
+    return values
 
 
 def _described(scenario: ScenarioFile) -> Result:
@@ -175,19 +192,24 @@ def _mode_of(law: str) -> int:
     raise ScenarioError(f"no assist mode runs the {law} law at ratio 1")
 
 
-def _start(scenario: ScenarioFile, settings: Settings) -> Result:
+def _start_trial(scenario: ScenarioFile, settings: Settings) -> _Trial:
     bike = {"road.mass_kg": settings["mass_kg"]}
     trial = _Trial(scenario, settings["law"], bike, _config_of(settings))
     trial.begin()
     trial.unit.rider(settings["rider"], settings["rider_torque_nm"], CADENCE_RPM_UNLIMITED)
     trial.advance_until(lambda seen: seen.speed_kmh >= LIMIT_KMH, START_S_MAX)
+    return trial
+
+
+def _start(scenario: ScenarioFile, settings: Settings) -> Result:
+    trial = _start_trial(scenario, settings)
     return {
         "time_to_limit_s": trial.first(lambda seen: seen.speed_kmh >= LIMIT_KMH),
         "speed_kmh": trial.speeds_kmh(*range(5, int(START_S_MAX) + 1, 5)),
     } | trial.energy()
 
 
-def _slope(scenario: ScenarioFile, settings: Settings) -> Result:
+def _slope_trial(scenario: ScenarioFile, settings: Settings) -> _Trial:
     # On a flywheel too heavy to change its speed until filter and ramp have settled.
     bench = {
         "road.source": 1.0,
@@ -210,6 +232,11 @@ def _slope(scenario: ScenarioFile, settings: Settings) -> Result:
     )
     trial.begin()
     trial.advance_until(lambda _: False, settings["seconds"])
+    return trial
+
+
+def _slope(scenario: ScenarioFile, settings: Settings) -> Result:
+    trial = _slope_trial(scenario, settings)
     return {
         "final_speed_kmh": trial.samples[-1].speed_kmh,
         "speed_kmh": trial.speeds_kmh(1, 2, 5, 10, 15, 20),
