@@ -1,10 +1,12 @@
-"""Simulate: let a unit with a virtual clock live through some time, as fast as the machine can."""
+"""Simulate: what a simulated unit can be sent on, and time that passes for one at once."""
 
 from __future__ import annotations
 
 import time
+from dataclasses import dataclass
 from typing import Any
 
+from backend.control.scenarios import live_scenarios
 from backend.device.simulation import simulation_advance
 from backend.errors import Conflict, NoAnswer
 from backend.services.connect import Devices
@@ -12,6 +14,19 @@ from backend.services.connect import Devices
 LOOK_EVERY_S = 0.01
 # A unit that has not lived through a tenth of a second in this long never will.
 STUCK_S = 15.0
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """A ride that a simulated unit can be sent on: `scenario` of its simulation takes the name."""
+
+    name: str
+    description: str
+
+
+def scenarios() -> list[Scenario]:
+    """Every scenario that can be ridden."""
+    return [Scenario(name, doc) for name, doc in live_scenarios()]
 
 
 def advance(devices: Devices, device_id: str, seconds: float) -> dict[str, Any]:

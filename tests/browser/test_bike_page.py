@@ -36,6 +36,38 @@ def test_the_simulated_rider_obeys_the_panel(
     server.simulate(standing, speed_factor=1.0)
 
 
+def test_the_scenarios_are_those_the_server_knows(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    known = server.get("/scenarios")["items"]
+    commute = next(one for one in known if one["name"] == "commute")
+    page = desk.open("/")
+    scenarios = page.get_by_label("Scenario")
+    expect(scenarios.locator("option")).to_have_count(len(known) + 1)
+
+    scenarios.select_option("commute")
+
+    expect(page.locator("main")).to_contain_text(commute["description"])
+    desk.picture("simulation", full=True)
+
+
+def test_what_a_simulated_unit_can_break_is_broken_from_the_panel(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    simulation = server.get(f"/devices/{standing}/simulation")
+    simulation["faults"] = {"speed_sensor": "lost"}
+    desk.page.route("**/simulation", lambda route: route.fulfill(json=simulation))
+    page = desk.open("/")
+    broken = page.get_by_role("group", name="What is broken")
+    expect(broken.get_by_label("Speed sensor")).to_have_value("lost")
+    desk.picture("simulation-faults", full=True)
+
+    with page.expect_request(lambda request: request.method == "PUT") as changed:
+        broken.get_by_label("Torque sensor").select_option("drifting")
+
+    assert changed.value.post_data_json == {"faults": {"torque_sensor": "drifting"}}
+
+
 def test_a_second_unit_is_added_chosen_and_removed(
     desk: Desk, server: SpindleServer, standing: str
 ) -> None:

@@ -11,6 +11,7 @@ from playwright.sync_api import Route, expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk
+from tests.fakes.server import SpindleServer
 
 FROZEN = {"t_us": 61_000_000, "channels": {"speed_kmh": 12.5, "battery_voltage_v": 36.1}}
 ACTIVE = {
@@ -19,6 +20,8 @@ ACTIVE = {
     "active": True,
     "count": 2,
     "frozen": FROZEN,
+    "severity": "latched",
+    "mechanic_text": "Measure the bridge.",
 }
 OVER = {**ACTIVE, "name": "BATTERY_LOW", "active": False, "count": 1, "frozen": None}
 
@@ -47,6 +50,8 @@ def test_a_fault_shows_what_the_bike_did_and_what_is_over_is_cleared(
     page = desk.open("/service")
     fault = page.locator("[data-fault=TORQUE_SENSOR]")
     expect(fault).to_contain_text("active now")
+    expect(fault).to_contain_text("Measure the bridge.")
+    expect(fault).to_contain_text("The rider reads: “Check the cable.”")
     expect(page.locator("[data-fault=BATTERY_LOW]")).to_contain_text("over")
 
     fault.locator("summary").click()
@@ -65,7 +70,7 @@ def test_faults_in_chinese_on_a_phone(open_desk: OpenDesk, standing: str) -> Non
     with_faults(desk)
     page = desk.open("/service")
 
-    expect(page.locator("[data-fault=TORQUE_SENSOR]")).to_contain_text("请检查传感器线缆")
+    expect(page.locator("[data-fault=TORQUE_SENSOR]")).to_contain_text("检查传感器插头与电桥")
     assert page.evaluate("document.documentElement.scrollWidth") <= 360
     desk.picture("faults-phone-zh")
 
@@ -74,3 +79,20 @@ def test_a_real_unit_without_faults_says_so(desk: Desk, standing: str) -> None:
     page = desk.open("/service")
 
     expect(page.locator("[data-testid=faults]")).to_contain_text("No active faults")
+
+
+def test_a_rider_is_told_what_to_do_in_plain_words(
+    open_desk: OpenDesk, server: SpindleServer, standing: str
+) -> None:
+    unit = server.get(f"/devices/{standing}") | {"faults_active": ["BATTERY_CUT"]}
+    desk = open_desk(width=390, height=844, language="zh-CN")
+    desk.page.route(
+        "**/api/v1/devices", lambda route: route.fulfill(json={"items": [unit], "next": None})
+    )
+
+    page = desk.open("/")
+
+    told = page.locator("[data-fault=BATTERY_CUT]")
+    expect(told).to_contain_text("请停稳后重新打开电池")
+    expect(told).not_to_contain_text("电池管理系统")
+    desk.picture("fault-rider-zh", full=True)

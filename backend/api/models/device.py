@@ -140,6 +140,18 @@ class Upkeep(Answer):
     runs_on_default: bool = Field(description="Neither slot is good: the factory's values apply.")
 
 
+class Scenario(Answer):
+    """A ride that a simulated unit can be sent on."""
+
+    name: str
+    description: str
+
+
+class ScenarioList(Answer):
+    items: list[Scenario]
+    next: str | None = None
+
+
 class SimulationRider(Answer):
     kind: RiderKind
     torque_nm: float

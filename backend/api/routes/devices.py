@@ -13,6 +13,7 @@ from backend.api.models.device import (
     DeviceRequest,
     FaultList,
     PortList,
+    ScenarioList,
     Simulation,
     SimulationAdvance,
     SimulationChange,
@@ -22,7 +23,7 @@ from backend.api.models.device import (
 from backend.api.problem import refusals
 from backend.api.services import Provided
 from backend.errors import FieldError, InvalidRequest
-from backend.services.simulate import advance
+from backend.services.simulate import advance, scenarios
 
 # Settings of a simulated unit that are paths.
 FILE_SETTINGS = frozenset({"flash", "unlock_key"})
@@ -102,6 +103,12 @@ def list_faults(device_id: str, services: Provided) -> Any:
 def clear_faults(device_id: str, services: Provided) -> Any:
     """Forgets the faults that are over; one that is active stays. Lists what is left."""
     return {"items": services.devices.clear_faults(device_id)}
+
+
+@router.get("/scenarios", operation_id="list_scenarios", response_model=ScenarioList)
+def list_scenarios() -> dict[str, Any]:
+    """The scenarios that a simulated unit can ride."""
+    return {"items": scenarios()}
 
 
 @router.get(

@@ -14,6 +14,7 @@ import type {
   Port,
   Revision,
   Ride,
+  Scenario,
   Simulation,
   SimulationChange,
   Surface,
@@ -116,6 +117,11 @@ export class Server {
   fetchLog(device_id: string, log_id: number): Promise<LogDownload> {
     const request = { params: { path: { device_id, log_id } } }
     return body(this.http.POST('/api/v1/devices/{device_id}/logs/{log_id}/download', request))
+  }
+
+  /** What a simulated unit can be sent on. */
+  async scenarios(): Promise<Scenario[]> {
+    return (await body(this.http.GET('/api/v1/scenarios'))).items
   }
 
   simulation(id: string): Promise<Simulation> {

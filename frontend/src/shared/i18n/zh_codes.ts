@@ -1,4 +1,6 @@
 // 服务器以代码和英文句子说明的内容，按代码译成中文；没有的代码显示服务器的原句。
+import type { FaultName } from '$generated/registry'
+
 const lint = {
   assist_above_cutoff: '助力截止速度超过 25 km/h；法规要求此速度以上助力为零',
   no_torque_limit: '电机扭矩上限超过电机所能承受的值',
@@ -52,8 +54,53 @@ const refusal = {
   no_trial: '单元中没有正在试用的修改：已保留、已恢复或时间已到。请重新读取配置。',
   unknown_trial: '试用的修改并非由此 Spindle 写入，不知其本意。请恢复，或用写入它的工具保留。',
   read_only: '此单元只能读取，不能修改。',
+  refused: '请求被拒绝，没有任何改变。',
+  error: '出错了。',
+  device_refused: '单元拒绝了此请求。',
+  our_protocol: 'Spindle 自身的错误：请求不符合协议。请报告此问题。',
+  port_absent: '没有这个端口。请插好数据线后重新查找。',
+  port_busy: '端口被其他程序占用。请关闭该程序后重试。',
+  port_permission: '没有使用此端口的权限。',
+  port_vanished: '端口消失了：数据线被拔出，或单元断电。',
+  simulator_failed: '模拟单元无法启动。',
+  not_json: '请求内容不是可读的 JSON。',
+  not_accepted: '不接受此值。',
+  not_a_number: '不是数字。',
+  wrong_shape: '数据的形状不对。',
+  too_many_points: '一次请求的点过多，请分批请求。',
+  too_many_samples: '数据行过多，无法重放。',
+  replay_refused: '此配置无法重放。',
+  missing_channel: '此骑行缺少重放所需的通道。',
+  invalid_assist_modes: '助力模式的数值相互矛盾。',
+  recording: '骑行正在记录，结束后再试。',
+  no_logs: '此单元不保存骑行记录。',
+  offset_mismatch: '上传的位置不符，请从服务器所报位置继续。',
+  hash_mismatch: '内容与单元所报的校验不符，没有保存。',
+  checksum_mismatch: '校验和不符：文件已损坏。',
+  empty_file: '文件是空的。',
+  unknown_format: '无法识别的文件格式。',
+  no_records: '文件中没有骑行数据。',
+  no_valid_time: '文件中没有有效的时间。',
+  too_many_rows: '文件的数据行过多。',
+  too_much_memory: '读取此文件需要过多内存，已停止。',
+  too_slow: '读取此文件用时过长，已停止。',
+  too_long: '内容过长。',
+  parser_crashed: '读取此文件时出错，已停止；服务器不受影响。',
+  method_not_allowed: '此地址不支持这种请求。',
+  unsupported_media_type: '不支持此内容类型。',
   too_large: '文件过大。',
   unsupported_format: '不支持此文件格式。',
+  unknown_msg: '单元不认识此请求：其固件可能较旧。',
+  length: '请求的长度不对。',
+  version: '单元使用另一版本的协议。',
+  type: '有数值类型不对。',
+  unknown_id: '单元不认识此参数或通道。',
+  crc_mismatch: '单元收到的配置与预期不同，没有写入。',
+  auth_bad: '令牌不属于此单元或此次修改。',
+  auth_delay: '之前有过错误的令牌，请稍候。',
+  aborted: '修改已放弃。',
+  commit_unanswered: '单元没有应答此次写入。请重新读取，查看它现在的配置。',
+  unit_restarted: '单元期间重启过，请重试。',
   busy: '单元正忙于另一项修改，请稍后再试。',
   state: '单元当前状态不允许此操作，请重新开始。',
   range: '有数值超出单元允许的范围。',
@@ -73,13 +120,48 @@ const refusal = {
   internal: '单元内部出错。',
 }
 
-// What a fault means: the server's sentence is for the mechanic.
-const fault = {
-  TORQUE_SENSOR: '扭矩传感器读数到达端点或缺失，没有助力。请检查传感器线缆，再检查零点。',
-  SPEED_SENSOR: '速度不合理或缺失，没有助力。请检查磁铁和线缆。',
-  BATTERY_LOW: '电池电压低于助力截止电压。请充电。',
-  CONFIG_DEFAULTED: '单元没有找到完好的配置，正以出厂值运行。请恢复备份。',
+// 故障：告诉骑手怎么办。登记表里多一种故障而此处没有，类型检查就会失败。
+const fault: Record<FaultName, string> = {
+  TORQUE_SENSOR: '没有助力：踏板传感器故障。可以无助力骑行，请联系经销商。',
+  SPEED_SENSOR: '没有助力：速度传感器故障。请检查磁铁是否正对传感器。',
+  BATTERY_LOW: '电池电量耗尽。请充电。',
+  CONFIG_DEFAULTED: '车辆正以出厂设置运行。请让经销商恢复您的设置。',
+  OVER_CURRENT: '没有助力：电机电流过大。请停稳后关机再开机；若再次出现，请联系经销商。',
+  UNDER_VOLTAGE: '没有助力：供电中断。请检查电池是否锁好，然后关机再开机。',
+  BATTERY_CUT: '没有助力：电池自行断开。请停稳后重新打开电池。',
+  MOTOR_TEMPERATURE: '没有助力：电机过热。请等它冷却，然后关机再开机。',
+  CONTROLLER_TEMPERATURE: '没有助力：驱动单元过热。请等它冷却，然后关机再开机。',
+  TORQUE_STUCK: '没有助力：踏板传感器不随踩踏变化。请联系经销商。',
+  TORQUE_DRIFT: '没有助力：踏板传感器零点偏移。请把脚离开踏板稍候；若不恢复，请联系经销商。',
+  TORQUE_LINK: '助力暂停：踏板传感器的信号中断。',
+  SPEED_MISMATCH: '没有助力：速度传感器与电机不符。请检查磁铁是否正对传感器。',
 }
 
-export const zhCodes = { lint, violation, refusal, fault }
+// 故障：告诉技师测什么、修什么。
+const mechanic: Record<FaultName, string> = {
+  TORQUE_SENSOR: '扭矩读数缺失或到达端点。检查传感器插头与电桥有无断路、短路，然后重新标定零点。',
+  SPEED_SENSOR: '速度缺失、不合理或不更新。检查磁铁、间隙和线缆。',
+  BATTERY_LOW: '电压低于 battery_voltage_v_min 达半秒。若显示仍有电量，测量带载压降：电池或触点老化。',
+  CONFIG_DEFAULTED: '存储器中的两份配置都已损坏。恢复备份；若再次出现，存储器已老化。',
+  OVER_CURRENT: '电机或电池电流超出上限一半。清除之前，检查相线短路、齿轮卡死或电桥损坏。',
+  UNDER_VOLTAGE: '电压比 battery_voltage_v_min 低 3 V 以上。检查触点，并带载测量每组电芯。',
+  BATTERY_CUT: '电池管理系统断开了开关：过流、电芯耗尽或温度。读取电池自身的记录。',
+  MOTOR_TEMPERATURE:
+    '绕组达到 130 °C，尽管 110 °C 起已降低助力。低于 110 °C 后可清除。检查传感器、齿轮阻力和骑行方式。',
+  CONTROLLER_TEMPERATURE:
+    '控制器达到 100 °C，尽管 85 °C 起已降低助力。低于 85 °C 后可清除。检查电路板到外壳的导热。',
+  TORQUE_STUCK: '带力踩踏五圈，扭矩读数变化不到两个计数。检查放大器和转子电路板：腿的力总有变化。',
+  TORQUE_DRIFT: '静止且无踩踏五秒，扭矩仍超过 3 Nm。标定零点；若再次偏移，应变片粘接正在失效。',
+  TORQUE_LINK: '四分之一秒内没有收到转子的有效数据。检查线圈间隙、对位和转子供电；参看链路计数。',
+  SPEED_MISMATCH: '电机驱动链条的速度达车轮所示的三倍，持续一秒。检查磁铁和传感器，再核对齿比与轮径设置。',
+}
+
+// 模拟场景的说明。
+const scenario = {
+  commute: '几分钟的市区骑行：两处红绿灯、一段上下坡、逆风，然后休息。',
+  start: '平路起步，以恒定踏板扭矩加速到助力截止速度（论文 5.4，图 5-5）。',
+  slope: '以 25 km/h 驶上坡道，踏板扭矩不变（论文 5.4，图 5-7）。',
+}
+
+export const zhCodes = { lint, violation, refusal, fault, mechanic, scenario }
 export type Saying = keyof typeof zhCodes

@@ -1,0 +1,33 @@
+"""Goal: whatever code a refusal carries, a Chinese reader is told in Chinese what it means."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from backend.api.errors import CODE_OF_STATUS
+from backend.errors import SpindleError
+from firmware_protocol._generated import Status
+
+ROOT = Path(__file__).resolve().parents[3]
+WORDS = (ROOT / "frontend/src/shared/i18n/zh_codes.ts").read_text(encoding="utf-8")
+
+
+def tree(of: type[SpindleError]) -> Iterator[type[SpindleError]]:
+    yield of
+    for kind in of.__subclasses__():
+        yield from tree(kind)
+
+
+DEFAULTS = {kind.default_code for kind in tree(SpindleError)}
+STATUSES = {status.name.lower() for status in Status} - {"ok", "pending"}
+
+
+@pytest.mark.parametrize("code", sorted(DEFAULTS | STATUSES | set(CODE_OF_STATUS.values())))
+def test_a_code_has_chinese_words(code: str) -> None:
+    refusals = WORDS[WORDS.index("const refusal") : WORDS.index("const fault")]
+
+    assert re.search(rf"^  {code}:", refusals, re.MULTILINE)
