@@ -103,6 +103,20 @@ def test_no_line_is_drawn_across_the_hole(desk: Desk, server: SpindleServer) -> 
     expect(page.locator("text=gaps without samples (1)")).to_be_visible()
 
 
+def test_what_came_from_the_unit_s_own_log_is_tinted_and_said(
+    desk: Desk, server: SpindleServer
+) -> None:
+    ride = server.get(f"/rides/{long_ride(server)}")
+    span = {"from_s": 600.0, "to_s": 900.0, "rows_lost": 30000, "rows_filled": 3000}
+    ride["filled"] = [span | {"period_us": 100_000, "source": "unit_log"}]
+    desk.page.route(f"**/api/v1/rides/{ride['id']}", lambda route: route.fulfill(json=ride))
+
+    page = open_ride(desk, server)
+
+    expect(page.locator("text=stretches from the unit's own log (1)")).to_be_visible()
+    assert desk.plot("gd.layout.shapes.map((s) => s.x0)")[-1] == 600
+
+
 def test_rider_and_motor_are_told_apart(desk: Desk, server: SpindleServer) -> None:
     page = open_ride(desk, server)
 

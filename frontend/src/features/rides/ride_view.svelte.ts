@@ -9,7 +9,7 @@ export interface TimeWindow {
   to_s: number
 }
 
-const DEBOUNCE_MS = 60
+const PACE_MS = 60 // a drag asks this often at most
 const WINDOW_S_MIN = 0.2
 
 export class RideView {
@@ -18,6 +18,7 @@ export class RideView {
   loading = $state(false)
   trouble = $state<string | null>(null)
   private asked = new AbortController()
+  private fetched_ms = -Infinity
   private timer: ReturnType<typeof setTimeout> | null = null
 
   constructor(
@@ -34,7 +35,7 @@ export class RideView {
     return this.window.from_s <= 0 && this.window.to_s >= this.duration_s
   }
 
-  /** Shows another window; fetches it after a breath, so that a drag asks once. */
+  /** Shows another window and fetches it: at once, or with the last of a quick row of them. */
   show(window: TimeWindow, px: number): void {
     this.window = this.inside(window)
     this.fetchSoon(px)
@@ -63,7 +64,9 @@ export class RideView {
 
   fetchSoon(px: number): void {
     if (this.timer) clearTimeout(this.timer)
-    this.timer = setTimeout(() => void this.fetch(px), DEBOUNCE_MS)
+    const wait_ms = this.fetched_ms + PACE_MS - performance.now()
+    if (wait_ms <= 0) void this.fetch(px)
+    else this.timer = setTimeout(() => void this.fetch(px), wait_ms)
   }
 
   stop(): void {
@@ -72,6 +75,7 @@ export class RideView {
   }
 
   private async fetch(px: number): Promise<void> {
+    this.fetched_ms = performance.now()
     this.asked.abort()
     this.asked = new AbortController()
     const { signal } = this.asked

@@ -10,9 +10,16 @@ export interface FigureWords {
   channel: (name: string) => string
 }
 
+export interface Span {
+  from_s: number
+  to_s: number
+}
+
 export interface Frame {
   rows: TraceRow[]
-  gaps: { from_s: number; to_s: number }[]
+  gaps: Span[]
+  /** Stretches that came from the unit's own log, coarser than the rest. */
+  filled: Span[]
   /** Size of the plot in pixels. */
   width: number
   height: number
@@ -114,7 +121,10 @@ export function traceLayout(
       spikethickness: 1,
       spikecolor: theme.colour('line-strong'),
     },
-    shapes: frame.gaps.map((gap) => gapShape(gap, theme)),
+    shapes: [
+      ...frame.gaps.map((span) => spanShape(span, theme.colour('line'), 0.35)),
+      ...frame.filled.map((span) => spanShape(span, theme.colour('accent-soft'), 0.6)),
+    ],
     annotations: frame.rows.map((row, i) => ({
       text: rowTitle(row, units, words, theme),
       font: { ...font, color: theme.colour('ink') },
@@ -139,17 +149,17 @@ function rowTitle(row: TraceRow, units: Units, words: FigureWords, theme: Theme)
     : `<b>${words.row(row.key)}</b>${unit}`
 }
 
-function gapShape(gap: { from_s: number; to_s: number }, theme: Theme): object {
+function spanShape({ from_s, to_s }: Span, fillcolor: string, opacity: number): object {
   return {
     type: 'rect',
     xref: 'x',
     yref: 'paper',
-    x0: gap.from_s,
-    x1: gap.to_s,
+    x0: from_s,
+    x1: to_s,
     y0: 0,
     y1: 1,
-    fillcolor: theme.colour('line'),
-    opacity: 0.35,
+    fillcolor,
+    opacity,
     line: { width: 0 },
     layer: 'below',
   }

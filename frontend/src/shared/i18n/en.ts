@@ -330,6 +330,9 @@ export const en = {
   'ride.moment': 'Time',
   'ride.missing': 'Not recorded in this ride: {names}.',
   'ride.gaps': 'Shaded: gaps without samples ({count}). Lines are not drawn across them.',
+  'ride.filled':
+    "Tinted: stretches from the unit's own log ({count}), at the log's rate. The live link had " +
+    'lost them.',
   'ride.no_traces': 'This ride has no channel that can be drawn.',
   'ride.still_recording': 'This ride is being recorded; its traces are ready when it ends.',
   'ride.export': 'Export',

@@ -301,6 +301,7 @@ export const zh: Record<Key, string> = {
   'ride.moment': '时刻',
   'ride.missing': '此次骑行未记录：{names}。',
   'ride.gaps': '阴影：{count} 处没有数据的间断，曲线不跨越间断。',
+  'ride.filled': '着色：{count} 段取自单元自身的记录，按记录的采样率；实时链路曾丢失这些数据。',
   'ride.no_traces': '此次骑行没有可绘制的通道。',
   'ride.still_recording': '骑行正在记录；结束后即可查看曲线。',
   'ride.export': '导出',
