@@ -364,7 +364,8 @@ export const en = {
   'service.rider_reads': 'The rider reads: “{words}”',
   'severity.warning': 'Tells only; assist goes on.',
   'severity.assist_off': 'No assist while it lasts.',
-  'severity.latched': 'No assist until it is cleared at standstill, or the bike is switched off and on.',
+  'severity.latched':
+    'No assist until it is cleared at standstill, or the bike is switched off and on.',
   'service.revisions': 'Changes of the configuration',
   'service.no_revisions': 'Nothing was changed from here yet.',
   'service.when': 'When',
