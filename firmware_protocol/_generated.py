@@ -2291,7 +2291,7 @@ FAULTS: tuple[Fault, ...] = (
     Fault(
         5, "UNDER_VOLTAGE", 2,
         "No assist: the supply broke down. Check that the battery is locked in place, then switch off and on.",
-        "The voltage fell 3 V below battery_voltage_v_min. Check the contacts and each cell group under load.",
+        "The voltage fell 3 V below battery_voltage_v_min, and below 27 V. Check the contacts and each cell group under load.",
     ),
     Fault(
         6, "BATTERY_CUT", 2,

@@ -1200,7 +1200,7 @@ export const FAULTS = {
     bit: 5,
     severity: "LATCHED",
     rider_text: "No assist: the supply broke down. Check that the battery is locked in place, then switch off and on.",
-    mechanic_text: "The voltage fell 3 V below battery_voltage_v_min. Check the contacts and each cell group under load.",
+    mechanic_text: "The voltage fell 3 V below battery_voltage_v_min, and below 27 V. Check the contacts and each cell group under load.",
   },
   BATTERY_CUT: {
     bit: 6,

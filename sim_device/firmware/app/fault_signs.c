@@ -14,8 +14,10 @@
  * would flicker with every pedal stroke. */
 #define BATTERY_RECOVERY_V 1.0f
 
-/* A sag of a worn pack ends above this; below, contacts or the bus give way. */
+/* A sag of a worn pack ends above this; below, contacts or the bus give way. A dealer who cuts early
+ * (battery_voltage_v_min up to 40 V) does not make a supply of 36 V a broken one. */
 #define UNDER_VOLTAGE_BELOW_V 3.0f
+#define UNDER_VOLTAGE_V_MAX 27.0f /* ten cells at 2.7 V */
 
 /* Half as much again is no ripple of a current loop that works. The floor keeps the noise of a
  * sensor from being a fault where a dealer has lowered a limit far. */
@@ -191,7 +193,8 @@ void fault_signs(fault_list *faults, const hal_inputs *inputs, const ebl_config 
                  const fault_law *law, fault_sign *signs)
 {
     int fresh = inputs->torque_age_ms <= TORQUE_HOLD_MS;
-    float deep_v = config->battery_voltage_v_min - UNDER_VOLTAGE_BELOW_V;
+    float deep_v =
+        float32_min(config->battery_voltage_v_min - UNDER_VOLTAGE_BELOW_V, UNDER_VOLTAGE_V_MAX);
 
     for (unsigned bit = 0; bit < FAULT_KINDS; bit++) signs[bit] = FAULT_SIGN_NONE;
     if (fresh) {
