@@ -14,10 +14,10 @@
  * would flicker with every pedal stroke. */
 #define BATTERY_RECOVERY_V 1.0f
 
-/* A sag of a worn pack ends above this; below, contacts or the bus give way. A dealer who cuts early
- * (battery_voltage_v_min up to 40 V) does not make a supply of 36 V a broken one. */
+/* A sag of a worn pack ends above this; below, contacts or the bus give way. Ten cells at 2.7 V:
+ * a dealer who cuts early (battery_voltage_v_min up to 40 V) makes no broken supply of a whole one. */
 #define UNDER_VOLTAGE_BELOW_V 3.0f
-#define UNDER_VOLTAGE_V_MAX 27.0f /* ten cells at 2.7 V */
+#define UNDER_VOLTAGE_V_MAX 27.0f
 
 /* Half as much again is no ripple of a current loop that works. The floor keeps the noise of a
  * sensor from being a fault where a dealer has lowered a limit far. */
