@@ -15,7 +15,7 @@
 #define BATTERY_RECOVERY_V 1.0f
 
 /* A sag of a worn pack ends above this; below, contacts or the bus give way. Ten cells at 2.7 V:
- * a dealer who cuts early (battery_voltage_v_min up to 40 V) makes no broken supply of a whole one. */
+ * a dealer who cuts early (battery_voltage_v_min up to 40 V) breaks no supply. */
 #define UNDER_VOLTAGE_BELOW_V 3.0f
 #define UNDER_VOLTAGE_V_MAX 27.0f
 
