@@ -28,6 +28,7 @@ from backend.errors import LinkError, SpindleError
 from backend.link import kind_of
 from backend.services.collect import Collect
 from backend.services.connect import Devices
+from backend.services.dashboard import Dashboards
 from backend.services.preview import Preview
 from backend.services.record import Recorder
 from backend.services.remember import UnitMemory
@@ -82,6 +83,8 @@ def open_services(settings: Settings) -> Iterator[Services]:
 
         devices.watch(memory.follow)
         devices.watch(recorder.watch)
+        dashboards = Dashboards()
+        devices.watch(dashboards.follow)
         closing.enter_context(housekeeping(partial(tidy, recorder, uploads)))
         for url in settings.device:
             in_background(url, partial(devices.add, url))
@@ -90,6 +93,7 @@ def open_services(settings: Settings) -> Iterator[Services]:
             version=__version__,
             devices=devices,
             watch=Watch(devices),
+            dashboards=dashboards,
             tuning=tuning,
             live=LiveTuning(devices),
             preview=preview,

@@ -18,6 +18,7 @@ from typing import Any
 
 from backend.api.models.config import Config, ConfigChange, Parameter, ParameterList
 from backend.api.models.device import (
+    Dashboard,
     Device,
     Fault,
     FaultList,
@@ -112,6 +113,10 @@ class Unit:
     def snapshot(self) -> Snapshot:
         """The latest row of every channel."""
         return Snapshot.model_validate(self._server.ask("GET", f"{self._path}/snapshot"))
+
+    def dashboard(self) -> Dashboard:
+        """Speed, acceleration, powers, battery, distance and range as the rider sees them."""
+        return Dashboard.model_validate(self._server.ask("GET", f"{self._path}/dashboard"))
 
     def parameters(self) -> list[Parameter]:
         """Every parameter with its range, unit, default and value."""

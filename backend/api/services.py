@@ -11,6 +11,7 @@ from starlette.requests import HTTPConnection
 if TYPE_CHECKING:
     from backend.services.collect import Collect
     from backend.services.connect import Devices
+    from backend.services.dashboard import Dashboards
     from backend.services.preview import Preview
     from backend.services.review import Rides
     from backend.services.try_live import LiveTuning
@@ -26,6 +27,7 @@ class Services:
     version: str
     devices: Devices
     watch: Watch
+    dashboards: Dashboards
     tuning: Tuning
     live: LiveTuning
     preview: Preview

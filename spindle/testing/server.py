@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+import weakref
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Self
@@ -50,6 +51,8 @@ class RunningServer:
             stderr=subprocess.STDOUT,
             text=True,
         )
+        # A test that fails before it stops its server must not leave it running.
+        weakref.finalize(self, self._process.kill)
         threading.Thread(target=self._read, args=(self._process,), daemon=True).start()
         said: list[str] = []
         deadline_s = time.monotonic() + PATIENCE_S

@@ -89,6 +89,18 @@ def test_a_ride_in_virtual_time_is_recorded_whole_and_twice_the_same(
     assert np.array_equal(speeds[0], speeds[1])
 
 
+def test_the_dashboard_has_ridden_as_far_as_the_record_says(server: SpindleServer) -> None:
+    device = server.ready_device(2)
+
+    recorded = ride(server, device)
+    seen = server.get(f"/devices/{device}/dashboard")
+
+    assert seen["distance_km"] == pytest.approx(recorded["summary"]["distance_km"], rel=0.01)
+    assert seen["missing_s"] == 0.0
+    assert seen["speed_kmh"] == 0.0
+    assert seen["range_km"] is None
+
+
 def test_a_clock_that_runs_by_itself_is_left_alone(server: SpindleServer) -> None:
     device = server.ready_device(3)
 

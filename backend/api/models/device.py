@@ -101,6 +101,23 @@ class Snapshot(Answer):
     channels: dict[str, float | None]
 
 
+class Dashboard(Answer):
+    """What the rider sees. Rider power and motor power are two things; missing is null."""
+
+    t_us: int | None
+    speed_kmh: float | None
+    acceleration_ms2: float | None = Field(description="Over the last second.")
+    rider_power_w: float | None = Field(description="The rider's own, over the last second.")
+    motor_power_w: float | None = Field(description="Mechanical, at the motor's shaft.")
+    battery_soc_pct: float | None
+    battery_voltage_v: float | None
+    distance_km: float = Field(description="Since the unit's start or the last charge.")
+    missing_s: float = Field(description="Time since then whose rows never came.")
+    range_km: float | None = Field(
+        description="At the consumption since then; null until half a kilometre and half a percent."
+    )
+
+
 class Fault(Answer):
     """A fault that is active or was. `frozen` is what the bike did when it came last."""
 

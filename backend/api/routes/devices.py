@@ -8,6 +8,7 @@ from urllib.parse import parse_qs
 from fastapi import APIRouter, Response, status
 
 from backend.api.models.device import (
+    Dashboard,
     Device,
     DeviceList,
     DeviceRequest,
@@ -89,6 +90,14 @@ def get_snapshot(device_id: str, services: Provided) -> Any:
 def get_service(device_id: str, services: Provided) -> Any:
     """How far and how long the unit ran, and how worn the flash of its configuration is."""
     return services.devices.upkeep(device_id)
+
+
+@router.get(
+    "/devices/{device_id}/dashboard", operation_id="get_dashboard", response_model=Dashboard
+)
+def get_dashboard(device_id: str, services: Provided) -> Any:
+    """Speed, acceleration, powers, battery, distance and range, from the rows of the stream."""
+    return services.dashboards.get(services.devices.get(device_id).id)
 
 
 @router.get("/devices/{device_id}/faults", operation_id="list_faults", response_model=FaultList)

@@ -129,6 +129,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/devices/{device_id}/dashboard": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Dashboard
+         * @description Speed, acceleration, powers, battery, distance and range, from the rows of the stream.
+         */
+        get: operations["get_dashboard"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/devices/{device_id}/faults": {
         parameters: {
             query?: never;
@@ -970,6 +990,50 @@ export interface components {
              * @description Why the latest trial was given up; null when none was since the unit's start.
              */
             rollback_cause: ("asked" | "time_out" | "restart" | "unknown") | null;
+        };
+        /**
+         * Dashboard
+         * @description What the rider sees. Rider power and motor power are two things; missing is null.
+         */
+        Dashboard: {
+            /** T Us */
+            t_us: number | null;
+            /** Speed Kmh */
+            speed_kmh: number | null;
+            /**
+             * Acceleration Ms2
+             * @description Over the last second.
+             */
+            acceleration_ms2: number | null;
+            /**
+             * Rider Power W
+             * @description The rider's own, over the last second.
+             */
+            rider_power_w: number | null;
+            /**
+             * Motor Power W
+             * @description Mechanical, at the motor's shaft.
+             */
+            motor_power_w: number | null;
+            /** Battery Soc Pct */
+            battery_soc_pct: number | null;
+            /** Battery Voltage V */
+            battery_voltage_v: number | null;
+            /**
+             * Distance Km
+             * @description Since the unit's start or the last charge.
+             */
+            distance_km: number;
+            /**
+             * Missing S
+             * @description Time since then whose rows never came.
+             */
+            missing_s: number;
+            /**
+             * Range Km
+             * @description At the consumption since then; null until half a kilometre and half a percent.
+             */
+            range_km: number | null;
         };
         /**
          * Device
@@ -2570,6 +2634,73 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Upkeep"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_dashboard: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Dashboard"];
                 };
             };
             /** @description Not Found */
