@@ -21,11 +21,17 @@ REST_S = 40
 @pytest.fixture(scope="module")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     """Three units in virtual time that stand still, and one whose clock is real."""
-    devices = [f"sim:{n}?clock=virtual&scenario=none&seed={n}" for n in (5, 6, 7)]
+    devices = [f"sim:{name}?clock=virtual&scenario=none" for name in ("one", "two", "three")]
     running = SpindleServer(tmp_path_factory.mktemp("virtual"), [*devices, "sim:real"]).start()
     running.ready_device(3)
     yield running
     running.stop()
+
+
+def named(server: SpindleServer, name: str) -> str:
+    """The id of the unit `sim:name`; they become ready in any order."""
+    devices = server.get("/devices")["items"]
+    return next(str(one["id"]) for one in devices if one["url"].startswith(f"sim:{name}"))
 
 
 def advance(server: SpindleServer, device: str, seconds: float) -> dict[str, Any]:
@@ -58,7 +64,7 @@ def ride(server: SpindleServer, device: str) -> dict[str, Any]:
 
 
 def test_time_passes_only_when_it_is_told_to(server: SpindleServer) -> None:
-    device = server.ready_device(2)
+    device = named(server, "three")
     before = server.get(f"/devices/{device}/simulation")
 
     after = advance(server, device, 12.5)
@@ -72,7 +78,7 @@ def test_time_passes_only_when_it_is_told_to(server: SpindleServer) -> None:
 def test_a_ride_in_virtual_time_is_recorded_whole_and_twice_the_same(
     server: SpindleServer,
 ) -> None:
-    rides = [ride(server, server.ready_device(number)) for number in (0, 1)]
+    rides = [ride(server, named(server, name)) for name in ("one", "two")]
 
     speeds = []
     for one in rides:
@@ -82,7 +88,7 @@ def test_a_ride_in_virtual_time_is_recorded_whole_and_twice_the_same(
         series = server.get(f"/rides/{one['id']}/series?channels=speed_kmh&px=4000&to_s={RIDE_S}")
         trace = series["channels"][0]
         speeds.append(np.array([trace["min"], trace["max"]], dtype=float))
-    for device in (server.ready_device(0), server.ready_device(1)):
+    for device in (named(server, "one"), named(server, "two")):
         link = server.get(f"/devices/{device}")["link"]
         assert link["stream_rows_lost"] == 0
     assert speeds[0].max() > 10.0
@@ -90,7 +96,7 @@ def test_a_ride_in_virtual_time_is_recorded_whole_and_twice_the_same(
 
 
 def test_the_dashboard_has_ridden_as_far_as_the_record_says(server: SpindleServer) -> None:
-    device = server.ready_device(2)
+    device = named(server, "three")
 
     recorded = ride(server, device)
     seen = server.get(f"/devices/{device}/dashboard")
@@ -102,7 +108,7 @@ def test_the_dashboard_has_ridden_as_far_as_the_record_says(server: SpindleServe
 
 
 def test_a_clock_that_runs_by_itself_is_left_alone(server: SpindleServer) -> None:
-    device = server.ready_device(3)
+    device = named(server, "real")
 
     response = server.client.post(f"/devices/{device}/simulation/advance", json={"seconds": 1})
 
@@ -112,7 +118,7 @@ def test_a_clock_that_runs_by_itself_is_left_alone(server: SpindleServer) -> Non
 
 @pytest.mark.parametrize("seconds", [0, -1, 86_401, "long"])
 def test_a_time_that_cannot_pass_is_refused_by_name(server: SpindleServer, seconds: Any) -> None:
-    device = server.ready_device(2)
+    device = named(server, "three")
 
     response = server.client.post(
         f"/devices/{device}/simulation/advance", json={"seconds": seconds}
