@@ -77,7 +77,9 @@ class LinePlot:
 
     def _mark(self, name: str, x: float, y: float) -> list[str]:
         across, up = self._at(x, y)
+        beside, anchor = (-6, "end") if x > 0.8 * self.x_max else (6, "start")
         return [
             f'<path d="M{across - 4} {up}h8M{across} {up - 4}v8" stroke="#111827"/>',
-            f'<text x="{across + 6}" y="{up - 6}">{escape(name)}</text>',
+            f'<text x="{across + beside}" y="{up - 6}" text-anchor="{anchor}">'
+            f"{escape(name)}</text>",
         ]

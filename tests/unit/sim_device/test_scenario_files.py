@@ -129,3 +129,15 @@ def test_the_same_seed_rides_the_same_ride(name: str) -> None:
     settings = {"hours": 0.02} if name == "field_ride" else {}
 
     assert run(name, settings) == run(name, settings)
+
+
+def test_the_page_s_example_is_a_scenario_and_its_complaint_is_true() -> None:
+    page = (Path(__file__).resolve().parents[3] / "docs" / "scenarios.md").read_text()
+    example = page.split("```toml\n")[1].split("```")[0]
+
+    ride = parse("my.toml", example)
+    with pytest.raises(ScenarioError) as refused:
+        parse("my.toml", example.replace("burst_share = 1.0", "burst_share = 3"))
+
+    assert len(ride.phases) == 2
+    assert f"`{refused.value}`" in page
