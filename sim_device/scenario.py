@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from firmware_protocol._generated import Law
+from firmware_protocol._generated import FaultFlags, Law
 from firmware_protocol.parameters import default_config
 from sim_device.firmware.python.unit import finite_or_none, kinematics
 from sim_device.lockstep import LockstepUnit
@@ -22,6 +22,7 @@ Settings = dict[str, Any]
 Result = dict[str, Any]
 
 SAMPLE_S = 0.01
+FAULT_LOOK_S = 0.5
 J_PER_WH = 3600.0
 TAPER_OFF_KMH = (24.99, 25.0)
 NOT_CONSISTENT = "not energy consistent"
@@ -270,7 +271,12 @@ def _resistance(scenario: ScenarioFile, settings: Settings) -> Result:
 
 def _ride(scenario: ScenarioFile, _settings: Settings) -> Result:
     unit = LockstepUnit(scenario.seed, name=scenario.name, scenario=scenario)
-    unit.advance(scenario.duration_s)
+    faults_seen = 0
+    left_s = scenario.duration_s
+    while left_s > 0.0:
+        unit.advance(min(left_s, FAULT_LOOK_S))
+        left_s = round(left_s - FAULT_LOOK_S, 6)
+        faults_seen |= unit.observe()["fault_flags"]
     seen = unit.observe()
     return {
         "duration_s": scenario.duration_s,
@@ -281,7 +287,7 @@ def _ride(scenario: ScenarioFile, _settings: Settings) -> Result:
         "battery_soc_pct": seen["battery_soc_pct"],
         "motor_temperature_degc": seen["motor_temperature_degc"],
         "sensor_temperature_degc": seen["sensor_temperature_degc"],
-        "fault_flags": seen["fault_flags"],
+        "faults_seen": [flag.name for flag in FaultFlags if faults_seen & flag],
         "words_good": seen["words_good"],
         "words_bad": seen["words_bad"],
         "words_lost": seen["words_lost"],

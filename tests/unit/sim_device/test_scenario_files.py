@@ -141,3 +141,8 @@ def test_the_page_s_example_is_a_scenario_and_its_complaint_is_true() -> None:
 
     assert len(ride.phases) == 2
     assert f"`{refused.value}`" in page
+
+
+def test_a_ride_says_which_faults_the_unit_told_on_the_way() -> None:
+    assert "TORQUE_SENSOR" in run("sensor_fault")["faults_seen"]
+    assert run("slippery_start")["faults_seen"] == []
