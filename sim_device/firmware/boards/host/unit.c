@@ -8,7 +8,7 @@
 #include "ebl_registry.h" // EBL_DEVICE_CLASS_MID_DRIVE_SIMULATED
 #include "hal.h"          // hal
 #include "log_flash.h"    // log_flash_open
-#include "plant_inputs.h" // plant_inputs
+#include "unit_senses.h"  // senses_read
 #include "uart_line.h"    // uart_line_advance
 
 #define PHYSICS_PERIOD_US 1000u
@@ -85,7 +85,7 @@ static int board_serial_drained(void *context)
 static void board_inputs_read(void *context, hal_inputs *inputs)
 {
     const unit *self = context;
-    plant_inputs(&self->state, &self->stimulus, &self->receiver, inputs);
+    senses_read(&self->state, &self->stimulus, &self->receiver, inputs);
     inputs->mode_selected = self->mode_selected;
     inputs->walk_button = self->walk_button;
 }
@@ -270,7 +270,7 @@ void unit_advance_us(unit *self, uint64_t duration_us)
         }
         line_advance(self);
         physics_step(&self->bike, &self->state, &self->stimulus, PHYSICS_PERIOD_US * 1e-6);
-        plant_rotor_exchange(&self->state, &self->receiver);
+        senses_rotor_exchange(&self->state, &self->receiver);
         self->now_us += PHYSICS_PERIOD_US;
     }
 }

@@ -1,4 +1,4 @@
-#include "plant_inputs.h"
+#include "unit_senses.h"
 
 #define DEG_PER_RAD (180.0 / 3.14159265358979323846)
 #define RPM_PER_RAD_S (30.0 / 3.14159265358979323846)
@@ -6,7 +6,7 @@
 #define MS_PER_S 1000.0
 #define SPEED_AGE_MS_MAX 60000.0
 
-rotor_calibration plant_rotor_calibration(void)
+rotor_calibration senses_rotor_calibration(void)
 {
     const rotor_calibration as_drawn = {
         .zero_counts_per_k = 2.0f,
@@ -16,15 +16,15 @@ rotor_calibration plant_rotor_calibration(void)
     return as_drawn;
 }
 
-void plant_rotor_exchange(const physics_state *state, rotor_receiver *receiver)
+void senses_rotor_exchange(const physics_state *state, rotor_receiver *receiver)
 {
     if (!state->link.arrived) return;
-    const rotor_calibration calibration = plant_rotor_calibration();
+    const rotor_calibration calibration = senses_rotor_calibration();
     rotor_receiver_exchange(receiver, &calibration, state->link.present, state->link.word);
 }
 
-void plant_inputs(const physics_state *state, const physics_command *command,
-                  const rotor_receiver *receiver, hal_inputs *inputs)
+void senses_read(const physics_state *state, const physics_command *command,
+                 const rotor_receiver *receiver, hal_inputs *inputs)
 {
     const physics_faults *faults = &command->faults;
     const double speed_age_ms = state->seen_speed_age_s * MS_PER_S;
