@@ -144,5 +144,7 @@ def test_the_page_s_example_is_a_scenario_and_its_complaint_is_true() -> None:
 
 
 def test_a_ride_says_which_faults_the_unit_told_on_the_way() -> None:
-    assert "TORQUE_SENSOR" in run("sensor_fault")["faults_seen"]
+    assert {"TORQUE_SENSOR", "SPEED_SENSOR"} <= set(run("sensor_fault")["faults_seen"])
+    assert "TORQUE_LINK" in run("link_bursts")["faults_seen"]
+    assert "BATTERY_CUT" in run("worn_battery")["faults_seen"]
     assert run("slippery_start")["faults_seen"] == []
