@@ -158,9 +158,15 @@ const mechanic: Record<FaultName, string> = {
 
 // 模拟场景的说明。
 const scenario = {
+  alpine_climb: '二十分钟爬坡，坡度 7 %，骑手逐渐疲劳：发热、压降、电量见底。',
+  cold_morning: '从温暖的室内骑入零下五度：扭矩传感器漂移，电池内阻升高。',
   commute: '几分钟的市区骑行：两处红绿灯、一段上下坡、逆风，然后休息。',
-  start: '平路起步，以恒定踏板扭矩加速到助力截止速度（论文 5.4，图 5-5）。',
-  slope: '以 25 km/h 驶上坡道，踏板扭矩不变（论文 5.4，图 5-7）。',
+  field_ride: '公园里骑行两小时，经串口记录：上坡、下坡、弯道、沥青与沙地（论文 5.5）。',
+  link_bursts: '线圈偏心：每圈一串误码，然后是零星误码，最后断电。',
+  sensor_fault: '扭矩传感器漂移、卡住、断开，随后速度与霍尔传感器失效：每种故障都应报告。',
+  slippery_start: '湿叶上坡起步：后轮打滑，而速度传感器正装在后轮。',
+  stop_and_go: '高峰时段：蹬十秒，刹五秒，等十二秒，循环往复。',
+  worn_battery: '老旧且将耗尽的电池爬坡：电压下降，直到电池管理系统断开。',
 }
 
 export const zhCodes = { lint, violation, refusal, fault, mechanic, scenario }
