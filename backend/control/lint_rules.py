@@ -166,10 +166,11 @@ def _steady_warnings(gains: npt.NDArray[np.float64]) -> Iterator[Finding]:
 def _demand_warnings(
     gains: npt.NDArray[np.float64], modes: AssistModes | None, limits: Mapping[str, float]
 ) -> Iterator[Finding]:
-    limit_nm = limits.get("motor_torque_nm_max", MOTOR_TORQUE_NM_MAX)
+    unit_nm = limits.get("motor_torque_nm_max", MOTOR_TORQUE_NM_MAX)
     for slot, mode in enumerate(modes.modes if modes else ()):
         if mode.law == "off":
             continue
+        limit_nm = unit_nm * mode.torque_pct / 100
         gain = float(gains.max()) if mode.law == "fuzzy" else 0.0
         ratio = mode.ratio * (1.0 + gain)
         demand_nm = ratio * STRONG_RIDER_NM / GEAR_RATIO
@@ -213,6 +214,10 @@ def _reach_notes(table: FuzzyTable, limits: Mapping[str, float]) -> Iterator[Fin
 
 
 def _mode_notes(modes: AssistModes | None) -> Iterator[Finding]:
+    for slot, mode in enumerate(modes.modes if modes else ()):
+        if mode.law == "fixed" and mode.taper == "none" and mode.ratio > 0.0:
+            message = f"{mode.name}: the ratio does not fall with speed, as Japan wants it to"
+            yield Finding("ratio_does_not_fall", message, f"modes[{slot}]")
     if modes and not any(mode.law == "fuzzy" and mode.ratio > 0.0 for mode in modes.modes):
         message = "no mode with a ratio runs the fuzzy law: the table changes nothing"
         yield Finding("table_not_used", message, "modes")

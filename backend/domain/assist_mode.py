@@ -1,26 +1,40 @@
-"""The five slots the rider's switch selects: a name, a law and a ratio each."""
+"""The five slots the rider's switch selects: a name, a law, a ratio and how it is applied."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from backend.errors import FieldError, InvalidRequest
 
 LAWS = ("off", "fixed", "fuzzy")
+TAPERS = ("taper_speeds", "none", "japan_1_to_1", "japan_2_to_1")
+TABLES = ("first", "second")
+RAMP_UP_RANGE = (5, 2000)
+RAMP_DOWN_RANGE = (20, 2000)
+"""Nm/s at the crank, as in the registry; the largest leaves the ramp to that of all modes."""
 SLOTS = 5
 NAME_BYTES_MAX = 16
 
 
 @dataclass(frozen=True, slots=True)
 class AssistMode:
-    """One slot. ratio: motor torque at the crank per rider torque, before gain and taper."""
+    """One slot. ratio: motor torque at the crank per rider torque, before gain and taper.
+
+    taper: how the fixed law's ratio falls with speed. table: which fuzzy table. The ramps: fastest
+    rise and fall at the crank. torque_pct: of the unit's largest motor torque.
+    """
 
     name: str
     law: str
     ratio: float
+    taper: str = "taper_speeds"
+    table: str = "first"
+    ramp_up_nm_per_s: int = 2000
+    ramp_down_nm_per_s: int = 2000
+    torque_pct: int = 100
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,9 +55,9 @@ class AssistModes:
 
     @classmethod
     def from_json(cls, value: Mapping[str, Any]) -> AssistModes:
-        """From `{"modes": [{"name", "law", "ratio"}, ...], "mode_at_start"}`.
+        """From `{"modes": [{"name", "law", "ratio", ...}, ...], "mode_at_start"}`.
 
-        Raises InvalidRequest.
+        Fields after the ratio may be missing. Raises InvalidRequest.
         """
         try:
             modes = tuple(AssistMode(**mode) for mode in value["modes"])
@@ -55,9 +69,7 @@ class AssistModes:
     def to_json(self) -> dict[str, Any]:
         """The same object again."""
         return {
-            "modes": [
-                {"name": mode.name, "law": mode.law, "ratio": mode.ratio} for mode in self.modes
-            ],
+            "modes": [asdict(mode) for mode in self.modes],
             "mode_at_start": self.mode_at_start,
         }
 
@@ -68,18 +80,31 @@ class AssistModes:
             parameters["mode_names"],
             parameters["mode_laws"],
             parameters["mode_ratios"],
+            parameters["mode_tapers"],
+            parameters["mode_tables"],
+            parameters["mode_ramp_up_nm_per_s"],
+            parameters["mode_ramp_down_nm_per_s"],
+            parameters["mode_torque_pct"],
             strict=True,
         )
-        modes = tuple(AssistMode(name, law.lower(), ratio) for name, law, ratio in rows)
+        modes = tuple(
+            AssistMode(name, law.lower(), ratio, taper.lower(), TABLES[table], *rest)
+            for name, law, ratio, taper, table, *rest in rows
+        )
         return cls(modes, parameters["assist_mode_at_start"])
 
     def to_parameters(self) -> dict[str, Any]:
-        """The four parameters the modes are in a unit's configuration."""
+        """The nine parameters the modes are in a unit's configuration."""
         return {
             "assist_mode_at_start": self.mode_at_start,
             "mode_names": [mode.name for mode in self.modes],
             "mode_laws": [mode.law.upper() for mode in self.modes],
             "mode_ratios": [mode.ratio for mode in self.modes],
+            "mode_tapers": [mode.taper.upper() for mode in self.modes],
+            "mode_tables": [TABLES.index(mode.table) for mode in self.modes],
+            "mode_ramp_up_nm_per_s": [mode.ramp_up_nm_per_s for mode in self.modes],
+            "mode_ramp_down_nm_per_s": [mode.ramp_down_nm_per_s for mode in self.modes],
+            "mode_torque_pct": [mode.torque_pct for mode in self.modes],
         }
 
 
@@ -97,10 +122,19 @@ def _mode_faults(where: str, mode: AssistMode) -> Iterable[FieldError]:
         yield FieldError(
             f"{where}.name", "too_long", f"{where}.name must be text of {NAME_BYTES_MAX} bytes"
         )
-    if mode.law not in LAWS:
-        yield FieldError(
-            f"{where}.law", "not_a_choice", f"{where}.law must be one of {', '.join(LAWS)}"
-        )
+    for field, choices in (("law", LAWS), ("taper", TAPERS), ("table", TABLES)):
+        if getattr(mode, field) not in choices:
+            message = f"{where}.{field} must be one of {', '.join(choices)}"
+            yield FieldError(f"{where}.{field}", "not_a_choice", message)
+    for field, (low, high) in (
+        ("ramp_up_nm_per_s", RAMP_UP_RANGE),
+        ("ramp_down_nm_per_s", RAMP_DOWN_RANGE),
+        ("torque_pct", (0, 100)),
+    ):
+        value = getattr(mode, field)
+        if type(value) is not int or not low <= value <= high:
+            message = f"{where}.{field} must be a whole number from {low} to {high}"
+            yield FieldError(f"{where}.{field}", "out_of_range", message)
     if isinstance(mode.ratio, bool) or not isinstance(mode.ratio, int | float):
         yield FieldError(f"{where}.ratio", "not_a_number", f"{where}.ratio is not a number")
     elif not (math.isfinite(mode.ratio) and mode.ratio >= 0.0):

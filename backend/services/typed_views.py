@@ -16,6 +16,11 @@ MODE_FIELDS = {
     "mode_names": "modes{index}.name",
     "mode_laws": "modes{index}.law",
     "mode_ratios": "modes{index}.ratio",
+    "mode_tapers": "modes{index}.taper",
+    "mode_tables": "modes{index}.table",
+    "mode_ramp_up_nm_per_s": "modes{index}.ramp_up_nm_per_s",
+    "mode_ramp_down_nm_per_s": "modes{index}.ramp_down_nm_per_s",
+    "mode_torque_pct": "modes{index}.torque_pct",
     "assist_mode_at_start": "mode_at_start",
 }
 

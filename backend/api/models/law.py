@@ -37,6 +37,17 @@ class AssistMode(LawModel):
     name: str = Field(max_length=16)
     law: Literal["off", "fixed", "fuzzy"]
     ratio: float
+    taper: Literal["taper_speeds", "none", "japan_1_to_1", "japan_2_to_1"] = Field(
+        default="taper_speeds", description="How the fixed law's ratio falls with speed."
+    )
+    table: Literal["first", "second"] = Field(
+        default="first", description="Which of the two fuzzy tables."
+    )
+    ramp_up_nm_per_s: int = Field(default=2000, ge=5, le=2000)
+    ramp_down_nm_per_s: int = Field(default=2000, ge=20, le=2000)
+    torque_pct: int = Field(
+        default=100, ge=0, le=100, description="Of the unit's largest motor torque."
+    )
 
 
 class AssistModes(LawModel):

@@ -847,6 +847,36 @@ export interface components {
             law: "off" | "fixed" | "fuzzy";
             /** Ratio */
             ratio: number;
+            /**
+             * Taper
+             * @description How the fixed law's ratio falls with speed.
+             * @default taper_speeds
+             * @enum {string}
+             */
+            taper: "taper_speeds" | "none" | "japan_1_to_1" | "japan_2_to_1";
+            /**
+             * Table
+             * @description Which of the two fuzzy tables.
+             * @default first
+             * @enum {string}
+             */
+            table: "first" | "second";
+            /**
+             * Ramp Up Nm Per S
+             * @default 2000
+             */
+            ramp_up_nm_per_s: number;
+            /**
+             * Ramp Down Nm Per S
+             * @default 2000
+             */
+            ramp_down_nm_per_s: number;
+            /**
+             * Torque Pct
+             * @description Of the unit's largest motor torque.
+             * @default 100
+             */
+            torque_pct: number;
         };
         /** AssistModes */
         AssistModes: {

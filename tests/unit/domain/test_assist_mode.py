@@ -46,3 +46,48 @@ def test_a_wrong_slot_is_refused_by_name(slot: int, change: dict[str, Any], fiel
 def test_anything_but_five_slots_is_refused(value: dict[str, Any]) -> None:
     with pytest.raises(InvalidRequest):
         AssistModes.from_json(value)
+
+
+def test_what_a_slot_does_not_say_leaves_the_law_as_it_was() -> None:
+    first = AssistModes.from_parameters(default_config()).modes[2]
+
+    assert (first.taper, first.table, first.torque_pct) == ("taper_speeds", "first", 100)
+    assert (first.ramp_up_nm_per_s, first.ramp_down_nm_per_s) == (2000, 2000)
+
+
+def test_a_slot_s_taper_table_ramps_and_torque_come_back() -> None:
+    value = AssistModes.from_parameters(default_config()).to_json()
+    value["modes"][4] |= {
+        "taper": "japan_2_to_1",
+        "table": "second",
+        "ramp_up_nm_per_s": 80,
+        "ramp_down_nm_per_s": 300,
+        "torque_pct": 60,
+    }
+
+    parameters = {**default_config(), **AssistModes.from_json(value).to_parameters()}
+
+    assert parameters["mode_tables"] == [0, 0, 0, 0, 1]
+    assert parameters["mode_tapers"][4] == "JAPAN_2_TO_1"
+    assert AssistModes.from_parameters(parameters).to_json() == value
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("taper", "steep"),
+        ("table", "third"),
+        ("ramp_up_nm_per_s", 4),
+        ("ramp_down_nm_per_s", 2001),
+        ("torque_pct", 101),
+        ("torque_pct", 50.5),
+    ],
+)
+def test_what_no_slot_can_have_is_refused_by_its_name(field: str, value: object) -> None:
+    modes = AssistModes.from_parameters(default_config()).to_json()
+    modes["modes"][1][field] = value
+
+    with pytest.raises(InvalidRequest) as refused:
+        AssistModes.from_json(modes)
+
+    assert [fault.field for fault in refused.value.fields] == [f"modes[1].{field}"]
