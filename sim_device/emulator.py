@@ -17,6 +17,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Final
 
+from firmware_protocol._generated import MTU
+
 BOARD: Final = "mps2_an386"
 
 # Where simulated units run that are not told: pytest --unit=qemu sets it for all it starts.
@@ -46,14 +48,19 @@ def missing() -> str | None:
     return f"{', '.join(absent)} not found: on Debian, run .ci/ensure-arm"
 
 
-def build(image: str) -> Path:
-    """The image of this name (`unit`, `bench`, `count`), built where it is not fresh."""
+def build(image: str, frame_bytes: int = MTU) -> Path:
+    """The image of this name (`unit`, `bench`, `count`), built where it is not fresh.
+
+    frame_bytes: of the largest frame; fewer make a unit that needs less RAM.
+    """
     reason = missing()
     if reason is not None:
         raise EmulatorError(reason)
-    target = IMAGE_FOLDER / f"{image}.elf"
+    folder = IMAGE_FOLDER if frame_bytes == MTU else IMAGE_FOLDER / f"mtu-{frame_bytes}"
+    target = folder / f"{image}.elf"
+    options = (f"OUT={folder}", f"MTU={frame_bytes}")
     made = subprocess.run(
-        ["make", "-s", "-C", str(BOARD_FOLDER), f"OUT={IMAGE_FOLDER}", str(target)],
+        ["make", "-s", "-C", str(BOARD_FOLDER), *options, str(target)],
         capture_output=True,
         text=True,
         check=False,

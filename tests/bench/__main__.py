@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from tests.bench import law, link, logs, plant, rides, server, wire, writes
+from tests.bench import board, law, link, logs, plant, rides, server, wire, writes
 from tests.bench.figures import Figure, mark, write
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "benchmarks.md"
@@ -16,6 +16,7 @@ SECTIONS = {
     "Ride logs": logs.run,
     "Rides": rides.run,
     "The server": server.run,
+    "The firmware on a Cortex-M4F": board.run,
 }
 
 

@@ -17,7 +17,7 @@ import pytest
 
 from backend.link import Opener
 from firmware_protocol import codec, framing
-from firmware_protocol._generated import HelloRequest, HelloResponse, Status
+from firmware_protocol._generated import MTU_BEFORE_HELLO, HelloRequest, HelloResponse, Status
 from sim_device import emulator
 from sim_device.emulated import prepare
 from tests.fakes.server import eventually
@@ -87,6 +87,15 @@ def test_a_host_finds_it_behind_its_serial_line(board: emulator.Emulator) -> Non
     assert answer.uid == UID
     assert answer.boot_id == 1
     assert answer.config_generation == 1
+
+
+def test_built_for_short_frames_it_says_so(image: Path, tmp_path: Path) -> None:
+    short = emulator.build("unit", frame_bytes=MTU_BEFORE_HELLO)
+
+    with emulator.Emulator(short) as running:
+        answer = hello(running.host_address)
+
+    assert (answer.rx_mtu, answer.tx_mtu) == (MTU_BEFORE_HELLO, MTU_BEFORE_HELLO)
 
 
 def test_its_flash_outlives_the_power(image: Path, tmp_path: Path) -> None:

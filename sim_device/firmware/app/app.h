@@ -31,7 +31,7 @@ typedef struct {
     uint8_t tid; /* 0: nothing here */
     uint32_t request_crc32;
     uint16_t length;
-    uint8_t frame[EBL_MTU];
+    uint8_t frame[LINK_MTU];
 } answered_request;
 
 typedef struct {

@@ -45,7 +45,7 @@ int link_send(unit_link *link, link_priority priority, const uint8_t *frame, siz
     link_queue *queue = &link->queues[priority];
     uint8_t prefix[LENGTH_BYTES];
 
-    if (length > EBL_MTU - EBL_CHECK_LENGTH ||
+    if (length > LINK_MTU - EBL_CHECK_LENGTH ||
         (size_t)(queue->capacity - queue->used) < length + LENGTH_BYTES) {
         link->dropped_tx++;
         return 0;

@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 #include "ebl_frame.h"    // ebl_decoder
-#include "ebl_registry.h" // EBL_MTU
+#include "ebl_registry.h" // EBL_MTU, EBL_MAX_OUTSTANDING
 #include "hal.h"          // hal
 
 typedef enum {
@@ -19,13 +19,19 @@ typedef enum {
     LINK_PRIORITIES = 3
 } link_priority;
 
-/* Bytes of the largest frame on the wire: stuffed and delimited. */
-#define LINK_WIRE_BYTES_MAX 552
+/* Bytes of the largest frame in either direction, check value included; HELLO tells the host. A
+ * controller short of RAM is built with fewer, at least EBL_MTU_BEFORE_HELLO. */
+#ifndef LINK_MTU
+#define LINK_MTU EBL_MTU
+#endif
+
+/* Of the largest frame on the wire: stuffed and delimited. */
+#define LINK_WIRE_BYTES_MAX (LINK_MTU + LINK_MTU / 254 + 6)
 
 /* As many answers as the host may have questions outstanding. */
-#define LINK_RESPONSE_QUEUE_BYTES 2240
+#define LINK_RESPONSE_QUEUE_BYTES (EBL_MAX_OUTSTANDING * (LINK_MTU + 16))
 #define LINK_EVENT_QUEUE_BYTES 512
-#define LINK_STREAM_QUEUE_BYTES 2240
+#define LINK_STREAM_QUEUE_BYTES (4 * (LINK_MTU + 16))
 
 /* Asked for a frame whenever nothing else waits and the line has room: fills in header and payload
  * and returns their length, or 0. */
@@ -40,12 +46,12 @@ typedef struct {
 
 typedef struct {
     ebl_decoder decoder;
-    uint8_t received[EBL_MTU]; /* the frame being decoded */
+    uint8_t received[LINK_MTU]; /* the frame being decoded */
     link_queue queues[LINK_PRIORITIES];
     uint8_t response_bytes[LINK_RESPONSE_QUEUE_BYTES];
     uint8_t event_bytes[LINK_EVENT_QUEUE_BYTES];
     uint8_t stream_bytes[LINK_STREAM_QUEUE_BYTES];
-    uint8_t frame[EBL_MTU];            /* the frame being encoded */
+    uint8_t frame[LINK_MTU];           /* the frame being encoded */
     uint8_t wire[LINK_WIRE_BYTES_MAX]; /* the frame being sent */
     uint16_t wire_length;
     uint16_t wire_sent;

@@ -42,7 +42,7 @@ static void hello_fill(const app *unit, ebl_hello_response *response)
     memcpy(response->schema_hash, ebl_schema_hash, sizeof response->schema_hash);
     response->config_generation = unit->store.generation;
     response->config_crc32 = unit->store.crc32;
-    response->rx_mtu = EBL_MTU;
+    response->rx_mtu = LINK_MTU;
     response->tx_mtu = unit->tx_mtu;
     response->max_outstanding = EBL_MAX_OUTSTANDING;
     response->access = EBL_ACCESS_DEALER;
@@ -70,7 +70,7 @@ static void hello(app *unit, const ebl_header *request, reply *answer)
         return;
     }
     session_start(unit);
-    unit->tx_mtu = asked.host_mtu < EBL_MTU ? asked.host_mtu : EBL_MTU;
+    unit->tx_mtu = asked.host_mtu < LINK_MTU ? asked.host_mtu : LINK_MTU;
     hello_fill(unit, &response);
     put = ebl_hello_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
     reply_with(answer, put, length);

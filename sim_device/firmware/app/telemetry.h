@@ -39,7 +39,7 @@ typedef struct {
     uint8_t overrun; /* the frame before this one was dropped */
     uint8_t channel_count;
     uint8_t channels[EBL_CHANNEL_COUNT]; /* places in the row */
-    uint8_t frame[EBL_MTU];
+    uint8_t frame[LINK_MTU];
 } telemetry_stream;
 
 typedef struct {

@@ -51,6 +51,8 @@ void clock_hand_over(int to_bench, uint32_t grant_us)
     now.granted_us = to_bench ? now.granted_us + grant_us : 0;
 }
 
+int clock_runs(void) { return !now.by_bench || now.granted_us >= PASS_US; }
+
 int clock_pass(void)
 {
     if (now.granted_us < PASS_US) return 0;

@@ -22,6 +22,9 @@ void clock_stop(void);
 /* 1: the bench has the clock in hand and grants so much more; 0: the timer runs it. */
 void clock_hand_over(int to_bench, uint32_t grant_us);
 
+/* True while time passes, or can: a control step belongs to the time after it. */
+int clock_runs(void);
+
 /* Lets a millisecond of what was granted pass. False where nothing is left, or the timer runs. */
 int clock_pass(void);
 

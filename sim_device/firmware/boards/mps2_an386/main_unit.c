@@ -103,16 +103,16 @@ int main(void)
         int passing;
 
         plant_poll();
-        passing = clock_pass();
         round_us = clock_now_us();
         if (round_us > step_us + CONTROL_LATE_US) step_us = round_us;
-        if (round_us >= step_us) {
+        if (round_us >= step_us && clock_runs()) {
             round_us = step_us;
             step_us += CONTROL_PERIOD_US;
             app_control_step(&unit);
             plant_step_tell(app_output(&unit), unit.config.assist_mode_at_start);
         }
         app_poll(&unit);
+        passing = clock_pass();
         if (!passing && round_us + CONTROL_PERIOD_US > clock_now_us()) {
             plant_passed_tell();
             chip_sleep();
