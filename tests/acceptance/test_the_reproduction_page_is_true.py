@@ -1,0 +1,27 @@
+"""Goal: docs/thesis-reproduction.md says what a run of this very state says, to the last figure."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.reproduction import __main__ as reproduction
+
+
+@pytest.mark.slow
+def test_the_page_is_what_make_reproduction_writes_now(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kept = reproduction.DOCS / "thesis-reproduction.md"
+    pictures = reproduction.PICTURES
+    monkeypatch.setattr(reproduction, "DOCS", tmp_path)
+    monkeypatch.setattr(reproduction, "PICTURES", tmp_path / "pictures")
+
+    reproduction.main()
+
+    written = (tmp_path / "thesis-reproduction.md").read_text(encoding="utf-8")
+    assert written == kept.read_text(encoding="utf-8"), "run `make reproduction`"
+    drawn = sorted((tmp_path / "pictures").iterdir())
+    assert drawn
+    assert all((pictures / picture.name).is_file() for picture in drawn)
