@@ -10,6 +10,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 ACCEPTANCE = "tests/acceptance/test_thesis_acceptance.py"
+CUT_OFFS = "tests/acceptance/test_cut_offs_through_the_physics.py"
 LAW = "tests/unit/sim_device/test_assist_law.py"
 LIMITS = "tests/unit/sim_device/test_assist_limits.py"
 GAIN = "tests/unit/sim_device/test_fuzzy_gain.py"
@@ -50,6 +51,11 @@ HELD_BY = {
         (LIMITS, "test_standing_cranks_end_the_assist_after_150_ms"),
         (LIMITS, "test_back_pedalling_takes_the_torque_away_in_the_same_step"),
         (LIMITS, "test_a_low_battery_ends_the_assist"),
+        (CUT_OFFS, "test_a14_the_brake_lever_within_50_ms"),
+        (CUT_OFFS, "test_a14_pedal_stop_within_150_ms"),
+        (CUT_OFFS, "test_a14_back_pedalling"),
+        (CUT_OFFS, "test_a14_none_at_25_kmh"),
+        (CUT_OFFS, "test_a14_a_hazard_latches"),
         (UNIT, "test_the_brake_lever_ends_assist_within_a_twentieth_of_a_second"),
     ],
     "A15": [(LAW, "test_the_gain_never_compounds")],

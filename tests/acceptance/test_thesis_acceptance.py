@@ -1,8 +1,9 @@
 """Goal: the simulator passes every acceptance figure of thesis_checks section 5 that is physics'.
 
 Method: one test or more for each of A1 to A4, A7 to A13 and A16 to A18, named by its number, with
-the tolerances stated there; the whole unit in virtual time, sensor to motor. A5, A6, A14 and A15
-are the law's; test_every_acceptance_figure_has_a_test shows where each of the eighteen is held.
+the tolerances stated there; the whole unit in virtual time, sensor to motor. A14 has a file of its
+own, A5, A6 and A15 are the law's; test_every_acceptance_figure_has_a_test shows where each of the
+eighteen is held.
 """
 
 import random

@@ -1,0 +1,149 @@
+"""Goal: A14 holds on the bike, not only in the law: what must end the assist ends it in time.
+
+Method: legs on a road, each seed with another push, slope and moment of the turn; the event comes
+between two control steps and every millisecond after it is looked at, the motor's shaft as well as
+what the firmware asks of it. Over-current is a motor whose magnets have gone weak, so that the same
+torque takes three times the current; under-voltage a battery whose management has opened.
+"""
+
+import random
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from firmware_protocol._generated import FaultFlags
+from sim_device.lockstep import LockstepUnit
+
+SEEDS = range(10)
+SPORT = 3
+MS = 0.001
+WEAK_MAGNETS = {"motor.torque_constant_nm_per_a": 0.112 / 3}
+MAGNETS = {"motor.torque_constant_nm_per_a": 0.112}
+
+Seen = dict[str, Any]
+
+
+def under_way(seed: int, push_nm: float = 40.0, **bike: float) -> LockstepUnit:
+    """A unit that assists a rider, at a moment of its own."""
+    wishes = random.Random(seed)
+    unit = LockstepUnit(seed, bike={key.replace("__", "."): value for key, value in bike.items()})
+    unit.select_mode(SPORT)
+    unit.place(wishes.uniform(8.0, 14.0))
+    unit.road(grade_deg=wishes.uniform(1.0, 3.0))
+    unit.rider("legs", wishes.uniform(push_nm, push_nm + 20.0))
+    unit.advance(wishes.uniform(2.0, 3.0))
+    assert unit.observe()["motor_torque_nm"] > 0.1
+    return unit
+
+
+def is_without_torque(seen: Seen) -> bool:
+    """A current loop that settles at none drags for a moment, which pushes nobody."""
+    return bool(seen["motor_torque_nm"] <= 0.0 and seen["motor_demand_nm"] == 0.0)
+
+
+def milliseconds_until(
+    unit: LockstepUnit, reached: Callable[[Seen], bool], at_most_ms: int = 1000
+) -> int:
+    for passed_ms in range(1, at_most_ms + 1):
+        unit.advance(MS)
+        if reached(unit.observe()):
+            return passed_ms
+    raise AssertionError(f"not within {at_most_ms} ms")
+
+
+def assert_no_torque_for(unit: LockstepUnit, seconds: float) -> None:
+    for _ in range(round(seconds / 0.01)):
+        unit.advance(0.01)
+        assert is_without_torque(unit.observe())
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("motor_model", [0.0, 1.0], ids=["average", "foc"])
+def test_a14_the_brake_lever_within_50_ms(seed: int, motor_model: float) -> None:
+    unit = under_way(seed, motor__model=motor_model)
+
+    unit.brake(True)
+
+    assert milliseconds_until(unit, is_without_torque) <= 50
+    assert_no_torque_for(unit, 0.3)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a14_pedal_stop_within_150_ms_of_standing_cranks_and_half_a_turn(seed: int) -> None:
+    unit = under_way(seed)
+    before_deg = unit.observe()["crank_angle_deg"]
+
+    unit.rider("off")
+    milliseconds_until(unit, lambda seen: seen["cadence_rpm"] == 0.0)
+
+    assert milliseconds_until(unit, is_without_torque) <= 150
+    assert (unit.observe()["crank_angle_deg"] - before_deg) % 360.0 < 180.0
+    assert_no_torque_for(unit, 0.5)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a14_back_pedalling_gives_none_from_the_next_control_step_on(seed: int) -> None:
+    unit = under_way(seed)
+
+    unit.rider("constant", -10.0)
+    milliseconds_until(unit, lambda seen: seen["cadence_rpm"] < 0.0)
+
+    assert milliseconds_until(unit, is_without_torque) <= 10
+    assert_no_torque_for(unit, 1.0)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a14_none_at_25_kmh_and_above(seed: int) -> None:
+    unit = under_way(seed)
+    unit.place(24.0)
+    unit.road(grade_deg=-1.0)
+    helped = fast_steps = 0
+    fast_before = False
+    for _ in range(600):
+        unit.advance(0.01)  # the unit's control step: it sees this speed in the next one
+        seen = unit.observe()
+        helped += not fast_before and seen["motor_torque_nm"] > 0.0
+        fast_steps += fast_before
+        assert is_without_torque(seen) or not fast_before
+        fast_before = seen["wheel_speed_kmh"] >= 25.0
+
+    assert helped > 0
+    assert fast_steps > 100
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    ("hazard", "flag", "at_most_ms"),
+    [
+        ("over_current", FaultFlags.OVER_CURRENT, 40),
+        ("battery_cut", FaultFlags.UNDER_VOLTAGE, 20),
+        ("motor_warmer_k", FaultFlags.MOTOR_TEMPERATURE, 20),
+        ("controller_warmer_k", FaultFlags.CONTROLLER_TEMPERATURE, 20),
+    ],
+)
+def test_a14_a_hazard_latches_to_none_and_pedalling_does_not_bring_it_back(
+    seed: int, hazard: str, flag: FaultFlags, at_most_ms: int
+) -> None:
+    unit = under_way(seed, push_nm=60.0)
+
+    if hazard == "over_current":
+        unit.unit.change_surroundings(WEAK_MAGNETS)
+    else:
+        broken = True if hazard == "battery_cut" else 120.0
+        unit.simulation_set({"faults": {hazard: broken}})
+    assert milliseconds_until(unit, is_without_torque) <= at_most_ms
+    unit.advance(0.3)
+    assert unit.observe()["fault_flags"] & flag
+
+    unit.unit.change_surroundings(MAGNETS)
+    unit.simulation_set(
+        {"faults": {"battery_cut": False, "motor_warmer_k": 0.0, "controller_warmer_k": 0.0}}
+    )
+    unit.unit.renew()  # a full battery and a cool motor
+    assert unit.observe()["battery_soc_pct"] > 80.0
+    assert_no_torque_for(unit, 4.0)
+    seen = unit.observe()
+    assert seen["cadence_rpm"] > 0.0
+    assert seen["battery_voltage_v"] > 36.0
+    assert seen["fault_flags"] & flag
