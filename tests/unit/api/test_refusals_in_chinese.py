@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import importlib
+import pkgutil
 import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+import backend
 from backend.api.errors import CODE_OF_STATUS
 from backend.errors import SpindleError
 from firmware_protocol._generated import Status
@@ -22,6 +25,10 @@ def tree(of: type[SpindleError]) -> Iterator[type[SpindleError]]:
         yield from tree(kind)
 
 
+# Every package that can refuse, whatever other tests have imported; migrations run elsewhere.
+for module in pkgutil.walk_packages(backend.__path__, "backend."):
+    if "__main__" not in module.name and "migrations" not in module.name:
+        importlib.import_module(module.name)
 DEFAULTS = {kind.default_code for kind in tree(SpindleError)}
 STATUSES = {status.name.lower() for status in Status} - {"ok", "pending"}
 

@@ -53,6 +53,7 @@ const refusal = {
   store: '数据存储失败，没有保存。',
   no_trial: '单元中没有正在试用的修改：已保留、已恢复或时间已到。请重新读取配置。',
   unknown_trial: '试用的修改并非由此 Spindle 写入，不知其本意。请恢复，或用写入它的工具保留。',
+  stopping: 'Spindle 正在关闭；下次将从中断处继续。',
   read_only: '此单元只能读取，不能修改。',
   refused: '请求被拒绝，没有任何改变。',
   error: '出错了。',
