@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from sim_device.lockstep import LockstepUnit
 from sim_device.scenario import list_scenarios, run
 from sim_device.scenario_file import ScenarioError, load, names, parse
 
@@ -144,7 +145,22 @@ def test_the_page_s_example_is_a_scenario_and_its_complaint_is_true() -> None:
 
 
 def test_a_ride_says_which_faults_the_unit_told_on_the_way() -> None:
-    assert {"TORQUE_SENSOR", "SPEED_SENSOR"} <= set(run("sensor_fault")["faults_seen"])
-    assert "TORQUE_LINK" in run("link_bursts")["faults_seen"]
+    told = {"TORQUE_SENSOR", "SPEED_SENSOR", "TORQUE_STUCK", "TORQUE_DRIFT"}
+    assert set(run("sensor_fault")["faults_seen"]) == told
+    assert run("link_bursts")["faults_seen"] == ["TORQUE_LINK"]
     assert "BATTERY_CUT" in run("worn_battery")["faults_seen"]
     assert run("slippery_start")["faults_seen"] == []
+
+
+@pytest.mark.parametrize("name", ["sensor_fault", "link_bursts"])
+def test_what_breaks_breaks_while_the_motor_helps(name: str) -> None:
+    """Above 25 km/h there is no assist to take away, and such a ride shows nothing."""
+    phases = load(name).phases
+    sound = next(k for k, phase in enumerate(phases) if phase.faults)
+    unit = LockstepUnit(scenario=name)
+
+    unit.advance(sum(phase.seconds for phase in phases[:sound]) - 1.0)
+    before_j = unit.observe()["motor_electric_j"]
+    unit.advance(1.0)
+
+    assert unit.observe()["motor_electric_j"] > before_j + 50.0
