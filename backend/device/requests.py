@@ -1,7 +1,7 @@
 """Requests under way: bounded in number, repeated with the same tid, timed by the line itself.
 
-A repetition is the same frame to the byte, so the unit recognises it and answers from its cache
-without doing the work twice (protocol page, 4.3).
+A repetition has the same tid and fields and is marked RETRANSMIT, so the unit recognises it and
+answers from its cache without doing the work twice (SPEC.md, 2.2).
 """
 
 from __future__ import annotations
@@ -167,7 +167,6 @@ class RequestTable:
             self._next_tid = self._next_tid % 255 + 1
         entry.tid = self._next_tid
         self._next_tid = self._next_tid % 255 + 1
-        entry.wire = encode_frame(encode(Request(entry.tid, entry.question.message)))
         entry.attempts_left = entry.question.attempts
         entry.number = self._started
         self._started += 1
@@ -175,6 +174,8 @@ class RequestTable:
         self._statistics.requests_sent += 1
 
     def _send(self, entry: _UnderWay, now_s: float) -> bytes:
+        request = Request(entry.tid, entry.question.message, retransmit=entry.repeated)
+        entry.wire = encode_frame(encode(request))
         entry.attempts_left -= 1
         entry.sent_s = now_s
         patience_s = entry.question.timeout_s

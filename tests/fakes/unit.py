@@ -9,6 +9,7 @@ from __future__ import annotations
 import zlib
 from collections import OrderedDict
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -156,7 +157,8 @@ class FakeUnit:
     # ------------------------------------------------------------------ requests
 
     def _answer(self, request: Request, frame: bytes) -> bytes:
-        key = (request.tid, zlib.crc32(frame))
+        original = encode(replace(request, retransmit=False)) if request.retransmit else frame
+        key = (request.tid, zlib.crc32(original))
         if key not in self._cache:
             self._cache[key] = encode_frame(self._respond(request))
             if len(self._cache) > CACHE_SIZE:

@@ -23,8 +23,6 @@ from backend.device.operation import Operation
 from backend.device.requests import RequestTable
 from backend.device.stream import StreamReceiver
 from backend.errors import NoAnswer
-from firmware_protocol.codec import Request, encode
-from firmware_protocol.framing import encode_frame
 from tests.simulation import people_trials
 from tests.simulation.workload import simulate
 from tests.simulation.world import Verdict
@@ -94,7 +92,6 @@ def test_a_host_that_repeats_under_a_new_number_is_found(monkeypatch: pytest.Mon
                 self._next_tid = self._next_tid % 255 + 1
             entry.tid = self._next_tid
             self._next_tid = self._next_tid % 255 + 1
-            entry.wire = encode_frame(encode(Request(entry.tid, entry.question.message)))
             entries = list(self._under_way.values())
             self._under_way.clear()
             self._under_way.update({each.tid: each for each in entries})

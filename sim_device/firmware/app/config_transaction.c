@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "app.h"        // app_inputs_prepare
 #include "ebl_frame.h"  // ebl_crc32
 #include "parameters.h" // parameters_set, parameters_image_is_valid
 
@@ -103,6 +104,7 @@ uint8_t transaction_flash_status(const hal *board)
 {
     hal_inputs inputs;
 
+    app_inputs_prepare(&inputs);
     board->inputs_read(board->context, &inputs);
     if (!magnitude_is_below(inputs.speed_kmh, STANDSTILL_SPEED_KMH_MAX) ||
         !magnitude_is_below(inputs.motor_speed_rpm, STANDSTILL_MOTOR_SPEED_RPM_MAX)) {

@@ -131,13 +131,14 @@ def pong(tid: int, status: Status = Status.OK, detail: int = 0) -> Response:
     return Response(tid, MessageId.PING, status, detail, message)
 
 
-def test_a_repetition_is_the_same_frame_to_the_byte() -> None:
+def test_a_repetition_is_the_same_request_marked_as_sent_again() -> None:
     table, _ = table_with_one_request()
 
     first = table.frames_due(0.0)
-    second = table.frames_due(0.2)
+    again = [table.frames_due(now_s) for now_s in (0.2, 0.4)]
 
-    assert first == second == encode_frame(encode(Request(1, PingRequest())))
+    assert first == encode_frame(encode(Request(1, PingRequest())))
+    assert again == [encode_frame(encode(Request(1, PingRequest(), retransmit=True)))] * 2
 
 
 def test_the_first_timeout_is_150_ms_and_grows_with_a_slow_line() -> None:
