@@ -1,4 +1,4 @@
-"""Ride logs of our own units: blocks that each stand alone (firmware_protocol/SPEC.md, 10).
+"""Ride logs of our own units: blocks that each stand alone (firmware_protocol/SPEC.md, 11).
 
 No magic is trusted: a block is one whose check value is right. After anything else reading goes on
 at the next byte, so damage costs the blocks it hit. Order, duplicates, an erased tail, blocks of

@@ -126,7 +126,6 @@ static void spare_begin(ride_log *log, const hal *board)
     log->spare = block;
     if (ride_log_store_erase(&log->store, board, block) < 0) {
         /* Tried again later, elsewhere first. */
-        log->write_errors++;
         log->victim = RIDE_LOG_NONE;
         log->store.head = (uint16_t)((block + 1u) % log->store.blocks);
         return;
@@ -189,6 +188,7 @@ static void log_end(ride_log *log, event_log *events, unit_link *link, uint64_t 
     log->place = RIDE_LOG_NONE;
     log->no_room = 0;
     log->state = IDLE;
+    log->rows_lost += (uint32_t)log->filling.rows + log->full.rows;
     log->filling.rows = 0;
     log->full.rows = 0;
     log->event_count = 0;
@@ -253,7 +253,6 @@ static void block_write(ride_log *log, const hal *board, ride_log_header *header
     crc32 = ride_log_block_seal(log->page, header);
     if (log->seq == 0) entry->generation = crc32;
     if (board->log_program(board->log_context, address, log->page, sizeof log->page) < 0) {
-        log->write_errors++;
         if (header->type == RIDE_LOG_DATA) log->rows_lost += header->n;
         log->due |= DUE_CONFIG | DUE_SCHEMA;
     } else if (header->type == RIDE_LOG_DATA) {

@@ -1,4 +1,4 @@
-/* One block of a ride log: 512 bytes of flash that stand alone (SPEC chapter 10). */
+/* One block of a ride log: 512 bytes of flash that stand alone (SPEC chapter 11). */
 #ifndef SPINDLE_RIDE_LOG_BLOCK_H
 #define SPINDLE_RIDE_LOG_BLOCK_H
 

@@ -1,4 +1,4 @@
-/* Payloads of the blocks around the rows of a ride log (SPEC chapter 10). Each fills in type,
+/* Payloads of the blocks around the rows of a ride log (SPEC chapter 11). Each fills in type,
  * length and numbers of the header. */
 #ifndef SPINDLE_RIDE_LOG_PAGES_H
 #define SPINDLE_RIDE_LOG_PAGES_H

@@ -1,6 +1,6 @@
 """Goal: of a unit's log everything that is proven whole is read, and nothing else.
 
-Method: logs are written here block by block from the layout in SPEC chapter 10, then cut, torn,
+Method: logs are written here block by block from the layout in SPEC chapter 11, then cut, torn,
 doubled, shuffled and forged. Expected rows follow from which blocks were hit.
 """
 
