@@ -150,6 +150,7 @@ def _serve_board(arguments: argparse.Namespace, stop: Stop) -> None:
         memory_file=flash.with_name(f"{flash.name}.log") if flash is not None else None,
         pty=arguments.pty,
         tcp=arguments.tcp,
+        serial_rate=arguments.serial_rate,
     ).run(_ready, stop)
 
 

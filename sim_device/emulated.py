@@ -33,25 +33,30 @@ AT_INPUTS = AT_REQUEST + ANSWER_BYTES
 AT_OUTPUT = AT_INPUTS + 256
 REGISTERS_LENGTH = AT_OUTPUT + ASSIST_OUTPUT_LENGTH - REGISTERS_AT
 
-IDENTITY = struct.Struct("<II12sB3x32s")
+IDENTITY = struct.Struct("<II12sB3x32sI")
 MAGIC = 0x31364250
 BELL = b"\x01"
 BELLS_MAX = 256
 
 
 def prepare(
-    memory_file: Path, uid: bytes, unlock_key: bytes | None, has_clock: bool = False
+    memory_file: Path,
+    uid: bytes,
+    unlock_key: bytes | None,
+    has_clock: bool = False,
+    serial_rate: int = 0,
 ) -> None:
     """What the factory writes, serial number and maybe the maker's key, and registers at rest.
 
-    has_clock: the board's clock is in the bench's hand from power on.
+    has_clock: the board's clock is in the bench's hand from power on. serial_rate: that the line
+    begins with, 0 for a line where bytes take no time.
     """
     with memory_file.open("r+b") as file:
         magic, boots, *_ = IDENTITY.unpack(file.read(IDENTITY.size))
         boots = boots if magic == MAGIC else 0
         file.seek(0)
         key = unlock_key or bytes(32)
-        file.write(IDENTITY.pack(MAGIC, boots, uid, unlock_key is not None, key))
+        file.write(IDENTITY.pack(MAGIC, boots, uid, unlock_key is not None, key, serial_rate))
         file.seek(REGISTERS_AT)
         file.write(struct.pack("<2I", 0, has_clock) + bytes(REGISTERS_LENGTH - 8))
 
@@ -205,6 +210,7 @@ class EmulatedSetup:
     memory_file: Path | None
     pty: Path | None
     tcp: tuple[str, int] | None
+    serial_rate: int = 0
 
     def run(self, ready: Callable[[str], None], stop: Callable[[], bool]) -> None:
         """Serves until `stop()`; `ready` is called once with the address of the first line."""
@@ -212,7 +218,8 @@ class EmulatedSetup:
         with tempfile.TemporaryDirectory(prefix="spindle-unit-") as folder:
             memory = self.memory_file or Path(folder) / "memory"
             make_memory(memory)
-            prepare(memory, self.uid, self.unlock_key, takes_the_clock(self.bike))
+            has_clock = takes_the_clock(self.bike)
+            prepare(memory, self.uid, self.unlock_key, has_clock, self.serial_rate)
             with Emulator(image, memory, self.tcp and free_port(self.tcp)) as emulator:
                 if self.pty is None:
                     ready(emulator.host_address)

@@ -16,6 +16,7 @@ typedef struct {
     uint8_t unlock_key_present;
     uint8_t reserved[3];
     uint8_t unlock_key[32];
+    uint32_t serial_baud; /* the line's first rate, others to follow; 0: one that is never told */
 } flash_identity;
 
 #define FLASH_MAGIC 0x31364250u

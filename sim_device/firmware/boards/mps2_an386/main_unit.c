@@ -8,7 +8,10 @@
 #include "plant.h" // plant_inputs
 #include "uart.h"  // uart_read
 
-#define HOST_BAUD 1000000u
+#define HOST_BAUD 1000000u /* where bytes take no time, as in QEMU */
+#define HOST_BAUDS                                                                                 \
+    (EBL_BAUD_RATES_BAUD_115200 | EBL_BAUD_RATES_BAUD_230400 | EBL_BAUD_RATES_BAUD_460800 |        \
+     EBL_BAUD_RATES_BAUD_921600 | EBL_BAUD_RATES_BAUD_1000000)
 #define CONTROL_PERIOD_US 10000u
 #define HARDWARE_REVISION 2u
 
@@ -44,6 +47,20 @@ static size_t serial_writable(void *context)
 {
     (void)context;
     return uart_writable(UART_HOST);
+}
+
+static int serial_baud_set(void *context, uint32_t baud)
+{
+    (void)context;
+    uart_baud_set(UART_HOST, baud);
+    board.serial_baud = baud;
+    return 0;
+}
+
+static int serial_drained(void *context)
+{
+    (void)context;
+    return uart_is_drained(UART_HOST);
 }
 
 static void inputs_read(void *context, hal_inputs *inputs)
@@ -82,6 +99,12 @@ static void board_connect(void)
     board.device_class = EBL_DEVICE_CLASS_MID_DRIVE_SIMULATED;
     board.hardware_revision = HARDWARE_REVISION;
     identity = flash_connect(&board);
+    if (identity->serial_baud != 0) {
+        board.serial_bauds = HOST_BAUDS;
+        board.serial_baud_set = serial_baud_set;
+        board.serial_drained = serial_drained;
+        (void)serial_baud_set(NULL, identity->serial_baud);
+    }
     ebl_config_default(&factory);
     (void)app_provision(&board, &factory); /* what it could not write the boot reports */
     if (identity->unlock_key_present) {

@@ -53,12 +53,24 @@ void uart_interrupt_host(void) { serve(&lines[UART_HOST]); }
 
 void uart_interrupt_plant(void) { serve(&lines[UART_PLANT]); }
 
+void uart_baud_set(uart_line line, uint32_t baud)
+{
+    lines[line].port->baud_divider = CHIP_CLOCK_HZ / baud;
+}
+
+int uart_is_drained(uart_line line)
+{
+    const ring_pair *ring = &lines[line];
+
+    return ring->sent_in == ring->sent_out && (ring->port->state & CHIP_UART_TX_FULL) == 0;
+}
+
 void uart_open(uart_line line, uint32_t baud)
 {
     chip_uart *port = line == UART_HOST ? CHIP_UART0 : CHIP_UART1;
 
     lines[line].port = port;
-    port->baud_divider = CHIP_CLOCK_HZ / baud;
+    uart_baud_set(line, baud);
     port->control = CHIP_UART_CONTROL_ALL;
     CHIP_INTERRUPT_ENABLE = CHIP_UART_INTERRUPTS;
 }

@@ -13,6 +13,12 @@ typedef enum {
 
 void uart_open(uart_line line, uint32_t baud);
 
+/* Takes effect at once: what has not left goes out at the new rate. */
+void uart_baud_set(uart_line line, uint32_t baud);
+
+/* Whether all that was written has been handed to the line. */
+int uart_is_drained(uart_line line);
+
 /* Both return how many bytes were moved, without waiting. */
 size_t uart_read(uart_line line, uint8_t *bytes, size_t capacity);
 size_t uart_write(uart_line line, const uint8_t *bytes, size_t length);
