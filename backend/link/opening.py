@@ -19,6 +19,7 @@ from backend.link.ports import device_with_usb_serial, usb_serial_of
 from backend.link.serial_port import SerialPort, baud_of
 from backend.link.simulated import SimulatedAddress, SimulatedLink
 from backend.link.socket_link import SocketLink
+from backend.link.trouble import another_adapter
 
 
 def open_link(url: str) -> Link:
@@ -76,9 +77,13 @@ class Opener:
         return link
 
     def _present_name(self, name: str) -> str:
+        """Where the adapter is now. Raises LinkError when its name belongs to another adapter."""
         if self._usb_serial_number is None:
             return name
-        return device_with_usb_serial(self._usb_serial_number) or name
+        present = device_with_usb_serial(self._usb_serial_number)
+        if present is None and usb_serial_of(name) not in (None, self._usb_serial_number):
+            raise another_adapter(name, self._usb_serial_number)
+        return present or name
 
 
 def _host_and_port(url: str) -> tuple[str, int]:

@@ -43,6 +43,16 @@ def cannot_open(name: str, error: OSError) -> LinkError:
     return LinkError(f"{name}: cannot be opened ({error}). Check the cable and the name.")
 
 
+def another_adapter(name: str, usb_serial_number: str) -> LinkError:
+    """Say that the port `name` is another adapter's since the one we had was unplugged."""
+    return LinkError(
+        f"{name}: another adapter has this name now, and the one with serial number "
+        f"{usb_serial_number} is not plugged in. Plug that one in and it is taken up by itself, or "
+        "remove this device and add the port anew.",
+        code="port_absent",
+    )
+
+
 def vanished(name: str, cause: object) -> LinkError:
     """Say that an open port went away while it was used."""
     return LinkError(

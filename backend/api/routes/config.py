@@ -20,6 +20,7 @@ from backend.api.models.config import (
 from backend.api.models.law import AssistModes, Calibration, FuzzyTable, Limits
 from backend.api.problem import refusals
 from backend.api.services import Provided
+from backend.services.config_view import etag
 
 router = APIRouter(
     prefix="/devices/{device_id}",
@@ -34,11 +35,6 @@ Reason = Annotated[
     str, Query(max_length=400, description="Why; kept with the revision for later readers.")
 ]
 ConfirmS = Annotated[int, Query(ge=0, le=CONFIRM_S_MAX, description=CONFIRM_S)]
-
-
-def etag(generation: int, crc32: int) -> str:
-    """The ETag of a configuration: it changes with every commit and names the exact content."""
-    return f'"{generation}-{crc32:08x}"'
 
 
 @router.get("/parameters", operation_id="list_parameters", response_model=ParameterList)

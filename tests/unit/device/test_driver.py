@@ -12,6 +12,7 @@ import select
 import threading
 import tty
 from collections.abc import Iterator
+from types import SimpleNamespace
 
 import pytest
 
@@ -22,6 +23,7 @@ from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock, StreamPlan, StreamStarted
 from backend.errors import LinkError, NoAnswer
 from backend.link.opening import Opener
+from backend.link.ports import pyserial_ports
 from firmware_protocol._generated import CfgInfoRequest, CfgInfoResponse, MessageId
 from tests.fakes.unit import FakeUnit
 from tests.fakes.unit_link import Heard, UnitOpener
@@ -237,3 +239,24 @@ def test_a_unit_on_a_pseudo_terminal_vanishes_with_it_and_is_ready_again_on_the_
     driver.close()
     served.stop()
     assert unit.executed[-1] in (MessageId.BYE, MessageId.STR_SUBSCRIBE, MessageId.STR_RENEW)
+
+
+def test_a_unit_whose_adapter_came_back_under_another_name_is_taken_up_again(
+    heard: Heard, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before, after = PtyUnit(FakeUnit()), PtyUnit(FakeUnit())
+    plugged = [SimpleNamespace(device=before.path, serial_number="ours")]
+    monkeypatch.setattr(pyserial_ports, "comports", lambda: list(plugged))
+    driver = Driver(Opener(before.path), heard, StreamPlan(batch=5))
+    driver.start()
+    heard.wait_for(StreamBlock, count=3)
+
+    plugged.clear()
+    before.stop()
+    heard.wait_for(StateChanged, state=LinkState.LOST)
+    plugged.append(SimpleNamespace(device=after.path, serial_number="ours"))
+    heard.wait_for(StateChanged, count=2, state=LinkState.READY)
+    heard.wait_for(StreamBlock, epoch=2)
+
+    driver.close()
+    after.stop()

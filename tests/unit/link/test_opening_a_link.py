@@ -6,11 +6,14 @@ import os
 import socket
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from backend.errors import InvalidRequest, LinkError
 from backend.link import kind_of, list_ports, open_link
+from backend.link.opening import Opener
+from backend.link.ports import pyserial_ports
 from backend.link.serial_port import SerialPort
 from backend.link.simulated import SimulatedAddress, SimulatedLink
 from backend.link.trouble import cannot_open
@@ -134,3 +137,35 @@ def test_a_plain_file_is_no_serial_port(tmp_path: Path) -> None:
 
     with pytest.raises(InvalidRequest, match="no serial port"):
         kind_of(str(notes))
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pseudo-terminals are POSIX")
+def test_an_adapter_is_known_by_its_serial_number_and_not_by_its_name(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    pairs = [os.openpty(), os.openpty()]
+    first, second = (os.ttyname(slave) for _, slave in pairs)
+    plugged: dict[str, str] = {}
+    monkeypatch.setattr(
+        pyserial_ports,
+        "comports",
+        lambda: [SimpleNamespace(device=at, serial_number=who) for at, who in plugged.items()],
+    )
+    opener = Opener(first)
+    try:
+        plugged[first] = "ours"
+        opener.open().close()
+
+        plugged = {second: "ours", first: "another"}
+        renamed = opener.open()
+        os.write(pairs[1][0], b"hello")
+        assert renamed.read() == b"hello"
+        renamed.close()
+
+        plugged = {first: "another"}
+        with pytest.raises(LinkError, match="another adapter has this name now") as caught:
+            opener.open()
+        assert caught.value.code == "port_absent"
+    finally:
+        for descriptor in (end for pair in pairs for end in pair):
+            os.close(descriptor)
