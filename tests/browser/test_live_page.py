@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk
@@ -55,6 +56,21 @@ def test_the_motor_torque_is_labelled_with_where_it_acts(desk: Desk, riding: str
     page = desk.open("/live")
 
     page.wait_for_selector("text=Motor torque at the crank (motor × 40.34)")
+
+
+def test_the_riders_row_keeps_the_powers_apart_on_a_phone(open_desk: OpenDesk, riding: str) -> None:
+    desk = open_desk(width=390, height=844)
+    page = desk.open("/live")
+    row = page.get_by_test_id("rider-row")
+
+    expect(row.locator("dt")).to_have_text(
+        ["Speed", "Acceleration", "Rider power", "Motor power", "Distance", "Battery", "Range"]
+    )
+    expect(row.locator("[data-value=rider_power_w]")).to_contain_text("W")
+    expect(row.locator("[data-value=motor_power_w]")).to_contain_text("W")
+    expect(row.locator("[data-value=battery_soc_pct]")).to_contain_text("%")
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    desk.picture("live-rider-row-390")
 
 
 def test_pausing_holds_the_strips_and_not_the_numbers(desk: Desk, riding: str) -> None:

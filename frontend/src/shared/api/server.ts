@@ -4,6 +4,7 @@ import { readSeries, type Series } from './series'
 import type {
   Config,
   ConfigChange,
+  Dashboard,
   Device,
   Fault,
   FuzzyTable,
@@ -51,6 +52,11 @@ export class Server {
   async parameters(id: string): Promise<Parameter[]> {
     return (await body(this.http.GET('/api/v1/devices/{device_id}/parameters', this.unit(id))))
       .items
+  }
+
+  /** What the rider sees now. */
+  dashboard(id: string): Promise<Dashboard> {
+    return body(this.http.GET('/api/v1/devices/{device_id}/dashboard', this.unit(id)))
   }
 
   /** The configuration and its ETag. */

@@ -3,6 +3,7 @@ import type { components } from '$generated/api'
 
 type Schemas = components['schemas']
 
+export type Dashboard = Schemas['Dashboard']
 export type Device = Schemas['Device']
 export type Port = Schemas['Port']
 export type Simulation = Schemas['Simulation']
@@ -19,6 +20,7 @@ export type Surface = Schemas['Surface']
 export type LintReport = Schemas['LintReport']
 export type Finding = Schemas['Finding']
 export type Ride = Schemas['Ride']
+export type RideEvent = Schemas['RideEvent']
 export type LogDownload = Schemas['LogDownload']
 export type UnitLog = Schemas['UnitLog']
 export type UnitLogs = Schemas['UnitLogs']
