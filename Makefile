@@ -6,9 +6,8 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := .make
 
-# What runs against the emulated board in CI; `make test-board-all` adds the other stories.
-BOARD_TESTS := tests/board tests/conformance tests/unit/sim_device_app
-BOARD_STORIES := tests/stories/test_tuning_changes_the_bike.py tests/stories/test_faults_are_told.py
+# What runs against the emulated board; `make test-board-all` adds what takes minutes there.
+BOARD_TESTS := tests/board tests/conformance tests/unit/sim_device_app tests/stories
 
 C_SOURCES := $(wildcard firmware_protocol/c/*.[ch] sim_device/firmware/*/*.[ch] \
 	sim_device/firmware/boards/host/*.[ch] sim_device/physics/*.[ch] third_party/*/*.[ch])
@@ -36,11 +35,11 @@ test: setup $(STAMP)/chromium lint ## every test there is, a real browser includ
 
 .PHONY: test-board
 test-board: $(STAMP)/native $(STAMP)/arm ## the unit's tests against the firmware on an emulated Cortex-M4F
-	$(BIN)/pytest --unit=qemu -m "not board_long" $(BOARD_TESTS) $(BOARD_STORIES)
+	$(BIN)/pytest --unit=qemu -m "not board_long" $(BOARD_TESTS)
 
 .PHONY: test-board-all
-test-board-all: setup $(STAMP)/arm ## the same with every story: about five minutes
-	$(BIN)/pytest --unit=qemu $(BOARD_TESTS) tests/stories
+test-board-all: setup $(STAMP)/arm ## the same with the longest: power cuts at every byte, ten thousand guesses
+	$(BIN)/pytest --unit=qemu $(BOARD_TESTS)
 
 .PHONY: test-fast
 test-fast: $(STAMP)/native ## unit and conformance tests without the slow ones
