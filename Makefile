@@ -34,7 +34,7 @@ test: setup $(STAMP)/chromium lint ## every test there is, a real browser includ
 	$(BIN)/pytest
 
 .PHONY: test-board
-test-board: $(STAMP)/native $(STAMP)/arm ## the unit's tests against the firmware on an emulated Cortex-M4F
+test-board: setup $(STAMP)/arm ## the unit's tests against the firmware on an emulated Cortex-M4F
 	$(BIN)/pytest --unit=qemu -m "not board_long" $(BOARD_TESTS)
 
 .PHONY: test-board-all
