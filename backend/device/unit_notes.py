@@ -83,6 +83,9 @@ class UnitNotes:
             message, ConfigCommittedEvent | ConfigRolledBackEvent | ConfigDefaultedEvent
         ):
             self._config(message.generation, message.crc32, None)
+            if isinstance(message, ConfigRolledBackEvent):
+                # The event does not say why; what the trial before this one ended of is no answer.
+                self.rollback_cause = None
         elif isinstance(message, ConfigProvisionalEvent):
             self._config(message.generation, message.crc32, now_s + message.confirm_s)
         elif isinstance(message, BootEvent):

@@ -26,7 +26,12 @@ it('counts down what the unit has left, whatever the clocks say, and not below z
 it('is not over while the unit is away, nor because another unit has none', () => {
   expect(isOver(trial, { ...unit(BEFORE, 'committed'), state: 'lost' })).toBe(false)
   expect(isOver(trial, { ...unit(BEFORE, 'committed'), id: 'other' })).toBe(false)
-  expect(isOver(trial, unit(BEFORE, 'committed'))).toBe(true)
+  expect(isOver(trial, unit(BEFORE, 'committed', 'asked'))).toBe(true)
+})
+
+it('is not over before the unit has said why, and over at once when it was kept', () => {
+  expect(isOver(trial, unit(BEFORE, 'committed', null))).toBe(false)
+  expect(isOver(trial, unit(TRIED, 'committed', null))).toBe(true)
 })
 
 describe('what became of it', () => {

@@ -21,10 +21,11 @@ export function trialOf(device: Device | null, now_ms: number): Trial | null {
   return { device_id: device.id, generation, crc32, ends_ms: now_ms + remaining_s * 1000 }
 }
 
-/** Whether a unit answers and no longer has this trial. */
+/** Whether a unit answers, no longer has this trial, and has said why. */
 export function isOver(trial: Trial, device: Device | null): boolean {
   if (!device || device.id !== trial.device_id || device.state !== 'ready') return false
-  return device.config?.state === 'committed'
+  if (device.config?.state !== 'committed') return false
+  return device.config.crc32 === trial.crc32 || device.config.rollback_cause !== null
 }
 
 /** What became of a trial, by the unit's own word. */
