@@ -175,7 +175,7 @@ class Unit:
         """Brake until wheel and motor rest, which a write needs. Raises NoAnswer."""
         clock = self.simulate(scenario=None, rider={"kind": "off"}, brake=True).clock
         passed_s = 0.0
-        while not self._rests():
+        while not rests(self.snapshot().channels):
             if passed_s > STANDSTILL_WITHIN_S:
                 raise NoAnswer(f"{self.id} still moves after braking {STANDSTILL_WITHIN_S:g} s.")
             if clock == "virtual":
@@ -185,9 +185,11 @@ class Unit:
                 time.sleep(LOOK_EVERY_S)
                 passed_s += LOOK_EVERY_S
 
-    def _rests(self) -> bool:
-        now = self.snapshot().channels
-        speed_kmh, motor_speed_rpm = now["speed_kmh"], now["motor_speed_rpm"]
-        if speed_kmh is None or motor_speed_rpm is None:
-            return False
-        return abs(speed_kmh) < STANDSTILL_KMH and abs(motor_speed_rpm) < STANDSTILL_MOTOR_RPM
+
+def rests(seen: Mapping[str, float | None]) -> bool:
+    """Whether wheel and motor stand still, by `speed_kmh` and `motor_speed_rpm`; a missing one
+    does not say so."""
+    speed_kmh, motor_speed_rpm = seen["speed_kmh"], seen["motor_speed_rpm"]
+    if speed_kmh is None or motor_speed_rpm is None:
+        return False
+    return abs(speed_kmh) < STANDSTILL_KMH and abs(motor_speed_rpm) < STANDSTILL_MOTOR_RPM

@@ -6,11 +6,8 @@ from __future__ import annotations
 import threading
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from backend.device.states import DeviceEvent
 from backend.device.stream import StreamBlock
-from backend.domain.channels import MISSING_INT16
 from backend.domain.dashboard import CHANNELS, Column, Dashboard, DashboardAccount
 from backend.errors import NotFound
 
@@ -52,13 +49,8 @@ class Dashboards:
 
 
 def _columns(block: StreamBlock) -> dict[str, Column]:
-    columns: dict[str, Column] = {}
-    for number, spec in enumerate(block.channels):
-        if spec.name in CHANNELS:
-            counts = block.values[:, number]
-            values: Column = counts.astype(np.float64) * spec.scale
-            missing = counts == MISSING_INT16
-            if missing.any():
-                values[missing] = np.nan
-            columns[spec.name] = values
-    return columns
+    return {
+        spec.name: spec.to_values(block.values[:, number])
+        for number, spec in enumerate(block.channels)
+        if spec.name in CHANNELS
+    }

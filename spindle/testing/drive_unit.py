@@ -20,20 +20,16 @@ from backend.device.operation import Operation
 from backend.device.session import Session
 from backend.device.states import LinkState
 from backend.device.stream import StreamBlock, StreamPlan
-from backend.domain.channels import MISSING_INT16
 from backend.errors import NoAnswer
 from sim_device.lockstep import LockstepUnit
+from spindle.client import STANDSTILL_WITHIN_S, rests
 
 Result = TypeVar("Result")
 
 STEP_S = 0.020
 CONNECT_WITHIN_S = 10.0
 OPERATION_WITHIN_S = 30.0
-STANDSTILL_WITHIN_S = 60.0
 NONCE = b"bench-01"
-# Below these the firmware calls a bike at rest.
-STANDSTILL_KMH = 0.01
-STANDSTILL_MOTOR_RPM = 0.1
 
 
 class DriveUnit:
@@ -91,9 +87,7 @@ class DriveUnit:
         """Brake until wheel and motor rest, which a write needs. Raises NoAnswer."""
         self.simulate(scenario=None, rider={"kind": "off"}, brake=True)
         for _ in range(round(STANDSTILL_WITHIN_S)):
-            seen = self.unit.observe()
-            slow = abs(seen["speed_kmh"]) < STANDSTILL_KMH
-            if slow and abs(seen["motor_speed_rpm"]) < STANDSTILL_MOTOR_RPM:
+            if rests(self.unit.observe()):
                 return
             self.advance(1.0)
         raise NoAnswer(f"The bike still moves after braking {STANDSTILL_WITHIN_S:g} s.")
@@ -135,9 +129,8 @@ class DriveUnit:
             rows = np.arange(len(block.values))
             columns["t_s"].append((block.t0_us + rows * block.period_us) / 1e6)
             for name in names:
-                counts = block.values[:, specs[name]].astype(np.float64)
-                counts[block.values[:, specs[name]] == MISSING_INT16] = np.nan
-                columns[name].append(counts * block.channels[specs[name]].scale)
+                number = specs[name]
+                columns[name].append(block.channels[number].to_values(block.values[:, number]))
         empty = np.empty(0)
         return {name: np.concatenate(parts) if parts else empty for name, parts in columns.items()}
 

@@ -15,6 +15,7 @@ import pytest
 from sim_device.calibration_metrics import metrics
 from sim_device.lockstep import LockstepUnit
 from sim_device.scenario import run
+from tests.reproduction.__main__ import LITERAL
 
 SEEDS = range(200)
 LOAD_NM = [float(load) for load in range(0, 101, 10)]
@@ -36,14 +37,6 @@ BANDS = {
     ("repeatability_pct", "range"): (0.57, 1.10),
     ("total_pct", "deviation"): (0.61, 0.89),
     ("total_pct", "range"): (0.79, 1.25),
-}
-LITERAL: dict[str, object] = {
-    "model": "literal_4_14",
-    "grade_deg": 15.0,
-    "rider_torque_nm": 41.56,
-    "drag_area_m2": 0.296,
-    "rolling_coefficient": 0.008,
-    "taper": "off",
 }
 
 

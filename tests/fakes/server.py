@@ -8,6 +8,7 @@ from typing import Any, Self, TypeVar
 
 import httpx
 
+from spindle.client import rests
 from spindle.testing.server import PATIENCE_S, RunningServer
 
 Answer = TypeVar("Answer")
@@ -67,5 +68,5 @@ class SpindleServer(RunningServer):
         self.simulate(device, scenario=None, rider={"kind": "off"}, brake=True)
         eventually(
             lambda: self.get(f"/devices/{device}/snapshot")["channels"],
-            lambda now: abs(now["speed_kmh"]) < 0.01 and abs(now["motor_speed_rpm"]) < 0.1,
+            rests,
         )
