@@ -18,12 +18,13 @@ from sim_device.emulator import BOARD, BOARD_VARIABLE, EmulatorError
 from sim_device.lockstep import LockstepUnit, uid_of
 from sim_device.log_file import LogFile
 from sim_device.scenario import list_scenarios, run
-from sim_device.scenario_file import ScenarioError, load, names
+from sim_device.scenario_file import ScenarioError, ScenarioFile, load, load_live, names
 from sim_device.serial_line import PtyLine, SerialLine, TcpLine
 from sim_device.simulator import FlashFile, Stop, new_boot_id, serve
 
 PROGRAM = "sim_device"
 DEFAULT_SCENARIO = "commute"
+NO_SCENARIO = "none"
 LOOPBACK = "127.0.0.1"
 # Where every unit starts.
 SERIAL_RATE = 115200
@@ -54,9 +55,11 @@ def _add_unit(unit: argparse.ArgumentParser) -> None:
     line.add_argument("--tcp", type=_port, metavar="[HOST:]PORT", help="to listen on; 0: any free")
     unit.add_argument(
         "--scenario",
+        type=_live_scenario,
         default=DEFAULT_SCENARIO,
-        choices=[*_live_names(), "none"],
-        help="what the rider does (default %(default)s)",
+        metavar="NAME|FILE.toml|none",
+        help=f"what the rider does (default %(default)s): {', '.join(_live_names())}, "
+        "or a file of your own (docs/scenarios.md)",
     )
     unit.add_argument("--speed", type=_speed, default=1.0, metavar="X", help="times real time")
     unit.add_argument(
@@ -113,6 +116,13 @@ def _unlock_key(name: str) -> bytes:
         raise argparse.ArgumentTypeError(f"{name} is no public key in hex: {error}") from None
 
 
+def _live_scenario(wanted: str) -> ScenarioFile | None:
+    try:
+        return None if wanted == NO_SCENARIO else load_live(wanted)
+    except ScenarioError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
 def _live_names() -> list[str]:
     return [name for name in names() if load(name).live]
 
@@ -158,7 +168,7 @@ def _bike(arguments: argparse.Namespace, **firmware: Any) -> LockstepUnit:
     return LockstepUnit(
         arguments.seed,
         name="process",
-        scenario=None if arguments.scenario == "none" else arguments.scenario,
+        scenario=arguments.scenario,
         speed_factor=arguments.speed,
         clock="virtual" if arguments.virtual else "real",
         **firmware,

@@ -6,7 +6,7 @@ the unit's business (sim_device.lockstep).
 
 import json
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -36,12 +36,14 @@ class Changes:
     """Checked changes; None or an empty dict means as it was.
 
     by_hand: what is broken and around the bike. It lasts through the phases of a scenario.
+    own_scenarios: names that `scenario` can have besides those that come with Spindle.
     """
+
+    own_scenarios: Collection[str] = ()
 
     phase: dict[str, Any] = field(default_factory=dict)
     by_hand: dict[str, Any] = field(default_factory=dict)
     bike: dict[str, float] = field(default_factory=dict)
-    dyno_nm: float | None = None
     scenario: str | None = None
     stop_scenario: bool = False
     running: bool | None = None
@@ -51,13 +53,13 @@ class Changes:
     seed: int | None = None
 
 
-def parse_changes(text: str) -> Changes:
+def parse_changes(text: str, own_scenarios: Collection[str] = ()) -> Changes:
     """Reads the JSON object of SIM_SET. Raises ScenarioError and leaves nothing half read."""
     try:
         document = json.loads(text or "{}")
     except ValueError as error:
         raise ScenarioError(f"simulation: not JSON: {error}") from error
-    changes = Changes()
+    changes = Changes(own_scenarios)
     for name, given in _members("", document, {*_READERS, *_READ_ONLY}).items():
         if name in _READERS:
             _READERS[name](changes, name, given)
@@ -120,10 +122,6 @@ def _load_source(changes: Changes, name: str, given: object) -> None:
     changes.bike["road.source"] = LOAD_SOURCES[str(given)]
 
 
-def _dyno_nm(changes: Changes, name: str, given: object) -> None:
-    changes.dyno_nm = float(Setting(0.0, min=0.0, max=200.0).read(name, given))
-
-
 def _mass_kg(changes: Changes, name: str, given: object) -> None:
     changes.bike["road.mass_kg"] = float(Setting(100.0, min=20.0, max=400.0).read(name, given))
 
@@ -131,6 +129,9 @@ def _mass_kg(changes: Changes, name: str, given: object) -> None:
 def _scenario(changes: Changes, name: str, given: object) -> None:
     if given is None:
         changes.stop_scenario = True
+        return
+    if isinstance(given, str) and given in changes.own_scenarios:
+        changes.scenario = given
         return
     if not isinstance(given, str) or given not in names():
         message = f"there is no scenario {given!r}; there are: {', '.join(names())}"
@@ -173,7 +174,7 @@ _READERS: dict[str, Callable[[Changes, str, object], None]] = {
     "walk_button": _by_hand,
     "assist_mode": _phase_value,
     "load_source": _load_source,
-    "dyno_nm": _dyno_nm,
+    "dyno_nm": _by_hand,
     "mass_kg": _mass_kg,
     "scenario": _scenario,
     "running": _running,

@@ -13,7 +13,7 @@ from firmware_protocol._generated import MessageId, Status
 from sim_device.configure import write_config
 from sim_device.controls import Changes, pack, parse_changes
 from sim_device.firmware.python.unit import UID_LENGTH, Unit, default_bike, finite_or_none
-from sim_device.scenario_file import ScenarioFile, load
+from sim_device.scenario_file import ScenarioFile, load, load_live
 from sim_device.scenario_phase import (
     RIDER_KINDS,
     SPEED_SENSOR_FAULTS,
@@ -49,7 +49,7 @@ class LockstepUnit:
         seed: of the noise; with `name` it also makes the serial number.
         config_overrides: parameters by registry name, written over the wire before anything moves.
         name: tells units with equal seeds apart.
-        scenario: a live scenario to ride from the start, by name or as it was read.
+        scenario: a live scenario to ride from the start: its name, its file's path or as read.
         bike: `part.name` -> value, over the pinned bike W1.
         flash: the flash of an earlier life. log: that for ride logs.
         unlock_key: the maker's public key; without one no limit can be raised again.
@@ -80,6 +80,8 @@ class LockstepUnit:
         clock: str = "real",
         bike_alone: bool = False,
     ) -> None:
+        ridden = load_live(scenario) if isinstance(scenario, str) else scenario
+        self._own = {ridden.name: ridden} if ridden is not None else {}
         self.seed = seed
         self.speed_factor = speed_factor
         self.clock = clock
@@ -107,10 +109,8 @@ class LockstepUnit:
         )
         if config_overrides:
             write_config(self.unit, config_overrides)
-        if isinstance(scenario, ScenarioFile):
-            self._start(scenario)
-        elif scenario is not None:
-            self.simulation_set({"scenario": scenario})
+        if ridden is not None:
+            self._start(ridden)
 
     def advance(self, seconds: float) -> None:
         """Lets `seconds` of the unit's time pass, through the phases of a running scenario."""
@@ -191,7 +191,7 @@ class LockstepUnit:
             },
             "road": {"grade_deg": phase.grade_deg, "wind_ms": phase.wind_ms},
             "load_source": "dyno" if self._bike["road.source"] else "road",
-            "dyno_nm": self._dyno_nm,
+            "dyno_nm": self._dyno_now_nm,
             "mass_kg": self._bike["road.mass_kg"],
             "assist_mode": seen["assist_mode"],
             "brake": phase.brake,
@@ -213,7 +213,7 @@ class LockstepUnit:
 
         Taking rider, road or brake into one's own hands stops a running scenario.
         """
-        self._apply(parse_changes(json.dumps(changes)))
+        self._apply(self._read(json.dumps(changes)))
 
     def answer(self, message_id: int, request: bytes) -> tuple[int, bytes]:
         """Status and body for a board request: SIM_GET and SIM_SET."""
@@ -221,10 +221,13 @@ class LockstepUnit:
             return Status.UNKNOWN_MSG, b""
         if message_id == MessageId.SIM_SET:
             try:
-                self._apply(parse_changes(request.decode("utf-8", errors="replace")))
+                self._apply(self._read(request.decode("utf-8", errors="replace")))
             except ScenarioError as error:
                 return Status.RANGE, f"{error.field}\n{error}".encode()
         return Status.OK, pack(self.simulation_get())
+
+    def _read(self, text: str) -> Changes:
+        return parse_changes(text, self._own)
 
     def _apply(self, changes: Changes) -> None:
         self._keep_time(changes)
@@ -233,14 +236,13 @@ class LockstepUnit:
             self.unit.seed_noise(changes.seed)
         if changes.speed_factor is not None:
             self.speed_factor = changes.speed_factor
-        if changes.dyno_nm is not None:
-            self._dyno_nm = changes.dyno_nm
+        self._dyno_nm = changes.by_hand.get("dyno_nm", self._dyno_nm)
         if changes.bike:
             self._change_bike(changes.bike)
         if changes.stop_scenario:
             self._scenario, self._running = None, False
         if changes.scenario is not None:
-            self._start(load(changes.scenario))
+            self._start(self._own.get(changes.scenario) or load(changes.scenario))
         if changes.phase:
             self._running = self._running and set(changes.phase) == {"assist_mode"}
         self._by_hand |= changes.by_hand
@@ -314,7 +316,7 @@ class LockstepUnit:
         self.unit.set_road(
             grade_deg=phase.grade_deg,
             wind_ms=phase.wind_ms,
-            dyno_nm=self._dyno_nm,
+            dyno_nm=self._dyno_now_nm,
             brake=phase.brake,
         )
         self.unit.set_faults(
@@ -331,6 +333,11 @@ class LockstepUnit:
         self.unit.hold_walk_button(phase.walk_button)
         if phase.assist_mode is not None:
             self.unit.select_mode(phase.assist_mode)
+
+    @property
+    def _dyno_now_nm(self) -> float:
+        """What a scenario does not load stays as it was loaded by hand."""
+        return self._dyno_nm if self._phase.dyno_nm is None else self._phase.dyno_nm
 
     def _surround(self, phase: Phase) -> None:
         """Puts air, road and link into the state the phase names; what it leaves out stays."""

@@ -15,7 +15,7 @@ from sim_device.firmware.python.unit import finite_or_none, kinematics
 from sim_device.lockstep import LockstepUnit
 from sim_device.scenario_calibration import calibrate
 from sim_device.scenario_field_ride import field_ride
-from sim_device.scenario_file import ScenarioFile, load, load_file, names
+from sim_device.scenario_file import FILE_ENDING, ScenarioFile, load, load_file, names
 from sim_device.scenario_phase import ScenarioError, Value
 
 Settings = dict[str, Any]
@@ -58,7 +58,7 @@ def run(name: str, settings: dict[str, object] | None = None) -> Result:
     Raises:
         ScenarioError: no such scenario or setting, or a value out of its range; named.
     """
-    scenario = load_file(Path(name)) if name.endswith(".toml") else load(name)
+    scenario = load_file(Path(name)) if name.endswith(FILE_ENDING) else load(name)
     values = _values(scenario, settings or {})
     measure = _MEASUREMENTS.get(name, _ride)
     seed = values.get("seed", scenario.seed)

@@ -19,6 +19,9 @@ from sim_device.scenario_phase import Phase, ScenarioError, Setting, Value, read
 SPEED_KMH_MAX = 100.0
 PHASES_MAX = 1000
 FILE_BYTES_MAX = 1_000_000
+FILE_ENDING = ".toml"
+# The unit tells it in an answer that has to fit a frame.
+FILE_NAME_CHARACTERS_MAX = 80
 
 Numbers = dict[str, float]
 
@@ -65,20 +68,19 @@ def parse(name: str, text: str) -> ScenarioFile:
     _refuse_unknown(source, "", table, _SCENARIO_KEYS)
     if not isinstance(table.get("doc"), str) or not isinstance(table.get("seed"), int):
         raise ScenarioError(f"scenario {name}: needs a text `doc` and a whole number `seed`")
-    bike = default_bike()
+    known = set(default_bike())
+    bike = _numbers(source, "bike", _tables(source, table, "bike"), known)
     return ScenarioFile(
         name=name,
         doc=table["doc"],
         seed=table["seed"],
         settings=_settings(source, _tables(source, table, "settings")),
-        phases=_phases(source, table.get("phases", [])),
+        phases=_phases(source, table.get("phases", []), bike),
         repeat=_flag(source, table, "repeat"),
         speed_kmh=_start_speed_kmh(source, table.get("speed_kmh")),
-        bike=_numbers(source, "bike", _tables(source, table, "bike"), set(bike)),
+        bike=bike,
         states={
-            state: _numbers(
-                source, f"states.{state}", _tables(source, states, state), set(bike) | _RIG
-            )
+            state: _numbers(source, f"states.{state}", _tables(source, states, state), known | _RIG)
             for states in (_tables(source, table, "states"),)
             for state in states
         },
@@ -143,7 +145,7 @@ def _settings(source: Source, table: dict[str, dict[str, Any]]) -> dict[str, Set
     return settings
 
 
-def _phases(source: Source, rows: object) -> tuple[Phase, ...]:
+def _phases(source: Source, rows: object, bike: Numbers) -> tuple[Phase, ...]:
     """Each phase keeps what the one before it did, except for what it names.
 
     The mode button is pressed only where a phase names it: a choice made by hand stays.
@@ -161,6 +163,8 @@ def _phases(source: Source, rows: object) -> tuple[Phase, ...]:
         for name, given in row.items():
             where = f"{source.at(at, name)}, phase {number}: {name}"
             current[name] = read_phase_value(where, name, given)
+            if name == "dyno_nm" and not bike.get("road.source"):
+                raise ScenarioError(f"{where} loads the bench only: [bike.road] needs source = 1")
         phases.append(Phase(**current))
         current.pop("assist_mode", None)
     return tuple(phases)
@@ -188,6 +192,32 @@ def load_file(path: Path) -> ScenarioFile:
     return scenario
 
 
+def load_live(wanted: str) -> ScenarioFile:
+    """A scenario to be ridden: one that comes with Spindle, or a TOML file by its path.
+
+    Raises ScenarioError, also for a file that cannot be read.
+    """
+    if wanted.endswith(FILE_ENDING):
+        if len(Path(wanted).name) > FILE_NAME_CHARACTERS_MAX:
+            raise ScenarioError(
+                f"scenario {wanted}: its name has more than {FILE_NAME_CHARACTERS_MAX} characters"
+            )
+        try:
+            return load_file(Path(wanted))
+        except OSError as error:
+            raise ScenarioError(f"scenario {wanted} cannot be read: {error.strerror}") from error
+    if wanted not in names():
+        known = ", ".join(name for name in names() if load(name).live)
+        raise ScenarioError(
+            f"there is no scenario {wanted!r}; there are: {known}; or give the path of a file "
+            f"of your own, *{FILE_ENDING}"
+        )
+    scenario = load(wanted)
+    if not scenario.live:
+        raise ScenarioError(f"scenario {wanted!r} is measured, not ridden: use `scenario run`")
+    return scenario
+
+
 def names() -> tuple[str, ...]:
     """Every scenario that comes with Spindle."""
     folder = files("sim_device") / "scenarios"
@@ -203,6 +233,7 @@ __all__ = [
     "Value",
     "load",
     "load_file",
+    "load_live",
     "names",
     "parse",
     "read_phase_value",

@@ -14,6 +14,7 @@ TORQUE_NM_MAX = 300.0
 CADENCE_RPM_MAX = 250.0
 GRADE_DEG_MAX = 30.0
 WIND_MS_MAX = 40.0
+DYNO_NM_MAX = 200.0
 PHASE_S_MAX = 36_000.0
 WARMER_K_MAX = 300.0
 
@@ -82,6 +83,7 @@ class Phase:
     cadence_rpm_max: float = 100.0
     grade_deg: float = 0.0
     wind_ms: float = 0.0
+    dyno_nm: float | None = None
     brake: bool = False
     walk_button: bool = False
     assist_mode: int | None = None
@@ -127,6 +129,7 @@ _RANGES = {
     "cadence_rpm_max": Setting(100.0, min=0.0, max=CADENCE_RPM_MAX),
     "grade_deg": Setting(0.0, min=-GRADE_DEG_MAX, max=GRADE_DEG_MAX),
     "wind_ms": Setting(0.0, min=-WIND_MS_MAX, max=WIND_MS_MAX),
+    "dyno_nm": Setting(0.0, min=0.0, max=DYNO_NM_MAX),
     "assist_mode": Setting(0, min=0, max=4),
     "ambient_degc": Setting(20.0, min=-40.0, max=60.0),
     "grip": Setting(0.0, min=0.0, max=2.0),

@@ -38,10 +38,11 @@ class SimulatedAddress:
     """`sim` or `sim:NAME?seed=&speed=&clock=&scenario=&flash=&unlock_key=&baud=`, taken apart.
 
     Each name is a unit of its own: without a seed the name makes one, so two names never share a
-    serial number. clock: `real`, or `virtual` for time that passes only when told to. flash: file
-    that keeps the unit's configuration. unlock_key: file with the maker's public key; without one
-    the unit's limits only go down. baud: its line has a rate like a real one, from 115200 bit/s on,
-    and this is the rate to ask for.
+    serial number. clock: `real`, or `virtual` for time that passes only when told to. scenario:
+    one of Spindle's, `none`, or the path of a TOML file. flash: file that keeps the unit's
+    configuration. unlock_key: file with the maker's public key; without one the unit's limits only
+    go down. baud: its line has a rate like a real one, from 115200 bit/s on, and this is the rate
+    to ask for.
     """
 
     name: str

@@ -35,9 +35,9 @@ NONCE = b"bench-01"
 class DriveUnit:
     """One unit in virtual time, connected and streaming.
 
-    seed: of the noise. scenario: a live one to ride from the start, None for a bike at rest.
-    config: parameters by registry name, written before anything moves. bike: `part.name` -> value
-    over the pinned bike. Raises ScenarioError and ConfigureError for what does not exist.
+    seed: of the noise. scenario: a live one to ride from the start, by name or its file's path,
+    None for a bike at rest. config: parameters by registry name, written before anything moves.
+    bike: `part.name` -> value over the pinned bike. Raises ScenarioError and ConfigureError for what does not exist.
     """
 
     def __init__(

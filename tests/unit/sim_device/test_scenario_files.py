@@ -6,9 +6,10 @@ import pytest
 
 from sim_device.lockstep import LockstepUnit
 from sim_device.scenario import list_scenarios, run
-from sim_device.scenario_file import ScenarioError, load, names, parse
+from sim_device.scenario_file import ScenarioError, load, load_live, names, parse
 
 HEAD = 'doc = "A ride."\nseed = 1\n'
+BENCH = "[bike.road]\nsource = 1\n"
 
 
 def test_the_scenarios_of_the_contract_are_there() -> None:
@@ -76,6 +77,14 @@ def test_a_phase_keeps_what_the_one_before_did() -> None:
         (HEAD + "[[phases]]\nseconds=0", "phase 1: seconds is 0"),
         (HEAD + "[[phases]]\nseconds=1\nrider='horse'", "phase 1: rider is 'horse'"),
         (HEAD + "[[phases]]\nseconds=1\ngrade_deg=80", "phase 1: grade_deg is 80"),
+        (
+            HEAD + "[[phases]]\nseconds=1\ndyno_nm=5",
+            "line 5, phase 1: dyno_nm loads the bench only",
+        ),
+        (
+            HEAD + BENCH + "[[phases]]\nseconds=1\ndyno_nm=-1",
+            "phase 1: dyno_nm is -1; it lies from",
+        ),
         (HEAD + "[[phases]]\nseconds=1\nbrake=1", "phase 1: brake is 1, not true or false"),
         (HEAD + "[[phases]]\nseconds=1\nhorn=1", "phase 1: horn is not known"),
         (HEAD + "\n\n[[phases]]\nseconds=1\n[[phases]]\nseconds=0", "line 8, phase 2: seconds"),
@@ -123,6 +132,22 @@ def test_a_file_without_phases_cannot_be_ridden(tmp_path: Path) -> None:
 
     with pytest.raises(ScenarioError, match=r"scenario nothing.toml: needs \[\[phases\]\]"):
         run(str(path))
+
+
+def test_a_file_in_place_of_a_name_is_read_or_refused_with_the_reason(tmp_path: Path) -> None:
+    path = tmp_path / "hill.toml"
+    path.write_text(HEAD + "[[phases]]\nseconds=20\ngrade_deg=80\n")
+
+    with pytest.raises(ScenarioError, match=r"hill.toml, line 5, phase 1: grade_deg is 80"):
+        load_live(str(path))
+    with pytest.raises(ScenarioError, match=r"flat.toml cannot be read: No such file"):
+        load_live(str(tmp_path / "flat.toml"))
+    with pytest.raises(ScenarioError, match=r"no scenario 'hill'; there are: .* path of a file"):
+        load_live("hill")
+    with pytest.raises(ScenarioError, match="'start' is measured, not ridden"):
+        load_live("start")
+    with pytest.raises(ScenarioError, match="more than 80 characters"):
+        load_live("h" * 100 + ".toml")
 
 
 @pytest.mark.parametrize("name", [name for name in names() if load(name).live])

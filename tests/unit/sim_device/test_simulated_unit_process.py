@@ -130,7 +130,8 @@ def test_a_socket_takes_one_host_at_a_time() -> None:
     ("words", "complaint"),
     [
         (["--tcp", "0", "--speed", "0"], "not a number from 0.01 to 1000"),
-        (["--tcp", "0", "--scenario", "start"], "invalid choice: 'start'"),
+        (["--tcp", "0", "--scenario", "start"], "scenario 'start' is measured, not ridden"),
+        (["--tcp", "0", "--scenario", "no.toml"], "no.toml cannot be read: No such file"),
         (["--tcp", "here"], "here is not [HOST:]PORT"),
     ],
 )
