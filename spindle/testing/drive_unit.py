@@ -37,7 +37,8 @@ class DriveUnit:
 
     seed: of the noise. scenario: a live one to ride from the start, by name or its file's path,
     None for a bike at rest. config: parameters by registry name, written before anything moves.
-    bike: `part.name` -> value over the pinned bike. Raises ScenarioError and ConfigureError for what does not exist.
+    bike: `part.name` -> value over the pinned bike. Raises ScenarioError and
+    ConfigureError for what does not exist.
     """
 
     def __init__(
