@@ -133,9 +133,9 @@ def takes_the_clock(bike: LockstepUnit) -> bool:
 class EmulatedUnit:
     """A board in QEMU and the bike around it."""
 
-    def __init__(self, bike: LockstepUnit, emulator: Emulator, now_s: float) -> None:
+    def __init__(self, bike: LockstepUnit, board: Registers, now_s: float) -> None:
         self.bike = bike
-        self._board = Registers(emulator)
+        self._board = board
         self._pace = Pace(now_s, bike.speed_factor)
         self._due_us = 0
         self._tell(0)
@@ -143,16 +143,19 @@ class EmulatedUnit:
     def serve(self, now_s: float, wait_s: float) -> None:
         """Hears the board once and grants it the time that is due. Raises EOFError."""
         self._board.wait(wait_s)
+        # The board steps, asks, and says that its time has passed, in this order. Looked at the
+        # other way round, whatever is seen has every step before it counted.
+        time_is_left = self._board.granted_time_is_left
+        request = self._board.request()
         for _ in range(self._board.steps()):
             self.bike.unit.drive(*self._board.decided(ASSIST_OUTPUT_LENGTH))
             self.bike.advance(STEP_US / US_PER_S)
             if not self._has_clock:
                 self._tell(0)
-        request = self._board.request()
         if request is not None:
             self._board.answer(*self.bike.answer(*request))
             self._tell(0)
-        self._grant(now_s)
+        self._grant(now_s, time_is_left)
 
     def wait_s(self) -> float:
         """How long to wait for the board before the next grant may be due."""
@@ -166,14 +169,14 @@ class EmulatedUnit:
     def _has_clock(self) -> bool:
         return takes_the_clock(self.bike)
 
-    def _grant(self, now_s: float) -> None:
+    def _grant(self, now_s: float, time_is_left: bool) -> None:
         passed_us = self._pace.due_us(now_s, self.bike.speed_factor)
         if not self._has_clock:
             self._due_us = 0
             return
         whole = self.bike.clock != "virtual"
         self._due_us = self._due_us + passed_us if whole else self.bike.owed_us
-        if self._board.granted_time_is_left:
+        if time_is_left:
             return
         grant_us = min(self._due_us, STEP_US)
         if grant_us < STEP_US and (whole or grant_us == 0):
@@ -188,7 +191,7 @@ class EmulatedUnit:
 
 def serve(bike: LockstepUnit, emulator: Emulator, stop: Callable[[], bool]) -> None:
     """Runs the bike around the board until `stop()` or the board is gone."""
-    unit = EmulatedUnit(bike, emulator, time.monotonic())
+    unit = EmulatedUnit(bike, Registers(emulator), time.monotonic())
     while not stop():
         try:
             unit.serve(time.monotonic(), unit.wait_s())

@@ -5,6 +5,7 @@ ends with the process that started it, however that ends.
 """
 
 import ctypes
+import fcntl
 import mmap
 import os
 import re
@@ -59,12 +60,16 @@ def build(image: str, frame_bytes: int = MTU) -> Path:
     folder = IMAGE_FOLDER if frame_bytes == MTU else IMAGE_FOLDER / f"mtu-{frame_bytes}"
     target = folder / f"{image}.elf"
     options = (f"OUT={folder}", f"MTU={frame_bytes}")
-    made = subprocess.run(
-        ["make", "-s", "-C", str(BOARD_FOLDER), *options, str(target)],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / "lock").open("w") as lock:
+        # Several units that start at once would compile into one another's objects.
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        made = subprocess.run(
+            ["make", "-s", "-C", str(BOARD_FOLDER), *options, str(target)],
+            capture_output=True,
+            text=True,
+            check=False,
+        )
     if made.returncode != 0:
         said = made.stderr[-COMPLAINT_CHARACTERS_MAX:]
         raise EmulatorError(f"{image}.elf was not built:\n{said}")

@@ -25,6 +25,13 @@ from backend.device.stream import StreamBlock
 from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.ride import Ride, RideContext
 from backend.errors import SpindleError, StoreError
+from backend.services.ride_bounds import (
+    Indices,
+    moving_rows,
+    rows_after,
+    rows_until_still,
+    still_rows,
+)
 from backend.store import RideStore
 
 LOG = logging.getLogger(__name__)
@@ -76,7 +83,7 @@ class LiveRide:
     rows: int = 0
     rows_saved: int = 0
     rows_lost: int = 0
-    idle_us: int = 0
+    still_rows: int = 0
     context: RideContext = field(default_factory=RideContext)
     last_wall_us: int = 0
 
@@ -146,13 +153,22 @@ class UnitRecorder:
         if self._live is not None and not self._continues(self._live, block):
             self._end()
             self._lead.clear()
-        moving = self._is_moving(block.values)
-        if self._live is None:
-            if not moving:
-                self._keep_lead(block)
-                return
-            self._begin(block)
-        self._add(block, moving)
+        while len(block.values):
+            block = self._take_part(block)
+
+    def _take_part(self, block: StreamBlock) -> StreamBlock:
+        """Takes rows of the block up to where a ride ends; returns the rest of it."""
+        limits = {
+            "speed_kmh": self._settings.moving_kmh,
+            "cadence_rpm": self._settings.moving_rpm,
+        }
+        moving = moving_rows(block, limits)
+        if self._live is not None:
+            return self._add(self._live, block, moving)
+        if len(moving):
+            return self._begin(block, int(moving[0]))
+        self._keep_lead(block)
+        return rows_after(block, len(block.values))
 
     def _continues(self, live: LiveRide, block: StreamBlock) -> bool:
         """Whether the block belongs to the ride: not before its end, not too long after."""
@@ -163,44 +179,36 @@ class UnitRecorder:
         due_us = live.t0_us + live.rows * self._period_us
         return round((block.t0_us - due_us) / self._period_us)
 
-    def _is_moving(self, rows: Rows16) -> bool:
-        limits = {
-            "speed_kmh": self._settings.moving_kmh,
-            "cadence_rpm": self._settings.moving_rpm,
-        }
-        return any(
-            bool((rows[:, index] > limits[channel.name] / channel.scale).any())
-            for index, channel in enumerate(self._channels)
-            if channel.name in limits
-        )
-
     def _keep_lead(self, block: StreamBlock) -> None:
         """Remember the rows before the first movement, as long as they follow one another."""
-        if self._lead:
-            last = self._lead[-1]
-            due_us = last.t0_us + len(last.values) * self._period_us
-            if abs(block.t0_us - due_us) >= self._period_us:
-                self._lead.clear()
+        if self._lead and not self._follows(self._lead[-1], block):
+            self._lead.clear()
         self._lead.append(block)
         keep_us = self._settings.lead_in_s * 1e6
-        while self._lead and block.t0_us - self._lead[0].t0_us >= keep_us:
+        while len(self._lead) > 1 and block.t0_us - self._lead[1].t0_us >= keep_us:
             self._lead.popleft()
 
-    def _begin(self, block: StreamBlock) -> None:
-        first = self._lead[0] if self._lead else block
-        if self._lead:
-            last = self._lead[-1]
-            due_us = last.t0_us + len(last.values) * self._period_us
-            if abs(block.t0_us - due_us) >= self._period_us:
-                self._lead.clear()
-                first = block
-        started_us = block.wall_us - (block.t0_us - first.t0_us)
-        context = replace(self._context(), unit_t0_us=first.t0_us)
+    def _follows(self, last: StreamBlock, block: StreamBlock) -> bool:
+        due_us = last.t0_us + len(last.values) * self._period_us
+        return abs(block.t0_us - due_us) < self._period_us
+
+    def _begin(self, block: StreamBlock, first_moving: int) -> StreamBlock:
+        """Starts a ride `lead_in_s` before the first moving row; returns the block's rows of it."""
+        if self._lead and not self._follows(self._lead[-1], block):
+            self._lead.clear()
+        lead_rows = sum(len(lead.values) for lead in self._lead)
+        kept = round(self._settings.lead_in_s * 1e6 / self._period_us)
+        skipped = max(0, lead_rows + first_moving - kept)
+        t0_us = (self._lead[0] if self._lead else block).t0_us + skipped * self._period_us
+        started_us = block.wall_us - (block.t0_us - t0_us)
+        context = replace(self._context(), unit_t0_us=t0_us)
         ride_id = self._rides.start_live(self._channels, self._period_us, started_us, context)
-        self._live = LiveRide(ride_id, first.t0_us, last_wall_us=block.wall_us, context=context)
-        for lead in self._lead:
-            self._append(self._live, lead.values)
+        self._live = LiveRide(ride_id, t0_us, last_wall_us=block.wall_us, context=context)
+        if skipped < lead_rows:
+            rows = np.concatenate([lead.values for lead in self._lead])
+            self._append(self._live, rows[skipped:])
         self._lead.clear()
+        return rows_after(block, max(0, skipped - lead_rows))
 
     def _context(self) -> RideContext:
         try:
@@ -209,24 +217,27 @@ class UnitRecorder:
             # The unit was removed in the meantime: the ride is kept all the same.
             return RideContext(device_id=self._device_id)
 
-    def _add(self, block: StreamBlock, moving: bool) -> None:
-        live = self._live
-        if live is None:
-            return
+    def _add(self, live: LiveRide, block: StreamBlock, moving: Indices) -> StreamBlock:
+        """Adds rows until the ride is over; returns those that are left."""
         lost = self._rows_ahead(live, block)
         if lost > 0:
             missing = np.full((lost, block.values.shape[1]), MISSING_INT16, np.int16)
             self._append(live, missing)
             live.rows_lost += lost
-        self._append(live, block.values)
+        row_count = len(block.values)
+        still_max = max(1, round(self._settings.idle_s * 1e6 / self._period_us))
+        until_still = rows_until_still(moving, row_count, live.still_rows, still_max)
+        room = max(0, RIDE_ROWS_MAX - live.rows)
+        taken = min(row_count, room, row_count if until_still is None else until_still)
+        live.still_rows = still_rows(moving[moving < taken], taken, live.still_rows)
+        self._append(live, block.values[:taken])
         live.last_wall_us = block.wall_us
-        block_us = len(block.values) * self._period_us
-        live.idle_us = 0 if moving else live.idle_us + block_us
         unsent_us = sum(map(len, self._unsent)) * self._period_us
         if unsent_us >= self._settings.tail_s * 1e6:
             self._send(live)
-        if live.idle_us >= self._settings.idle_s * 1e6 or live.rows >= RIDE_ROWS_MAX:
+        if taken in (room, until_still):
             self._end()
+        return rows_after(block, taken)
 
     def _append(self, live: LiveRide, rows: Rows16) -> None:
         self._unsent.append(rows)

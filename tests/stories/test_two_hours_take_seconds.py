@@ -92,6 +92,7 @@ def test_a_ride_in_virtual_time_is_recorded_whole_and_twice_the_same(
         link = server.get(f"/devices/{device}")["link"]
         assert link["stream_rows_lost"] == 0
     assert speeds[0].max() > 10.0
+    assert rides[0]["row_count"] == rides[1]["row_count"]
     assert np.array_equal(speeds[0], speeds[1])
 
 

@@ -58,19 +58,21 @@ def standing(seconds: float) -> Rows16:
     return rows
 
 
-def blocks(rows: Rows16, t0_us: int = 0, epoch: int = 1) -> list[StreamBlock]:
+def blocks(
+    rows: Rows16, t0_us: int = 0, epoch: int = 1, block_rows: int = BLOCK_ROWS
+) -> list[StreamBlock]:
     return [
         StreamBlock(
             t0_us=t0_us + start * PERIOD_US,
             period_us=PERIOD_US,
             first_index=start,
-            values=rows[start : start + BLOCK_ROWS],
+            values=rows[start : start + block_rows],
             lost_rows_before=0,
             epoch=epoch,
             wall_us=WALL_US + t0_us + start * PERIOD_US,
             channels=CHANNELS,
         )
-        for start in range(0, len(rows), BLOCK_ROWS)
+        for start in range(0, len(rows), block_rows)
     ]
 
 
@@ -106,6 +108,33 @@ def test_a_ride_is_every_row_from_just_before_it_moved_until_it_stood_long_enoug
     assert ride.completeness == 1.0
     assert ride.started_us == WALL_US + (800 - lead) * PERIOD_US
     assert ride.context.device_serial == "SP-1"
+
+
+@pytest.mark.parametrize("block_rows", [1, 7, 64, 1_000, 6_000])
+def test_the_same_rows_make_the_same_rides_however_they_came_in_frames(
+    store: Store, recorder: Recorder, block_rows: int
+) -> None:
+    rows = np.concatenate((standing(8.03), riding(30), standing(20), riding(3), standing(9)))
+
+    feed(recorder, *blocks(rows, block_rows=block_rows))
+
+    first, second = rides(store, recorder)
+    lead, idle = 100, 500
+    assert np.array_equal(rows_of(store, first), rows[803 - lead : 3_803 + idle])
+    assert np.array_equal(rows_of(store, second), rows[5_803 - lead : 6_103 + idle])
+    assert second.context.unit_t0_us == (5_803 - lead) * PERIOD_US
+
+
+def test_a_ride_that_begins_while_the_last_one_ends_takes_no_row_twice(
+    store: Store, recorder: Recorder
+) -> None:
+    rows = np.concatenate((riding(10), standing(5.2), riding(10)))
+
+    feed(recorder, *blocks(rows, block_rows=2_000))
+
+    first, second = rides(store, recorder)
+    assert np.array_equal(np.concatenate((rows_of(store, first), rows_of(store, second))), rows)
+    assert len(rows_of(store, first)) == 1_500
 
 
 def test_a_bike_that_stands_makes_no_ride(store: Store, recorder: Recorder) -> None:
