@@ -19,6 +19,7 @@ from tests.fakes.server import SpindleServer
 BAR = "[data-testid=trial-bar]"
 OVER = "[data-testid=trial-over]"
 LONG_S = 250
+SHORT_S = 10
 
 
 def first_rule(server: SpindleServer, device: str) -> str:
@@ -37,6 +38,8 @@ def try_first_rule(page: Page, seconds: int, reason: str = "softer start") -> No
     page.fill("dialog .reason input", reason)
     page.click(f"dialog >> text=Try for {seconds} s")
     expect(page.locator(BAR)).to_be_visible()
+    # The unit tells of the trial before the page has read back what it wrote.
+    expect(page.locator("dialog")).to_have_count(0)
 
 
 @pytest.fixture
@@ -91,7 +94,7 @@ def test_a_trial_nobody_keeps_runs_out_and_the_page_says_so(
 ) -> None:
     before = server.get(f"/devices/{untried}/config")
     page = open_tune(desk)
-    try_first_rule(page, 5)
+    try_first_rule(page, SHORT_S)
 
     expect(page.locator(OVER)).to_contain_text("ran out", timeout=30_000)
     desk.picture("trial-over")
