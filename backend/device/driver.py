@@ -42,8 +42,9 @@ READ_BYTES = 65536
 # A port that does not open is tried again after 0.1 s, 0.2 s and so on up to this.
 REOPEN_S_MIN = 0.1
 REOPEN_S_MAX = 1.0
-# A port that is open and deaf is opened anew: some adapters do not survive a sleep otherwise.
-GREETINGS_BEFORE_REOPEN = 8
+# A port that is open and deaf is opened anew: some adapters do not survive a sleep otherwise, and
+# a TCP connection whose other end is gone tells nobody.
+GREETINGS_BEFORE_REOPEN = 4
 # Work that waits for the thread; more means that nobody waits for the answers.
 COMMANDS_MAX = 32
 # What a port that takes nothing may pile up: thirty of our longest frames.
