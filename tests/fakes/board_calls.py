@@ -160,7 +160,7 @@ class BoardLib:
             elif wanted.cname in ("float", "double"):
                 floats.append(float(value))
             else:
-                words.append(int(value) & 0xFFFFFFFF)
+                words += whole_words(int(value), wanted.cname, len(words))
         gives_float = kind.result.cname == "float"
         whole, real = self._board.call(name, words, floats, gives_float)
         for address, target, length in copies:
@@ -193,6 +193,17 @@ class BoardLib:
         # A result of 32 bits leaves the upper word as it was; size_t has 32 here.
         name = "uint32_t" if kind.cname == "size_t" else kind.cname
         return int(ffi.cast(name, whole & 0xFFFFFFFFFFFFFFFF))
+
+
+def whole_words(value: int, kind: str, before: int) -> list[int]:
+    """A whole number as the board's registers take it after `before` words.
+
+    Eight bytes begin at an even one (AAPCS32, 6.5, rule C.3).
+    """
+    low = value & 0xFFFFFFFF
+    if kind not in ("uint64_t", "int64_t"):
+        return [low]
+    return [0] * (before % 2) + [low, value >> 32 & 0xFFFFFFFF]
 
 
 def symbols(image: str) -> dict[str, int]:
