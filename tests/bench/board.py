@@ -14,6 +14,7 @@ from pathlib import Path
 from firmware_protocol._generated import MTU, MTU_BEFORE_HELLO
 from sim_device import emulator
 from tests.bench.figures import Figure
+from tests.bench.stack import stack_bound
 
 # QEMU: shift=6 is 64 ns an instruction, and SysTick counts at 25 MHz.
 TICKS_AN_INSTRUCTION = 64e-9 * 25e6
@@ -50,7 +51,7 @@ def run() -> list[Figure]:
     if reason is not None:
         return [Figure("the firmware on a Cortex-M4F", "not measured", "", None, reason)]
     image = emulator.build("unit")
-    return [*memory(image), *counts(emulator.build("count"))]
+    return [*memory(image), *counts(emulator.build("count")), deepest_possible(image)]
 
 
 def memory(image: Path) -> list[Figure]:
@@ -79,25 +80,28 @@ def memory(image: Path) -> list[Figure]:
     ]  # fmt: skip
 
 
-def counts(image: Path) -> list[Figure]:
+def told(image: Path) -> dict[str, int]:
+    """What boards/mps2_an386/main_count.c says of one run, by name."""
     words = [
         *("qemu-system-arm", "-M", "mps2-an386", "-display", "none", "-monitor", "none"),
         *("-serial", "none", "-semihosting-config", "enable=on,target=native"),
         *("-icount", "shift=6,sleep=off", "-kernel", str(image)),
     ]
     # QEMU tells what an image says through semihosting on its standard error.
-    runs = {
-        subprocess.run(words, capture_output=True, text=True, check=True, timeout=60).stderr
-        for _ in range(3)
-    }
-    told = {name: int(number) for name, number in re.findall(r"(\w+) (\d+)", runs.pop())}
-    same = "the same in 3 of 3 runs" if not runs else "NOT the same in 3 runs"
-    step = told["streaming_step_ticks10"] / 10 / TICKS_AN_INSTRUCTION
-    worst = told["streaming_step_worst_ticks"] / TICKS_AN_INSTRUCTION
-    poll = told["idle_poll_ticks10"] / 10 / TICKS_AN_INSTRUCTION
-    byte = told["byte_ticks10"] / 10 / TICKS_AN_INSTRUCTION
-    signature = told["signature_ticks"] / TICKS_AN_INSTRUCTION
-    law = told["step_ticks10"] / 10 / TICKS_AN_INSTRUCTION
+    said = subprocess.run(words, capture_output=True, text=True, check=True, timeout=60).stderr
+    return {name: int(number) for name, number in re.findall(r"(\w+) (\d+)", said)}
+
+
+def counts(image: Path) -> list[Figure]:
+    runs = [told(image) for _ in range(3)]
+    said = runs[0]
+    same = "the same in 3 of 3 runs" if runs == [said] * 3 else "NOT the same in 3 runs"
+    step = said["streaming_step_ticks10"] / 10 / TICKS_AN_INSTRUCTION
+    worst = said["streaming_step_worst_ticks"] / TICKS_AN_INSTRUCTION
+    poll = said["idle_poll_ticks10"] / 10 / TICKS_AN_INSTRUCTION
+    byte = said["byte_ticks10"] / 10 / TICKS_AN_INSTRUCTION
+    signature = said["signature_ticks"] / TICKS_AN_INSTRUCTION
+    law = said["step_ticks10"] / 10 / TICKS_AN_INSTRUCTION
     return [
         Figure("instructions of a control step, fuzzy law", f"{law:,.0f}", "", None, same),
         Figure("the same with 12 channels streamed at 100 Hz", f"{step:,.0f} (worst {worst:,.0f})",
@@ -112,10 +116,18 @@ def counts(image: Path) -> list[Figure]:
         Figure("instructions to check a signature (Ed25519)", f"{signature / 1e6:.2f} M", "", None,
                f"{1e3 * signature / CLOCK_HZ:.0f} ms at 100 MHz and an instruction a cycle; the "
                "control step waits"),
-        Figure("deepest stack seen", f"{told['stack_bytes']:,} B", "", None,
+        Figure("deepest stack seen", f"{said['stack_bytes']:,} B", "", None,
                "painted stack: first boot, HELLO, stream, control steps; with a signature checked "
-               f"{told['signature_stack_bytes']:,} B"),
+               f"{said['signature_stack_bytes']:,} B"),
     ]  # fmt: skip
+
+
+def deepest_possible(image: Path) -> Figure:
+    bound = stack_bound(image)
+    return Figure("deepest stack possible", f"{bound.bytes_max:,} B", "", None,
+                  "call graph of the unit's image; of it an interrupt and a fault, with the "
+                  f"floating-point registers, {bound.interrupts_bytes} B; "
+                  f"{', '.join(bound.path)}")  # fmt: skip
 
 
 def app_parts(frame_bytes: int) -> dict[str, int]:
