@@ -49,6 +49,8 @@ CONFIG_HEAD = struct.Struct("<12s8sII")
 SCHEMA_HEAD = struct.Struct("<IB")
 SCHEMA_CHANNEL = struct.Struct("<Bf")
 END_FIELDS = struct.Struct("<IIB")
+# Behind the reason; a log of an older unit ends before it.
+END_EVENTS_LOST = struct.Struct("<I")
 # A day and more of 10 Hz, and the bound of every other format.
 ROWS_MAX = 2_000_000
 LOGS_MAX = 64
@@ -129,8 +131,8 @@ def ride_of_log(blocks: Sequence[Block]) -> LogRide:
     if laid is None:
         return LogRide(None, whole, bool(ends))
     t0_us, rows = laid
-    if ends and (lost := END_FIELDS.unpack_from(ends[-1].payload)[1]):
-        notes.append(f"the unit's flash was too slow for {lost} rows since it was switched on")
+    if ends:
+        notes += lost_in_the_unit(ends[-1].payload)
     started_us = start_of(blocks, t0_us)
     if started_us is None:
         notes.append("the unit had no clock: when it was ridden is not known")
@@ -144,6 +146,18 @@ def ride_of_log(blocks: Sequence[Block]) -> LogRide:
         events=tuple(events_of(own, t0_us, int(rows.times_us[-1]))),
     )
     return LogRide(ride, whole, bool(ends))
+
+
+def lost_in_the_unit(payload: bytes) -> list[str]:
+    """What an END block says that the unit itself could not keep, in words."""
+    notes = []
+    if rows := END_FIELDS.unpack_from(payload)[1]:
+        notes.append(f"the unit's flash was too slow for {rows} rows since it was switched on")
+    if len(payload) >= END_FIELDS.size + END_EVENTS_LOST.size:
+        (events,) = END_EVENTS_LOST.unpack_from(payload, END_FIELDS.size)
+        if events:
+            notes.append(f"{events} events came too fast to be kept since it was switched on")
+    return notes
 
 
 def context_of(blocks: Sequence[Block], notes: list[str]) -> RideContext:

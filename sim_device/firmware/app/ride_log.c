@@ -69,7 +69,11 @@ void ride_log_event_add(ride_log *log, uint8_t code, uint16_t flags, uint64_t no
 {
     ride_log_event *event = &log->events[log->event_count];
 
-    if (log->state == IDLE || log->event_count == RIDE_LOG_EVENTS_MAX) return;
+    if (log->state == IDLE) return;
+    if (log->event_count == RIDE_LOG_EVENTS_MAX) {
+        log->events_lost++;
+        return;
+    }
     event->t_us = now_us;
     event->code = code;
     event->flags = flags;
@@ -189,6 +193,7 @@ static void log_end(ride_log *log, event_log *events, unit_link *link, uint64_t 
     log->no_room = 0;
     log->state = IDLE;
     log->rows_lost += (uint32_t)log->filling.rows + log->full.rows;
+    log->events_lost += log->event_count;
     log->filling.rows = 0;
     log->full.rows = 0;
     log->event_count = 0;
@@ -233,7 +238,7 @@ static int block_choose(ride_log *log, const config_store *config, const hal *bo
         rows_put(log, &log->filling, header);
     } else if (log->state == CLOSING) {
         header->t0_us = log->store.logs[log->place].t1_us;
-        ride_log_end_put(payload, log->rows_written, log->rows_lost, log->reason, header);
+        ride_log_end_put(payload, log, header);
     } else {
         return 0;
     }

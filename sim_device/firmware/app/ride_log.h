@@ -47,6 +47,7 @@ typedef struct {
     uint32_t seq;
     uint32_t rows_written;
     uint32_t rows_lost;         /* since boot */
+    uint32_t events_lost;       /* since boot */
     uint32_t config_generation; /* as last written */
     uint64_t unix_offset_us;    /* Unix time minus the unit's, as last told; 0: not known */
     uint64_t moved_us;

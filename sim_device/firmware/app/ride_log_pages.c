@@ -20,7 +20,7 @@ enum {
     SCHEMA_LENGTH = SCHEMA_HEAD_LENGTH + SCHEMA_CHANNEL_LENGTH * EBL_CHANNEL_COUNT,
     EVENT_LENGTH = 11,
     SYNC_LENGTH = 12,
-    END_LENGTH = 9
+    END_LENGTH = 13
 };
 
 /* Whatever the registry becomes, a block must hold these whole. */
@@ -82,12 +82,12 @@ void ride_log_sync_put(uint8_t *payload, uint64_t unix_us, ride_log_header *head
     header->length = SYNC_LENGTH;
 }
 
-void ride_log_end_put(uint8_t *payload, uint32_t rows_written, uint32_t rows_lost, uint8_t reason,
-                      ride_log_header *header)
+void ride_log_end_put(uint8_t *payload, const ride_log *log, ride_log_header *header)
 {
-    ebl_put_u32(payload, rows_written);
-    ebl_put_u32(payload + 4, rows_lost);
-    payload[8] = reason;
+    ebl_put_u32(payload, log->rows_written);
+    ebl_put_u32(payload + 4, log->rows_lost);
+    payload[8] = log->reason;
+    ebl_put_u32(payload + 9, log->events_lost);
     header->type = RIDE_LOG_END;
     header->length = END_LENGTH;
 }

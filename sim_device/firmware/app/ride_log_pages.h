@@ -20,7 +20,6 @@ void ride_log_schema_put(uint8_t *payload, ride_log_header *header);
 void ride_log_events_put(uint8_t *payload, const ride_log_event *events, uint8_t count,
                          ride_log_header *header);
 void ride_log_sync_put(uint8_t *payload, uint64_t unix_us, ride_log_header *header);
-void ride_log_end_put(uint8_t *payload, uint32_t rows_written, uint32_t rows_lost, uint8_t reason,
-                      ride_log_header *header);
+void ride_log_end_put(uint8_t *payload, const ride_log *log, ride_log_header *header);
 
 #endif

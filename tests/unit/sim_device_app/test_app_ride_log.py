@@ -142,6 +142,23 @@ def test_the_mode_the_rider_chose_is_in_the_log_with_its_time() -> None:
     assert int.from_bytes(told[0][:8], "little") / 1e6 == pytest.approx(3.01, abs=0.05)
 
 
+def test_events_that_come_too_fast_are_counted_and_the_log_says_so() -> None:
+    unit = unit_with_room()
+    unit.inputs(speed_kmh=18.0, mode_selected=0)
+    unit.advance(3.0)
+
+    # A loose switch: another mode in each of 100 steps of a second, of which 16 are kept.
+    for step in range(100):
+        unit.inputs(mode_selected=step % 2 + 1)
+        unit.advance(0.01)
+    ride(unit, 4.0)
+
+    (found,) = read_blocks(fetch(unit, logs(unit)[0])).rides
+    kept = len(found.events)
+    assert 16 <= kept < 100
+    assert f"{100 - kept} events came too fast to be kept" in " ".join(found.notes)
+
+
 @pytest.mark.parametrize("told_after_s", [0.0, 4.0], ids=["before", "meanwhile"])
 def test_a_unit_that_was_told_the_time_writes_it_into_its_log(told_after_s: float) -> None:
     unit = unit_with_room()
