@@ -146,7 +146,8 @@ class Driver:
             future.cancel()
             raise NoAnswer(
                 f"{self._opener.url}: no result within {timeout_s:g} s. What was asked may still "
-                "be done; look again before you repeat it."
+                "be done; look again before you repeat it.",
+                "no_result",
             ) from None
 
     # ------------------------------------------------------------------ the thread

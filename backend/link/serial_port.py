@@ -86,7 +86,9 @@ class SerialPort:
         try:
             return bytes(self._port.read(bytes_max))
         except (OSError, TypeError) as error:
-            raise vanished(self._name, error) from error
+            # Without a number it is pyserial's guess about a port that is readable and empty.
+            told = getattr(error, "errno", None) is not None
+            raise vanished(self._name, error if told else "unplugged or without power") from error
 
     def write(self, data: bytes) -> int:
         """Send what the port takes now and return how many bytes that was."""

@@ -110,3 +110,17 @@ def test_without_a_unit_the_page_shows_the_way(desk: Desk) -> None:
     page.click("text=Connect a unit")
     expect(page.locator("button", has_text="Add a simulated unit")).to_be_visible()
     desk.picture("no-unit")
+
+
+def test_a_unit_without_rides_shows_no_other_bike_s(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    identity = {**server.get(f"/devices/{standing}")["identity"], "serial_number": "0" * 24}
+    device = {**server.get(f"/devices/{standing}"), "identity": identity}
+    page = desk.page
+    listed = {"items": [device], "next": None}
+    page.route("**/api/v1/devices", lambda route: route.fulfill(json=listed))
+
+    desk.open("/")
+
+    expect(page.get_by_role("region", name="Last ride")).to_contain_text("No ride yet")

@@ -96,3 +96,22 @@ def test_a_rider_is_told_what_to_do_in_plain_words(
     expect(told).to_contain_text("请停稳后重新打开电池")
     expect(told).not_to_contain_text("电池管理系统")
     desk.picture("fault-rider-zh", full=True)
+
+
+def test_what_was_changed_is_told_while_the_unit_is_silent(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    desk.allow("status of 504")
+    silent = {"status": 504, "code": "no_answer", "detail": "Silent.", "title": "", "type": ""}
+    desk.page.route(
+        "**/parameters",
+        lambda route: route.fulfill(
+            status=504, body=json.dumps(silent), content_type="application/problem+json"
+        ),
+    )
+    known = server.get(f"/devices/{standing}/config/revisions")["items"]
+
+    page = desk.open("/service")
+
+    changes = page.get_by_role("region", name="Changes of the configuration").first
+    expect(changes.locator("tbody tr")).to_have_count(len(known))

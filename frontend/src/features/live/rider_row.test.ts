@@ -51,7 +51,7 @@ it('shows both powers beside each other and a dash for what is not known', async
   expect(value('rider_power_w')).toBe('118 W')
   expect(value('motor_power_w')).toBe('141 W')
   expect(value('acceleration_ms2')).toBe('—')
-  expect(value('range_km')).toBe('— known after half a kilometre')
+  expect(value('range_km')).toBe('— known once some road and battery are used')
 })
 
 it('is old as soon as the link is', async () => {

@@ -38,7 +38,7 @@ const rows: (TraceRow & { instead?: TraceRow })[] = [
   { key: 'gain', unit: '', lines: [{ channel: 'fuzzy_gain', token: 'gain' }] },
   { key: 'cadence', unit: 'rpm', lines: [{ channel: 'cadence_rpm', token: 'cadence' }] },
   { key: 'heart_rate', unit: 'bpm', lines: [{ channel: 'heart_rate_bpm', token: 'battery' }] },
-  { key: 'altitude', unit: 'm', lines: [{ channel: 'altitude_m', token: 'battery' }] },
+  { key: 'altitude', unit: 'm of altitude', lines: [{ channel: 'altitude_m', token: 'battery' }] },
 ]
 const expected = ['speed', 'rider_torque', 'motor_torque_crank', 'power', 'gain']
 

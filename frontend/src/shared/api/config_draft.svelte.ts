@@ -110,7 +110,7 @@ export class ConfigDraft {
       Refusal. */
   async write(reason: string, confirm_s = 0, token: string | null = null): Promise<ConfigChange> {
     const parameters = Object.fromEntries(this.changes.map((c) => [c.parameter.name, c.value]))
-    const [result] = await this.server.writeConfig(
+    const [result, tag] = await this.server.writeConfig(
       this.device_id,
       parameters,
       reason,
@@ -118,6 +118,9 @@ export class ConfigDraft {
       confirm_s,
       token,
     )
+    this.baseline = { ...this.baseline, ...parameters }
+    this.generation = result.generation
+    this.tag = tag
     // An edit made while the write was on its way is not in the unit yet.
     const later = ([name, value]: [string, ParameterValue]) => {
       const written = parameters[name]
@@ -126,7 +129,8 @@ export class ConfigDraft {
     this.edits = Object.fromEntries(Object.entries(this.edits).filter(later))
     this.past = []
     this.future = []
-    await this.load()
+    // The change is in the unit and verified, whatever becomes of this look at it.
+    await this.load().catch(() => undefined)
     return result
   }
 
@@ -140,7 +144,7 @@ export class ConfigDraft {
       reason,
       this.tag,
     )
-    await this.load()
+    await this.load().catch(() => undefined)
     return result
   }
 

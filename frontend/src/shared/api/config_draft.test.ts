@@ -1,6 +1,7 @@
 /* Goal: edits live in the draft until they are written, can be undone, and survive a change of the
    unit by somebody else. */
 import { describe, expect, it } from 'vitest'
+import { Refusal } from './client'
 import { ConfigDraft, Drafts } from './config_draft.svelte'
 import type { Server } from './server'
 import type { Parameter, ParameterValue } from './types'
@@ -137,5 +138,16 @@ describe('a draft', () => {
     await writing
 
     expect(draft.changes.map((change) => change.parameter.name)).toEqual(['fixed_taper_end_kmh'])
+  })
+
+  it('has written, even when the unit falls silent before it is looked at again', async () => {
+    const { server, draft } = await loadedDraft()
+    draft.set('assist_cutoff_kmh', 20)
+    server.config = () => Promise.reject(new Refusal(504, 'no_answer', 'The unit is silent.'))
+
+    const change = await draft.write('quiet street')
+
+    expect([change.generation, draft.generation, draft.tag]).toEqual([2, 2, '"2"'])
+    expect([draft.base('assist_cutoff_kmh'), draft.changes]).toEqual([20, []])
   })
 })

@@ -160,6 +160,12 @@ export class Server {
     return body(this.http.GET('/api/v1/rides', { params: { query } }))
   }
 
+  /** The newest ride of a unit; null while there is none. */
+  async lastRide(serial_number: string): Promise<Ride | null> {
+    const query = { device: serial_number, limit: 1 }
+    return (await body(this.http.GET('/api/v1/rides', { params: { query } }))).items[0] ?? null
+  }
+
   ride(id: number): Promise<Ride> {
     return body(this.http.GET('/api/v1/rides/{ride_id}', this.rideAt(id)))
   }

@@ -134,7 +134,7 @@ export const en = {
   'rider_row.distance_km': 'Distance',
   'rider_row.battery_soc_pct': 'Battery',
   'rider_row.range_km': 'Range',
-  'rider_row.range_later': 'known after half a kilometre',
+  'rider_row.range_later': 'known once some road and battery are used',
 
   'tune.rules': 'Rules',
   'tune.surface': 'Gain surface',
@@ -208,7 +208,12 @@ export const en = {
   'review.conflict':
     'Nothing was written: somebody else changed the unit in the meantime. The column "In ' +
     'the unit" now shows what it has; look again, then write.',
-  'review.refused': 'Nothing was written. The unit refuses:',
+  'review.refused': 'Nothing was written:',
+  'review.silent': 'Nothing was written, because the unit does not answer:',
+  'review.unknown':
+    'It is not known whether the change was written. Once the unit answers, the column "In the ' +
+    'unit" says what it has:',
+  'review.differs': 'What the unit holds now is not what was meant:',
   'review.not_connected':
     'The unit is not connected, so nothing can be written. Your edits are kept.',
 

@@ -70,6 +70,7 @@ export const enUnit = {
 
   'quantity.counts': 'counts',
   'quantity.Nm/count': 'Nm/count',
+  'quantity.lbf·ft/count': 'lbf·ft/count',
 
   'channel.speed_kmh': 'Speed',
   'channel.cadence_rpm': 'Cadence',

@@ -39,6 +39,11 @@ export class Locale {
     }).format(Object.is(value, -0) ? 0 : value)
   }
 
+  /** A share in per cent with one decimal. Rounded down: what is not whole never reads 100. */
+  share(part: number): string {
+    return this.number(Math.floor(part * 1000) / 10, 1)
+  }
+
   /** Day and time of day of an ISO 8601 instant, in the reader's time zone. */
   instant(iso: string | null | undefined): string {
     if (!iso) return '—'

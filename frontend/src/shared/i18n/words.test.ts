@@ -31,6 +31,12 @@ it('shows a missing number as a dash, never as zero', () => {
   expect([locale.number(null), locale.number(NaN), locale.number(0)]).toEqual(['—', '—', '0'])
 })
 
+it('calls no share whole that is not', () => {
+  const locale = new Locale('en')
+
+  expect([locale.share(0.99995), locale.share(1)]).toEqual(['99.9', '100.0'])
+})
+
 it('writes durations as a clock', () => {
   expect([clock(59), clock(3600), clock(7325)]).toEqual(['0:59', '1:00:00', '2:02:05'])
 })

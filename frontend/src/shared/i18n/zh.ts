@@ -127,7 +127,7 @@ export const zh: Record<Key, string> = {
   'rider_row.distance_km': '里程',
   'rider_row.battery_soc_pct': '电量',
   'rider_row.range_km': '续航',
-  'rider_row.range_later': '骑行半公里后可知',
+  'rider_row.range_later': '骑行一段并用去少许电量后可知',
 
   'tune.rules': '规则',
   'tune.surface': '增益曲面',
@@ -189,7 +189,10 @@ export const zh: Record<Key, string> = {
   'review.moving':
     '没有写入：车轮或电机在转动。只有静止时才接受新配置，以免助力在骑手脚下突变。请停车后再写入。',
   'review.conflict': '没有写入：期间有人修改了单元。“单元中”一列已更新，请再次核对后写入。',
-  'review.refused': '没有写入。单元拒绝：',
+  'review.refused': '没有写入：',
+  'review.silent': '没有写入，单元没有应答：',
+  'review.unknown': '不确定修改是否已写入。单元应答后，“单元中”一列显示其现有内容：',
+  'review.differs': '单元现有的内容与预期不符：',
   'review.not_connected': '单元未连接，无法写入。您的修改已保留。',
 
   'review.manner': '写入方式',

@@ -33,6 +33,7 @@ const refusal = {
   unreachable: 'Spindle 服务器没有应答。',
   link: '端口不存在、被占用或已断开。请检查数据线，并确认没有其他程序占用该端口。',
   no_answer: '单元没有应答。请检查电池和数据线，然后重试。',
+  no_result: '在规定时间内没有结果；请求可能仍会完成。重复之前请先查看单元的内容。',
   not_connected: '单元未连接。',
   peer_protocol: '单元发来的数据不符合协议。',
   read_back_differs: '回读的内容与写入的不同。请重新读取后再试。',

@@ -72,6 +72,7 @@ export const zhUnit: Record<keyof typeof enUnit, string> = {
 
   'quantity.counts': '计数',
   'quantity.Nm/count': 'Nm/计数',
+  'quantity.lbf·ft/count': 'lbf·ft/计数',
 
   'channel.speed_kmh': '速度',
   'channel.cadence_rpm': '踏频',

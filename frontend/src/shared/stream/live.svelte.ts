@@ -11,6 +11,7 @@ import {
 import { TraceBuffer } from './trace_buffer'
 
 const STALE_AFTER_MS = 1500 // a rider's glance: older than this must not look alive
+const GONE = ['lost', 'closed'] // a unit known to be away has no live values, however young
 const SILENT_AFTER_MS = 5000 // an open socket without frames is dead (Wi-Fi change, sleep)
 const RETRY_MS_MAX = 3000
 const TICK_MS = 100
@@ -49,7 +50,8 @@ export class LiveStream {
 
   /** Whether what is shown is too old to look alive. */
   get stale(): boolean {
-    return this.age_ms > STALE_AFTER_MS
+    const gone = this.link_state !== null && GONE.includes(this.link_state)
+    return gone || this.age_ms > STALE_AFTER_MS
   }
 
   /** Opens the socket and keeps it open until `close`. */

@@ -29,6 +29,8 @@ const metric: Record<string, Shown> = {
   deg: plain('°', 1),
   bpm: plain('bpm', 0),
   m: plain('m', 0),
+  'm of altitude': plain('m', 0), // heights are read in feet where wheels are not
+  'm/s²': plain('m/s²', 2),
   '': plain('', 2),
 }
 
@@ -39,6 +41,8 @@ const imperial: Record<string, Shown> = {
   'Nm/s': { unit: 'lbf·ft/s', factor: 0.737562, offset: 0, digits: 1 },
   'Nm/count': { unit: 'lbf·ft/count', factor: 0.737562, offset: 0, digits: 5 },
   degC: { unit: '°F', factor: 1.8, offset: 32, digits: 0 },
+  'm/s²': { unit: 'ft/s²', factor: 3.28084, offset: 0, digits: 2 },
+  'm of altitude': { unit: 'ft', factor: 3.28084, offset: 0, digits: 0 },
   km: { unit: 'mi', factor: 0.621371, offset: 0, digits: 2 },
 }
 
