@@ -13,7 +13,7 @@ MTU = 544
 MAX_OUTSTANDING = 4
 CONTROL_PERIOD_US = 10000
 IMAGE_LENGTH = 413
-SCHEMA_HASH = bytes.fromhex("4ebec6beaead5583")
+SCHEMA_HASH = bytes.fromhex("ff64fbc56d307d08")
 
 
 class Status(IntEnum):
@@ -261,6 +261,8 @@ class FaultFlags(IntFlag):
     TORQUE_DRIFT = 1024
     TORQUE_LINK = 2048
     SPEED_MISMATCH = 4096
+    SPEED_STUCK = 8192
+    MOTOR_HALL = 16384
 
 
 class MessageId(IntEnum):
@@ -2327,6 +2329,16 @@ FAULTS: tuple[Fault, ...] = (
         12, "SPEED_MISMATCH", 2,
         "No assist: the speed sensor does not follow the motor. Check that the magnet sits at the sensor.",
         "The motor drove the chain at three times the speed the wheel showed, for a second. Check magnet and sensor, then the gear, teeth and wheel set in the unit.",
+    ),
+    Fault(
+        13, "SPEED_STUCK", 2,
+        "No assist: the speed sensor always shows the same. Check that the magnet sits at the sensor.",
+        "The speed kept one value for five turns of the wheel while the motor that drives it changed its speed by a tenth. Turn the wheel by hand and watch the reading: sensor, cable, and anything that sends pulses of its own.",
+    ),
+    Fault(
+        14, "MOTOR_HALL", 2,
+        "No assist: the motor does not tell its position. You can pedal home; see your dealer.",
+        "The motor's speed was missing, or under a quarter of what the cranks demand while it should push, for half a second. Check plug, supply and signals of the Hall sensors, then the phases, and whether the motor turns freely.",
     ),
 )
 FAULT_BY_NAME = {fault.name: fault for fault in FAULTS}

@@ -32,7 +32,7 @@ local EBL = {
         ["limit_flags"] = { [0] = "TAPER", [1] = "SPEED_CUTOFF", [2] = "PEDAL_STOP", [3] = "BRAKE", [4] = "RAMP_UP", [5] = "RAMP_DOWN", [6] = "MOTOR_TORQUE", [7] = "BATTERY_CURRENT", [8] = "MOTOR_SPEED", [9] = "BATTERY_VOLTAGE", [10] = "INPUT_REFUSED", [11] = "MODE_OFF", [12] = "TEMPERATURE", [13] = "FAULT", [14] = "MARKET" },
         ["baud_rates"] = { [0] = "BAUD_115200", [1] = "BAUD_230400", [2] = "BAUD_460800", [3] = "BAUD_921600", [4] = "BAUD_1000000", [5] = "BAUD_2000000" },
         ["log_flags"] = { [0] = "RECORDING", [1] = "CONFIRMED", [2] = "ENDED" },
-        ["fault_flags"] = { [0] = "TORQUE_SENSOR", [1] = "SPEED_SENSOR", [2] = "BATTERY_LOW", [3] = "CONFIG_DEFAULTED", [4] = "OVER_CURRENT", [5] = "UNDER_VOLTAGE", [6] = "BATTERY_CUT", [7] = "MOTOR_TEMPERATURE", [8] = "CONTROLLER_TEMPERATURE", [9] = "TORQUE_STUCK", [10] = "TORQUE_DRIFT", [11] = "TORQUE_LINK", [12] = "SPEED_MISMATCH" },
+        ["fault_flags"] = { [0] = "TORQUE_SENSOR", [1] = "SPEED_SENSOR", [2] = "BATTERY_LOW", [3] = "CONFIG_DEFAULTED", [4] = "OVER_CURRENT", [5] = "UNDER_VOLTAGE", [6] = "BATTERY_CUT", [7] = "MOTOR_TEMPERATURE", [8] = "CONTROLLER_TEMPERATURE", [9] = "TORQUE_STUCK", [10] = "TORQUE_DRIFT", [11] = "TORQUE_LINK", [12] = "SPEED_MISMATCH", [13] = "SPEED_STUCK", [14] = "MOTOR_HALL" },
     },
     details = {
         ["PENDING"] = "ms until the answer",

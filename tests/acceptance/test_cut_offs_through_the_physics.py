@@ -3,7 +3,8 @@
 Method: legs on a road, each seed with another push, slope and moment of the turn; the event comes
 between two control steps and every millisecond after it is looked at, the motor's shaft as well as
 what the firmware asks of it. Over-current is a motor whose magnets have gone weak, so that the same
-torque takes three times the current; under-voltage a battery whose management has opened.
+torque takes three times the current; under-voltage a battery whose management has opened. A speed
+sensor sticks at a true reading; the bounds of what follows are those of docs/safety.md.
 """
 
 import random
@@ -16,7 +17,7 @@ from firmware_protocol._generated import FaultFlags
 from sim_device.lockstep import LockstepUnit
 
 SEEDS = range(10)
-SPORT = 3
+SPORT, BOOST = 3, 4
 MS = 0.001
 WEAK_MAGNETS = {"motor.torque_constant_nm_per_a": 0.112 / 3}
 MAGNETS = {"motor.torque_constant_nm_per_a": 0.112}
@@ -147,3 +148,61 @@ def test_a14_a_hazard_latches_to_none_and_pedalling_does_not_bring_it_back(
     assert seen["cadence_rpm"] > 0.0
     assert seen["battery_voltage_v"] > 36.0
     assert seen["fault_flags"] & flag
+
+
+@pytest.mark.parametrize(("push_nm", "grade_deg"), [(70.0, 0.0), (30.0, -2.0), (65.0, -3.0)])
+@pytest.mark.parametrize("cog_teeth", [11.0, 14.0, 20.0])
+@pytest.mark.parametrize("stuck_kmh", [6.0, 12.5, 20.0, 24.5])
+def test_a_speed_sensor_that_sticks_outlives_the_cut_off_only_briefly(
+    stuck_kmh: float, cog_teeth: float, push_nm: float, grade_deg: float
+) -> None:
+    unit = LockstepUnit(bike={"drivetrain.cog_teeth": cog_teeth})
+    unit.select_mode(BOOST)
+    unit.place(stuck_kmh - 2.0)
+    unit.road(grade_deg=grade_deg)
+    unit.rider("legs", push_nm)
+    milliseconds_until(unit, lambda seen: seen["wheel_speed_kmh"] >= stuck_kmh, 10_000)
+
+    unit.simulation_set({"faults": {"speed_sensor": "stuck"}})
+    pushed_kmh = [0.0]
+    for step in range(1500):
+        unit.advance(0.01)
+        seen = unit.observe()
+        pushes = seen["motor_torque_nm"] > 0.0 and seen["motor_engaged"]
+        if pushes and seen["wheel_speed_kmh"] > 25.0:
+            pushed_kmh.append(seen["wheel_speed_kmh"])
+        assert not pushes or step < 1000
+
+    assert max(pushed_kmh) < 32.0
+    assert sum(kmh > 1.1 * 25.0 for kmh in pushed_kmh) <= 80
+    if cog_teeth < 20.0:  # on the big one the legs are faster than the motor
+        assert seen["fault_flags"] in (FaultFlags.SPEED_STUCK, FaultFlags.SPEED_MISMATCH)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_true_speed_sensor_is_not_stuck_whatever_gear_the_rider_takes(seed: int) -> None:
+    unit = under_way(seed)
+    wishes = random.Random(seed)
+    for _ in range(12):
+        unit.unit.change_surroundings({"drivetrain.cog_teeth": wishes.choice([11, 13, 15, 18, 21])})
+        unit.advance(wishes.uniform(0.5, 5.0))
+        unit.select_mode(wishes.choice([0, SPORT]))
+
+    assert unit.observe()["fault_flags"] == 0
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_motor_that_lost_its_position_gives_nothing_and_latches_within_a_second(
+    seed: int,
+) -> None:
+    unit = under_way(seed)
+
+    unit.simulation_set({"faults": {"motor_hall": True}})
+    unit.advance(MS)
+    assert unit.observe()["motor_torque_nm"] <= 0.0  # the simulated board's part
+    took_ms = milliseconds_until(unit, lambda seen: seen["fault_flags"] != 0)
+
+    assert took_ms <= 600
+    assert unit.observe()["fault_flags"] == FaultFlags.MOTOR_HALL
+    unit.simulation_set({"faults": {"motor_hall": False}})
+    assert_no_torque_for(unit, 3.0)

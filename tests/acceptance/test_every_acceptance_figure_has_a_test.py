@@ -56,6 +56,8 @@ HELD_BY = {
         (CUT_OFFS, "test_a14_back_pedalling"),
         (CUT_OFFS, "test_a14_none_at_25_kmh"),
         (CUT_OFFS, "test_a14_a_hazard_latches"),
+        (CUT_OFFS, "test_a_speed_sensor_that_sticks"),
+        (CUT_OFFS, "test_a_motor_that_lost_its_position"),
         (UNIT, "test_the_brake_lever_ends_assist_within_a_twentieth_of_a_second"),
     ],
     "A15": [(LAW, "test_the_gain_never_compounds")],

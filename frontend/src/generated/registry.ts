@@ -230,6 +230,8 @@ export const FLAGS = {
     TORQUE_DRIFT: 10,
     TORQUE_LINK: 11,
     SPEED_MISMATCH: 12,
+    SPEED_STUCK: 13,
+    MOTOR_HALL: 14,
   },
 } as const;
 
@@ -1243,6 +1245,18 @@ export const FAULTS = {
     severity: "LATCHED",
     rider_text: "No assist: the speed sensor does not follow the motor. Check that the magnet sits at the sensor.",
     mechanic_text: "The motor drove the chain at three times the speed the wheel showed, for a second. Check magnet and sensor, then the gear, teeth and wheel set in the unit.",
+  },
+  SPEED_STUCK: {
+    bit: 13,
+    severity: "LATCHED",
+    rider_text: "No assist: the speed sensor always shows the same. Check that the magnet sits at the sensor.",
+    mechanic_text: "The speed kept one value for five turns of the wheel while the motor that drives it changed its speed by a tenth. Turn the wheel by hand and watch the reading: sensor, cable, and anything that sends pulses of its own.",
+  },
+  MOTOR_HALL: {
+    bit: 14,
+    severity: "LATCHED",
+    rider_text: "No assist: the motor does not tell its position. You can pedal home; see your dealer.",
+    mechanic_text: "The motor's speed was missing, or under a quarter of what the cranks demand while it should push, for half a second. Check plug, supply and signals of the Hall sensors, then the phases, and whether the motor turns freely.",
   },
 } as const satisfies Record<string, FaultRow>;
 

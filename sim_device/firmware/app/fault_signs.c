@@ -1,7 +1,8 @@
 #include "fault_signs.h"
 
-#include "float32.h" // float32_abs, float32_max, float32_min
-#include "heat.h"    // HEAT_MOTOR_HOT_DEGC
+#include "fault_motion.h" // fault_motion_mismatch
+#include "float32.h"      // float32_abs, float32_max, float32_min
+#include "heat.h"         // HEAT_MOTOR_HOT_DEGC
 
 /* The converter's word has 16 bits: at its ends a broken bridge arm looks like a strong rider. */
 #define TORQUE_RAW_COUNTS_MAX 32767.0f
@@ -44,14 +45,6 @@
 #define REST_KMH 0.5f
 #define REST_RPM 1.0f
 
-/* The chain is on a bigger cog than the one in the configuration by a factor of three at most: what
- * the motor drives beyond that, the wheel must show. */
-#define MISMATCH_FACTOR 3.0f
-#define MISMATCH_KMH 3.0f
-#define MISMATCH_TORQUE_NM 0.05f
-
-#define KMH_PER_M_PER_MIN 0.06f
-#define TWO_PI 6.2831853f
 #define S_PER_MIN 60.0f
 #define STEP_S ((float)EBL_CONTROL_PERIOD_US / 1000000.0f)
 
@@ -171,17 +164,6 @@ static fault_sign drift_sign(fault_watch *watch, const hal_inputs *inputs, const
     return bad_if(float32_abs(torque_nm) > DRIFT_NM);
 }
 
-static fault_sign mismatch_sign(const hal_inputs *inputs, const ebl_config *config,
-                                const fault_law *law)
-{
-    float crank_rpm = inputs->motor_speed_rpm / config->gear_ratio;
-    float wheel_rpm = crank_rpm * (float)config->chainring_teeth / (float)config->cog_teeth;
-    float driven_kmh = wheel_rpm * TWO_PI * config->wheel_radius_m * KMH_PER_M_PER_MIN;
-
-    if (!(law->motor_torque_nm > MISMATCH_TORQUE_NM)) return FAULT_SIGN_NONE;
-    return bad_if(driven_kmh > MISMATCH_FACTOR * inputs->speed_kmh + MISMATCH_KMH);
-}
-
 static void sign_set(fault_sign *signs, uint16_t flag, fault_sign sign)
 {
     for (unsigned bit = 0; bit < FAULT_KINDS; bit++) {
@@ -216,5 +198,7 @@ void fault_signs(fault_list *faults, const hal_inputs *inputs, const ebl_config 
                        HEAT_CONTROLLER_HOT_DEGC));
     sign_set(signs, EBL_FAULT_TORQUE_DRIFT, drift_sign(&faults->watch, inputs, law));
     sign_set(signs, EBL_FAULT_TORQUE_LINK, bad_if(!fresh));
-    sign_set(signs, EBL_FAULT_SPEED_MISMATCH, mismatch_sign(inputs, config, law));
+    sign_set(signs, EBL_FAULT_SPEED_MISMATCH, fault_motion_mismatch(inputs, config, law));
+    sign_set(signs, EBL_FAULT_SPEED_STUCK, fault_motion_stuck(&faults->watch, inputs, config, law));
+    sign_set(signs, EBL_FAULT_MOTOR_HALL, fault_motion_hall(inputs, config, law));
 }

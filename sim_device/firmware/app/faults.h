@@ -30,7 +30,12 @@ typedef struct {
     uint8_t fell;
     uint8_t lively_turns; /* in a row in which it did both */
     uint8_t still_turns;  /* in a row in which it did neither */
-    float rest_low_nm;    /* of the averaged torque, since the bike came to rest */
+    float kept_kmh; /* what the speed sensor keeps saying, and for how many turns of the wheel */
+    float kept_turns;
+    float chain_rpm; /* in turns of the motor, smoothed; 0 while nothing drives the chain */
+    float gear_low_rpm_per_kmh; /* both, since the reading changed; 0: not yet known */
+    float gear_high_rpm_per_kmh;
+    float rest_low_nm; /* of the averaged torque, since the bike came to rest */
     float rest_high_nm;
     uint16_t rest_steps;
 } fault_watch;

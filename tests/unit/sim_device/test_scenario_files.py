@@ -174,7 +174,8 @@ def test_a_ride_says_which_faults_the_unit_told_on_the_way() -> None:
     assert set(run("sensor_fault")["faults_seen"]) == told
     assert run("link_bursts")["faults_seen"] == ["TORQUE_LINK"]
     assert "BATTERY_CUT" in run("worn_battery")["faults_seen"]
-    assert run("slippery_start")["faults_seen"] == []
+    for sound in ("alpine_climb", "cold_morning", "commute", "slippery_start", "stop_and_go"):
+        assert run(sound)["faults_seen"] == []
 
 
 @pytest.mark.parametrize("name", ["sensor_fault", "link_bursts"])

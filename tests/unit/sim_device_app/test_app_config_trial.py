@@ -130,11 +130,14 @@ def test_whatever_ends_a_trial_brings_back_exactly_what_was_there(
 
 
 def test_the_law_runs_on_what_is_on_trial_and_then_no_more(unit: BenchUnit) -> None:
-    unit.inputs(mode_selected=2, cadence_rpm=60.0, crank_angle_deg=90.0, torque_raw_counts=2000.0)
+    riding = {"speed_kmh": 10.0, "motor_speed_rpm": 2420.0}
+    unit.inputs(mode_selected=2, cadence_rpm=60.0, torque_raw_counts=2000.0, **riding)
     unit.advance(2.0)
     assert unit.output().motor_torque_nm > 0.0
 
+    unit.inputs(speed_kmh=0.0, motor_speed_rpm=0.0)  # nothing is written on the way
     unit.write({"motor_torque_nm_max": 0.0}, confirm_s=TRIAL_S)
+    unit.inputs(**riding)
     unit.advance(1.0)
     on_trial = unit.output().motor_torque_nm
     unit.advance(TRIAL_S)

@@ -24,6 +24,7 @@ from tests.fakes.bench_unit import BenchUnit
 
 RIDER_NM = 30.0
 GEAR_RATIO = 40.34
+RIDING = {"speed_kmh": 10.0, "motor_speed_rpm": 2420.0}
 OFF, TOUR, SPORT = 0, 2, 3
 SETTLED_S = 5.0
 """Ten time constants of the torque filter: e**-10 is left."""
@@ -33,7 +34,7 @@ SETTLED_S = 5.0
 def unit() -> BenchUnit:
     unit = BenchUnit()
     unit.hello()
-    unit.inputs(torque_raw_counts=3000.0, cadence_rpm=60.0, speed_kmh=10.0, motor_speed_rpm=2420.0)
+    unit.inputs(torque_raw_counts=3000.0, cadence_rpm=60.0, **RIDING)
     unit.inputs(mode_selected=TOUR)
     unit.advance(SETTLED_S)
     return unit
@@ -88,11 +89,11 @@ def test_a_mode_that_does_not_exist_counts_as_no_choice(unit: BenchUnit) -> None
 def test_a_new_configuration_works_from_the_next_control_step_on_the_same_filter(
     unit: BenchUnit,
 ) -> None:
-    stop(unit)
-    unit.advance(0.5)
     filtered = unit.output().rider_torque_filtered_nm
+    stop(unit)
     changes = {"mode_ratios": [0.0, 0.5, 0.25, 1.0, 1.5], "assist_ramp_down_nm_per_s": 2000.0}
     assert unit.write(changes).status == Status.OK
+    unit.inputs(**RIDING)
 
     unit.advance(0.01)
 

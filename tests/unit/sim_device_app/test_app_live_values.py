@@ -57,10 +57,11 @@ def test_a_live_value_is_in_force_and_in_no_configuration(unit: BenchUnit) -> No
 def test_the_law_runs_on_live_values_until_their_time_is_over(unit: BenchUnit) -> None:
     unit.inputs(
         mode_selected=2, cadence_rpm=60.0, crank_angle_deg=90.0, torque_raw_counts=2000.0,
-        speed_kmh=10.0,
+        speed_kmh=10.0, motor_speed_rpm=2420.0,
     )  # fmt: skip
     unit.advance(10.0)
     usual = unit.output().motor_torque_nm
+    assert usual > 0.0
 
     live(unit, {"motor_torque_nm_max": 0.0})
     unit.advance(1.0)

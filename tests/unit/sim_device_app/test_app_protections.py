@@ -26,9 +26,10 @@ from firmware_protocol._generated import (
 from tests.fakes.bench_unit import BenchUnit
 
 TOUR = 2
+GEAR_RATIO = 40.34
 RIDING: dict[str, Any] = {
     "torque_raw_counts": 3000.0,
-    "cadence_rpm": 60.0,
+    "cadence_rpm": 56.27,  # as fast as motor and wheel: 40.34, and 44 to 14 teeth
     "speed_kmh": 22.0,
     "motor_speed_rpm": 2270.0,
     "battery_voltage_v": 38.0,
@@ -53,6 +54,8 @@ LATCHED = [
     ({"motor_temperature_degc": 130.0}, FaultFlags.MOTOR_TEMPERATURE, 0.1),
     ({"controller_temperature_degc": 100.0}, FaultFlags.CONTROLLER_TEMPERATURE, 0.1),
     ({"speed_kmh": 2.0}, FaultFlags.SPEED_MISMATCH, 1.0),
+    ({"motor_speed_rpm": 0.0}, FaultFlags.MOTOR_HALL, 0.5),
+    ({"motor_speed_rpm": 400.0}, FaultFlags.MOTOR_HALL, 0.5),
 ]
 MENDED = {**RIDING, "speed_age_ms": 0, "battery_cut": 0, "torque_age_ms": 0}
 
@@ -184,7 +187,7 @@ def test_an_interrupted_rotor_comes_back_by_itself(unit: BenchUnit) -> None:
 
 
 def turns(unit: BenchUnit, count: int, swing: float) -> None:
-    """Turns of the cranks at 60 rpm, with legs of 30 Nm and this much up and down."""
+    """About a turn of the cranks a second, with legs of 30 Nm and this much up and down."""
     for step in range(count * 20):
         unit.inputs(torque_raw_counts=3000.0 + swing * (1 if step % 10 < 5 else -1))
         unit.advance(0.05)
@@ -225,6 +228,120 @@ def test_a_motor_in_an_easy_gear_is_not_a_lost_speed_sensor(unit: BenchUnit) -> 
     unit.inputs(speed_kmh=9.0)  # the configured gear would give 22 km/h; a big cog gives 9
     unit.advance(3.0)
 
+    assert flags(unit) == 0
+
+
+def test_a_motor_that_cannot_say_how_fast_it_turns_gives_nothing_and_latches(
+    unit: BenchUnit,
+) -> None:
+    unit.inputs(motor_speed_rpm=float("nan"))
+    unit.advance(0.02)
+    at_once = motor_nm(unit)
+    unit.advance(0.5)
+    unit.inputs(**MENDED)
+    unit.advance(5.0)
+
+    assert at_once == motor_nm(unit) == 0.0
+    assert flags(unit) == FaultFlags.MOTOR_HALL
+    bit = int(FaultFlags.MOTOR_HALL).bit_length() - 1
+    assert unit.ask(EvtFaultFreezeRequest(bit)).status == Status.OK
+
+
+def test_a_motor_that_follows_fast_legs_as_far_as_its_voltage_goes_has_lost_nothing(
+    unit: BenchUnit,
+) -> None:
+    unit.inputs(cadence_rpm=110.0, motor_speed_rpm=2900.0)  # the legs would want 4437
+    unit.inputs(speed_kmh=20.0)
+    unit.advance(3.0)
+
+    assert motor_nm(unit) > 0.1
+    assert flags(unit) == 0
+
+
+def wheel_turns(
+    unit: BenchUnit, seconds: float, motor_rpm: tuple[float, float], jitter_kmh: float = 0.0
+) -> None:
+    """The motor's speed goes from one to another; the wheel's sensor says one speed, give or take,
+    three times a second, as one magnet does at 22 km/h."""
+    steps = round(3.0 * seconds)
+    first_rpm, last_rpm = motor_rpm
+    for step in range(steps):
+        rpm = first_rpm + (last_rpm - first_rpm) * step / steps
+        unit.inputs(
+            speed_kmh=22.0 + jitter_kmh * (step % 2),
+            motor_speed_rpm=rpm,
+            cadence_rpm=rpm / GEAR_RATIO,
+        )
+        unit.advance(1.0 / 3.0)
+
+
+def test_a_speed_that_stays_while_the_motor_gets_faster_is_stuck(unit: BenchUnit) -> None:
+    wheel_turns(unit, 3.0, motor_rpm=(2270.0, 2270.0))
+    assert flags(unit) == 0  # nothing says yet that it is not true
+
+    wheel_turns(unit, 3.0, motor_rpm=(2270.0, 2600.0))
+
+    assert flags(unit) == FaultFlags.SPEED_STUCK
+    assert motor_nm(unit) == 0.0
+    unit.inputs(**MENDED)
+    unit.advance(5.0)
+    assert motor_nm(unit) == 0.0
+
+
+def test_shifting_to_keep_the_cadence_does_not_hide_a_stuck_speed(unit: BenchUnit) -> None:
+    wheel_turns(unit, 2.0, motor_rpm=(2270.0, 2450.0))  # faster by a twelfth
+    assert flags(unit) == 0
+    wheel_turns(unit, 2.0, motor_rpm=(2110.0, 2270.0))  # the next cog, and again
+
+    assert flags(unit) == FaultFlags.SPEED_STUCK
+
+
+def test_a_speed_that_stuck_while_coasting_does_not_fit_the_gear_any_more(unit: BenchUnit) -> None:
+    unit.inputs(torque_raw_counts=0.0, cadence_rpm=0.0, motor_speed_rpm=0.0)
+    unit.advance(3.0)  # downhill, and the sensor keeps saying 22 km/h
+    unit.inputs(**{**RIDING, "motor_speed_rpm": 2800.0, "cadence_rpm": 2800.0 / GEAR_RATIO})
+    unit.advance(1.0)
+
+    assert flags(unit) == FaultFlags.SPEED_STUCK
+    assert motor_nm(unit) == 0.0
+
+
+def test_a_speed_that_sticks_from_switching_on_is_seen_when_the_bike_moves(unit: BenchUnit) -> None:
+    unit.boot()
+    unit.inputs(**{**STANDING, "speed_kmh": 12.5})
+    unit.advance(5.0)
+    for step in range(20):  # away within two seconds
+        unit.inputs(cadence_rpm=3.0 * step, motor_speed_rpm=3.0 * step * GEAR_RATIO)
+        unit.inputs(torque_raw_counts=3000.0)
+        unit.advance(0.1)
+
+    assert flags(unit) == FaultFlags.SPEED_STUCK
+    assert motor_nm(unit) == 0.0
+
+
+def test_a_shift_at_a_true_speed_is_not_a_stuck_sensor(unit: BenchUnit) -> None:
+    for rpm in (2270.0, 1945.0, 1675.0, 2605.0):
+        wheel_turns(unit, 4.0, motor_rpm=(rpm, rpm), jitter_kmh=0.1)
+
+    assert flags(unit) == 0
+
+
+def test_a_bench_at_one_speed_is_not_a_stuck_sensor_whatever_the_assist_does(
+    unit: BenchUnit,
+) -> None:
+    for _ in range(3):
+        unit.inputs(mode_selected=0)
+        for rpm in (2270.0, 900.0, 0.0):  # without torque the motor runs out
+            unit.inputs(motor_speed_rpm=rpm)
+            unit.advance(1.0)
+        unit.inputs(mode_selected=TOUR)
+        unit.advance(0.04)
+        for rpm in (800.0, 1600.0, 2200.0, 2270.0):  # and spins up with it
+            unit.inputs(motor_speed_rpm=rpm)
+            unit.advance(0.04)
+        unit.advance(3.0)
+
+    assert motor_nm(unit) > 0.1
     assert flags(unit) == 0
 
 

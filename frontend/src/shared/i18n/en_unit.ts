@@ -119,6 +119,8 @@ export const enUnit = {
   'fault_flag.TORQUE_DRIFT': 'Torque sensor drifted',
   'fault_flag.TORQUE_LINK': 'Torque signal interrupted',
   'fault_flag.SPEED_MISMATCH': 'Speed sensor does not follow the motor',
+  'fault_flag.SPEED_STUCK': 'Speed sensor always shows the same',
+  'fault_flag.MOTOR_HALL': "Motor's position lost",
 
   'counter.bytes_received': 'Bytes received',
   'counter.bytes_sent': 'Bytes sent',

@@ -121,6 +121,8 @@ export const zhUnit: Record<keyof typeof enUnit, string> = {
   'fault_flag.TORQUE_DRIFT': '扭矩传感器零点漂移',
   'fault_flag.TORQUE_LINK': '扭矩信号中断',
   'fault_flag.SPEED_MISMATCH': '速度传感器与电机不符',
+  'fault_flag.SPEED_STUCK': '速度传感器读数不变',
+  'fault_flag.MOTOR_HALL': '电机位置信号丢失',
 
   'counter.bytes_received': '接收字节',
   'counter.bytes_sent': '发送字节',
