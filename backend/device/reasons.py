@@ -52,6 +52,11 @@ def newer_version(major: int) -> VersionRefused:
     return VersionRefused(version_text(str(major)))
 
 
+def forgotten_reason() -> str:
+    """It knows nothing of the stream that was renewed."""
+    return "The unit forgot the live stream; asking who it is again."
+
+
 def orphan_reason() -> str:
     """A change broke off and may still be open in the unit."""
     return "A change got no answer; asking the unit who it is again, so that it drops the change."

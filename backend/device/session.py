@@ -40,8 +40,9 @@ from backend.device.schema import Schemas
 from backend.device.state_keeper import StateKeeper
 from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.statistics import LinkStatistics
-from backend.device.stream import RENEW_S, StreamBlock, StreamPlan, StreamStarted
-from backend.device.subscription import Subscription, UnitRestarted
+from backend.device.stream import StreamBlock, StreamPlan, StreamStarted
+from backend.device.stream_keeper import StreamKeeper
+from backend.device.subscription import Subscription
 from backend.device.unit_notes import UnitNotes
 from backend.errors import LinkError, NoAnswer, SpindleError
 from firmware_protocol._generated import (
@@ -80,9 +81,6 @@ REFUSED_PAUSE_S = 5.0
 # A caller that stops reading must not make the session grow: 1000 blocks are 50 s at 100 Hz.
 EVENTS_MAX = 1000
 BYE_TID = 255
-# Rows that come prove only one direction: after two renewals without an answer (5 s) we are not
-# heard.
-RENEWALS_UNANSWERED_MAX = 2
 
 
 class _Phase(Enum):
@@ -113,7 +111,6 @@ class Session:
         self.failed_greetings = 0
         # Unix time minus the caller's clock, so that blocks carry a wall time without a clock here.
         self.wall_offset_us = 0
-        self._plan = plan
         self._schemas: Schemas = {} if schemas is None else schemas
         self._statistics = LinkStatistics()
         self._subscription = Subscription(self._statistics)
@@ -124,6 +121,15 @@ class Session:
         self._log: LogReceiver | None = None
         self._event_book = EventBook(self._statistics)
         self._standing = StateKeeper(self.notes, self._runner, lambda: self._now_s)
+        self._stream = StreamKeeper(
+            plan,
+            self._subscription,
+            self._runner,
+            lambda: self._now_s,
+            on_started=self._tell,
+            on_other_life=self._other_life,
+            on_refused=self._no_stream,
+        )
         self._decoder = FrameDecoder(MTU)
         self._bad_before = 0
         self._events: deque[DeviceEvent] = deque()
@@ -134,8 +140,6 @@ class Session:
         self._nonce = bytes(8)
         # The latest restart the unit told of since it was last asked who it is.
         self._boot_heard: int | None = None
-        self._stream_due_s: float | None = None
-        self._renewals_unanswered = 0
         self._requests.shut(LinkError(self.reason))
 
     # ------------------------------------------------------------------ bytes and time
@@ -365,17 +369,7 @@ class Session:
             self._stand(LinkState.READY, ready_reason(acquaintance.identity))
         else:
             self._stand(LinkState.READ_ONLY, acquaintance.read_only_reason)
-        self._begin_stream()
-
-    def _begin_stream(self) -> None:
-        self._stream_due_s = None
-        known = self.acquaintance
-        if self._plan is None or known is None or not known.channels:
-            return
-        plan = replace(self._plan, channels=known.channels)
-        uptime_us = known.hello.uptime_us
-        begin = self._subscription.begin(plan, known.identity.simulated, uptime_us)
-        self._runner.start(begin, self._tell, self._no_stream)
+        self._stream.begin(acquaintance)
 
     def _not_acquainted(self, error: BaseException) -> None:
         if self._phase is not _Phase.GREETING:
@@ -394,12 +388,7 @@ class Session:
             self._stand(self._absent(), reason)
 
     def _no_stream(self, error: BaseException) -> None:
-        if isinstance(error, UnitRestarted):
-            self._greet_again(restarted_reason())
-        elif isinstance(error, LinkError):
-            # The line was bad just now, or too much was asked at once: neither lasts.
-            self._stream_due_s = self._now_s + RENEW_S
-        elif self._phase is _Phase.UP:
+        if self._phase is _Phase.UP:
             self._stand(self.state, f"{self.reason} Live values are not available: {error}")
 
     def _keep_up(self) -> None:
@@ -408,12 +397,10 @@ class Session:
         silent_s = self._now_s - self._heard_s
         if silent_s >= SILENCE_S:
             self._lose(silent_reason(self._port_name))
-        elif self._renewals_unanswered >= RENEWALS_UNANSWERED_MAX:
+        elif self._stream.is_unheard:
             self._lose(deaf_reason(self._port_name))
-        elif self._stream_due_s is not None and self._now_s >= self._stream_due_s:
-            self._begin_stream()
-        elif self._subscription.renewal_due(self._now_s):
-            self._runner.start(self._subscription.renew(), self._renewed, self._not_renewed)
+        elif self._stream.keep():
+            return
         elif self._requests.is_idle and self.clock.due(self._now_s):
             self._ask_time()
         elif silent_s >= PING_S and self._requests.is_idle:
@@ -436,9 +423,6 @@ class Session:
         self._out += FLUSH
         self._greet()
 
-    def _not_renewed(self, error: BaseException) -> None:
-        self._renewals_unanswered += isinstance(error, NoAnswer)
-
     def _ask_time(self) -> None:
         self._runner.start(self.clock.sync(self._now_s), self._time_told, lambda error: None)
 
@@ -448,10 +432,9 @@ class Session:
                 self.clock.tell(self._wall_us()), lambda told: None, lambda error: None
             )
 
-    def _renewed(self, known: bool) -> None:
-        self._renewals_unanswered = 0
-        if not known and self._phase is _Phase.UP:
-            self._greet_again("The unit forgot the live stream; asking who it is again.")
+    def _other_life(self, reason: str) -> None:
+        if self._phase is _Phase.UP:
+            self._greet_again(reason)
 
     def _greet_again(self, reason: str) -> None:
         self._break_off(NoAnswer(reason))
@@ -461,13 +444,11 @@ class Session:
 
     def _break_off(self, error: SpindleError) -> None:
         """End the stream and fail everything that waits for the unit."""
-        self._subscription.end()
         self.clock.end()
         self.last_block = None
         self._end_log(error.message)
         self._requests.shut(error)
-        self._stream_due_s = None
-        self._renewals_unanswered = 0
+        self._stream.end()
 
     def _acknowledge_log(self) -> None:
         """Acknowledgements are not answered: the next one says everything again."""

@@ -1,0 +1,95 @@
+"""The live stream of a session: begun when the unit is known, renewed as long as it is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from backend.device.handshake import Acquaintance
+from backend.device.reasons import forgotten_reason, restarted_reason
+from backend.device.runner import OnError, OperationRunner
+from backend.device.stream import RENEW_S, StreamPlan, StreamStarted
+from backend.device.subscription import Subscription, UnitRestarted
+from backend.errors import LinkError, NoAnswer
+
+# Rows that come prove only one direction: after two renewals without an answer (5 s) we are not
+# heard.
+RENEWALS_UNANSWERED_MAX = 2
+
+
+class StreamKeeper:
+    """Keeps one subscription alive.
+
+    plan: what to stream, None for nothing. now: the session's time. on_started: with what is
+    streamed. on_other_life: with a sentence, when the unit must be asked again who it is.
+    on_refused: with why there is no stream.
+    """
+
+    def __init__(
+        self,
+        plan: StreamPlan | None,
+        subscription: Subscription,
+        runner: OperationRunner,
+        now: Callable[[], float],
+        on_started: Callable[[StreamStarted], None],
+        on_other_life: Callable[[str], None],
+        on_refused: OnError,
+    ) -> None:
+        self._plan = plan
+        self._subscription = subscription
+        self._runner = runner
+        self._now = now
+        self._on_started = on_started
+        self._on_other_life = on_other_life
+        self._on_refused = on_refused
+        self._known: Acquaintance | None = None
+        self._due_s: float | None = None
+        self._renewals_unanswered = 0
+
+    @property
+    def is_unheard(self) -> bool:
+        """Whether the unit leaves renewals unanswered while its rows may still come."""
+        return self._renewals_unanswered >= RENEWALS_UNANSWERED_MAX
+
+    def begin(self, known: Acquaintance) -> None:
+        """The unit is known: subscribe to what the plan wants and the unit has."""
+        self._known, self._due_s = known, None
+        if self._plan is None or not known.channels:
+            return
+        plan = replace(self._plan, channels=known.channels)
+        begin = self._subscription.begin(plan, known.identity.simulated, known.hello.uptime_us)
+        self._runner.start(begin, self._on_started, self._not_begun)
+
+    def keep(self) -> bool:
+        """Ask the unit for what is due now; whether anything was."""
+        now_s = self._now()
+        if self._due_s is not None and now_s >= self._due_s and self._known is not None:
+            self.begin(self._known)
+        elif self._subscription.renewal_due(now_s):
+            self._runner.start(self._subscription.renew(), self._renewed, self._not_renewed)
+        else:
+            return False
+        return True
+
+    def end(self) -> None:
+        """The unit or the port is gone."""
+        self._subscription.end()
+        self._known, self._due_s = None, None
+        self._renewals_unanswered = 0
+
+    def _not_begun(self, error: BaseException) -> None:
+        if isinstance(error, UnitRestarted):
+            self._on_other_life(restarted_reason())
+        elif isinstance(error, LinkError):
+            # The line was bad just now, or too much was asked at once: neither lasts.
+            self._due_s = self._now() + RENEW_S
+        else:
+            self._on_refused(error)
+
+    def _renewed(self, known: bool) -> None:
+        self._renewals_unanswered = 0
+        if not known:
+            self._on_other_life(forgotten_reason())
+
+    def _not_renewed(self, error: BaseException) -> None:
+        self._renewals_unanswered += isinstance(error, NoAnswer)
