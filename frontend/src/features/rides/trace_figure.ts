@@ -1,12 +1,15 @@
 // A ride's series as one Plotly figure: rows above each other, one time axis, gaps left open.
 import { plotLook } from '$shared/charts/plotly'
 import type { Series } from '$shared/api/series'
+import type { RideEvent } from '$shared/api/types'
 import type { Theme } from '$shared/ui/theme.svelte'
 import type { Units } from '$shared/units/units.svelte'
+import { markAxis, markLines, MARKS_PX } from './event_marks'
 import { binLine, moment, timeTicks, type TraceRow } from './traces'
 
 export interface FigureWords {
   row: (key: string) => string
+  events: string
   channel: (name: string) => string
 }
 
@@ -20,6 +23,7 @@ export interface Frame {
   gaps: Span[]
   /** Stretches that came from the unit's own log, coarser than the rest. */
   filled: Span[]
+  events: RideEvent[]
   /** Size of the plot in pixels. */
   width: number
   height: number
@@ -67,7 +71,7 @@ export function windowLayout(window: { from_s: number; to_s: number }, width: nu
   }
 }
 
-function axisName(i: number): string {
+export function axisName(i: number): string {
   return i === 0 ? 'y' : `y${i + 1}`
 }
 
@@ -90,10 +94,11 @@ export function traceLayout(
   const { base, axis, font } = plotLook(theme)
   const count = frame.rows.length
   const gap = ROW_GAP_PX / frame.height
-  const height = (1 - gap * (count - 1)) / count
-  const top = (i: number) => 1 - i * (height + gap)
+  const head = frame.events.length > 0 ? MARKS_PX / frame.height : 0
+  const height = (1 - head - gap * (count - 1)) / count
+  const top = (i: number) => 1 - head - i * (height + gap)
   const rows = frame.rows.map((_, i) => [
-    i === 0 ? 'yaxis' : `yaxis${i + 1}`,
+    layoutName(i),
     {
       ...axis,
       domain: [Math.max(0, top(i) - height), top(i)],
@@ -101,6 +106,7 @@ export function traceLayout(
       nticks: 4,
       rangemode: 'tozero',
       ticklabelposition: 'outside',
+      ticklabeloverflow: 'allow', // else every label is measured anew at every zoom
     },
   ])
   return {
@@ -108,6 +114,7 @@ export function traceLayout(
     width: frame.width,
     height: frame.height,
     ...Object.fromEntries(rows),
+    ...(head > 0 ? { [layoutName(count)]: markAxis(frame.height) } : {}),
     margin: { l: 44, r: 10, t: 18, b: 26 },
     dragmode: 'zoom',
     hovermode: 'closest',
@@ -124,19 +131,22 @@ export function traceLayout(
     shapes: [
       ...frame.gaps.map((span) => spanShape(span, theme.colour('line'), 0.35)),
       ...frame.filled.map((span) => spanShape(span, theme.colour('accent-soft'), 0.6)),
+      ...markLines(frame.events, 1 - head, theme),
     ],
-    annotations: frame.rows.map((row, i) => ({
-      text: rowTitle(row, units, words, theme),
-      font: { ...font, color: theme.colour('ink') },
-      xref: 'paper',
-      yref: 'paper',
-      x: 0,
-      y: top(i),
-      xanchor: 'left',
-      yanchor: 'bottom',
-      showarrow: false,
-    })),
+    annotations: [
+      ...frame.rows.map((row, i) => title(rowTitle(row, units, words, theme), top(i))),
+      ...(head > 0 ? [title(`<b>${words.events}</b>`, 1)] : []),
+    ].map((text) => ({ ...text, font: { ...font, color: theme.colour('ink') } })),
   }
+}
+
+function layoutName(i: number): string {
+  return i === 0 ? 'yaxis' : `yaxis${i + 1}`
+}
+
+function title(text: string, y: number): object {
+  const place = { xref: 'paper', yref: 'paper', x: 0, y, xanchor: 'left', yanchor: 'bottom' }
+  return { text, ...place, showarrow: false }
 }
 
 function rowTitle(row: TraceRow, units: Units, words: FigureWords, theme: Theme): string {

@@ -1,0 +1,72 @@
+// What happened on a ride, above its traces: one mark for each event, and a line down through the
+// rows. The list below the traces says the same in words.
+import type { RideEvent } from '$shared/api/types'
+import type { Theme } from '$shared/ui/theme.svelte'
+
+/** Room for the marks and their title above the first row, in pixels. */
+export const MARKS_PX = 40
+const MARK_ROW_PX = 14
+const LINES_MAX = 40 // more would hide the curves; the marks are all there
+
+type Kind = RideEvent['kind']
+const looks: Record<Kind, { symbol: string; token: string }> = {
+  fault_set: { symbol: 'triangle-down', token: 'bad' },
+  fault_cleared: { symbol: 'circle-open', token: 'ok' },
+  assist_mode: { symbol: 'diamond', token: 'ink-2' },
+}
+const kinds = Object.keys(looks) as Kind[] // the worst first
+
+export interface EventWords {
+  kind: (kind: Kind) => string
+  event: (event: RideEvent) => string
+  moment: (t_s: number) => string
+}
+
+/** One series of marks for each kind of event there is, on the axis `yaxis`. */
+export function markData(
+  events: RideEvent[],
+  yaxis: string,
+  theme: Theme,
+  words: EventWords,
+): object[] {
+  // The last is drawn on top: a fault is never hidden behind a mode.
+  return kinds.toReversed().flatMap((kind) => {
+    const those = events.filter((event) => event.kind === kind)
+    if (those.length === 0) return []
+    const { symbol, token } = looks[kind]
+    return {
+      type: 'scatter',
+      mode: 'markers',
+      name: words.kind(kind),
+      x: those.map((event) => event.t_s),
+      y: those.map(() => 0.5),
+      yaxis,
+      marker: { symbol, size: 10, color: theme.colour(token), line: { width: 1.5 } },
+      cliponaxis: false,
+      text: those.map((event) => `${words.event(event)}<br>${words.moment(event.t_s)}`),
+      hovertemplate: '%{text}<extra></extra>',
+    }
+  })
+}
+
+/** The marks' own axis at the top; `height` of the whole figure in pixels. */
+export function markAxis(height: number): object {
+  return { domain: [1 - MARK_ROW_PX / height, 1], range: [0, 1], fixedrange: true, visible: false }
+}
+
+/** Lines through the rows below `top` (0 to 1); faults before modes where there are too many. */
+export function markLines(events: RideEvent[], top: number, theme: Theme): object[] {
+  const rank = (event: RideEvent) => kinds.indexOf(event.kind)
+  const worst = [...events].sort((a, b) => rank(a) - rank(b)).slice(0, LINES_MAX)
+  return worst.map(({ kind, t_s }) => ({
+    type: 'line',
+    xref: 'x',
+    yref: 'paper',
+    x0: t_s,
+    x1: t_s,
+    y0: 0,
+    y1: top,
+    line: { color: theme.colour(looks[kind].token), width: 1, dash: 'dot' },
+    layer: 'below',
+  }))
+}
