@@ -63,3 +63,10 @@ drivetrain_flow drivetrain_solve(const drivetrain_config *config, const drivetra
     flow.motor_nm = flow.motor_engaged ? flow.motor_nm : 0.0;
     return flow;
 }
+
+double drivetrain_wheel_nm(const drivetrain_config *config, const drivetrain_flow *flow)
+{
+    const double chain_nm = flow->crank_nm + drivetrain_gear_share(config) * flow->motor_nm;
+    const int driven = flow->crank_engaged || flow->motor_engaged;
+    return drivetrain_chain_share(config) * chain_nm - (driven ? config->chain_drag_nm : 0.0);
+}

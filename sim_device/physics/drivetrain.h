@@ -52,4 +52,7 @@ double drivetrain_chain_share(const drivetrain_config *config);
  * stays put until the drive beats its friction, and is never pulled backwards: a foot is down. */
 drivetrain_flow drivetrain_solve(const drivetrain_config *config, const drivetrain_load *load);
 
+/* What drives the rear wheel, referred to the chainring, after all losses. */
+double drivetrain_wheel_nm(const drivetrain_config *config, const drivetrain_flow *flow);
+
 #endif

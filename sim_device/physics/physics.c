@@ -106,14 +106,16 @@ static drivetrain_load load_of(const physics_config *config, const physics_state
     return load;
 }
 
-/* The tyre lets go when the road would have to give more than its grip. */
+/* The tyre lets go when what drives the wheel would have to push with more than its grip. A bike
+ * that nothing drives does not: on ice uphill it stands with a foot down. */
 static int tyre_lets_go(const physics_config *config, const instant *now)
 {
-    const double outer_kg =
-        road_moving_mass_kg(&config->road) - road_rear_wheel_mass_kg(&config->road);
-    const double pushed_n = outer_kg * now->flow.acceleration_rad_s2 * metres_per_rad(config) +
-                            now->road.grade_n + now->road.air_n + now->road.rolling_n;
-    return pushed_n > now->grip_n;
+    const drivetrain_flow *flow = &now->flow;
+    const double reach_m = metres_per_rad(config);
+    const double drive_nm = drivetrain_wheel_nm(&config->drivetrain, flow);
+    const double wheel_n =
+        road_rear_wheel_mass_kg(&config->road) * flow->acceleration_rad_s2 * reach_m;
+    return drive_nm / reach_m - wheel_n - now->road.brake_n > now->grip_n;
 }
 
 static void gather(const physics_config *config, physics_state *state,

@@ -40,7 +40,10 @@ HELD_BY = {
     "A9": [(ACCEPTANCE, "test_a9_")],
     "A10": [(ACCEPTANCE, "test_a10_")],
     "A11": [(ACCEPTANCE, "test_a11_")],
-    "A12": [(ACCEPTANCE, "test_a12_")],
+    "A12": [
+        (ACCEPTANCE, "test_a12_"),
+        ("tests/unit/sim_device/test_books_close_on_any_ride.py", "test_a12_the_books_close"),
+    ],
     "A13": [
         (ACCEPTANCE, "test_a13_"),
         (LIMITS, "test_at_25_kmh_the_battery_leaves_at_most_1_45_nm"),
