@@ -9,6 +9,7 @@
 #define ROWS_PER_BLOCK (RIDE_LOG_PAYLOAD_BYTES / RIDE_LOG_ROW_BYTES)
 #define STANDSTILL_US 20000000u
 #define REPEAT_US 60000000u
+#define REFUSED_PERIOD_US 100000u /* rows for two seconds have room meanwhile */
 #define EVENTS_PERIOD_US 1000000u /* a flickering fault must not fill the flash */
 
 enum { IDLE = 0, STARTING, RECORDING, CLOSING };
@@ -116,11 +117,15 @@ static uint16_t spare_choose(ride_log *log)
     return RIDE_LOG_NO_BLOCK;
 }
 
-static void spare_begin(ride_log *log, const hal *board)
+static void spare_begin(ride_log *log, const hal *board, uint64_t now_us)
 {
-    uint16_t block = spare_choose(log);
+    uint16_t block;
 
+    if (now_us < log->erase_us) return;
+    block = spare_choose(log);
     if (block == RIDE_LOG_NO_BLOCK) {
+        ride_log_store_forgive(&log->store);
+        log->erase_us = now_us + REFUSED_PERIOD_US;
         if (log->state == STARTING) return;
         log->state = CLOSING;
         log->reason = REASON_FULL;
@@ -129,9 +134,8 @@ static void spare_begin(ride_log *log, const hal *board)
     }
     log->spare = block;
     if (ride_log_store_erase(&log->store, board, block) < 0) {
-        /* Tried again later, elsewhere first. */
         log->victim = RIDE_LOG_NONE;
-        log->store.head = (uint16_t)((block + 1u) % log->store.blocks);
+        log->erase_us = now_us + REFUSED_PERIOD_US;
         return;
     }
     log->spare_state = SPARE_ERASING;
@@ -325,6 +329,6 @@ void ride_log_poll(ride_log *log, const hal *board, const config_store *config, 
     log_write(log, board, config, events, link, now_us);
     if (log->state == IDLE || log->no_room) return;
     if (log->spare_state == SPARE_NONE && !board->log_busy(board->log_context)) {
-        spare_begin(log, board);
+        spare_begin(log, board, now_us);
     }
 }

@@ -51,6 +51,7 @@ typedef struct {
     uint32_t config_generation; /* as last written */
     uint64_t unix_offset_us;    /* Unix time minus the unit's, as last told; 0: not known */
     uint64_t moved_us;
+    uint64_t erase_us;  /* when the flash may be asked again after a refusal */
     uint64_t repeat_us; /* when CONFIG and SCHEMA are due again */
     uint64_t events_us; /* when events may be written again */
     ride_log_rows filling;

@@ -102,7 +102,7 @@ uint8_t ride_log_store_victim(const ride_log_store *store)
         uint8_t place = ride_log_store_by_age(store, number);
         uint8_t flags = store->logs[place].flags;
 
-        if (flags & EBL_LOG_RECORDING) continue;
+        if ((flags & EBL_LOG_RECORDING) || store->logs[place].refused) continue;
         if (flags & EBL_LOG_CONFIRMED) return place;
         if (oldest == RIDE_LOG_NONE) oldest = place;
     }
@@ -111,8 +111,26 @@ uint8_t ride_log_store_victim(const ride_log_store *store)
 
 int ride_log_store_erase(ride_log_store *store, const hal *board, uint16_t block)
 {
-    store->erases++;
-    return board->log_erase(board->log_context, (size_t)block * board->log_block_size);
+    uint8_t *owner = &store->owner[block];
+
+    if (board->log_erase(board->log_context, (size_t)block * board->log_block_size) >= 0) {
+        store->erases++;
+        return 0;
+    }
+    if (*owner == RIDE_LOG_NONE) {
+        *owner = RIDE_LOG_REFUSED;
+    } else {
+        store->logs[*owner].refused = 1;
+    }
+    return -1;
+}
+
+void ride_log_store_forgive(ride_log_store *store)
+{
+    for (size_t block = 0; block < store->blocks; block++) {
+        if (store->owner[block] == RIDE_LOG_REFUSED) store->owner[block] = RIDE_LOG_NONE;
+    }
+    for (size_t place = 0; place < RIDE_LOG_LOGS_MAX; place++) store->logs[place].refused = 0;
 }
 
 void ride_log_store_release(ride_log_store *store, uint8_t place)

@@ -15,6 +15,7 @@
 #define RIDE_LOG_BLOCKS_MAX 1024
 #define RIDE_LOG_NONE 255
 #define RIDE_LOG_NO_BLOCK 65535
+#define RIDE_LOG_REFUSED 254 /* owner of a block that the flash would not erase */
 
 typedef struct {
     uint32_t id;         /* 0: no log */
@@ -24,12 +25,13 @@ typedef struct {
     uint64_t t0_us;
     uint64_t t1_us;
     uint16_t first_block;
-    uint8_t flags; /* EBL_LOG_ bits */
+    uint8_t flags;   /* EBL_LOG_ bits */
+    uint8_t refused; /* its first block could not be erased: it stays */
 } ride_log_entry;
 
 typedef struct {
     ride_log_entry logs[RIDE_LOG_LOGS_MAX];
-    uint8_t owner[RIDE_LOG_BLOCKS_MAX]; /* place in `logs`, or RIDE_LOG_NONE */
+    uint8_t owner[RIDE_LOG_BLOCKS_MAX]; /* place in `logs`, NONE or REFUSED */
     uint16_t blocks;
     uint16_t pages_per_block;
     uint16_t head; /* where the search for a free block begins */
@@ -58,11 +60,16 @@ uint16_t ride_log_store_free_block(const ride_log_store *store, uint16_t limit);
 int ride_log_store_is_before(const ride_log_store *store, uint16_t block, uint16_t limit);
 
 /* The log to be given up next: the oldest confirmed one, else the oldest; never one that is being
- * recorded. RIDE_LOG_NONE where there is none. */
+ * recorded, nor one whose first block the flash would not erase. RIDE_LOG_NONE where there is
+ * none. */
 uint8_t ride_log_store_victim(const ride_log_store *store);
 
-/* Begins to erase a block, and counts it. Negative where the flash refuses. */
+/* Begins to erase a block, and counts it. Negative where the flash refuses; the block, or the log
+ * that begins in it, is then passed over until `forgive`. */
 int ride_log_store_erase(ride_log_store *store, const hal *board, uint16_t block);
+
+/* Everything that was refused may be tried again. */
+void ride_log_store_forgive(ride_log_store *store);
 
 /* Forgets a log whose first block has been erased. */
 void ride_log_store_release(ride_log_store *store, uint8_t place);

@@ -3,6 +3,8 @@
 Method: the real firmware on the bench board; what counts is what a restart finds in the flash.
 """
 
+from sim_device.firmware.python._native import lib
+
 from backend.ingest.ride_logs import read_blocks
 from firmware_protocol import codec
 from firmware_protocol._generated import Event, LogEraseRequest, LogEraseResponse, Status
@@ -83,3 +85,55 @@ def test_rides_go_on_in_the_room_of_what_was_erased() -> None:
         confirm(unit, log, fetch(unit, log))
         assert erase(unit, log).status == Status.OK
     assert Event.LOG_OVERWRITTEN not in [event.code for event in unit.events]
+
+
+def test_a_block_that_cannot_be_erased_costs_no_ride_and_no_other_log() -> None:
+    """The oldest log would have to give way and begins in it: it stays, the next one goes."""
+    unit = unit_with_log(BLOCK_BYTES, 16 * BLOCK_BYTES)
+    ride(unit, 3.0, speed_kmh=10.0)
+    (oldest,) = logs(unit)
+    kept = fetch(unit, oldest)
+    lib.bench_log_worn(unit.board, 0)
+
+    for number in range(1, 20):
+        ride(unit, 3.0, speed_kmh=10.0 + number)
+        newest = read_blocks(fetch(unit, logs(unit)[-1]))
+        assert (newest.state, newest.completeness) == ("complete", 1.0)
+        speeds = newest.rides[0].rows.counts["speed_kmh"]
+        assert (speeds.min(), speeds.max()) == (0, 1000 + 100 * number)
+
+    assert logs(unit)[0] == oldest
+    assert fetch(unit, oldest) == kept
+
+
+def test_a_free_block_that_cannot_be_erased_is_passed_over() -> None:
+    unit = unit_with_log(BLOCK_BYTES, 16 * BLOCK_BYTES)
+    lib.bench_log_worn(unit.board, 3 * BLOCK_BYTES)
+
+    for number in range(12):
+        ride(unit, 3.0, speed_kmh=10.0 + number)
+        newest = read_blocks(fetch(unit, logs(unit)[-1]))
+        assert (newest.state, newest.completeness) == ("complete", 1.0)
+        assert newest.rides[0].rows.counts["speed_kmh"].max() == 1000 + 100 * number
+
+
+def test_what_the_flash_refuses_is_neither_counted_nor_tried_in_every_poll() -> None:
+    unit = unit_with_log(BLOCK_BYTES, 16 * BLOCK_BYTES)
+    ride(unit, 3.0)
+    (first,) = logs(unit)
+    confirm(unit, first, fetch(unit, first))
+    # No supply for the flash: nothing of it can be erased, for a minute of riding.
+    lib.bench_log_cut_after(unit.board, 0)
+    changes = lib.bench_log_changes(unit.board)
+    unit.inputs(speed_kmh=18.0)
+    unit.advance(60.0)
+    assert lib.bench_log_changes(unit.board) - changes < 60.0 / 0.1 + 10
+
+    lib.bench_log_cut_after(unit.board, 0xFFFFFFFF)
+    ride(unit, 3.0)
+    newest = logs(unit)[-1]
+    confirm(unit, newest, fetch(unit, newest))
+    erased = erase(unit, newest).message
+
+    assert isinstance(erased, LogEraseResponse)
+    assert erased.erases < 20

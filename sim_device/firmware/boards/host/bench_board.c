@@ -339,6 +339,10 @@ uint32_t bench_log_steps(const bench_board *board) { return board->log.steps; }
 
 void bench_log_cut_after(bench_board *board, uint32_t steps) { board->log.steps_left = steps; }
 
+uint32_t bench_log_changes(const bench_board *board) { return board->log.changes; }
+
+void bench_log_worn(bench_board *board, size_t address) { board->log.worn_address = address; }
+
 void bench_log_stuck(bench_board *board, int stuck)
 {
     board->log.busy_until_us = stuck ? UINT64_MAX : 0;

@@ -87,6 +87,12 @@ void bench_log_cut_after(bench_board *board, uint32_t steps);
 /* The flash stays busy for ever, or works again. */
 void bench_log_stuck(bench_board *board, int stuck);
 
+/* Erases and programs begun in it, the refused ones of a lost supply included. */
+uint32_t bench_log_changes(const bench_board *board);
+
+/* A block of it that is never erased again. */
+void bench_log_worn(bench_board *board, size_t address);
+
 /* Frames of ride logs sent, and how many of them again, in the latest session. */
 uint32_t bench_bulk_sent(const bench_board *board);
 uint32_t bench_bulk_repeated(const bench_board *board);

@@ -43,6 +43,7 @@ static int erase(void *context, size_t address)
 
     if (busy(context) || address % flash->block_size != 0) return -1;
     if (!holds(flash, address, flash->block_size)) return -1;
+    if (address == flash->worn_address) return -1;
     flash->changes++;
     for (size_t i = 0; i < flash->block_size; i++) {
         if (!step(flash)) return -1;
@@ -78,6 +79,7 @@ int log_flash_open(log_flash *flash, size_t block_size, size_t size, const uint8
     }
     flash->block_size = block_size;
     flash->size = size;
+    flash->worn_address = SIZE_MAX;
     log_flash_power_on(flash);
     return 0;
 }

@@ -17,6 +17,7 @@ typedef struct {
     uint32_t changes; /* operations since it was opened */
     uint32_t steps;   /* bytes erased or programmed since power on */
     uint32_t steps_left;
+    size_t worn_address; /* of a block that is never erased again; SIZE_MAX: none */
 } log_flash;
 
 /* `image` of `size` bytes, or NULL for an erased one. 0, or negative without memory. */
