@@ -174,7 +174,7 @@ def test_a_speed_sensor_that_sticks_outlives_the_cut_off_only_briefly(
         assert not pushes or step < 1000
 
     assert max(pushed_kmh) < 32.0
-    assert sum(kmh > 1.1 * 25.0 for kmh in pushed_kmh) <= 80
+    assert sum(kmh > 1.1 * 25.0 for kmh in pushed_kmh) <= 100  # a second
     if cog_teeth < 20.0:  # on the big one the legs are faster than the motor
         assert seen["fault_flags"] in (FaultFlags.SPEED_STUCK, FaultFlags.SPEED_MISMATCH)
 
