@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from playwright.sync_api import expect
 
 from tests.browser.desk import Desk
@@ -66,6 +68,32 @@ def test_what_a_simulated_unit_can_break_is_broken_from_the_panel(
         broken.get_by_label("Torque sensor").select_option("drifting")
 
     assert changed.value.post_data_json == {"faults": {"torque_sensor": "drifting"}}
+
+
+def test_the_bike_s_surroundings_are_set_from_the_panel(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    simulation = server.get(f"/devices/{standing}/simulation")
+    simulation |= {"grip": 0.25, "ambient_degc": -5.0, "walk_button": False}
+    desk.page.route("**/simulation", lambda route: route.fulfill(json=simulation))
+    page = desk.open("/")
+    panel = page.get_by_role("region", name="Simulation")
+    expect(panel.get_by_label("Ground under the tyres")).to_have_value("0.25")
+    expect(panel.get_by_role("slider", name="Air temperature")).to_have_value("-5")
+    expect(panel.get_by_role("slider", name="Rider torque")).to_be_visible()
+
+    def asked(act: Callable[[], None]) -> object:
+        with page.expect_request(lambda request: request.method == "PUT") as change:
+            act()
+        return change.value.post_data_json
+
+    ground = panel.get_by_label("Ground under the tyres")
+    assert asked(lambda: ground.select_option(label="ice") and None) == {"grip": 0.1}
+    walk = panel.get_by_label("Walk button held")
+    assert asked(lambda: walk.dispatch_event("click")) == {"walk_button": True}
+    air = panel.get_by_role("slider", name="Air temperature")
+    assert asked(lambda: air.press("ArrowRight")) == {"ambient_degc": -4}
+    desk.picture("simulation-surroundings", full=True)
 
 
 def test_a_second_unit_is_added_chosen_and_removed(

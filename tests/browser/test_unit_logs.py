@@ -46,7 +46,7 @@ def ride_and_rest(server: SpindleServer, device: str) -> int:
     return max(numbers)
 
 
-def test_a_ride_in_the_unit_is_fetched_and_opened(
+def test_a_ride_in_the_unit_is_fetched_freed_there_and_opened(
     desk: Desk, open_desk: OpenDesk, server: SpindleServer, standing: str, axe: str
 ) -> None:
     number = ride_and_rest(server, standing)
@@ -67,7 +67,12 @@ def test_a_ride_in_the_unit_is_fetched_and_opened(
     expect(phone.open("/rides").locator(LOGS)).to_contain_text("单元中的骑行")
     phone.picture("unit-logs-phone-zh")
     assert phone.page.evaluate("document.documentElement.scrollWidth") <= 360
-    log.locator("a").click()
+    ride = str(log.locator("a").get_attribute("href"))
+    page.once("dialog", lambda question: question.accept())
+    log.get_by_role("button", name="Delete from the unit").click()
+    expect(log).to_have_count(0)
+    assert number not in [log["log_id"] for log in server.get(f"/devices/{standing}/logs")["items"]]
+    desk.open(ride)
     page.wait_for_selector("[data-testid=traces][data-draws]", timeout=30_000)
 
 

@@ -125,6 +125,12 @@ export class Server {
     return body(this.http.POST('/api/v1/devices/{device_id}/logs/{log_id}/download', request))
   }
 
+  /** Frees a ride in the unit that was fetched and confirmed; the unit refuses any other. */
+  async eraseLog(device_id: string, log_id: number): Promise<void> {
+    const request = { params: { path: { device_id, log_id } } }
+    await body(this.http.DELETE('/api/v1/devices/{device_id}/logs/{log_id}', request))
+  }
+
   /** What a simulated unit can be sent on. */
   async scenarios(): Promise<Scenario[]> {
     return (await body(this.http.GET('/api/v1/scenarios'))).items
