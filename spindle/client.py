@@ -26,6 +26,7 @@ from backend.api.models.device import (
     Simulation,
     Snapshot,
 )
+from backend.api.models.law import FuzzyTable, Limits, Table
 from backend.api.models.ride import Ride, RideList, Series
 from backend.cli.client import Server, default_server
 from backend.errors import NoAnswer, RequestRefused
@@ -137,6 +138,30 @@ class Unit:
         body = {"parameters": dict(parameters), "reason": reason, "confirm_s": confirm_s}
         answer = self._server.ask("PATCH", f"{self._path}/config", json=body)
         return ConfigChange.model_validate(answer)
+
+    def fuzzy_table(self, table: Table = "first") -> FuzzyTable:
+        """One of the two rule tables, read from the unit."""
+        answer = self._server.ask("GET", f"{self._path}/fuzzy-table", params={"table": table})
+        return FuzzyTable.model_validate(answer)
+
+    def write_fuzzy_table(
+        self,
+        value: FuzzyTable,
+        table: Table = "first",
+        reason: str = "",
+        confirm_s: int = 0,
+    ) -> ConfigChange:
+        """Write a whole rule table, as `write` does.
+
+        The second table's points of speed and torque rate are the first's; others are refused.
+        """
+        query = {"table": table, "reason": reason, "confirm_s": confirm_s}
+        path, body = f"{self._path}/fuzzy-table", value.model_dump()
+        return ConfigChange.model_validate(self._server.ask("PUT", path, params=query, json=body))
+
+    def limits(self) -> Limits:
+        """What the unit enforces whatever a table says, and where assist ends because of it."""
+        return Limits.model_validate(self._server.ask("GET", f"{self._path}/limits"))
 
     def confirm(self) -> ConfigChange:
         """Keep what is on trial."""

@@ -36,7 +36,7 @@ def surface(options: Namespace) -> int:
 def lint(options: Namespace) -> int:
     """Findings about a table; 1 if one of them forbids writing it."""
     server = server_of(options)
-    answer = server.ask("POST", "/lint", json={"fuzzy_table": table_of(server, options)})
+    answer = server.ask("POST", "/lint", json=lint_question(server, options))
     if options.json:
         print_json(answer)
     else:
@@ -59,11 +59,32 @@ def evaluate(options: Namespace) -> int:
 
 
 def table_of(server: Server, options: Namespace) -> Any:
-    """The table of the file named, or the unit's own."""
+    """The table of the file named, or the unit's own: its first, or its second if asked for."""
     if options.table is not None:
         table = read_json(options.table)
         return table.get("fuzzy_table", table) if isinstance(table, dict) else table
-    return server.ask("GET", f"/devices/{server.device_id(options.unit)}/fuzzy-table")
+    path = f"/devices/{server.device_id(options.unit)}/fuzzy-table"
+    return server.ask("GET", path, params={"table": which_of(options)})
+
+
+def which_of(options: Namespace) -> str:
+    """The word for the unit's table that is meant."""
+    return "second" if options.second else "first"
+
+
+def lint_question(server: Server, options: Namespace) -> dict[str, Any]:
+    """A table to be judged; with the modes and limits of its unit where one is meant."""
+    table = {"fuzzy_table": table_of(server, options), "table": which_of(options)}
+    if options.table is not None and options.unit is None:
+        return table
+    path = f"/devices/{server.device_id(options.unit)}"
+    parameters = server.ask("GET", f"{path}/config")["parameters"]
+    return {
+        **table,
+        "assist_modes": server.ask("GET", f"{path}/assist-modes"),
+        "limits": server.ask("GET", f"{path}/limits"),
+        "taper_speeds_kmh": [parameters[f"fixed_taper_{end}_kmh"] for end in ("start", "end")],
+    }
 
 
 def axis(text: str, flag: str) -> list[float]:

@@ -1,14 +1,18 @@
 """The only door from the backend to the unit's C law: surface, points, lint, replay."""
 
+from backend.control.finding import Finding, LintReport
 from backend.control.gain import ENGINE, points, surface
-from backend.control.lint_rules import Finding, LintReport, lint
+from backend.control.lint_rules import lint
+from backend.control.market import Cutoff, cutoff_of
 from backend.control.ride_replay import Replay, raw_counts_of, replay
 
 __all__ = [
     "ENGINE",
+    "Cutoff",
     "Finding",
     "LintReport",
     "Replay",
+    "cutoff_of",
     "lint",
     "points",
     "raw_counts_of",

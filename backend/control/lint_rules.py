@@ -9,11 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from backend.control.finding import Finding, LintReport
 from backend.control.gain import surface
+from backend.control.market import cutoff_of
+from backend.control.market_rules import cutoff_warnings, ratio_warnings, reach_notes
 from backend.domain.assist_mode import AssistModes
 from backend.domain.fuzzy_table import LABELS, FuzzyTable
 
@@ -34,24 +38,6 @@ GEAR_RATIO = 40.34
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
-    """code: for programs. message: for people. where: the cell, point or field; None for all."""
-
-    code: str
-    message: str
-    where: str | None
-
-
-@dataclass(frozen=True, slots=True)
-class LintReport:
-    """errors: cannot be written. warnings: need a reason. notes: good to know."""
-
-    errors: tuple[Finding, ...]
-    warnings: tuple[Finding, ...]
-    notes: tuple[Finding, ...]
-
-
-@dataclass(frozen=True, slots=True)
 class _Swing:
     """The largest change against the wanted direction along one axis, and where it ends."""
 
@@ -67,11 +53,16 @@ class _Swing:
 def lint(
     table: FuzzyTable,
     modes: AssistModes | None = None,
-    limits: Mapping[str, float] | None = None,
+    limits: Mapping[str, Any] | None = None,
+    which: str = "first",
+    taper_speeds_kmh: tuple[float, float] | None = None,
 ) -> LintReport:
     """Findings about a table, and about the modes and limits it would run with if given.
 
-    limits: the unit's parameters of the group `limits` by name; missing ones are not judged.
+    limits: the unit's parameters of the groups `limits` and `market` by name; missing ones are not
+    judged. which: of the unit's two tables, `first` or `second`: the fuzzy modes that use the other
+    one are not judged. taper_speeds_kmh: where the fixed law's ratio begins to fall, and where it
+    is zero.
     """
     speeds = np.arange(0.0, table.speed_points_kmh[-1] + SPEED_STEP_KMH / 2, SPEED_STEP_KMH)
     rates = np.linspace(table.torque_rate_points[0], table.torque_rate_points[-1], RATE_STEPS + 1)
@@ -79,6 +70,7 @@ def lint(
     rise = _rise_with_speed(gains, speeds, rates)
     fall = _fall_with_rate(gains, speeds, rates)
     limits = limits or {}
+    cutoff = cutoff_of(limits)
     return LintReport(
         errors=tuple(_limit_errors(limits)),
         warnings=(
@@ -86,13 +78,15 @@ def lint(
             *_label_warnings(table),
             *_slope_warnings(gains),
             *_steady_warnings(gains),
-            *_demand_warnings(gains, modes, limits),
+            *_demand_warnings(gains, modes, limits, which),
+            *cutoff_warnings(cutoff),
+            *ratio_warnings(table, modes, which, cutoff, taper_speeds_kmh),
         ),
         notes=(
             *_ripple_notes(rise, fall),
             *_neighbour_notes(table),
-            *_reach_notes(table, limits),
-            *_mode_notes(modes),
+            *reach_notes(table, cutoff),
+            *_mode_notes(modes, which, limits.get("market")),
         ),
     )
 
@@ -113,7 +107,7 @@ def _fall_with_rate(
     return _Swing(float(falls[row, column]), float(speeds[row]), float(rates[column]))
 
 
-def _limit_errors(limits: Mapping[str, float]) -> Iterator[Finding]:
+def _limit_errors(limits: Mapping[str, Any]) -> Iterator[Finding]:
     cutoff_kmh = limits.get("assist_cutoff_kmh", 0.0)
     if not cutoff_kmh <= CUTOFF_KMH_MAX:
         message = f"assist until {cutoff_kmh:g} km/h; above {CUTOFF_KMH_MAX:g} it must be zero"
@@ -164,11 +158,14 @@ def _steady_warnings(gains: npt.NDArray[np.float64]) -> Iterator[Finding]:
 
 
 def _demand_warnings(
-    gains: npt.NDArray[np.float64], modes: AssistModes | None, limits: Mapping[str, float]
+    gains: npt.NDArray[np.float64],
+    modes: AssistModes | None,
+    limits: Mapping[str, Any],
+    which: str,
 ) -> Iterator[Finding]:
     unit_nm = limits.get("motor_torque_nm_max", MOTOR_TORQUE_NM_MAX)
     for slot, mode in enumerate(modes.modes if modes else ()):
-        if mode.law == "off":
+        if mode.law == "off" or (mode.law == "fuzzy" and mode.table != which):
             continue
         limit_nm = unit_nm * mode.torque_pct / 100
         gain = float(gains.max()) if mode.law == "fuzzy" else 0.0
@@ -203,21 +200,13 @@ def _neighbour_notes(table: FuzzyTable) -> Iterator[Finding]:
         yield Finding("equal_neighbours", message, f"rules[][{column}]")
 
 
-def _reach_notes(table: FuzzyTable, limits: Mapping[str, float]) -> Iterator[Finding]:
-    cutoff_kmh = limits.get("assist_cutoff_kmh")
-    if cutoff_kmh is None:
-        return
-    for row in range(1, len(LABELS)):
-        if table.speed_points_kmh[row - 1] >= cutoff_kmh:
-            message = f"speed row {LABELS[row]} acts only above the cut-off of {cutoff_kmh:g} km/h"
-            yield Finding("row_not_reached", message, f"rules[{row}]")
-
-
-def _mode_notes(modes: AssistModes | None) -> Iterator[Finding]:
+def _mode_notes(modes: AssistModes | None, which: str, market: str | None) -> Iterator[Finding]:
     for slot, mode in enumerate(modes.modes if modes else ()):
-        if mode.law == "fixed" and mode.taper == "none" and mode.ratio > 0.0:
+        if market is None and mode.law == "fixed" and mode.taper == "none" and mode.ratio > 0.0:
             message = f"{mode.name}: the ratio does not fall with speed, as Japan wants it to"
             yield Finding("ratio_does_not_fall", message, f"modes[{slot}]")
-    if modes and not any(mode.law == "fuzzy" and mode.ratio > 0.0 for mode in modes.modes):
-        message = "no mode with a ratio runs the fuzzy law: the table changes nothing"
+    if modes and not any(
+        mode.law == "fuzzy" and mode.table == which and mode.ratio > 0.0 for mode in modes.modes
+    ):
+        message = "no mode with a ratio runs the fuzzy law with this table: it changes nothing"
         yield Finding("table_not_used", message, "modes")

@@ -38,7 +38,22 @@ PARAMETER_NAMES = {
     "gain_points": "fuzzy_gain_points",
     "rules": "fuzzy_rules",
 }
-"""Field here -> parameter of the unit."""
+"""Field here -> parameter of the unit, for the first table."""
+
+PARAMETERS_OF = {
+    "first": PARAMETER_NAMES,
+    "second": PARAMETER_NAMES
+    | {
+        "name": "second_table_name",
+        "inference": "second_inference",
+        "gain_points": "second_gain_points",
+        "rules": "second_rules",
+    },
+}
+"""The same for each of the unit's two tables, by the word a mode chooses its table with."""
+
+SHARED_FIELDS = ("speed_points_kmh", "torque_rate_points")
+"""What both tables have in common, because one block of a ride log must hold them (ADR 8)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,15 +113,18 @@ class FuzzyTable:
         }
 
     @classmethod
-    def from_parameters(cls, parameters: Mapping[str, Any]) -> FuzzyTable:
-        """From a unit's configuration, by registry names. Raises InvalidRequest."""
-        value = {field: parameters[name] for field, name in PARAMETER_NAMES.items()}
+    def from_parameters(cls, parameters: Mapping[str, Any], which: str = "first") -> FuzzyTable:
+        """From a unit's configuration, by registry names. Raises InvalidRequest.
+
+        which: `first` or `second` of the unit's tables.
+        """
+        value = {field: parameters[name] for field, name in PARAMETERS_OF[which].items()}
         return cls.from_json({**value, "inference": str(value["inference"]).lower()})
 
-    def to_parameters(self) -> dict[str, Any]:
-        """The six `fuzzy_*` parameters this table is in a unit's configuration."""
+    def to_parameters(self, which: str = "first") -> dict[str, Any]:
+        """The six parameters this table is in a unit's configuration, as its first or second."""
         value = {**self.to_json(), "inference": self.inference.upper()}
-        return {PARAMETER_NAMES[field]: value[field] for field in PARAMETER_NAMES}
+        return {name: value[field] for field, name in PARAMETERS_OF[which].items()}
 
     def label_indices(self) -> np.ndarray[Any, np.dtype[np.int64]]:
         """The rules as int64 (5, 5), 0 for NB to 4 for PB."""

@@ -48,9 +48,14 @@ class Preview:
         self,
         fuzzy_table: Mapping[str, Any],
         assist_modes: Mapping[str, Any] | None = None,
-        limits: Mapping[str, float] | None = None,
+        limits: Mapping[str, Any] | None = None,
+        which: str = "first",
+        taper_speeds_kmh: tuple[float, float] | None = None,
     ) -> LintReport:
-        """Findings about a table; one that cannot exist is an answer too, with its faults."""
+        """Findings about a table; one that cannot exist is an answer too, with its faults.
+
+        Arguments as of backend.control.lint.
+        """
         faults: list[Finding] = []
         table = modes = None
         try:
@@ -63,7 +68,7 @@ class Preview:
             faults += _findings(refused)
         if table is None:
             return LintReport(tuple(faults), (), ())
-        report = control.lint(table, modes, limits)
+        report = control.lint(table, modes, limits, which, taper_speeds_kmh)
         return LintReport((*faults, *report.errors), report.warnings, report.notes)
 
     def replay(

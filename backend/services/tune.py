@@ -11,7 +11,7 @@ import logging
 import threading
 import time
 from collections import defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import asdict
 from datetime import UTC, datetime
 
@@ -41,6 +41,7 @@ from backend.domain.revision import Revision
 from backend.errors import (
     ConfigConflict,
     Conflict,
+    FieldError,
     InvalidRequest,
     LimitViolation,
     NoAnswer,
@@ -60,7 +61,7 @@ from backend.services.connect import Devices
 from backend.services.typed_views import (
     ASSIST_MODES,
     CALIBRATION,
-    FUZZY_TABLE,
+    FUZZY_TABLES,
     LIMITS,
     ConfigPart,
 )
@@ -131,15 +132,18 @@ class Tuning:
         confirm_s: int = 0,
         author: str = "",
         token: str | None = None,
+        kept: Collection[str] = (),
     ) -> ConfigChange:
         """Write all of `changes` or none, read everything back and compare.
 
         if_match: ETag of the configuration the change was made for. confirm_s: 0 for good; else the
         change is on trial, and the unit returns to what it had unless `confirm_config` comes within
-        so many seconds. token: the maker's answer to TokenNeeded. Raises InvalidRequest,
-        LimitViolation with every fault named, TokenNeeded, AccessDenied, ConfigConflict,
-        NotStandingStill, NoAnswer; after each of them the unit is unchanged, or the message says
-        that it may not be. PeerProtocolError names the fields that read back different.
+        so many seconds. token: the maker's answer to TokenNeeded. kept: names among `changes`
+        that are there to be compared: another value than the unit's is refused. Raises
+        InvalidRequest, LimitViolation with every fault named, TokenNeeded, AccessDenied,
+        ConfigConflict, NotStandingStill, NoAnswer; after each of them the unit is unchanged, or the
+        message says that it may not be. PeerProtocolError names the fields that read back
+        different.
         """
         if not 0 <= confirm_s <= CONFIRM_S_MAX:
             raise InvalidRequest(f"confirm_s is from 0 to {CONFIRM_S_MAX} seconds.")
@@ -152,6 +156,7 @@ class Tuning:
             check_base(base, if_match)
             intended = _intended(base, changes)
             changed = differences(base.parameters, intended)
+            _check_kept(changed, kept)
             serial_number = self._serial_number(self._devices.status(device_id))
             self._back_up(serial_number, base)
             if changed:
@@ -217,9 +222,9 @@ class Tuning:
 
     # ------------------------------------------------------------------ typed views
 
-    def fuzzy_table(self, device_id: str) -> TypedView:
-        """The rule table as the contract's `fuzzy_table`."""
-        return self._part(device_id, FUZZY_TABLE)
+    def fuzzy_table(self, device_id: str, which: str = "first") -> TypedView:
+        """A rule table as the contract's `fuzzy_table`. which: `first` or `second`."""
+        return self._part(device_id, FUZZY_TABLES[which])
 
     def put_fuzzy_table(
         self,
@@ -228,9 +233,14 @@ class Tuning:
         reason: str,
         if_match: str | None,
         confirm_s: int = 0,
+        which: str = "first",
     ) -> ConfigChange:
-        """Write the whole rule table in one transaction."""
-        return self._put_part(device_id, FUZZY_TABLE, value, reason, if_match, confirm_s)
+        """Write a whole rule table in one transaction.
+
+        The second shares the points of speed and torque rate with the first: other ones are
+        refused, so that nobody changes the first table without looking at it.
+        """
+        return self._put_part(device_id, FUZZY_TABLES[which], value, reason, if_match, confirm_s)
 
     def assist_modes(self, device_id: str) -> TypedView:
         """The five slots of the rider's switch."""
@@ -293,7 +303,9 @@ class Tuning:
         confirm_s: int,
     ) -> ConfigChange:
         try:
-            return self.write_config(device_id, part.changes(value), reason, if_match, confirm_s)
+            return self.write_config(
+                device_id, part.changes(value), reason, if_match, confirm_s, kept=part.kept
+            )
         except LimitViolation as error:
             fields = [part.renamed(fault) for fault in error.fields]
             raise LimitViolation(error.message, error.code, fields) from error
@@ -412,6 +424,19 @@ class Tuning:
         if status.identity is None:
             raise NoAnswer(status.reason, "not_connected")
         return status.identity.serial_number
+
+
+def _check_kept(changed: Sequence[Change], kept: Collection[str]) -> None:
+    """Raise LimitViolation naming what was to stay as it is."""
+    faults = [
+        FieldError(
+            change.name, "shared", "Both tables share these points; change them in the first."
+        )
+        for change in changed
+        if change.name in kept
+    ]
+    if faults:
+        raise LimitViolation(faults[0].message, "shared_points", faults)
 
 
 def _intended(base: ConfigImage, changes: Mapping[str, Value]) -> dict[str, Value]:

@@ -6,9 +6,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
+from backend.control import cutoff_of
 from backend.device.parameters import Value, group
 from backend.domain.assist_mode import AssistModes
-from backend.domain.fuzzy_table import PARAMETER_NAMES, FuzzyTable
+from backend.domain.fuzzy_table import PARAMETERS_OF, SHARED_FIELDS, FuzzyTable
 from backend.errors import FieldError, InvalidRequest
 
 # Parameter of the slots -> where its element `{index}` is in the modes' JSON.
@@ -30,11 +31,13 @@ class ConfigPart:
     """One part: parameters -> JSON, JSON -> changes (raises InvalidRequest), and the names.
 
     fields: parameter -> its place in the JSON, so that a fault marks the right field of a form.
+    kept: parameters the part shows and may not change, because another part owns them.
     """
 
     read: Callable[[Mapping[str, Value]], dict[str, Any]]
     changes: Callable[[Mapping[str, Any]], dict[str, Value]]
     fields: Mapping[str, str]
+    kept: tuple[str, ...] = ()
 
     def renamed(self, fault: FieldError) -> FieldError:
         """The fault with the name its field has in the JSON."""
@@ -45,32 +48,59 @@ class ConfigPart:
         return replace(fault, field=place.replace("{index}", bracket + index))
 
 
-def _by_name(names: tuple[str, ...]) -> ConfigPart:
-    """A part whose JSON is the parameters themselves."""
+def _by_name(
+    names: tuple[str, ...],
+    told: Mapping[str, Callable[[Mapping[str, Value]], Any]] | None = None,
+) -> ConfigPart:
+    """A part whose JSON is the parameters themselves.
+
+    told: what follows from them, by name; it is told with them and not written.
+    """
+    told = told or {}
 
     def read(parameters: Mapping[str, Value]) -> dict[str, Any]:
-        return {name: parameters[name] for name in names}
+        shown = {name: parameters[name] for name in names}
+        return shown | {name: derive(parameters) for name, derive in told.items()}
 
     def changes(value: Mapping[str, Any]) -> dict[str, Value]:
-        unknown = [name for name in value if name not in names]
+        unknown = [name for name in value if name not in names and name not in told]
         if unknown:
             raise InvalidRequest(
                 f"{', '.join(unknown)} does not belong here; there is {', '.join(names)}."
             )
-        return dict(value)
+        return {name: value[name] for name in value if name in names}
 
     return ConfigPart(read, changes, {})
 
 
-FUZZY_TABLE = ConfigPart(
-    read=lambda parameters: FuzzyTable.from_parameters(parameters).to_json(),
-    changes=lambda value: cast("dict[str, Value]", FuzzyTable.from_json(value).to_parameters()),
-    fields={parameter: field + "{index}" for field, parameter in PARAMETER_NAMES.items()},
-)
+def _fuzzy_table(which: str) -> ConfigPart:
+    """One of the two rule tables. The points both share are the first one's to change."""
+    names = PARAMETERS_OF[which]
+
+    def read(parameters: Mapping[str, Value]) -> dict[str, Any]:
+        return FuzzyTable.from_parameters(parameters, which).to_json()
+
+    def changes(value: Mapping[str, Any]) -> dict[str, Value]:
+        return cast("dict[str, Value]", FuzzyTable.from_json(value).to_parameters(which))
+
+    fields = {parameter: field + "{index}" for field, parameter in names.items()}
+    kept = () if which == "first" else tuple(names[field] for field in SHARED_FIELDS)
+    return ConfigPart(read, changes, fields, kept)
+
+
+def _effective_cutoff_kmh(parameters: Mapping[str, Value]) -> float | None:
+    """Where assist ends, by the unit's own C: what is configured, or less if the market says so."""
+    cutoff = cutoff_of(parameters)
+    return None if cutoff is None else cutoff.holds_kmh
+
+
+FUZZY_TABLES = {which: _fuzzy_table(which) for which in PARAMETERS_OF}
 ASSIST_MODES = ConfigPart(
     read=lambda parameters: AssistModes.from_parameters(parameters).to_json(),
     changes=lambda value: cast("dict[str, Value]", AssistModes.from_json(value).to_parameters()),
     fields=MODE_FIELDS,
 )
 CALIBRATION = _by_name(group("sensor"))
-LIMITS = _by_name(group("limits"))
+LIMITS = _by_name(
+    group("limits") + group("market"), {"effective_assist_cutoff_kmh": _effective_cutoff_kmh}
+)

@@ -117,6 +117,23 @@ def test_the_surface_and_the_sensor_s_figures_come_from_the_shell_too(
     assert json.loads(figures.stdout)["repeatability_pct"]["range"] == 0.0
 
 
+def test_both_of_the_unit_s_tables_are_drawn_and_judged(server: SpindleServer, device: str) -> None:
+    grid = ["--speeds", "10:25:2", "--rates", "0.8:0.9:2", "--json"]
+
+    first = spindle(server, "surface", *grid)
+    second = spindle(server, "surface", "--second", *grid)
+    findings = spindle(server, "lint", "--second", "--unit", device, "--json")
+
+    # The factory's tables differ in how they are combined; beside the points that shows.
+    tables = [json.loads(drawn.stdout) for drawn in (first, second)]
+    assert tables[0]["fuzzy_table"]["name"] == "thesis 4-2"
+    assert tables[1]["fuzzy_table"]["name"] == "thesis 4-2, smooth"
+    assert tables[0]["gain"] != tables[1]["gain"]
+    assert findings.returncode == 0, findings.stderr
+    # Every fuzzy mode of the factory uses the first table.
+    assert "table_not_used" in [note["code"] for note in json.loads(findings.stdout)["notes"]]
+
+
 def test_no_server_is_said_so_with_what_to_do() -> None:
     result = spindle(None, "device", "list", "--server", "http://127.0.0.1:9")
 

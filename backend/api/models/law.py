@@ -9,6 +9,8 @@ from pydantic import BaseModel, ConfigDict, Field
 from backend.api.models.base import Answer, Question
 
 Label = Literal["NB", "NS", "ZO", "PS", "PB"]
+Table = Literal["first", "second"]
+Market = Literal["EU_EPAC", "UK", "US_CLASS_1", "US_CLASS_2", "US_CLASS_3", "JAPAN", "CHINA"]
 Five = Field(min_length=5, max_length=5)
 FivePoints = Annotated[list[float], Five]
 RuleRow = Annotated[list[Label], Five]
@@ -40,9 +42,7 @@ class AssistMode(LawModel):
     taper: Literal["taper_speeds", "none", "japan_1_to_1", "japan_2_to_1"] = Field(
         default="taper_speeds", description="How the fixed law's ratio falls with speed."
     )
-    table: Literal["first", "second"] = Field(
-        default="first", description="Which of the two fuzzy tables."
-    )
+    table: Table = Field(default="first", description="Which of the two fuzzy tables.")
     ramp_up_nm_per_s: int = Field(default=2000, ge=5, le=2000)
     ramp_down_nm_per_s: int = Field(default=2000, ge=20, le=2000)
     torque_pct: int = Field(
@@ -66,7 +66,10 @@ class Calibration(LawModel):
 
 
 class Limits(LawModel):
-    """What the unit enforces after the law, whatever the table says."""
+    """What the unit enforces after the law, whatever the table says.
+
+    The last three may be missing in what is written; only the maker changes the market.
+    """
 
     assist_cutoff_kmh: float
     assist_cutoff_band_kmh: float
@@ -75,6 +78,16 @@ class Limits(LawModel):
     battery_voltage_v_min: float
     motor_speed_rpm_max: float
     pedal_stop_ms: int
+    market: Market | None = Field(default=None, description="Whose law has the last word.")
+    assist_cutoff_extra_kmh: float | None = None
+    effective_assist_cutoff_kmh: float | None = Field(
+        default=None,
+        description=(
+            "Where assist ends: `assist_cutoff_kmh`, or less where the market allows less. Told by "
+            "the unit's own code; not looked at when it is written."
+        ),
+        json_schema_extra={"readOnly": True},
+    )
 
 
 class SurfaceRequest(Question):
@@ -104,12 +117,26 @@ class LintRequest(Question):
     fuzzy_table: FuzzyTable
     assist_modes: AssistModes | None = None
     limits: Limits | None = None
+    table: Table = Field(
+        default="first",
+        description="Which of the unit's tables this is: modes that use the other are not judged.",
+    )
+    taper_speeds_kmh: tuple[float, float] | None = Field(
+        default=None,
+        description=(
+            "`fixed_taper_start_kmh` and `fixed_taper_end_kmh`; without them fixed modes that "
+            "taper between them are not judged."
+        ),
+    )
 
 
 class Finding(Answer):
     code: str
     message: str
     where: str | None
+    values: dict[str, float | str] = Field(
+        description="What the message tells, by name, for a text in another language."
+    )
 
 
 class LintReport(Answer):

@@ -17,7 +17,7 @@ from backend.api.models.config import (
     ParameterList,
     RevisionList,
 )
-from backend.api.models.law import AssistModes, Calibration, FuzzyTable, Limits
+from backend.api.models.law import AssistModes, Calibration, FuzzyTable, Limits, Table
 from backend.api.problem import refusals
 from backend.api.services import Provided
 from backend.services.config_view import etag
@@ -33,6 +33,10 @@ IfMatch = Annotated[
 ]
 Reason = Annotated[
     str, Query(max_length=400, description="Why; kept with the revision for later readers.")
+]
+WhichTable = Annotated[
+    Table,
+    Query(description="Which of the unit's two tables; a mode names the one it uses so, too."),
 ]
 ConfirmS = Annotated[int, Query(ge=0, le=CONFIRM_S_MAX, description=CONFIRM_S)]
 
@@ -109,9 +113,11 @@ def end_live(device_id: str, services: Provided) -> Any:
 
 
 @router.get("/fuzzy-table", operation_id="get_fuzzy_table", response_model=FuzzyTable)
-def get_fuzzy_table(device_id: str, services: Provided, response: Response) -> Any:
-    """The rule table and its points, as the surface and the linter take them."""
-    return _tagged(services.tuning.fuzzy_table(device_id), response)
+def get_fuzzy_table(
+    device_id: str, services: Provided, response: Response, table: WhichTable = "first"
+) -> Any:
+    """A rule table and its points, as the surface and the linter take them."""
+    return _tagged(services.tuning.fuzzy_table(device_id, table), response)
 
 
 @router.put("/fuzzy-table", operation_id="put_fuzzy_table", response_model=ConfigChange)
@@ -123,10 +129,15 @@ def put_fuzzy_table(
     if_match: IfMatch = None,
     reason: Reason = "",
     confirm_s: ConfirmS = 0,
+    table: WhichTable = "first",
 ) -> Any:
-    """Writes the whole table in one transaction."""
+    """Writes a whole table in one transaction.
+
+    Both tables share the points of speed and torque rate: those of the second are not changed here.
+    """
     write = services.tuning.put_fuzzy_table
-    return _stamped(write(device_id, body.model_dump(), reason, if_match, confirm_s), response)
+    change = write(device_id, body.model_dump(), reason, if_match, confirm_s, table)
+    return _stamped(change, response)
 
 
 @router.get("/assist-modes", operation_id="get_assist_modes", response_model=AssistModes)
@@ -173,7 +184,7 @@ def put_calibration(
 
 @router.get("/limits", operation_id="get_limits", response_model=Limits)
 def get_limits(device_id: str, services: Provided, response: Response) -> Any:
-    """What the unit enforces whatever the table says."""
+    """What the unit enforces whatever the table says, and where assist ends because of it."""
     return _tagged(services.tuning.limits(device_id), response)
 
 
@@ -189,7 +200,8 @@ def put_limits(
 ) -> Any:
     """Writes the limits in one transaction; the unit refuses what its market forbids."""
     write = services.tuning.put_limits
-    return _stamped(write(device_id, body.model_dump(), reason, if_match, confirm_s), response)
+    limits = body.model_dump(exclude_none=True)
+    return _stamped(write(device_id, limits, reason, if_match, confirm_s), response)
 
 
 def _tagged(view: Any, response: Response) -> Any:

@@ -41,7 +41,11 @@ def lint_table(body: LintRequest, services: Provided) -> Any:
     """What is wrong, doubtful or notable about a table before a rider finds out."""
     question = body.model_dump()
     return services.preview.lint(
-        question["fuzzy_table"], question["assist_modes"], question["limits"]
+        question["fuzzy_table"],
+        question["assist_modes"],
+        question["limits"],
+        question["table"],
+        question["taper_speeds_kmh"],
     )
 
 

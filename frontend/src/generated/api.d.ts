@@ -458,12 +458,14 @@ export interface paths {
         };
         /**
          * Get Fuzzy Table
-         * @description The rule table and its points, as the surface and the linter take them.
+         * @description A rule table and its points, as the surface and the linter take them.
          */
         get: operations["get_fuzzy_table"];
         /**
          * Put Fuzzy Table
-         * @description Writes the whole table in one transaction.
+         * @description Writes a whole table in one transaction.
+         *
+         *     Both tables share the points of speed and torque rate: those of the second are not changed here.
          */
         put: operations["put_fuzzy_table"];
         post?: never;
@@ -530,7 +532,7 @@ export interface paths {
         };
         /**
          * Get Limits
-         * @description What the unit enforces whatever the table says.
+         * @description What the unit enforces whatever the table says, and where assist ends because of it.
          */
         get: operations["get_limits"];
         /**
@@ -1249,6 +1251,13 @@ export interface components {
             message: string;
             /** Where */
             where: string | null;
+            /**
+             * Values
+             * @description What the message tells, by name, for a text in another language.
+             */
+            values: {
+                [key: string]: number | string;
+            };
         };
         /** Fit */
         Fit: {
@@ -1320,6 +1329,8 @@ export interface components {
         /**
          * Limits
          * @description What the unit enforces after the law, whatever the table says.
+         *
+         *     The last three may be missing in what is written; only the maker changes the market.
          */
         Limits: {
             /** Assist Cutoff Kmh */
@@ -1336,6 +1347,18 @@ export interface components {
             motor_speed_rpm_max: number;
             /** Pedal Stop Ms */
             pedal_stop_ms: number;
+            /**
+             * Market
+             * @description Whose law has the last word.
+             */
+            market?: ("EU_EPAC" | "UK" | "US_CLASS_1" | "US_CLASS_2" | "US_CLASS_3" | "JAPAN" | "CHINA") | null;
+            /** Assist Cutoff Extra Kmh */
+            assist_cutoff_extra_kmh?: number | null;
+            /**
+             * Effective Assist Cutoff Kmh
+             * @description Where assist ends: `assist_cutoff_kmh`, or less where the market allows less. Told by the unit's own code; not looked at when it is written.
+             */
+            readonly effective_assist_cutoff_kmh?: number | null;
         };
         /** LinearityAgainstLines */
         LinearityAgainstLines: {
@@ -1360,6 +1383,21 @@ export interface components {
             fuzzy_table: components["schemas"]["FuzzyTable"];
             assist_modes?: components["schemas"]["AssistModes"] | null;
             limits?: components["schemas"]["Limits"] | null;
+            /**
+             * Table
+             * @description Which of the unit's tables this is: modes that use the other are not judged.
+             * @default first
+             * @enum {string}
+             */
+            table: "first" | "second";
+            /**
+             * Taper Speeds Kmh
+             * @description `fixed_taper_start_kmh` and `fixed_taper_end_kmh`; without them fixed modes that taper between them are not judged.
+             */
+            taper_speeds_kmh?: [
+                number,
+                number
+            ] | null;
         };
         /**
          * Live
@@ -4273,7 +4311,10 @@ export interface operations {
     };
     get_fuzzy_table: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description Which of the unit's two tables; a mode names the one it uses so, too. */
+                table?: "first" | "second";
+            };
             header?: never;
             path: {
                 device_id: string;
@@ -4363,6 +4404,8 @@ export interface operations {
                 reason?: string;
                 /** @description 0 commits for good; else the unit returns to what it had after so many seconds, at a restart or power loss, unless `POST .../config/confirm` comes first. */
                 confirm_s?: number;
+                /** @description Which of the unit's two tables; a mode names the one it uses so, too. */
+                table?: "first" | "second";
             };
             header?: {
                 /** @description The ETag of the configuration the change was made for. */

@@ -45,8 +45,7 @@ float apply_cutoffs(const assist_config *config, assist_state *state, const assi
 float apply_limits(const assist_config *config, const assist_input *input, float demand_nm,
                    assist_output *output);
 
-/* market.c: the cut-off speed that holds, the rider's hardest push of late, and the last word. */
-float market_cutoff_kmh(const assist_config *config);
+/* market.c: the rider's hardest push of late, and the last word. */
 void market_push_note(const assist_config *config, assist_state *state, float torque_nm);
 float apply_market(const assist_config *config, assist_state *state, const assist_input *input,
                    float motor_nm, assist_output *output);

@@ -4,7 +4,7 @@
  * and at the cut-off speed), so they come after the ramps and never wait for them. */
 #include "assist_steps.h" // apply_cutoff_band, apply_cutoffs, held_at
 #include "float32.h"      // float32_max, float32_min
-#include "market.h"       // market_profile_of
+#include "market.h"       // market_cutoff_kmh, market_profile_of
 
 /* Forward pedalling renews the permission, back-pedalling ends it, standing cranks use it up. */
 static int pedalling(const assist_config *config, assist_state *state, float cadence_rpm)

@@ -2,7 +2,7 @@
  * more than the market allows, at every speed and not only at the points of a table. */
 #include "market.h" // market_profile
 
-#include "assist_steps.h" // apply_market, held_at, market_cutoff_kmh
+#include "assist_steps.h" // apply_market, held_at
 #include "float32.h"      // float32_max, float32_min
 
 #define KMH_PER_MPH 1.609344f

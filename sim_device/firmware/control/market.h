@@ -9,6 +9,8 @@
 #ifndef SPINDLE_MARKET_H
 #define SPINDLE_MARKET_H
 
+#include "assist.h" // assist_config
+
 #include <stdint.h>
 
 typedef enum {
@@ -33,6 +35,9 @@ typedef struct {
 
 /* The profile of a market; the strictest of them all for a number that is no market. */
 const market_profile *market_profile_of(uint8_t market_number);
+
+/* The cut-off speed that holds: what is configured, or the market's own where that is lower. */
+float market_cutoff_kmh(const assist_config *config);
 
 /* Assist per rider torque that Japan allows since December 2008 (2 below 10 km/h, then down in a
  * straight line to 0 at 24 km/h), and what it allowed before (1 below 15 km/h, 0 at 24 km/h). */

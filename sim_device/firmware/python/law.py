@@ -185,6 +185,24 @@ def assist_run(
     return {name: outputs[name] for name in OUTPUT_DTYPE.names or ()}
 
 
+def steady_ratios(config: Config, mode: int, speeds_kmh: npt.ArrayLike) -> Floats:
+    """Assist per rider torque a mode asks for at each speed while the torque is steady, (n,).
+
+    config: what the mode is; parameters that are missing have their defaults. Raises LawRefused.
+    """
+    inputs = {
+        "torque_raw_counts": 0.0,
+        "speed_kmh": speeds_kmh,
+        "cadence_rpm": 60.0,
+        "motor_speed_rpm": 0.0,
+        "battery_voltage_v": 36.0,
+        "mode": mode,
+        "brake": 0,
+    }
+    ratios: Floats = assist_run({**default_config(), **config}, inputs)["assist_ratio"]
+    return ratios
+
+
 def pack_inputs(inputs: Mapping[str, npt.ArrayLike]) -> npt.NDArray[np.void]:
     """Vectors or single values by name -> INPUT_DTYPE (n,). Raises LawRefused."""
     names = INPUT_DTYPE.names or ()

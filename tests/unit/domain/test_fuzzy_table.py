@@ -49,6 +49,20 @@ def test_the_units_factory_table_is_the_thesis_table() -> None:
     }
 
 
+def test_the_second_table_has_parameters_of_its_own_and_the_points_of_the_first() -> None:
+    config = default_config()
+
+    second = FuzzyTable.from_parameters(config, "second")
+
+    assert (second.name, second.inference) == ("thesis 4-2, smooth", "weighted_average")
+    assert second.rules == THESIS_TABLE.rules
+    assert second.to_parameters("second") == {
+        name: config[name] for name in second.to_parameters("second")
+    }
+    shared = set(second.to_parameters("second")) & set(THESIS_TABLE.to_parameters())
+    assert shared == {"fuzzy_speed_points_kmh", "fuzzy_torque_rate_points"}
+
+
 def with_rule(row: int, column: int, label: Any) -> list[list[Any]]:
     rules = [list(row_labels) for row_labels in CONTRACT_EXAMPLE["rules"]]
     rules[row][column] = label

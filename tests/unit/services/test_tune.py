@@ -353,6 +353,65 @@ def test_the_fuzzy_table_is_read_edited_and_written_as_one(bench: Bench) -> None
     assert bench.tuning.fuzzy_table(bench.id).value == table
 
 
+def test_the_second_table_is_written_beside_the_first(bench: Bench) -> None:
+    first = bench.tuning.fuzzy_table(bench.id).value
+    table = bench.tuning.fuzzy_table(bench.id, "second").value
+    assert table["name"] == "thesis 4-2, smooth"
+    table["rules"][0][0] = "PB"
+    table["gain_points"][0] = 0.05
+
+    change = bench.tuning.put_fuzzy_table(bench.id, table, "", None, which="second")
+
+    assert [one.name for one in change.changed] == ["second_gain_points", "second_rules"]
+    assert bench.tuning.fuzzy_table(bench.id, "second").value == table
+    assert bench.tuning.fuzzy_table(bench.id).value == first
+
+
+def test_points_both_tables_share_are_not_changed_by_way_of_the_second(bench: Bench) -> None:
+    table = bench.tuning.fuzzy_table(bench.id, "second").value
+    table["speed_points_kmh"][4] = 24.0
+    table["rules"][0][0] = "PB"
+
+    with pytest.raises(LimitViolation) as caught:
+        bench.tuning.put_fuzzy_table(bench.id, table, "", None, which="second")
+
+    assert [(fault.field, fault.code) for fault in caught.value.fields] == [
+        ("speed_points_kmh", "shared")
+    ]
+    assert bench.held == default_config()
+
+
+def test_a_fault_in_the_second_table_names_the_field_of_the_view(bench: Bench) -> None:
+    table = bench.tuning.fuzzy_table(bench.id, "second").value | {"name": "冬" * 9}
+
+    with pytest.raises(InvalidRequest) as caught:
+        bench.tuning.put_fuzzy_table(bench.id, table, "", None, which="second")
+
+    assert [fault.field for fault in caught.value.fields] == ["name"]
+
+
+@pytest.mark.parametrize(("market", "ends_kmh"), [("EU_EPAC", 25.0), ("JAPAN", 24.0)])
+def test_the_limits_say_where_the_market_lets_assist_end(
+    bench: Bench, market: str, ends_kmh: float
+) -> None:
+    bench.unit.image = pack_image(default_config() | {"market": market})
+
+    limits = bench.tuning.limits(bench.id).value
+
+    assert (limits["assist_cutoff_kmh"], limits["market"]) == (25.0, market)
+    assert limits["effective_assist_cutoff_kmh"] == ends_kmh
+
+
+def test_what_was_read_as_limits_can_be_written_back_as_it_is(bench: Bench) -> None:
+    bench.unit.image = pack_image(default_config() | {"market": "JAPAN"})
+    limits = bench.tuning.limits(bench.id).value
+
+    change = bench.tuning.put_limits(bench.id, limits | {"pedal_stop_ms": 200}, "", None)
+
+    assert [one.name for one in change.changed] == ["pedal_stop_ms"]
+    assert bench.held == default_config() | {"market": "JAPAN", "pedal_stop_ms": 200}
+
+
 def test_the_assist_modes_are_five_slots(bench: Bench) -> None:
     modes = bench.tuning.assist_modes(bench.id).value
     modes["modes"][1] = {"name": "rain", "law": "fuzzy", "ratio": 0.75}

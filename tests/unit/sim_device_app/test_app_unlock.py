@@ -247,6 +247,24 @@ def test_a_factory_parameter_needs_a_token_of_that_level(unit: BenchUnit) -> Non
     assert unit.config()["gear_ratio"] == pytest.approx(36.744)
 
 
+def test_a_slower_market_takes_the_cutoff_as_it_stands_and_the_unit_goes_on() -> None:
+    bench = BenchUnit()
+    provision(bench, MAKER)
+    transaction, image = staged(bench, {"market": "JAPAN"})
+    token = MAKER.sign(challenged(bench, Access.FACTORY, image))
+    assert respond(bench, transaction, token).status == Status.OK
+    assert commit(bench, transaction, image).status == Status.OK
+    bench.advance(COMMIT_PAUSE_S)
+
+    bench.boot()
+    bench.hello()
+
+    # 25 km/h stays: the law ends assist at 24 by itself, and a market that goes back finds it.
+    config = bench.config()
+    assert (config["market"], config["assist_cutoff_kmh"]) == ("JAPAN", 25.0)
+    assert bench.write({"pedal_stop_ms": 200}).status == Status.OK
+
+
 def test_no_token_reaches_past_the_absolute_cap(unit: BenchUnit) -> None:
     assert staged_anyhow(unit, {"assist_cutoff_kmh": 25.5}).status == Status.RANGE
     assert staged_anyhow(BenchUnit(), {"battery_current_a_max": 13.0}).status == Status.RANGE

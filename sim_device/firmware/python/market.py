@@ -1,0 +1,46 @@
+"""What a market allows, from the tables in the unit's own code."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from firmware_protocol._generated import Market
+from sim_device.firmware.python._native import ffi, lib
+
+MARKETS = tuple(Market.__members__)
+"""Names as in the registry."""
+
+
+def market_speed_kmh(market: str) -> float:
+    """The speed at and above which the market allows no assist. Raises KeyError if it is none."""
+    return _shortest(lib.market_profile_of(Market[market]).cutoff_kmh)
+
+
+def cutoff_that_holds_kmh(
+    market: str, assist_cutoff_kmh: float, assist_cutoff_extra_kmh: float
+) -> float:
+    """Where assist ends: what is configured, or the market's own speed where that is lower.
+
+    Raises KeyError if there is no such market.
+    """
+    config: Any = ffi.new("assist_config *")
+    config.market = Market[market]
+    config.assist_cutoff_kmh = assist_cutoff_kmh
+    config.assist_cutoff_extra_kmh = assist_cutoff_extra_kmh
+    return _shortest(lib.market_cutoff_kmh(config))
+
+
+def market_ratios(market: str, speeds_kmh: npt.ArrayLike) -> npt.NDArray[np.float32] | None:
+    """Largest assist per rider torque at each speed, (n,); None where the market names none."""
+    if not lib.market_profile_of(Market[market]).ratio_falls:
+        return None
+    speeds = np.atleast_1d(np.asarray(speeds_kmh, np.float32))
+    return np.array([lib.market_japan_ratio(float(speed)) for speed in speeds], np.float32)
+
+
+def _shortest(number: float) -> float:
+    """The shortest decimal that is the same float32, as parameters are told."""
+    return float(str(np.float32(number)))

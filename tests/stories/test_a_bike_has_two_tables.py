@@ -1,0 +1,164 @@
+"""Goal: the second table is read, written and ridden like the first; neither touches the other.
+
+The whole way is real, as in test_tuning_changes_the_bike: HTTP, protocol, the unit's C. Expected
+gains are those of tables with one label in every cell, whose weighted average is that label's peak.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from backend.api.models.law import FuzzyTable
+from backend.errors import RequestRefused
+from spindle.client import Spindle, Unit
+from tests.fakes.server import SpindleServer, eventually
+
+GAIN_FIRST = 0.05
+GAIN_SECOND = 0.25
+
+
+@pytest.fixture
+def unit(server: SpindleServer, device: str) -> Iterator[Unit]:
+    """A standing bike as a program drives it; it gets its configuration back."""
+    unit = Spindle(server.url).unit(device)
+    unit.stand_still()
+    before = unit.config().parameters
+    yield unit
+    unit.stand_still()
+    now = unit.config().parameters
+    changed = {name: before[name] for name in before if before[name] != now[name]}
+    if changed:
+        unit.write(changed, "put back")
+
+
+def flat(table: FuzzyTable, gain: float) -> FuzzyTable:
+    """The table with the same gain everywhere: its least set's."""
+    peaks = [gain, gain + 0.01, gain + 0.02, gain + 0.03, gain + 0.04]
+    return table.model_copy(
+        update={
+            "inference": "weighted_average",
+            "gain_points": peaks,
+            "rules": [["NB"] * 5] * 5,
+            "name": f"flat {gain}",
+        }
+    )
+
+
+def live_gain(unit: Unit, mode: int) -> float | None:
+    """The gain on the road in a mode, once the unit says one."""
+    unit.simulate(
+        brake=False,
+        assist_mode=mode,
+        rider={"kind": "constant", "torque_nm": 20.0, "cadence_rpm_max": 90.0},
+        road={"grade_deg": 0.0, "wind_ms": 0.0},
+    )
+    return eventually(
+        lambda: unit.snapshot().channels,
+        lambda now: now["fuzzy_gain"] is not None and now["assist_mode"] == mode,
+    )["fuzzy_gain"]
+
+
+def test_each_mode_gets_the_gain_of_the_table_it_uses(unit: Unit) -> None:
+    first, second = unit.fuzzy_table(), unit.fuzzy_table("second")
+    unit.write({"mode_tables": [0, 0, 0, 0, 1]}, "boost by the second table")
+
+    change = unit.write_fuzzy_table(flat(second, GAIN_SECOND), "second", "a story")
+    assert unit.fuzzy_table() == first
+    unit.write_fuzzy_table(flat(first, GAIN_FIRST), reason="a story")
+
+    assert change.verified
+    assert {one.name for one in change.changed} == {
+        "second_table_name", "second_gain_points", "second_rules",
+    }  # fmt: skip
+    assert unit.fuzzy_table("second") == flat(second, GAIN_SECOND)
+    assert live_gain(unit, mode=3) == pytest.approx(GAIN_FIRST, abs=0.001)
+    assert live_gain(unit, mode=4) == pytest.approx(GAIN_SECOND, abs=0.001)
+
+
+def test_the_second_table_can_be_tried_and_given_up(unit: Unit) -> None:
+    second = unit.fuzzy_table("second")
+
+    tried = unit.write_fuzzy_table(flat(second, GAIN_SECOND), "second", "try", confirm_s=120)
+    assert tried.state == "provisional"
+    unit.roll_back()
+
+    assert unit.fuzzy_table("second") == second
+
+
+def test_a_change_of_the_second_table_made_for_an_older_configuration_is_refused(
+    server: SpindleServer, device: str, unit: Unit
+) -> None:
+    path, query = f"/devices/{device}/fuzzy-table", {"table": "second"}
+    response = server.client.get(path, params=query)
+    unit.write({"torque_filter_s": 0.4}, "somebody else")
+
+    refused = server.client.put(
+        path,
+        params=query,
+        json=response.json() | {"name": "late"},
+        headers={"if-match": response.headers["etag"]},
+    )
+
+    assert refused.status_code == 412
+    assert unit.fuzzy_table("second").name == response.json()["name"]
+
+
+def test_points_that_both_share_are_refused_by_name_and_nothing_is_written(unit: Unit) -> None:
+    before = unit.config()
+    moved = unit.fuzzy_table("second").model_copy(
+        update={"speed_points_kmh": [5.0, 10.0, 15.0, 20.0, 24.0], "name": "moved"}
+    )
+
+    with pytest.raises(RequestRefused) as refused:
+        unit.write_fuzzy_table(moved, "second")
+
+    assert [fault.field for fault in refused.value.fields] == ["speed_points_kmh"]
+    assert unit.config() == before
+
+
+@pytest.mark.parametrize("method", ["GET", "PUT"])
+def test_a_table_the_unit_does_not_have_is_refused_by_name(
+    server: SpindleServer, device: str, method: str
+) -> None:
+    path = f"/devices/{device}/fuzzy-table"
+    body = server.get(path) if method == "PUT" else None
+
+    response = server.client.request(method, path, params={"table": "third"}, json=body)
+
+    assert response.status_code == 422
+    assert [fault["field"] for fault in response.json()["errors"]] == ["table"]
+
+
+def test_what_the_unit_says_of_its_limits_is_what_the_linter_judges(
+    server: SpindleServer, device: str, unit: Unit
+) -> None:
+    limits = server.get(f"/devices/{device}/limits")
+    assert (limits["market"], limits["effective_assist_cutoff_kmh"]) == ("EU_EPAC", 25.0)
+    assert unit.limits().effective_assist_cutoff_kmh == 25.0
+
+    def codes(market: str) -> set[str]:
+        question: dict[str, Any] = {
+            "fuzzy_table": server.get(f"/devices/{device}/fuzzy-table"),
+            "assist_modes": server.get(f"/devices/{device}/assist-modes"),
+            "limits": limits | {"market": market},
+        }
+        report = server.ask("POST", "/lint", json=question)
+        return {finding["code"] for kind in report.values() for finding in kind}
+
+    told = {"cutoff_above_market", "peak_above_market", "ratio_above_market"}
+    assert told <= codes("JAPAN")
+    assert not told & codes("EU_EPAC")
+
+
+def test_the_market_is_the_maker_s_and_not_changed_with_the_limits(
+    server: SpindleServer, device: str, unit: Unit
+) -> None:
+    limits = server.get(f"/devices/{device}/limits")
+
+    response = server.client.put(f"/devices/{device}/limits", json=limits | {"market": "JAPAN"})
+
+    assert response.status_code == 403
+    assert server.get(f"/devices/{device}/limits") == limits
