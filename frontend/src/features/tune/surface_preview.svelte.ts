@@ -1,8 +1,8 @@
-// The surface and the findings of the table as it is edited, from the unit's own law on the server.
+// The surface and the findings of a table as it is edited, from the unit's own law on the server.
 // The newest table wins: an answer to an older one is dropped.
 import { Refusal } from '$shared/api/client'
 import type { Server } from '$shared/api/server'
-import type { FuzzyTable, LintReport } from '$shared/api/types'
+import type { LintReport, LintRequest } from '$shared/api/types'
 import { spread } from './table'
 
 const POINTS = 41
@@ -22,7 +22,8 @@ export class SurfacePreview {
 
   constructor(private readonly server: Server) {}
 
-  async ask(table: FuzzyTable): Promise<void> {
+  async ask(question: LintRequest): Promise<void> {
+    const table = question.fuzzy_table
     this.asked.abort()
     this.asked = new AbortController()
     const { signal } = this.asked
@@ -32,7 +33,7 @@ export class SurfacePreview {
     try {
       const [surface, lint] = await Promise.all([
         this.server.surface(table, speeds_kmh, torque_rates, signal),
-        this.server.lint(table, signal),
+        this.server.lint(question, signal),
       ])
       if (signal.aborted) return
       this.drawn = { speeds_kmh, torque_rates, gain: surface.gain, engine: surface.engine }

@@ -1,26 +1,23 @@
-// The fuzzy table: between the unit's parameters and what the server's law takes; grids to text.
+// A fuzzy table: between the unit's parameters and what the server's law takes; grids to text.
 import type { ConfigDraft } from '$shared/api/config_draft.svelte'
-import { faultsOf } from '$shared/api/limits'
 import type { FuzzyTable, RuleLabel } from '$shared/api/types'
 import { LABELS } from '$shared/ui/parameter_text'
+import { impossible, PARAMETERS_OF, type TableName } from './two_tables'
 
 export type Rules = RuleLabel[][]
 
-/** The draft's table, or null while a value of it is impossible. */
-export function tableOf(draft: ConfigDraft): FuzzyTable | null {
-  const impossible = draft.group('fuzzy').some((parameter) => {
-    const value = draft.value(parameter.name)
-    return value === undefined || faultsOf(parameter, value).length > 0
-  })
-  if (impossible || !draft.loaded) return null
-  const inference = String(draft.value('fuzzy_inference')).toLowerCase()
+/** One of the draft's tables, or null while a value of it is impossible. */
+export function tableOf(draft: ConfigDraft, which: TableName): FuzzyTable | null {
+  const names = PARAMETERS_OF[which]
+  if (!draft.loaded || impossible(draft, Object.values(names))) return null
+  const inference = String(draft.value(names.inference)).toLowerCase()
   return {
-    name: String(draft.value('fuzzy_table_name')),
+    name: String(draft.value(names.name)),
     inference: inference as FuzzyTable['inference'],
-    speed_points_kmh: draft.value('fuzzy_speed_points_kmh') as number[],
-    torque_rate_points: draft.value('fuzzy_torque_rate_points') as number[],
-    gain_points: draft.value('fuzzy_gain_points') as number[],
-    rules: draft.value('fuzzy_rules') as Rules,
+    speed_points_kmh: draft.value(names.speeds) as number[],
+    torque_rate_points: draft.value(names.rates) as number[],
+    gain_points: draft.value(names.gains) as number[],
+    rules: draft.value(names.rules) as Rules,
   }
 }
 

@@ -79,22 +79,28 @@ export class ConfigDraft {
     return this.future.length > 0
   }
 
-  undo(): void {
+  /** Takes the last edit back; the names of what moved. */
+  undo(): string[] {
     const previous = this.past[this.past.length - 1]
-    if (!previous) return
+    if (!previous) return []
+    const names = differingNames(this.edits, previous)
     this.future = [...this.future, this.edits]
     this.past = this.past.slice(0, -1)
     this.edits = previous
     this.gesture = null
+    return names
   }
 
-  redo(): void {
+  /** Makes the edit again that was taken back; the names of what moved. */
+  redo(): string[] {
     const next = this.future[this.future.length - 1]
-    if (!next) return
+    if (!next) return []
+    const names = differingNames(this.edits, next)
     this.past = [...this.past, this.edits]
     this.future = this.future.slice(0, -1)
     this.edits = next
     this.gesture = null
+    return names
   }
 
   /** Drops every edit; undo brings them back. */
@@ -179,6 +185,10 @@ export class Drafts {
     const key = `${device_id}\n${page}`
     return (this.byKey[key] ??= new ConfigDraft(device_id, this.server))
   }
+}
+
+function differingNames(a: Edits, b: Edits): string[] {
+  return Object.keys({ ...a, ...b }).filter((name) => !same(a[name], b[name]))
 }
 
 function differing(a: ParameterValue, b: ParameterValue): number {

@@ -8,7 +8,9 @@ import type {
   Device,
   Fault,
   FuzzyTable,
+  Limits,
   LintReport,
+  LintRequest,
   LogDownload,
   Parameter,
   ParameterValue,
@@ -93,6 +95,11 @@ export class Server {
     return body(this.http.POST('/api/v1/devices/{device_id}/config/rollback', this.unit(id)))
   }
 
+  /** What the unit enforces, its market included, and where assist ends because of it. */
+  limits(id: string): Promise<Limits> {
+    return body(this.http.GET('/api/v1/devices/{device_id}/limits', this.unit(id)))
+  }
+
   async revisions(id: string): Promise<Revision[]> {
     return (
       await body(this.http.GET('/api/v1/devices/{device_id}/config/revisions', this.unit(id)))
@@ -157,8 +164,8 @@ export class Server {
     return body(this.http.POST('/api/v1/surface', request))
   }
 
-  lint(fuzzy_table: FuzzyTable, signal: AbortSignal): Promise<LintReport> {
-    return body(this.http.POST('/api/v1/lint', { body: { fuzzy_table }, signal }))
+  lint(question: LintRequest, signal: AbortSignal): Promise<LintReport> {
+    return body(this.http.POST('/api/v1/lint', { body: question, signal }))
   }
 
   async rides(cursor?: string): Promise<{ items: Ride[]; next: string | null }> {

@@ -4,7 +4,8 @@ import { zh } from './zh'
 import { zhCodes, type Saying } from './zh_codes'
 
 export type Language = 'en' | 'zh'
-export type Words = (key: Key, values?: Record<string, string | number>) => string
+export type Values = Record<string, string | number>
+export type Words = (key: Key, values?: Values) => string
 const dictionaries: Record<Language, Record<Key, string>> = { en, zh }
 const tags: Record<Language, string> = { en: 'en-GB', zh: 'zh-CN' }
 
@@ -24,10 +25,11 @@ export class Locale {
     return words[key] ?? fallback
   }
 
-  /** What the server says in English and with a code: translated by its code where it is known. */
-  said(kind: Saying, code: string, english: string): string {
+  /** What the server says in English and with a code: translated by its code where it is known.
+      `{name}` in the translation is replaced by `values.name`. */
+  said(kind: Saying, code: string, english: string, values?: Values): string {
     if (this.language === 'en') return english
-    return (zhCodes[kind] as Record<string, string>)[code] ?? english
+    return fill((zhCodes[kind] as Record<string, string>)[code] ?? english, values)
   }
 
   /** A number with a fixed count of decimals; "—" for a missing one. */
@@ -66,6 +68,6 @@ export function clock(seconds: number): string {
   return h > 0 ? `${h}:${String(m).padStart(2, '0')}:${tail}` : `${m}:${tail}`
 }
 
-function fill(words: string, values: Record<string, string | number> = {}): string {
+function fill(words: string, values: Values = {}): string {
   return words.replace(/\{(\w+)\}/g, (whole, name: string) => String(values[name] ?? whole))
 }

@@ -37,6 +37,16 @@ it('calls no share whole that is not', () => {
   expect([locale.share(0.99995), locale.share(1)]).toEqual(['99.9', '100.0'])
 })
 
+it("tells the server's findings in Chinese with the numbers of the English", () => {
+  const values = { market: '日本', speed_kmh: 24 }
+  const said = (language: 'en' | 'zh') =>
+    new Locale(language).said('lint', 'cutoff_above_market', 'as the server says it', values)
+
+  expect(said('en')).toBe('as the server says it')
+  expect(said('zh')).toContain('（日本）')
+  expect(said('zh')).toContain('24 km/h')
+})
+
 it('writes durations as a clock', () => {
   expect([clock(59), clock(3600), clock(7325)]).toEqual(['0:59', '1:00:00', '2:02:05'])
 })

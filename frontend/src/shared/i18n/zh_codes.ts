@@ -13,7 +13,16 @@ const lint = {
   centroid_ripple: '各点之间曲面略有起伏，这是最小、最大与重心法的特性；加权平均没有此现象',
   equal_neighbours: '相邻两行或两列完全相同',
   row_not_reached: '该速度行仅在截止速度以上起作用',
-  table_not_used: '没有带助力比的模式使用模糊律：规则表不起任何作用',
+  table_not_used: '没有带助力比的模糊模式使用此规则表：它不起任何作用',
+  ratio_does_not_fall: '助力比不随车速下降，而日本法规要求下降',
+  cutoff_above_market:
+    '设定的截止速度高于市场（{market}）所允许：无论如何设定，助力都在 {speed_kmh} km/h 截止',
+  ratio_above_market:
+    '模式 {mode}：从 {speed_kmh} km/h 起，所需助力比超过市场（{market}）的法定上限；单元只提供允许的部分',
+  row_above_market:
+    '速度行 {label} 只在 {speed_kmh} km/h 以上起作用，而市场（{market}）在此速度以上不允许助力：这些规则没有效果',
+  peak_above_market:
+    '速度行 {label} 的峰点高于 {speed_kmh} km/h，而市场（{market}）在此速度以上不允许助力：高于它的部分没有效果',
 }
 
 const violation = {
@@ -27,6 +36,7 @@ const violation = {
   token_needed: '调高此限值需要制造商的令牌',
   access_denied: '只有制造商可以修改',
   not_accepted: '不接受此值',
+  shared: '两个规则表共用，请在第一规则表中修改',
 }
 
 const refusal = {
@@ -73,6 +83,7 @@ const refusal = {
   too_many_samples: '数据行过多，无法重放。',
   replay_refused: '此配置无法重放。',
   missing_channel: '此骑行缺少重放所需的通道。',
+  shared_points: '速度和扭矩变化率的峰点由两个规则表共用，请在第一规则表中修改。',
   invalid_assist_modes: '助力模式的数值相互矛盾。',
   recording: '骑行正在记录，结束后再试。',
   not_confirmed: '此骑行尚未下载并确认，不能从单元删除。',

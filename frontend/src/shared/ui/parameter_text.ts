@@ -69,7 +69,8 @@ export function elementLabel(
   const speeds = draft.value('fuzzy_speed_points_kmh') as number[]
   const rates = draft.value('fuzzy_torque_rate_points') as number[]
   const speed = `${typed(units.show(speeds[row] ?? NaN, 'km/h'))} ${units.label('km/h')}`
-  return locale.t('review.rule', { speed, rate: typed(rates[column] ?? NaN) })
+  const rule = parameter.name === 'second_rules' ? 'review.second_rule' : 'review.rule'
+  return locale.t(rule, { speed, rate: typed(rates[column] ?? NaN) })
 }
 
 /** Every element that differs, with its bounds and what is wrong with it. */
