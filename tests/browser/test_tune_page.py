@@ -100,7 +100,7 @@ def test_what_the_unit_refuses_is_named_and_the_edit_stays(
     page.click(WRITE)
 
     refusal = page.locator("dialog [role=alert]")
-    expect(refusal).to_contain_text("The unit refuses")
+    expect(refusal).to_contain_text("Nothing was written")
     expect(refusal).to_contain_text("Fixed law: taper")
     desk.picture("tune-refused")
     assert server.get(f"/devices/{standing}/config") == before
