@@ -67,7 +67,7 @@ def get(options: Namespace) -> int:
     """Parameters of a unit, all or the named ones."""
     server = server_of(options)
     unit, names = unit_and_words(server, options.words)
-    config = server.ask("GET", f"/devices/{unit}/config")
+    config = server.ask("GET", f"/devices/{unit}/config", params={"bank": options.bank})
     known = config["parameters"]
     if unknown := [name for name in names if name not in known]:
         raise RequestRefused(f"The unit has no parameter {', '.join(unknown)}.")
@@ -88,11 +88,12 @@ def set_parameters(options: Namespace) -> int:
 
 
 def backup(options: Namespace) -> int:
-    """The configuration of a unit as a JSON file that `restore` and `diff` read."""
+    """A configuration of a unit as a JSON file that `restore` and `diff` read."""
     server = server_of(options)
     unit = server.device_id(options.unit)
     device = server.ask("GET", f"/devices/{unit}")
-    saved = {"identity": device["identity"], **server.ask("GET", f"/devices/{unit}/config")}
+    config = server.ask("GET", f"/devices/{unit}/config", params={"bank": options.bank})
+    saved = {"identity": device["identity"], **config}
     if options.output is None:
         print_json(saved)
         return 0

@@ -56,6 +56,13 @@ def _group(verbs: Any, name: str, words: str) -> Any:
     return verbs.add_parser(name, help=words).add_subparsers(metavar="VERB", required=True)
 
 
+def _add_bank(command: argparse.ArgumentParser) -> None:
+    words = "which of the unit's: in force (active), before (previous), as made (default)"
+    command.add_argument(
+        "--bank", choices=["active", "previous", "default"], default="active", help=words
+    )
+
+
 def _add_device(verbs: Any) -> None:
     group = _group(
         verbs, "device", "units: list, show, get, set, backup, restore, diff, try, service, logs"
@@ -68,6 +75,7 @@ def _add_device(verbs: Any) -> None:
     command.add_argument("unit", nargs="?", help=unit)
     command = _asking(group, "get", device.get, help="parameters, all or the named ones")
     command.add_argument("words", nargs="*", metavar="[UNIT] NAME", help=unit)
+    _add_bank(command)
     command = _asking(group, "set", device.set_parameters, help="change parameters, all or none")
     command.add_argument("words", nargs="+", metavar="[UNIT] NAME=VALUE", help=unit)
     command.add_argument("--reason", default="", help="why; kept with the revision")
@@ -75,6 +83,7 @@ def _add_device(verbs: Any) -> None:
     command = _asking(group, "backup", device.backup, help="the configuration as a JSON file")
     command.add_argument("unit", nargs="?", help=unit)
     command.add_argument("--output", "-o", type=Path, help="a file; standard output if absent")
+    _add_bank(command)
     command = _asking(group, "restore", device.restore, help="write a backup's values back")
     command.add_argument("file", type=Path)
     command.add_argument("unit", nargs="?", help=unit)

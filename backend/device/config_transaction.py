@@ -29,6 +29,7 @@ from backend.errors import (
     LimitViolation,
     LinkError,
     NoAnswer,
+    NotFound,
     NotStandingStill,
     PeerProtocolError,
     SpindleError,
@@ -98,23 +99,55 @@ def read_config(mtu: int = MTU) -> Operation[ConfigImage]:
                 f"The unit's configuration has {info.image_length} bytes where its description "
                 f"says {IMAGE_LENGTH}; its firmware is damaged."
             )
-        piece = mtu - MESSAGE_OVERHEAD_BYTES
-        requests = [
-            CfgReadRequest(Bank.ACTIVE, at, min(piece, IMAGE_LENGTH - at))
-            for at in range(0, IMAGE_LENGTH, piece)
-        ]
-        parts = yield from ask_all(requests, CfgReadResponse)
-        image = b"".join(part.data for part in parts)
-        if any(len(part.data) < asked.length for asked, part in zip(requests, parts, strict=True)):
+        generation, image = yield from _read_image(Bank.ACTIVE, mtu)
+        if image is not None and (generation, zlib.crc32(image)) == (info.generation, info.crc32):
+            return ConfigImage(info.generation, info.crc32, unpack_image(image))
+        if image is None:
             # A unit that restarted since HELLO answers in short frames until it is greeted.
             mtu = MTU_BEFORE_HELLO
-        same = all(part.generation == info.generation for part in parts)
-        if same and len(image) == IMAGE_LENGTH and zlib.crc32(image) == info.crc32:
-            return ConfigImage(info.generation, info.crc32, unpack_image(image))
     raise PeerProtocolError(
         "The configuration the unit sends does not have the checksum it names, "
         f"{READ_ATTEMPTS} times over. Read it again; if it stays so, the unit is defective."
     )
+
+
+def read_bank(name: str, mtu: int = MTU) -> Operation[ConfigImage]:
+    """Read another bank whole, `previous` or `default`; the default has generation 0.
+
+    Raises NotFound for a unit that has had no other configuration, PeerProtocolError.
+    """
+    bank = Bank[name.upper()]
+    for _ in range(READ_ATTEMPTS):
+        try:
+            generation, image = yield from _read_image(bank, mtu)
+        except DeviceRefused as error:
+            if error.status != Status.NOT_FOUND.name:
+                raise
+            raise NotFound(
+                f"The unit has no {name} configuration: nothing else was ever "
+                "committed in it, or its flash does not hold it any more."
+            ) from None
+        if image is not None:
+            return ConfigImage(generation, zlib.crc32(image), unpack_image(image))
+        mtu = MTU_BEFORE_HELLO
+    raise PeerProtocolError(
+        f"The unit's {name} configuration changed while it was read, {READ_ATTEMPTS} "
+        "times over. Read it again."
+    )
+
+
+def _read_image(bank: Bank, mtu: int) -> Operation[tuple[int, bytes | None]]:
+    """Generation and image; None where the pieces do not make one of a single generation."""
+    piece = mtu - MESSAGE_OVERHEAD_BYTES
+    requests = [
+        CfgReadRequest(bank, at, min(piece, IMAGE_LENGTH - at))
+        for at in range(0, IMAGE_LENGTH, piece)
+    ]
+    parts = yield from ask_all(requests, CfgReadResponse)
+    image = b"".join(part.data for part in parts)
+    whole = all(len(part.data) == one.length for one, part in zip(requests, parts, strict=True))
+    same = len({part.generation for part in parts}) == 1
+    return parts[0].generation, image if whole and same else None
 
 
 def write_config(

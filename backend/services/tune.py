@@ -19,6 +19,7 @@ from backend.device.config_transaction import (
     CommitUnanswered,
     ConfigImage,
     compare,
+    read_bank,
     read_config,
     write_config,
 )
@@ -82,6 +83,7 @@ KEPT_REASON = "Kept after its trial."
 KEPT = "verified"
 TRIED = "provisional"
 CONFIRM_S_MAX = 255
+ACTIVE = "active"
 
 
 class Tuning:
@@ -112,9 +114,16 @@ class Tuning:
             for row in PARAMETER_ROWS
         ]
 
-    def read_config(self, device_id: str) -> ConfigView:
-        """The whole configuration, read from the unit. Raises NotFound, NoAnswer."""
-        config = self._read(device_id)
+    def read_config(self, device_id: str, bank: str = ACTIVE) -> ConfigView:
+        """A whole configuration of the unit: `active`, `previous` or `default`.
+
+        Raises NotFound, also where the unit never had a previous one, and NoAnswer.
+        """
+        if bank == ACTIVE:
+            config = self._read(device_id)
+        else:
+            mtu = self._devices.writable(device_id).mtu
+            config = self._devices.run(device_id, read_bank(bank, mtu))
         return ConfigView(config.generation, config.crc32, config.parameters)
 
     def revisions(self, device_id: str) -> Sequence[Revision]:
@@ -234,13 +243,15 @@ class Tuning:
         if_match: str | None,
         confirm_s: int = 0,
         which: str = "first",
+        token: str | None = None,
     ) -> ConfigChange:
         """Write a whole rule table in one transaction.
 
         The second shares the points of speed and torque rate with the first: other ones are
         refused, so that nobody changes the first table without looking at it.
         """
-        return self._put_part(device_id, FUZZY_TABLES[which], value, reason, if_match, confirm_s)
+        part = FUZZY_TABLES[which]
+        return self._put_part(device_id, part, value, reason, if_match, confirm_s, token)
 
     def assist_modes(self, device_id: str) -> TypedView:
         """The five slots of the rider's switch."""
@@ -253,9 +264,10 @@ class Tuning:
         reason: str,
         if_match: str | None,
         confirm_s: int = 0,
+        token: str | None = None,
     ) -> ConfigChange:
         """Write all five slots in one transaction."""
-        return self._put_part(device_id, ASSIST_MODES, value, reason, if_match, confirm_s)
+        return self._put_part(device_id, ASSIST_MODES, value, reason, if_match, confirm_s, token)
 
     def calibration(self, device_id: str) -> TypedView:
         """How raw counts become newton metres."""
@@ -268,9 +280,10 @@ class Tuning:
         reason: str,
         if_match: str | None,
         confirm_s: int = 0,
+        token: str | None = None,
     ) -> ConfigChange:
         """Write offset, gain and filters in one transaction."""
-        return self._put_part(device_id, CALIBRATION, value, reason, if_match, confirm_s)
+        return self._put_part(device_id, CALIBRATION, value, reason, if_match, confirm_s, token)
 
     def limits(self, device_id: str) -> TypedView:
         """What the unit enforces whatever the table says."""
@@ -283,9 +296,10 @@ class Tuning:
         reason: str,
         if_match: str | None,
         confirm_s: int = 0,
+        token: str | None = None,
     ) -> ConfigChange:
         """Write the limits in one transaction."""
-        return self._put_part(device_id, LIMITS, value, reason, if_match, confirm_s)
+        return self._put_part(device_id, LIMITS, value, reason, if_match, confirm_s, token)
 
     # ------------------------------------------------------------------ inside
 
@@ -301,10 +315,12 @@ class Tuning:
         reason: str,
         if_match: str | None,
         confirm_s: int,
+        token: str | None,
     ) -> ConfigChange:
+        changes = part.changes(value)
         try:
             return self.write_config(
-                device_id, part.changes(value), reason, if_match, confirm_s, kept=part.kept
+                device_id, changes, reason, if_match, confirm_s, token=token, kept=part.kept
             )
         except LimitViolation as error:
             fields = [part.renamed(fault) for fault in error.fields]

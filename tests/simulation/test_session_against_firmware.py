@@ -12,7 +12,12 @@ import numpy as np
 import pytest
 
 from backend.device import handshake
-from backend.device.config_transaction import ConfigImage, read_config, write_config
+from backend.device.config_transaction import (
+    ConfigImage,
+    read_bank,
+    read_config,
+    write_config,
+)
 from backend.device.config_trial import confirm_config, rollback_config, trial_status
 from backend.device.fault_frames import clear_faults, fault_frames
 from backend.device.live_values import ask_values
@@ -27,6 +32,7 @@ from backend.errors import (
     InvalidRequest,
     LimitViolation,
     LinkError,
+    NotFound,
     NotStandingStill,
     PeerProtocolError,
 )
@@ -183,6 +189,18 @@ def test_a_riding_bike_is_not_changed() -> None:
         bench.ask(write_config(base, {"pedal_stop_ms": 200}))
 
     assert bench.ask(read_config()) == base
+
+
+def test_what_was_before_and_what_the_firmware_brings_are_read_whole() -> None:
+    bench, base = connected()
+    with pytest.raises(NotFound, match="no previous configuration"):
+        bench.ask(read_bank("previous"))
+    bench.ask(write_config(base, {"pedal_stop_ms": 250}))
+
+    assert bench.ask(read_bank("previous")) == base
+    # In the short frames of a unit that was not greeted, too.
+    default = bench.ask(read_bank("default", mtu=128))
+    assert (default.generation, default.parameters) == (0, default_config())
 
 
 def test_an_outdated_base_is_refused_by_the_unit() -> None:

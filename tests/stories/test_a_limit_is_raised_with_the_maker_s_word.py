@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -68,3 +69,22 @@ def test_the_api_s_refusal_carries_the_challenge(shop: SpindleServer) -> None:
     assert set(response.json()["challenge"]) == {
         "uid", "nonce", "level", "ttl_s", "expires_us", "image", "image_sha512",
     }  # fmt: skip
+
+
+def test_a_typed_view_takes_the_token_as_well(shop: SpindleServer, tmp_path: Path) -> None:
+    device = shop.get("/devices")["items"][0]["id"]
+    path = f"/devices/{device}/limits"
+    before = shop.get(path)
+    shop.ask("PUT", path, json=before | {"motor_torque_nm_max": 1.0})
+
+    refused = shop.client.put(path, json=before)
+    challenge = tmp_path / "challenge.json"
+    challenge.write_text(json.dumps(refused.json()["challenge"]))
+    signed = spindle("unlock", "sign", tmp_path / "maker.pem", challenge)
+    raised = shop.client.put(path, json=before, params={"token": signed.stdout.strip()})
+    no_token = shop.client.put(path, json=before, params={"token": "open sesame"})
+
+    assert (refused.status_code, refused.json()["code"]) == (403, "token_needed")
+    assert raised.status_code == 200, raised.text
+    assert shop.get(path) == before
+    assert no_token.status_code == 422

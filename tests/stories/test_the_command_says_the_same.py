@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from firmware_protocol.parameters import default_config
 from tests.fakes.fit_file import fit_ride
 from tests.fakes.server import SpindleServer
 
@@ -48,10 +49,14 @@ def test_a_parameter_is_set_backed_up_compared_and_restored(
     differing = spindle(server, "device", "diff", kept, "--json")
     restore = spindle(server, "device", "restore", kept)
     value = spindle(server, "device", "get", "torque_filter_s", "--json")
+    before = spindle(server, "device", "get", "torque_filter_s", "--bank", "previous", "--json")
+    made = spindle(server, "device", "backup", "--bank", "default")
 
     assert backup.returncode == change.returncode == restore.returncode == 0, change.stderr
     assert [item["name"] for item in json.loads(differing.stdout)["changed"]] == ["torque_filter_s"]
     assert json.loads(value.stdout)["parameters"]["torque_filter_s"] == pytest.approx(0.5)
+    assert json.loads(before.stdout)["parameters"]["torque_filter_s"] == pytest.approx(0.7)
+    assert json.loads(made.stdout)["parameters"] == default_config()
 
 
 def test_a_refused_value_is_named_and_ends_with_one(server: SpindleServer, device: str) -> None:

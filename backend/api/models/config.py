@@ -16,6 +16,8 @@ Row = Annotated[list[Scalar], Field(max_length=64)]
 ParameterValue = Scalar | Row | Annotated[list[Row], Field(max_length=64)]
 Parameters = dict[str, ParameterValue]
 CONFIRM_S_MAX = 255
+TOKEN_PATTERN = "^[0-9a-fA-F]{144}$"
+TOKEN = "The maker's answer to the `challenge` of a refusal `token_needed`."
 CONFIRM_S = (
     "0 commits for good; else the unit returns to what it had after so many seconds, at a restart "
     "or power loss, unless `POST .../config/confirm` comes first."
@@ -60,8 +62,8 @@ class ConfigPatch(Question):
     confirm_s: int = Field(default=0, ge=0, le=CONFIRM_S_MAX, description=CONFIRM_S)
     token: str | None = Field(
         default=None,
-        pattern="^[0-9a-fA-F]{144}$",
-        description="The maker's answer to the `challenge` of a refusal `token_needed`.",
+        pattern=TOKEN_PATTERN,
+        description=TOKEN,
     )
 
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, cast
+from typing import Annotated, Any, Literal, cast
 
 from fastapi import APIRouter, Header, Query, Response
 
 from backend.api.models.config import (
     CONFIRM_S,
     CONFIRM_S_MAX,
+    TOKEN,
+    TOKEN_PATTERN,
     Config,
     ConfigChange,
     ConfigPatch,
@@ -39,6 +41,11 @@ WhichTable = Annotated[
     Query(description="Which of the unit's two tables; a mode names the one it uses so, too."),
 ]
 ConfirmS = Annotated[int, Query(ge=0, le=CONFIRM_S_MAX, description=CONFIRM_S)]
+Token = Annotated[str | None, Query(pattern=TOKEN_PATTERN, description=TOKEN)]
+Bank = Annotated[
+    Literal["active", "previous", "default"],
+    Query(description="Of the unit: what is in force, what was before, what its firmware brings."),
+]
 
 
 @router.get("/parameters", operation_id="list_parameters", response_model=ParameterList)
@@ -48,10 +55,13 @@ def list_parameters(device_id: str, services: Provided) -> dict[str, Any]:
 
 
 @router.get("/config", operation_id="get_config", response_model=Config)
-def get_config(device_id: str, services: Provided, response: Response) -> Any:
-    """The whole configuration, read from the unit."""
-    config = services.tuning.read_config(device_id)
-    response.headers["etag"] = etag(config.generation, config.crc32)
+def get_config(
+    device_id: str, services: Provided, response: Response, bank: Bank = "active"
+) -> Any:
+    """The whole configuration, read from the unit; 404 where it never had a previous one."""
+    config = services.tuning.read_config(device_id, bank)
+    if bank == "active":
+        response.headers["etag"] = etag(config.generation, config.crc32)
     return config
 
 
@@ -130,13 +140,14 @@ def put_fuzzy_table(
     reason: Reason = "",
     confirm_s: ConfirmS = 0,
     table: WhichTable = "first",
+    token: Token = None,
 ) -> Any:
     """Writes a whole table in one transaction.
 
     Both tables share the points of speed and torque rate: those of the second are not changed here.
     """
     write = services.tuning.put_fuzzy_table
-    change = write(device_id, body.model_dump(), reason, if_match, confirm_s, table)
+    change = write(device_id, body.model_dump(), reason, if_match, confirm_s, table, token)
     return _stamped(change, response)
 
 
@@ -155,10 +166,12 @@ def put_assist_modes(
     if_match: IfMatch = None,
     reason: Reason = "",
     confirm_s: ConfirmS = 0,
+    token: Token = None,
 ) -> Any:
     """Writes all five slots in one transaction."""
     write = services.tuning.put_assist_modes
-    return _stamped(write(device_id, body.model_dump(), reason, if_match, confirm_s), response)
+    value = body.model_dump()
+    return _stamped(write(device_id, value, reason, if_match, confirm_s, token), response)
 
 
 @router.get("/calibration", operation_id="get_calibration", response_model=Calibration)
@@ -176,10 +189,12 @@ def put_calibration(
     if_match: IfMatch = None,
     reason: Reason = "",
     confirm_s: ConfirmS = 0,
+    token: Token = None,
 ) -> Any:
     """Writes offset, gain and filters in one transaction."""
     write = services.tuning.put_calibration
-    return _stamped(write(device_id, body.model_dump(), reason, if_match, confirm_s), response)
+    value = body.model_dump()
+    return _stamped(write(device_id, value, reason, if_match, confirm_s, token), response)
 
 
 @router.get("/limits", operation_id="get_limits", response_model=Limits)
@@ -197,11 +212,12 @@ def put_limits(
     if_match: IfMatch = None,
     reason: Reason = "",
     confirm_s: ConfirmS = 0,
+    token: Token = None,
 ) -> Any:
     """Writes the limits in one transaction; the unit refuses what its market forbids."""
     write = services.tuning.put_limits
-    limits = body.model_dump(exclude_none=True)
-    return _stamped(write(device_id, limits, reason, if_match, confirm_s), response)
+    value = body.model_dump(exclude_none=True)
+    return _stamped(write(device_id, value, reason, if_match, confirm_s, token), response)
 
 
 def _tagged(view: Any, response: Response) -> Any:

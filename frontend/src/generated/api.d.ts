@@ -346,7 +346,7 @@ export interface paths {
         };
         /**
          * Get Config
-         * @description The whole configuration, read from the unit.
+         * @description The whole configuration, read from the unit; 404 where it never had a previous one.
          */
         get: operations["get_config"];
         put?: never;
@@ -3602,7 +3602,10 @@ export interface operations {
     };
     get_config: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description Of the unit: what is in force, what was before, what its firmware brings. */
+                bank?: "active" | "previous" | "default";
+            };
             header?: never;
             path: {
                 device_id: string;
@@ -4406,6 +4409,8 @@ export interface operations {
                 confirm_s?: number;
                 /** @description Which of the unit's two tables; a mode names the one it uses so, too. */
                 table?: "first" | "second";
+                /** @description The maker's answer to the `challenge` of a refusal `token_needed`. */
+                token?: string | null;
             };
             header?: {
                 /** @description The ETag of the configuration the change was made for. */
@@ -4597,6 +4602,8 @@ export interface operations {
                 reason?: string;
                 /** @description 0 commits for good; else the unit returns to what it had after so many seconds, at a restart or power loss, unless `POST .../config/confirm` comes first. */
                 confirm_s?: number;
+                /** @description The maker's answer to the `challenge` of a refusal `token_needed`. */
+                token?: string | null;
             };
             header?: {
                 /** @description The ETag of the configuration the change was made for. */
@@ -4788,6 +4795,8 @@ export interface operations {
                 reason?: string;
                 /** @description 0 commits for good; else the unit returns to what it had after so many seconds, at a restart or power loss, unless `POST .../config/confirm` comes first. */
                 confirm_s?: number;
+                /** @description The maker's answer to the `challenge` of a refusal `token_needed`. */
+                token?: string | null;
             };
             header?: {
                 /** @description The ETag of the configuration the change was made for. */
@@ -4979,6 +4988,8 @@ export interface operations {
                 reason?: string;
                 /** @description 0 commits for good; else the unit returns to what it had after so many seconds, at a restart or power loss, unless `POST .../config/confirm` comes first. */
                 confirm_s?: number;
+                /** @description The maker's answer to the `challenge` of a refusal `token_needed`. */
+                token?: string | null;
             };
             header?: {
                 /** @description The ETag of the configuration the change was made for. */
