@@ -12,6 +12,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+from sim_device.bike_ranges import read_bike_value
 from sim_device.firmware.python.unit import default_bike
 from sim_device.scenario_lines import Source
 from sim_device.scenario_phase import Phase, ScenarioError, Setting, Value, read_phase_value
@@ -56,6 +57,8 @@ class ScenarioFile:
 _SCENARIO_KEYS = {"doc", "seed", "settings", "phases", "repeat", "speed_kmh", "bike", "states"}
 _SETTING_KEYS = {field.name for field in fields(Setting)}
 _RIG = {"rig.pan_nm", "rig.scatter_nm"}
+_RIG_NM = Setting(0.0, min=-100.0, max=100.0)
+_SEED = Setting(0, min=0, max=2**63 - 1)
 
 
 def parse(name: str, text: str) -> ScenarioFile:
@@ -66,14 +69,15 @@ def parse(name: str, text: str) -> ScenarioFile:
     except tomllib.TOMLDecodeError as error:
         raise ScenarioError(f"scenario {name}: {error}") from error
     _refuse_unknown(source, "", table, _SCENARIO_KEYS)
-    if not isinstance(table.get("doc"), str) or not isinstance(table.get("seed"), int):
-        raise ScenarioError(f"scenario {name}: needs a text `doc` and a whole number `seed`")
+    if not isinstance(table.get("doc"), str) or "seed" not in table:
+        at = source.at("", "doc")
+        raise ScenarioError(f"{at}: needs a text `doc` and a whole number `seed`")
     known = set(default_bike())
     bike = _numbers(source, "bike", _tables(source, table, "bike"), known)
     return ScenarioFile(
         name=name,
         doc=table["doc"],
-        seed=table["seed"],
+        seed=int(_SEED.read(f"{source.at('', 'seed')}: seed", table["seed"])),
         settings=_settings(source, _tables(source, table, "settings")),
         phases=_phases(source, table.get("phases", []), bike),
         repeat=_flag(source, table, "repeat"),
@@ -112,8 +116,14 @@ def _numbers(source: Source, table: str, parts: dict[str, Any], known: set[str])
                 near = ", ".join(sorted(name for name in known if name.startswith(f"{part}.")))
                 parts_known = ", ".join(sorted({name.split(".")[0] for name in known}))
                 raise ScenarioError(f"{where} is not known; there are: {near or parts_known}")
-            numbers[f"{part}.{key}"] = float(Setting(0.0).read(where, value))
+            numbers[f"{part}.{key}"] = _number(where, f"{part}.{key}", value)
     return numbers
+
+
+def _number(where: str, name: str, given: object) -> float:
+    if name in _RIG:
+        return float(_RIG_NM.read(where, given))
+    return read_bike_value(where, name, given)
 
 
 def _start_speed_kmh(source: Source, given: object) -> float | None:
@@ -137,9 +147,18 @@ def _settings(source: Source, table: dict[str, dict[str, Any]]) -> dict[str, Set
         at = f"settings.{name}"
         where = f"{source.at(at)}, setting {name}"
         _refuse_unknown(source, at, entry, _SETTING_KEYS)
-        if not isinstance(entry.get("default"), float | int | str):
-            raise ScenarioError(f"{where}: needs a default")
-        setting = Setting(**{**entry, "choices": tuple(entry.get("choices", ()))})
+        default = entry.get("default")
+        if not isinstance(default, float | int | str) or isinstance(default, bool):
+            raise ScenarioError(f"{where}: needs a default, a number or a text")
+        choices = entry.get("choices", [])
+        if not isinstance(choices, list):
+            raise ScenarioError(f"{source.at(at, 'choices')}, setting {name}: choices are a list")
+        bounds: dict[str, Value] = {
+            key: Setting(0.0).read(f"{source.at(at, key)}, setting {name}: {key}", entry[key])
+            for key in ("min", "max")
+            if key in entry
+        }
+        setting = Setting(**{**entry, **bounds, "choices": tuple(choices)})
         setting.read(f"{where}: default", setting.default)
         settings[name] = setting
     return settings

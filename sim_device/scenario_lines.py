@@ -3,7 +3,8 @@
 import re
 
 _HEADER = re.compile(r"^\s*(\[\[?)\s*([^\]]+?)\s*\]\]?")
-_ENTRY = re.compile(r"^\s*([A-Za-z0-9_-]+)\s*=")
+_ENTRY = re.compile(r"""^\s*([A-Za-z0-9_."'-]+)\s*=""")
+_QUOTES = str.maketrans("", "", "\"'")
 
 
 class Source:
@@ -23,10 +24,13 @@ class Source:
                     table = f"{table} {seen[table]}"
                 self._lines.setdefault((table, ""), number)
             elif entry is not None:
-                self._lines.setdefault((table, entry.group(1)), number)
+                *inner, key = entry.group(1).translate(_QUOTES).split(".")
+                at = ".".join([*([table] if table else []), *inner])
+                self._lines.setdefault((at, key), number)
 
     def at(self, table: str = "", key: str = "") -> str:
-        """`scenario NAME, line N` of this entry, or of its table; without a line if neither is
-        written in the plain form."""
-        number = self._lines.get((table, key)) or self._lines.get((table, ""))
+        """`scenario NAME, line N` of this entry, of its table, or of where an inline one begins."""
+        written_inline = ("", table.split(" ")[0].split(".")[0])
+        places = ((table, key), (table, ""), written_inline)
+        number = next((self._lines[place] for place in places if place in self._lines), None)
         return f"scenario {self._name}" + (f", line {number}" if number else "")

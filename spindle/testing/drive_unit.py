@@ -21,6 +21,7 @@ from backend.device.session import Session
 from backend.device.states import LinkState
 from backend.device.stream import StreamBlock, StreamPlan
 from backend.errors import NoAnswer
+from sim_device.bike_ranges import read_bike
 from sim_device.lockstep import LockstepUnit
 from spindle.client import STANDSTILL_WITHIN_S, rests
 
@@ -49,7 +50,7 @@ class DriveUnit:
         bike: Mapping[str, float] | None = None,
     ) -> None:
         self._seed = seed
-        self._bike = dict(bike or {})
+        self._bike = read_bike(bike or {})
         self.unit = LockstepUnit(
             seed, dict(config or {}), name="bench", scenario=scenario, bike=self._bike
         )

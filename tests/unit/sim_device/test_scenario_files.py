@@ -1,9 +1,12 @@
 """Goal: a scenario that is wrong says what, where and what would be right; nothing is guessed."""
 
+import math
 from pathlib import Path
 
 import pytest
 
+from sim_device.bike_ranges import BIKE_VALUES, read_bike
+from sim_device.firmware.python.unit import default_bike
 from sim_device.lockstep import LockstepUnit
 from sim_device.scenario import list_scenarios, run
 from sim_device.scenario_file import ScenarioError, load, load_live, names, parse
@@ -70,6 +73,18 @@ def test_a_phase_keeps_what_the_one_before_did() -> None:
     [
         ("doc = ", "scenario ride: "),
         ("seed = 1", "needs a text `doc` and a whole number `seed`"),
+        ('doc = "A ride."\nseed = true', "line 2: seed is True, not a whole number"),
+        ('doc = "A ride."\nseed = -1', "line 2: seed is -1; it lies from 0"),
+        (HEAD + "'speed_kmh' = 900", "line 3: speed_kmh is 900"),
+        (HEAD + "phases = [{seconds = 0}]", "line 3, phase 1: seconds is 0"),
+        (HEAD + "bike.road.mass_kg = 0", "line 3, bike.road.mass_kg is 0; it lies from 1.0"),
+        (HEAD + "[bike.road]\nmass_kg = nan", "line 4, bike.road.mass_kg is nan"),
+        (HEAD + "[bike.sensor]\nnoise_nm = inf", "line 4, bike.sensor.noise_nm is inf"),
+        (HEAD + "[bike.motor]\nmodel = 5", "line 4, bike.motor.model is 5; it can be: 0.0, 1.0"),
+        (HEAD + "[states.old.rig]\npan_nm = 900", "line 4, states.old.rig.pan_nm is 900"),
+        (HEAD + "[settings.mass_kg]\ndefault=true", "line 3, setting mass_kg: needs a default"),
+        (HEAD + "[settings.mass_kg]\ndefault=1\nchoices=3", "line 5, setting mass_kg: choices are"),
+        (HEAD + "[settings.mass_kg]\ndefault=1\nmin='x'", "line 5, setting mass_kg: min is 'x'"),
         (HEAD + "colour = 1", "scenario ride, line 3: unknown colour; there are: "),
         (HEAD + "speed_kmh = 900", "speed_kmh is 900"),
         (HEAD + "[bike.road]\nmass_kg='much'", "bike.road.mass_kg is 'much', not a number"),
@@ -105,6 +120,25 @@ def test_a_phase_keeps_what_the_one_before_did() -> None:
 def test_a_wrong_file_is_refused_with_the_place(text: str, complaint: str) -> None:
     with pytest.raises(ScenarioError, match=complaint):
         parse("ride", text)
+
+
+def test_every_value_of_the_bike_has_its_range_and_the_pinned_bike_lies_inside() -> None:
+    pinned = default_bike()
+
+    assert set(BIKE_VALUES) == set(pinned)
+    assert read_bike(pinned) == pinned
+
+
+@pytest.mark.parametrize("end", ["min", "max"])
+def test_a_bike_at_the_end_of_any_range_still_moves_in_numbers(end: str) -> None:
+    for name, setting in BIKE_VALUES.items():
+        if setting.choices:
+            continue
+        unit = LockstepUnit(bike={name: float(getattr(setting, end))})
+        unit.select_mode(3)
+        unit.rider("legs", 40.0)
+        unit.advance(0.5)
+        assert math.isfinite(unit.observe()["speed_kmh"]), name
 
 
 def test_the_commute_rests_long_enough_for_a_ride_to_end() -> None:

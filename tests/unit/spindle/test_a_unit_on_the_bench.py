@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from backend.errors import NotStandingStill
+from sim_device.scenario_phase import ScenarioError
 from spindle.testing import DriveUnit
 
 
@@ -51,6 +52,12 @@ def test_a_channel_that_does_not_exist_is_an_error() -> None:
 
     with pytest.raises(KeyError, match="torque_of_the_moon"):
         unit.trace("torque_of_the_moon")
+
+
+@pytest.mark.parametrize("bike", [{"road.colour": 1.0}, {"road.mass_kg": 0.0}])
+def test_a_bike_that_cannot_be_is_refused_by_name(bike: dict[str, float]) -> None:
+    with pytest.raises(ScenarioError, match=next(iter(bike))):
+        DriveUnit(bike=bike)
 
 
 def test_a_bike_that_moves_is_not_written_and_one_that_was_stopped_is() -> None:
