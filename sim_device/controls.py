@@ -4,6 +4,7 @@ Pure: a text becomes checked changes, or a ScenarioError that names what is wron
 the unit's business (sim_device.lockstep).
 """
 
+import contextlib
 import json
 import zlib
 from collections.abc import Callable, Collection
@@ -19,7 +20,12 @@ ADVANCE_S_MAX = 24 * 3600.0
 CLOCKS = ("real", "virtual")
 # A frame of 544 bytes holds some 530 of text.
 PLAIN_BYTES_MAX = 500
+TEXT_BYTES_MAX = 16_384
 LOAD_SOURCES = {"road": 0, "dyno": 1}
+DYNO_CONVENTIONS = {"physical": 0, "thesis": 1}
+MOTOR_MODELS = {"average": 0, "foc": 1}
+# What a run says that follows a printed equation which makes energy (thesis_checks I-9, I-11).
+NOT_CONSISTENT = "not energy consistent"
 
 # A host may send back what it was given: these say something, and change nothing.
 _READ_ONLY = {
@@ -28,6 +34,7 @@ _READ_ONLY = {
     "rotor_link",
     "energy_balance_error_pct",
     "energy_consistent",
+    "label",
 }
 
 
@@ -73,10 +80,18 @@ def pack(told: dict[str, Any]) -> bytes:
 
 
 def unpack(text: bytes) -> dict[str, Any]:
-    """What `pack` packed: JSON begins with a brace, zlib never does."""
-    plain = text if text.startswith(b"{") else zlib.decompress(text)
-    found: dict[str, Any] = json.loads(plain)
+    """What `pack` packed."""
+    found: dict[str, Any] = json.loads(plain(text))
     return found
+
+
+def plain(text: bytes) -> str:
+    """A host's words, deflated or not: JSON begins with a brace, zlib never does. Not more of them
+    than a host can mean; what cannot be read is left for the parser to refuse."""
+    if not text.startswith(b"{"):
+        with contextlib.suppress(zlib.error):
+            text = zlib.decompressobj().decompress(text, TEXT_BYTES_MAX)
+    return text.decode("utf-8", errors="replace")
 
 
 def _members(field: str, value: object, known: set[str]) -> dict[str, Any]:
@@ -117,9 +132,25 @@ def _road(changes: Changes, name: str, given: object) -> None:
         changes.phase[key] = read_phase_value(f"road.{key}", key, value)
 
 
-def _load_source(changes: Changes, name: str, given: object) -> None:
-    Setting("road", choices=tuple(LOAD_SOURCES)).read(name, given)
-    changes.bike["road.source"] = LOAD_SOURCES[str(given)]
+_CHOICES = {
+    "load_source": ("road.source", LOAD_SOURCES),
+    "dyno_convention": ("road.dyno_convention", DYNO_CONVENTIONS),
+    "motor_model": ("motor.model", MOTOR_MODELS),
+}
+
+
+def _choice(changes: Changes, name: str, given: object) -> None:
+    path, choices = _CHOICES[name]
+    Setting("", choices=tuple(choices)).read(name, given)
+    changes.bike[path] = float(choices[str(given)])
+
+
+def choices_made(bike: dict[str, float]) -> dict[str, str]:
+    """What of load, dynamometer and motor this bike has, by the names of the controls."""
+    return {
+        name: next(word for word, number in choices.items() if number == bike.get(path, 0.0))
+        for name, (path, choices) in _CHOICES.items()
+    }
 
 
 def _mass_kg(changes: Changes, name: str, given: object) -> None:
@@ -173,7 +204,9 @@ _READERS: dict[str, Callable[[Changes, str, object], None]] = {
     "grip": _by_hand,
     "walk_button": _by_hand,
     "assist_mode": _phase_value,
-    "load_source": _load_source,
+    "load_source": _choice,
+    "dyno_convention": _choice,
+    "motor_model": _choice,
     "dyno_nm": _by_hand,
     "mass_kg": _mass_kg,
     "scenario": _scenario,

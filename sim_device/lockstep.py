@@ -11,7 +11,7 @@ from typing import Any, Final
 
 from firmware_protocol._generated import MessageId, Status
 from sim_device.configure import write_config
-from sim_device.controls import Changes, pack, parse_changes
+from sim_device.controls import NOT_CONSISTENT, Changes, choices_made, pack, parse_changes, plain
 from sim_device.firmware.python.unit import UID_LENGTH, Unit, default_bike, finite_or_none
 from sim_device.scenario_file import ScenarioFile, load, load_live
 from sim_device.scenario_phase import (
@@ -190,7 +190,7 @@ class LockstepUnit:
                 "cadence_rpm_max": phase.cadence_rpm_max,
             },
             "road": {"grade_deg": phase.grade_deg, "wind_ms": phase.wind_ms},
-            "load_source": "dyno" if self._bike["road.source"] else "road",
+            **choices_made(self._bike),
             "dyno_nm": self._dyno_now_nm,
             "mass_kg": self._bike["road.mass_kg"],
             "assist_mode": seen["assist_mode"],
@@ -206,6 +206,7 @@ class LockstepUnit:
             },
             "energy_balance_error_pct": _rounded(seen["energy_balance_error_pct"]),
             "energy_consistent": bool(seen["energy_consistent"]),
+            "label": None if seen["energy_consistent"] else NOT_CONSISTENT,
         }
 
     def simulation_set(self, changes: dict[str, Any]) -> None:
@@ -221,7 +222,7 @@ class LockstepUnit:
             return Status.UNKNOWN_MSG, b""
         if message_id == MessageId.SIM_SET:
             try:
-                self._apply(self._read(request.decode("utf-8", errors="replace")))
+                self._apply(self._read(plain(request)))
             except ScenarioError as error:
                 return Status.RANGE, f"{error.field}\n{error}".encode()
         return Status.OK, pack(self.simulation_get())

@@ -11,6 +11,7 @@ from typing import Any
 
 from firmware_protocol._generated import FaultFlags, Law
 from firmware_protocol.parameters import default_config
+from sim_device.controls import NOT_CONSISTENT
 from sim_device.firmware.python.unit import finite_or_none, kinematics
 from sim_device.lockstep import LockstepUnit
 from sim_device.scenario_calibration import calibrate
@@ -25,7 +26,6 @@ SAMPLE_S = 0.01
 FAULT_LOOK_S = 0.5
 J_PER_WH = 3600.0
 TAPER_OFF_KMH = (24.99, 25.0)
-NOT_CONSISTENT = "not energy consistent"
 
 # First crossing of 24.95 km/h counts as 25 (thesis_checks 4.1): the fixed law only creeps there.
 LIMIT_KMH = 24.95

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Unpack
 
 from backend.api.models.config import Config, ConfigChange, Parameter, ParameterList
 from backend.api.models.device import (
@@ -30,6 +30,7 @@ from backend.api.models.law import FuzzyTable, Limits, Table
 from backend.api.models.ride import Ride, RideList, Series
 from backend.cli.client import Server, default_server
 from backend.errors import NoAnswer, RequestRefused
+from spindle.stimulus import Stimulus
 
 LOOK_EVERY_S = 0.05
 READY_WITHIN_S = 30.0
@@ -186,8 +187,8 @@ class Unit:
         """Rider, road and clock. Raises RequestRefused for a real unit."""
         return Simulation.model_validate(self._server.ask("GET", f"{self._path}/simulation"))
 
-    def simulate(self, **changes: Any) -> Simulation:
-        """Change rider, road, clock or faults; names and ranges are those of the API."""
+    def simulate(self, **changes: Unpack[Stimulus]) -> Simulation:
+        """Change rider, road, load, clock or faults. Raises RequestRefused naming the fault."""
         answer = self._server.ask("PUT", f"{self._path}/simulation", json=changes)
         return Simulation.model_validate(answer)
 

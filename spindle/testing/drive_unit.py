@@ -8,7 +8,7 @@ tested the way a dealer's computer would see it.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, TypeVar
+from typing import Any, TypeVar, Unpack
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +24,7 @@ from backend.errors import NoAnswer
 from sim_device.bike_ranges import read_bike
 from sim_device.lockstep import LockstepUnit
 from spindle.client import STANDSTILL_WITHIN_S, rests
+from spindle.stimulus import Stimulus
 
 Result = TypeVar("Result")
 
@@ -75,14 +76,23 @@ class DriveUnit:
         if rest:
             self._step(rest / 1e6)
 
-    def simulate(self, **changes: Any) -> None:
-        """Change rider, road, brake, faults: the fields of `PUT /devices/{id}/simulation`."""
-        self.unit.simulation_set(changes)
+    def simulate(self, **changes: Unpack[Stimulus]) -> None:
+        """Change rider, road, load, brake, faults: the fields of `PUT /devices/{id}/simulation`.
 
-    def ride(self, torque_nm: float = 25.0, seconds: float = 0.0, **changes: Any) -> None:
+        Raises ScenarioError with what is at fault, and changes nothing.
+        """
+        self.unit.simulation_set(dict(changes))
+
+    def ride(
+        self, torque_nm: float = 25.0, seconds: float = 0.0, **changes: Unpack[Stimulus]
+    ) -> None:
         """A rider with legs pushes in the fuzzy mode, brake off, for `seconds`."""
-        rider = {"kind": "legs", "torque_nm": torque_nm, "cadence_rpm_max": 90.0}
-        self.simulate(**{"brake": False, "assist_mode": 3, "rider": rider} | changes)
+        usual: Stimulus = {
+            "brake": False,
+            "assist_mode": 3,
+            "rider": {"kind": "legs", "torque_nm": torque_nm, "cadence_rpm_max": 90.0},
+        }
+        self.unit.simulation_set({**usual, **changes})
         self.advance(seconds)
 
     def stand_still(self) -> None:

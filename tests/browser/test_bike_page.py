@@ -53,6 +53,23 @@ def test_the_scenarios_are_those_the_server_knows(
     desk.picture("simulation", full=True)
 
 
+def test_a_run_that_makes_energy_says_so_and_an_honest_one_says_its_books_close(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    simulation = server.get(f"/devices/{standing}/simulation")
+    simulation |= {"energy_consistent": True, "energy_balance_error_pct": 0.0}
+    desk.page.route("**/simulation", lambda route: route.fulfill(json=simulation))
+    page = desk.open("/")
+    expect(page.get_by_test_id("energy-books")).to_contain_text("0.00 %")
+    expect(page.get_by_test_id("not-consistent")).to_have_count(0)
+
+    simulation |= {"energy_consistent": False, "energy_balance_error_pct": 201.4}
+
+    # The panel asks again by itself.
+    expect(page.get_by_test_id("not-consistent")).to_contain_text("Not energy consistent")
+    expect(page.get_by_test_id("energy-books")).to_contain_text("201.40 %")
+
+
 def test_what_a_simulated_unit_can_break_is_broken_from_the_panel(
     desk: Desk, server: SpindleServer, standing: str
 ) -> None:

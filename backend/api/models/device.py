@@ -12,6 +12,8 @@ from backend.api.models.base import Answer, Question
 DeviceKind = Literal["simulated", "serial", "socket"]
 DeviceState = Literal["connecting", "ready", "read_only", "lost", "closed"]
 RiderKind = Literal["off", "constant", "legs"]
+DynoConvention = Literal["physical", "thesis"]
+MotorModel = Literal["average", "foc"]
 
 
 class DeviceHealth(Answer):
@@ -203,6 +205,9 @@ class Simulation(BaseModel):
     rider: SimulationRider
     road: SimulationRoad
     load_source: Literal["road", "dyno"]
+    dyno_nm: float = Field(description="At the roller, on the bench only.")
+    dyno_convention: DynoConvention
+    motor_model: MotorModel
     mass_kg: float
     assist_mode: int
     brake: bool
@@ -211,8 +216,13 @@ class Simulation(BaseModel):
     grip: float
     faults: dict[str, bool | float | str] = Field(description="What is broken; empty: nothing.")
     rotor_link: SimulationRotorLink
-    energy_balance_error_pct: float | None
+    energy_balance_error_pct: float | None = Field(
+        description="By how much the energy books fail to close; null before any work was done."
+    )
     energy_consistent: bool
+    label: str | None = Field(
+        description="`not energy consistent` where a printed equation makes energy, else null."
+    )
 
 
 class SimulationRiderChange(Question):
@@ -262,6 +272,12 @@ class SimulationChange(Question):
     road: SimulationRoadChange | None = None
     load_source: Literal["road", "dyno"] | None = None
     dyno_nm: float | None = None
+    dyno_convention: DynoConvention | None = Field(
+        default=None, description="How its torque reaches the cranks: by energy, or as printed."
+    )
+    motor_model: MotorModel | None = Field(
+        default=None, description="Average, or phase currents under field-oriented control."
+    )
     mass_kg: float | None = None
     assist_mode: int | None = None
     brake: bool | None = None

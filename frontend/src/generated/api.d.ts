@@ -1889,6 +1889,21 @@ export interface components {
              * @enum {string}
              */
             load_source: "road" | "dyno";
+            /**
+             * Dyno Nm
+             * @description At the roller, on the bench only.
+             */
+            dyno_nm: number;
+            /**
+             * Dyno Convention
+             * @enum {string}
+             */
+            dyno_convention: "physical" | "thesis";
+            /**
+             * Motor Model
+             * @enum {string}
+             */
+            motor_model: "average" | "foc";
             /** Mass Kg */
             mass_kg: number;
             /** Assist Mode */
@@ -1909,10 +1924,18 @@ export interface components {
                 [key: string]: boolean | number | string;
             };
             rotor_link: components["schemas"]["SimulationRotorLink"];
-            /** Energy Balance Error Pct */
+            /**
+             * Energy Balance Error Pct
+             * @description By how much the energy books fail to close; null before any work was done.
+             */
             energy_balance_error_pct: number | null;
             /** Energy Consistent */
             energy_consistent: boolean;
+            /**
+             * Label
+             * @description `not energy consistent` where a printed equation makes energy, else null.
+             */
+            label: string | null;
         } & {
             [key: string]: unknown;
         };
@@ -1947,6 +1970,16 @@ export interface components {
             load_source?: ("road" | "dyno") | null;
             /** Dyno Nm */
             dyno_nm?: number | null;
+            /**
+             * Dyno Convention
+             * @description How its torque reaches the cranks: by energy, or as printed.
+             */
+            dyno_convention?: ("physical" | "thesis") | null;
+            /**
+             * Motor Model
+             * @description Average, or phase currents under field-oriented control.
+             */
+            motor_model?: ("average" | "foc") | null;
             /** Mass Kg */
             mass_kg?: number | null;
             /** Assist Mode */

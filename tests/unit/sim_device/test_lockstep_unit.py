@@ -20,7 +20,7 @@ from firmware_protocol._generated import (
 )
 from firmware_protocol.layout import Message
 from sim_device.configure import ConfigureError
-from sim_device.controls import unpack
+from sim_device.controls import pack, unpack
 from sim_device.lockstep import LockstepUnit
 from sim_device.scenario_file import ScenarioError
 
@@ -160,7 +160,7 @@ def test_what_sim_get_tells_can_be_sent_back_unchanged() -> None:
     unit = LockstepUnit()
     before = simulation(unit, SimGetRequest())
 
-    after = simulation(unit, SimSetRequest(text=json.dumps(before).encode()))
+    after = simulation(unit, SimSetRequest(text=pack(before)))
 
     assert standing(after) == standing(before)
 
@@ -268,6 +268,8 @@ def test_a_scenario_that_does_not_exist_is_refused() -> None:
         ({"scenario": "moon"}, "scenario"),
         ({"scenario": "kinematics"}, "scenario"),
         ({"colour": "red"}, "colour"),
+        ({"dyno_convention": "printed"}, "dyno_convention"),
+        ({"motor_model": 1}, "motor_model"),
     ],
 )
 def test_a_refused_control_is_named_by_its_place(changes: dict[str, object], field: str) -> None:
@@ -315,6 +317,36 @@ def test_every_answer_of_a_busy_simulation_fits_a_frame() -> None:
     told = simulation(unit, SimSetRequest(text=json.dumps(wish).encode()))
 
     assert told["rotor_link"]["words_good"] > 1_000_000
+
+
+def test_the_bench_s_convention_and_the_motor_s_model_are_chosen_by_name() -> None:
+    unit = LockstepUnit()
+    bench = {"load_source": "dyno", "dyno_nm": 20.0, "motor_model": "foc"}
+
+    sound = simulation(unit, SimSetRequest(text=json.dumps(bench).encode()))
+    printed = simulation(unit, SimSetRequest(text=b'{"dyno_convention": "thesis"}'))
+
+    assert (sound["dyno_convention"], sound["motor_model"]) == ("physical", "foc")
+    assert (sound["energy_consistent"], sound["label"]) == (True, None)
+    assert (printed["dyno_convention"], printed["load_source"]) == ("thesis", "dyno")
+    assert (printed["energy_consistent"], printed["label"]) == (False, "not energy consistent")
+
+
+@pytest.mark.parametrize(("convention", "breakaway_nm"), [("physical", 64.8), ("thesis", 6.36)])
+def test_the_convention_decides_what_moves_a_bench_of_20_nm(
+    convention: str, breakaway_nm: float
+) -> None:
+    """thesis_checks I-9: 20 Nm times 44/14 over 97 %, or divided by 44/14 as printed."""
+    moved = []
+    for torque_nm in (breakaway_nm - 0.2, breakaway_nm + 0.2):
+        unit = LockstepUnit()
+        unit.select_mode(0)
+        unit.simulation_set({"load_source": "dyno", "dyno_nm": 20.0, "dyno_convention": convention})
+        unit.rider("constant", torque_nm)
+        unit.advance(1.0)
+        moved.append(unit.observe()["speed_kmh"] > 0.0)
+
+    assert moved == [False, True]
 
 
 def test_a_scenario_leaves_the_bike_as_it_found_it() -> None:

@@ -6,9 +6,12 @@ an observer beside the bike sees.
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 
+from backend.device.simulation import simulation_set
 from backend.errors import NotStandingStill
 from sim_device.scenario_phase import ScenarioError
 from spindle.testing import DriveUnit
@@ -81,3 +84,13 @@ def test_the_battery_taken_out_keeps_the_flash_and_nothing_else() -> None:
     assert unit.t_s < 1.0
     assert unit.config().parameters["fuzzy_table_name"] == "mine"
     assert unit.trace()["t_s"].max(initial=0.0) < 1.0
+
+
+def test_a_wish_longer_than_a_frame_crosses_the_line() -> None:
+    unit = DriveUnit(seed=2)
+    everything = unit.unit.simulation_get() | {"dyno_nm": 12.345678901234567, "seed": 2**62}
+    assert len(json.dumps(everything)) > 544
+
+    told = unit.ask(simulation_set(everything))
+
+    assert (told["dyno_nm"], told["seed"]) == (12.345678901234567, 2**62)
