@@ -102,7 +102,7 @@ export const en = {
   'ground.ice': 'ice',
   'simulation.books': 'Energy books of this ride fail to close by {error} %; 1 % is allowed.',
   'simulation.not_consistent':
-    'Not energy consistent: this run follows a printed equation that makes energy. A replay, not a bike.',
+    'Not energy consistent: a printed equation that makes energy. A replay, not a bike.',
   'broken.title': 'What is broken',
   'broken.torque_sensor': 'Torque sensor',
   'broken.speed_sensor': 'Speed sensor',
