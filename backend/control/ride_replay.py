@@ -67,12 +67,16 @@ def replay(
     brake: npt.ArrayLike = 0,
     motor_speed_rpm: npt.ArrayLike | None = None,
     battery_voltage_v: npt.ArrayLike = BATTERY_VOLTAGE_V,
+    battery_current_a: npt.ArrayLike = np.nan,
+    motor_temperature_degc: npt.ArrayLike = np.nan,
     step_s: float = law.STEP_S,
 ) -> Replay:
     """A ride from rest through the law.
 
     config: the unit's parameters by registry name. speed_kmh, cadence_rpm, torque_raw_counts: (n,).
     mode: slot 0 to 4, (n,) or one. motor_speed_rpm: (n,); without it the motor follows the crank.
+    battery_current_a, motor_temperature_degc: (n,); without them the law keeps the margin at the
+    battery's limit that it keeps in a unit that cannot measure them.
     step_s: time between samples. A sample that is not finite gives no assist and is counted under
     `input_refused`. Raises InvalidRequest for what the law refuses.
     """
@@ -89,6 +93,8 @@ def replay(
             "cadence_rpm": cadence,
             "motor_speed_rpm": motor_speed,
             "battery_voltage_v": battery_voltage_v,
+            "battery_current_a": battery_current_a,
+            "motor_temperature_degc": motor_temperature_degc,
             "mode": mode,
             "brake": brake,
         }

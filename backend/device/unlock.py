@@ -8,7 +8,14 @@ from collections.abc import Mapping
 
 from backend.device.operation import Operation, attempt, expect
 from backend.device.refusals import refused
-from backend.errors import AccessDenied, FieldError, InvalidRequest, SpindleError, TokenNeeded
+from backend.errors import (
+    AccessDenied,
+    FieldError,
+    InvalidRequest,
+    NotStandingStill,
+    SpindleError,
+    TokenNeeded,
+)
 from firmware_protocol._generated import (
     PARAMETER_BY_NAME,
     Access,
@@ -36,9 +43,17 @@ def token_from(text: str) -> Token:
 
 
 def show_token(transaction: int, token: Token) -> Operation[None]:
-    """Show the unit a token for what is staged. Raises AccessDenied with the unit's reason."""
+    """Show the unit a token for what is staged.
+
+    Raises AccessDenied with the unit's reason, NotStandingStill while the bike moves.
+    """
     request = AuthResponseRequest(transaction, token.expires_us, token.signature)
     response = yield from attempt(request)
+    if response.status == Status.NOT_STOPPED:
+        raise NotStandingStill(
+            "The unit looks at no token while wheel or motor turn. Stop the bike and write again "
+            "with the same token within its minute; it was not used up, and nothing was changed."
+        )
     if response.status == Status.AUTH_BAD:
         raise AccessDenied(
             "The unit refuses this token: it was made for another unit, another change, another "

@@ -27,7 +27,12 @@ from backend.views.trace import trace
 PERIOD_US_MAX = 100_000
 NEEDED = ("speed_kmh", "cadence_rpm", "assist_mode")
 TORQUES = ("rider_torque_raw", "rider_torque_nm")
-OPTIONAL = ("motor_speed_rpm", "battery_voltage_v")
+OPTIONAL = (
+    "motor_speed_rpm",
+    "battery_voltage_v",
+    "battery_current_a",
+    "motor_temperature_degc",
+)
 COMPARED = (
     ChannelSpec("motor_torque_nm", "Nm", 0.0001),
     ChannelSpec("assist_ratio", "", 0.0002),

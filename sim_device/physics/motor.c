@@ -13,16 +13,6 @@ double motor_resistance_ohm(const motor_config *config, double winding_degc)
     return config->resistance_ohm * (1.0 + winding);
 }
 
-/* Largest electromagnetic torque whose electrical power, T*omega + (T/K)^2 R, is `power_w`. */
-static double torque_at_power(double torque_constant, double resistance_ohm, double power_w,
-                              double speed_rad_s)
-{
-    const double k_squared = torque_constant * torque_constant;
-    const double root =
-        sqrt(speed_rad_s * speed_rad_s + 4.0 * resistance_ohm * power_w / k_squared);
-    return k_squared * (root - speed_rad_s) / (2.0 * resistance_ohm);
-}
-
 double motor_torque_limit_nm(const motor_config *config, double speed_rad_s, double voltage_v,
                              double winding_degc)
 {
@@ -31,10 +21,7 @@ double motor_torque_limit_nm(const motor_config *config, double speed_rad_s, dou
     }
     const double k = config->torque_constant_nm_per_a;
     const double resistance_ohm = motor_resistance_ohm(config, winding_degc);
-    const double by_voltage = k * (voltage_v - k * speed_rad_s) / resistance_ohm;
-    const double power_w = fmin(config->bus_power_w_max, config->bus_current_a_max * voltage_v);
-    const double by_power = torque_at_power(k, resistance_ohm, power_w, speed_rad_s);
-    return fmax(fmin(by_voltage, by_power), 0.0);
+    return fmax(k * (voltage_v - k * speed_rad_s) / resistance_ohm, 0.0);
 }
 
 motor_drive motor_drive_at(const motor_config *config, double demand_nm, double speed_rad_s,

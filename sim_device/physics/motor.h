@@ -20,8 +20,6 @@ typedef struct {
     double inertia_kg_m2;
     double torque_nm_max;
     double speed_rpm_max;
-    double bus_current_a_max;
-    double bus_power_w_max;
     double inductance_h;         /* of a phase; detailed model only */
     double pole_pairs;           /* detailed model only */
     double current_bandwidth_hz; /* of the current loop; detailed model only */
@@ -52,7 +50,8 @@ typedef struct {
 /* Resistance with a winding at `winding_degc`. */
 double motor_resistance_ohm(const motor_config *config, double winding_degc);
 
-/* Largest electromagnetic torque at `speed_rad_s` from `voltage_v`, whatever holds it back. */
+/* Largest electromagnetic torque at `speed_rad_s` that `voltage_v` can drive against the back-EMF.
+ * A bridge knows no limit of the battery's power: that one the firmware holds (battery_power.c). */
 double motor_torque_limit_nm(const motor_config *config, double speed_rad_s, double voltage_v,
                              double winding_degc);
 

@@ -96,6 +96,29 @@ static void winding_step(motor_foc_state *state, const machine *seen, double spe
     state->current_a.q = 2.0 * mean_a->q - state->current_a.q;
 }
 
+/* One period of an open bridge: the diodes hold the whole circle against the currents until they
+ * have gone out, and let none begin the other way. */
+static void winding_let_go(motor_foc_state *state, const machine *seen, double speed_rad_s,
+                           rotor_values *mean_a)
+{
+    const rotor_values before_a = state->current_a;
+    const double length_a = hypot(before_a.d, before_a.q);
+    const rotor_values nothing = {0.0, 0.0};
+    *mean_a = nothing;
+    state->integral_v = nothing;
+    if (length_a == 0.0) {
+        return;
+    }
+    const double share = -seen->voltage_v_max / length_a;
+    const rotor_values v = {share * before_a.d, share * before_a.q};
+    winding_step(state, seen, speed_rad_s, v, mean_a);
+    if (state->current_a.d * before_a.d + state->current_a.q * before_a.q <= 0.0) {
+        state->current_a = nothing;
+        mean_a->d = 0.5 * before_a.d;
+        mean_a->q = 0.5 * before_a.q;
+    }
+}
+
 static double field_j(const machine *seen, rotor_values current_a)
 {
     const double squared = current_a.d * current_a.d + current_a.q * current_a.q;
@@ -109,17 +132,22 @@ motor_drive motor_foc_drive(const motor_config *config, motor_foc_state *state, 
         motor_drive_at(config, demand_nm, speed_rad_s, voltage_v, winding_degc);
     const machine seen = machine_of(config, speed_rad_s, voltage_v, winding_degc);
     const double wanted_q_a = average.electromagnetic_torque_nm / seen.torque_nm_per_a;
+    const int open = wanted_q_a <= 0.0;
     const int periods = (int)lround(dt_s / LOOP_S);
     const double field_before_j = field_j(&seen, state->current_a);
     double q_sum_a = 0.0;
     double copper_w = 0.0;
     for (int k = 0; k < periods; k++) {
-        const rotor_values measured_a =
-            motor_foc_to_rotor(state->phase_current_a, state->electric_angle_rad);
-        const rotor_values v =
-            controlled_v(config, state, &seen, speed_rad_s, measured_a, wanted_q_a);
         rotor_values mean_a;
-        winding_step(state, &seen, speed_rad_s, v, &mean_a);
+        if (open) {
+            winding_let_go(state, &seen, speed_rad_s, &mean_a);
+        } else {
+            const rotor_values measured_a =
+                motor_foc_to_rotor(state->phase_current_a, state->electric_angle_rad);
+            const rotor_values v =
+                controlled_v(config, state, &seen, speed_rad_s, measured_a, wanted_q_a);
+            winding_step(state, &seen, speed_rad_s, v, &mean_a);
+        }
         state->electric_angle_rad =
             fmod(state->electric_angle_rad + seen.electric_rad_s * LOOP_S, 2.0 * PI);
         state->phase_current_a = motor_foc_to_phases(state->current_a, state->electric_angle_rad);

@@ -325,8 +325,7 @@ void physics_step(const physics_config *config, physics_state *state,
     state->crank_angle_rad = fmod(state->crank_angle_rad + now.crank.travel, 2.0 * PI);
     state->crank_angle_rad += state->crank_angle_rad < 0.0 ? 2.0 * PI : 0.0;
     state->spindle_torque_nm = now.flow.crank_nm;
-    state->motor_shaft_nm =
-        now.motor.electromagnetic_torque_nm > 0.0 ? now.motor.shaft_torque_nm : 0.0;
+    state->motor_shaft_nm = fmax(now.motor.shaft_torque_nm, 0.0);
     state->motor_current_a = now.motor.current_a;
     warm(config, state, &now, command, dt_s);
     sense(config, state, command, dt_s);

@@ -57,7 +57,7 @@ typedef struct {
     double crank_angle_rad;   /* 0 to 2 pi */
     double motor_speed_rad_s;
     double spindle_torque_nm; /* what passes the strain gauges */
-    double motor_shaft_nm;
+    double motor_shaft_nm;    /* through its clutch, so never negative */
     double motor_current_a;
     double seen_speed_ms; /* by the speed sensor, at the wheel */
     double seen_speed_age_s;

@@ -172,11 +172,13 @@ def test_a12_the_energy_books_close_to_one_percent(name: str, settings: dict[str
 def test_a13_random_rides_keep_the_motor_inside_its_limits() -> None:
     for seed in range(25):
         wishes = random.Random(seed)
-        unit = LockstepUnit(seed)
+        cold_or_hot_degc = 20.0 if seed % 2 else 80.0
+        unit = LockstepUnit(seed, bike={"motor.ambient_degc": cold_or_hot_degc})
+        drawn_j = [0.0]
         for _ in range(60):
             unit.simulation_set(
                 {
-                    "rider": {"kind": "legs", "torque_nm": wishes.uniform(0, 150)},
+                    "rider": {"kind": "legs", "torque_nm": wishes.uniform(0, 110)},
                     "road": {"grade_deg": wishes.uniform(-6, 6)},
                     "assist_mode": wishes.randrange(5),
                     "brake": wishes.random() < 0.05,
@@ -192,6 +194,10 @@ def test_a13_random_rides_keep_the_motor_inside_its_limits() -> None:
                     assert seen["motor_torque_nm"] == 0.0
                 if seen["speed_kmh"] >= 24.9:
                     assert seen["motor_torque_nm"] <= 1.45
+            drawn_j.append(seen["motor_electric_j"])
+        # Each drawn for half a second; nothing but the firmware holds it.
+        seconds_j = [later - now for now, later in zip(drawn_j, drawn_j[2:], strict=False)]
+        assert max(seconds_j) <= 432.0 * 1.005
         assert unit.observe()["energy_balance_error_pct"] <= 1.0
 
 

@@ -41,6 +41,9 @@ def rough_ride(seed: int) -> npt.NDArray[np.void]:
             "cadence_rpm": np.where(random.random(STEPS) < 0.02, -5, random.uniform(0, 90, STEPS)),
             "motor_speed_rpm": random.uniform(0, 3200, STEPS),
             "battery_voltage_v": random.uniform(29, 42, STEPS),
+            "battery_current_a": np.where(
+                random.random(STEPS) < 0.1, np.nan, random.uniform(-1, 16, STEPS)
+            ),
             "motor_temperature_degc": random.uniform(90, 135, STEPS),
             "controller_temperature_degc": np.where(
                 random.random(STEPS) < 0.5, np.nan, random.uniform(60, 105, STEPS)

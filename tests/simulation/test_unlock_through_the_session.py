@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import pytest
 
 from backend.device.config_transaction import read_config, write_config
-from backend.errors import AccessDenied, TokenNeeded
+from backend.errors import AccessDenied, NotStandingStill, TokenNeeded
 from firmware_protocol._generated import Access
 from firmware_protocol.layout import Value
 from firmware_protocol.unlock_token import Challenge, Token
@@ -74,6 +74,27 @@ def test_the_refusal_names_the_limit_and_carries_what_must_be_signed() -> None:
     token = MAKER.sign(challenge_of(error))
     changes: dict[str, Value] = {**RAISED, "torque_filter_s": 0.4}
     bench.ask(write_config(bench.ask(read_config()), changes, token=token))
+
+    assert bench.ask(read_config()).parameters["assist_cutoff_kmh"] == 25.0
+
+
+def test_a_token_shown_to_a_riding_bike_waits_until_it_stands() -> None:
+    unit = LockstepUnit(unlock_key=MAKER.public_key)
+    bench = Bench(Line(unit)).connect()
+    bench.ask(write_config(bench.ask(read_config()), LOWERED))
+    bench.run(2.5)
+    unit.rider("legs", 30.0)
+    bench.run(4.0)
+    error = refusal(bench, RAISED)
+    assert isinstance(error, TokenNeeded)
+    token = MAKER.sign(challenge_of(error))
+
+    # Checking a signature takes 1.7 million instructions: at 100 MHz, longer than a control step.
+    with pytest.raises(NotStandingStill, match="no token while wheel or motor turn"):
+        bench.ask(write_config(bench.ask(read_config()), RAISED, token=token))
+    unit.simulation_set({"rider": {"kind": "off"}, "brake": True})
+    bench.run(10.0)
+    bench.ask(write_config(bench.ask(read_config()), RAISED, token=token))
 
     assert bench.ask(read_config()).parameters["assist_cutoff_kmh"] == 25.0
 

@@ -88,3 +88,20 @@ def test_a_typed_view_takes_the_token_as_well(shop: SpindleServer, tmp_path: Pat
     assert raised.status_code == 200, raised.text
     assert shop.get(path) == before
     assert no_token.status_code == 422
+
+
+def test_a_riding_bike_looks_at_no_token(shop: SpindleServer) -> None:
+    device = shop.get("/devices")["items"][0]["id"]
+    path = f"/devices/{device}/config"
+    raised = {"parameters": {"motor_torque_nm_max": 1.5}, "token": "00" * 72}
+    shop.ask("PATCH", path, json={"parameters": {"motor_torque_nm_max": 1.0}})
+    rider = {"kind": "constant", "torque_nm": 40.0}
+    shop.ask("PUT", f"/devices/{device}/simulation", json={"rider": rider})
+
+    # Until it rolls: 403, because there is no challenge that this token could answer.
+    response = eventually(
+        lambda: shop.client.patch(path, json=raised), lambda answer: answer.status_code != 403
+    )
+
+    assert response.status_code == 409
+    assert "Stop the bike" in response.json()["detail"]

@@ -157,6 +157,7 @@ static void assist_input_from(const hal_inputs *inputs, uint8_t mode, int inhibi
     input->cadence_rpm = inputs->cadence_rpm;
     input->motor_speed_rpm = inputs->motor_speed_rpm;
     input->battery_voltage_v = inputs->battery_voltage_v;
+    input->battery_current_a = inputs->battery_current_a;
     input->motor_temperature_degc = inputs->motor_temperature_degc;
     input->controller_temperature_degc = inputs->controller_temperature_degc;
     input->torque_age_ms = inputs->torque_age_ms;
@@ -199,6 +200,7 @@ void app_inputs_prepare(hal_inputs *inputs)
     inputs->sensor_temperature_degc = float32_missing();
     inputs->motor_temperature_degc = float32_missing();
     inputs->controller_temperature_degc = float32_missing();
+    inputs->battery_current_a = float32_missing();
     inputs->mode_selected = HAL_MODE_NOT_SELECTED;
 }
 

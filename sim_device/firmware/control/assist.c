@@ -82,7 +82,7 @@ int assist_step(const assist_config *config, assist_state *state, const assist_i
     demand_nm = apply_cutoff_band(config, input, demand_nm, output);
     demand_nm = apply_ramps(config, input, state->assist_torque_nm, demand_nm, output);
     demand_nm = apply_cutoffs(config, state, input, demand_nm, output);
-    demand_nm = apply_limits(config, input, demand_nm, output);
+    demand_nm = apply_limits(config, state, input, demand_nm, output);
     output->motor_torque_nm = apply_market(config, state, input, demand_nm, output);
     state->assist_torque_nm = output->motor_torque_nm * config->gear_ratio;
     return ASSIST_OK;

@@ -86,7 +86,8 @@ typedef struct {
     float cadence_rpm;
     float motor_speed_rpm;
     float battery_voltage_v;
-    float motor_temperature_degc; /* NaN: not measured, and nothing is lowered for it */
+    float battery_current_a;      /* NaN: not measured; the battery's limit keeps a margin */
+    float motor_temperature_degc; /* NaN: not measured; the battery's limit takes it as hot */
     float controller_temperature_degc;
     uint16_t torque_age_ms; /* since torque_raw_counts was measured; too old ends the assist */
     uint8_t mode;           /* slot 0 to 4; any other is refused */
@@ -117,6 +118,10 @@ typedef struct {
     uint16_t push_steps;      /* of the present half of the window of push_peak_nm */
     float push_peak_nm[2];    /* hardest push in this half window and in the one before */
     float motor_power_mean_w; /* at the shaft: what a continuous rating is held against */
+    float battery_spared;     /* share of the current that a sagging battery is spared */
+    float battery_power_w;    /* allowed in this step; 0 before the first */
+    float battery_torque_nm;  /* the motor's, at that power */
+    float battery_trim_w;     /* loss learned, less than what is assumed; at rest nothing is */
 } assist_state;
 
 enum { ASSIST_OK = 0, ASSIST_INPUT_REFUSED = -1, ASSIST_CONFIG_REFUSED = -2 };

@@ -42,8 +42,15 @@ float apply_cutoffs(const assist_config *config, assist_state *state, const assi
                     float demand_nm, assist_output *output);
 
 /* limits.c: what motor, battery and heat allow; crank torque in, motor torque out. */
-float apply_limits(const assist_config *config, const assist_input *input, float demand_nm,
-                   assist_output *output);
+float apply_limits(const assist_config *config, assist_state *state, const assist_input *input,
+                   float demand_nm, assist_output *output);
+
+/* battery_power.c: the motor's resistance with its winding as warm as it is; whether the battery
+ * is near its least voltage; and the torque at which it gives all it may, asked once a step. */
+float winding_resistance_ohm(const assist_config *config, const assist_input *input);
+float battery_torque_nm(const assist_config *config, assist_state *state, const assist_input *input,
+                        float resistance_ohm, float back_emf_v);
+int battery_sags(const assist_config *config, const assist_input *input);
 
 /* market.c: the rider's hardest push of late, and the last word. */
 void market_push_note(const assist_config *config, assist_state *state, float torque_nm);

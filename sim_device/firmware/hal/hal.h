@@ -2,8 +2,8 @@
  *
  * A board fills in the functions; each gets `context` back. Nothing here blocks. Physical values
  * carry their unit in the name. What a board cannot measure it reports as NaN, never as zero. The
- * inputs come prepared to inputs_read: temperatures NaN, ages and buttons 0, no mode selected; a
- * board writes what it has and leaves the rest.
+ * inputs come prepared to inputs_read: temperatures and the battery's current NaN, ages and buttons
+ * 0, no mode selected; a board writes what it has and leaves the rest.
  *
  * The wheel's speed comes new with every pulse, from its time in microseconds: a reading that stays
  * within 0.02 km/h for five turns under power, while the chain's speed changes, is a stuck sensor.

@@ -37,6 +37,7 @@ INPUT_DTYPE = np.dtype(
         ("cadence_rpm", np.float32),
         ("motor_speed_rpm", np.float32),
         ("battery_voltage_v", np.float32),
+        ("battery_current_a", np.float32),
         ("motor_temperature_degc", np.float32),
         ("controller_temperature_degc", np.float32),
         ("torque_age_ms", np.uint16),
@@ -48,6 +49,7 @@ INPUT_DTYPE = np.dtype(
     align=True,
 )
 INPUT_DEFAULTS = {
+    "battery_current_a": np.nan,
     "motor_temperature_degc": np.nan,
     "controller_temperature_degc": np.nan,
     "torque_age_ms": 0,

@@ -67,18 +67,6 @@ def test_cold_and_empty_cells_resist_more() -> None:
     assert resistance(warm.config, 0.0) == pytest.approx(2 * resistance(warm.config, 60.0))
 
 
-def test_at_33_v_twelve_amperes_are_396_w() -> None:
-    bike = ffi.new("physics_config *")
-    lib.physics_default(bike)
-    motor = ffi.new("motor_config *", bike.motor)
-
-    drive = lib.motor_drive_at(motor, 2.0, 200.0, 33.0, 20.0)
-
-    # thesis_checks 6: assist falls as charge falls.
-    electric_w = drive.electromagnetic_torque_nm * 200.0 + drive.copper_loss_w
-    assert electric_w == pytest.approx(396.0, abs=1.0)
-
-
 def test_the_management_opens_on_under_voltage_after_its_delay_and_for_good() -> None:
     battery = Battery(soc_pct_start=2.0, resistance_ohm=0.4)
 

@@ -106,8 +106,12 @@ def test_the_motor_torque_limit_holds_and_is_told() -> None:
     assert outputs["limit_flags"][-1] == LimitFlags.MOTOR_TORQUE
 
 
+LOSSLESS = {"motor_temperature_degc": 20.0, "battery_current_a": 0.0}
+"""A motor of copper alone, and cold: all the battery's power is the law's to give."""
+
+
 def test_twelve_amperes_of_battery_leave_the_power_equation_fulfilled() -> None:
-    outputs = run(np.full(400, 80.0), speed_kmh=24.0, motor_speed_rpm=2476.0)
+    outputs = run(np.full(400, 80.0), speed_kmh=24.0, motor_speed_rpm=2476.0, **LOSSLESS)
 
     current_a = outputs["motor_torque_nm"][-1] / TORQUE_CONSTANT
     back_emf_v = TORQUE_CONSTANT * 2476.0 * 2 * np.pi / 60
@@ -116,7 +120,7 @@ def test_twelve_amperes_of_battery_leave_the_power_equation_fulfilled() -> None:
 
 
 def test_at_25_kmh_the_battery_leaves_at_most_1_45_nm() -> None:
-    outputs = run(np.full(400, 100.0), speed_kmh=24.99, motor_speed_rpm=2579.3)
+    outputs = run(np.full(400, 100.0), speed_kmh=24.99, motor_speed_rpm=2579.3, **LOSSLESS)
 
     assert 1.35 < outputs["motor_torque_nm"].max() <= 1.45
 

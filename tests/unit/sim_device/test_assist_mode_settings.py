@@ -125,11 +125,12 @@ def test_heat_takes_torque_away_before_it_becomes_a_fault(
 
 
 def test_a_sagging_battery_is_asked_for_less_before_it_is_cut() -> None:
-    hard = np.full(400, 9000.0)
+    pushed = {"torque_raw_counts": np.full(400, 9000.0), "motor_speed_rpm": 2000.0}
+    lossless = {"motor_temperature_degc": 20.0, "battery_current_a": 0.0}
 
     amperes = {}
     for volts in (33.0, 31.5, 30.3):
-        nm = run(torque_raw_counts=hard, motor_speed_rpm=2000.0, battery_voltage_v=volts)
+        nm = run(battery_voltage_v=volts, **pushed, **lossless)
         current_a = nm["motor_torque_nm"][-1] / 0.112
         back_emf_v = 0.112 * 2000.0 * np.pi / 30
         amperes[volts] = current_a * (current_a * 0.25 + back_emf_v) / volts

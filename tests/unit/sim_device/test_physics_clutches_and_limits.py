@@ -91,23 +91,25 @@ def test_the_motor_keeps_every_limit_under_random_demands() -> None:
         bike.command.road.grade_deg = demands.uniform(-6.0, 6.0)
         bike.advance(0.02, demands.uniform(-1.0, 4.0))
         state = bike.state
-        bus_w = state.battery.voltage_v * state.battery.current_a
-        assert -1e-9 <= state.motor_shaft_nm <= 2.0 + 1e-9
-        assert 0.0 <= bus_w <= 432.0 * 1.01
-        assert 0.0 <= state.battery.current_a <= 12.0 * 1.01
+        assert 0.0 <= state.motor_shaft_nm <= 2.0 + 1e-9
+        assert state.battery.current_a >= 0.0
         if state.motor_speed_rad_s * RPM_PER_RAD_S > 3010.0:
             assert state.motor_shaft_nm == 0.0
     assert bike.balance_error_pct <= 1.0
 
 
-def test_torque_at_25_kmh_is_what_432_w_leave() -> None:
-    bike = Bike(25.0)
-    bike.rider(0.0, RIDER_OFF)
+def test_at_25_kmh_1_41_nm_take_432_w_and_a_bridge_gives_more_if_asked() -> None:
+    taken_w = {}
+    for demand_nm in (1.41, 2.0):
+        bike = Bike(25.0)
+        bike.rider(0.0, RIDER_OFF)
+        bike.advance(0.02, demand_nm)
+        assert bike.state.motor_shaft_nm == pytest.approx(demand_nm)
+        taken_w[demand_nm] = bike.state.battery.voltage_v * bike.state.battery.current_a
 
-    bike.advance(0.02, 2.0)
-
-    # thesis_checks I-5 and A13: 1.41 Nm, never more than 1.45.
-    assert bike.state.motor_shaft_nm == pytest.approx(1.41, abs=0.01)
+    # thesis_checks I-5. What holds it is the firmware: test_battery_power.py.
+    assert taken_w[1.41] == pytest.approx(432.0, rel=0.01)
+    assert taken_w[2.0] > 600.0
 
 
 def test_no_torque_comes_from_a_motor_above_3000_rpm() -> None:

@@ -4,6 +4,7 @@ Method: the whole unit on the bench; tokens are signed by an independent Ed25519
 `cryptography`). Delays are those of the protocol page, 4.3: 1, 2, 4 .. 60 s.
 """
 
+import math
 from dataclasses import replace
 
 import pytest
@@ -292,9 +293,12 @@ def test_nothing_is_spent_before_the_change_is_valid_and_the_bike_stands(unit: B
     unit.ask(CfgSetRequest(transaction, item))
     assert respond(unit, transaction, token).status == Status.STATE
     unit.ask(CfgValidateRequest(transaction))
-    unit.inputs(speed_kmh=12.0)
-    assert respond(unit, transaction, token).status == Status.NOT_STOPPED
-    unit.inputs(speed_kmh=0.0)
+    for moving in ({"speed_kmh": 12.0}, {"motor_speed_rpm": 400.0}, {"speed_kmh": math.nan}):
+        unit.inputs(**{"speed_kmh": 0.0, "motor_speed_rpm": 0.0, **moving})
+        steps_before = lib.bench_flash_steps(unit.board)
+        assert respond(unit, transaction, token).status == Status.NOT_STOPPED
+        assert lib.bench_flash_steps(unit.board) == steps_before
+    unit.inputs(speed_kmh=0.0, motor_speed_rpm=0.0)
 
     assert respond(unit, transaction, token).status == Status.OK
 

@@ -1,7 +1,7 @@
 /* The law as a program of its own, without Python: float32 records in, float32 records out.
  *
  * Standard input: one configuration record (142 floats, in the order of read_config), then one
- * input record (12 floats) a step. Standard output: one output record (7 floats) a step. All in the
+ * input record (13 floats) a step. Standard output: one output record (7 floats) a step. All in the
  * machine's byte order. Ends with 0 at the end of the input, 1 for a broken record, 2 for a
  * configuration the law refuses. A test compares it bit for bit with the law's other two doors. */
 #include "assist.h" // assist_step
@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 #define CONFIG_FLOATS 142
-#define INPUT_FLOATS 12
+#define INPUT_FLOATS 13
 #define OUTPUT_FLOATS 7
 
 typedef struct {
@@ -97,13 +97,14 @@ static assist_input input_of(const float *floats)
     input.cadence_rpm = floats[2];
     input.motor_speed_rpm = floats[3];
     input.battery_voltage_v = floats[4];
-    input.motor_temperature_degc = floats[5];
-    input.controller_temperature_degc = floats[6];
-    input.torque_age_ms = (uint16_t)floats[7];
-    input.mode = (uint8_t)floats[8];
-    input.brake = (uint8_t)floats[9];
-    input.walk_button = (uint8_t)floats[10];
-    input.inhibit = (uint8_t)floats[11];
+    input.battery_current_a = floats[5];
+    input.motor_temperature_degc = floats[6];
+    input.controller_temperature_degc = floats[7];
+    input.torque_age_ms = (uint16_t)floats[8];
+    input.mode = (uint8_t)floats[9];
+    input.brake = (uint8_t)floats[10];
+    input.walk_button = (uint8_t)floats[11];
+    input.inhibit = (uint8_t)floats[12];
     return input;
 }
 

@@ -183,6 +183,8 @@ static void ride_on(int step)
     ride.cadence_rpm = 3.0f * ride.speed_kmh;
     ride.motor_speed_rpm = 120.0f * ride.speed_kmh;
     ride.battery_voltage_v = 37.0f;
+    ride.battery_current_a = 11.5f;
+    ride.motor_temperature_degc = 60.0f;
     ride.mode_selected = 3; /* fuzzy */
 }
 
