@@ -15,6 +15,7 @@ import pytest
 from sim_device.calibration_metrics import metrics
 from sim_device.lockstep import LockstepUnit
 from sim_device.scenario import run
+from sim_device.scenario_file import load, names
 from tests.reproduction.__main__ import LITERAL
 
 SEEDS = range(200)
@@ -152,14 +153,7 @@ def test_a11_the_printed_equation_gives_the_printed_speeds_and_is_labelled(
         ("slope", {"law": "fixed", "motor": "foc"}),
         ("slope", {"law": "fuzzy", "grade_deg": 15.0}),
         ("field_ride", {"hours": 0.05}),
-        ("commute", {}),
-        ("stop_and_go", {}),
-        ("alpine_climb", {}),
-        ("cold_morning", {}),
-        ("worn_battery", {}),
-        ("sensor_fault", {}),
-        ("link_bursts", {}),
-        ("slippery_start", {}),
+        *((name, {}) for name in names() if load(name).live and name != "field_ride"),
     ],
 )
 def test_a12_the_energy_books_close_to_one_percent(name: str, settings: dict[str, object]) -> None:
