@@ -4,47 +4,104 @@ from __future__ import annotations
 
 from backend.device.handshake import VersionRefused, version_text
 from backend.device.identity import Identity
-from backend.errors import NoAnswer
+from backend.errors import LinkError, NoAnswer
 
 
-def ready_reason(identity: Identity) -> str:
+class CodedReason(str):
+    """A sentence with a code, for those who say it in another language."""
+
+    code: str
+
+    def __new__(cls, text: str, code: str = "") -> CodedReason:
+        made = super().__new__(cls, text)
+        made.code = code
+        return made
+
+
+def code_of(reason: str) -> str:
+    """The code of a sentence; "" for one that has none."""
+    return reason.code if isinstance(reason, CodedReason) else ""
+
+
+def opening_reason() -> CodedReason:
+    """Nothing was tried yet."""
+    return CodedReason("The port is being opened.", "opening")
+
+
+def greeted_reason(port_name: str) -> CodedReason:
+    """The port is open."""
+    return CodedReason(f"{port_name} is open; waiting for the unit to answer.", "greeted")
+
+
+def port_reason(error: LinkError) -> CodedReason:
+    """The port does not open or is gone; the code is the error's."""
+    return CodedReason(error.message, error.code)
+
+
+def removed_reason() -> CodedReason:
+    """Somebody took it off the list."""
+    return CodedReason("The device was removed.", "removed")
+
+
+def read_only_reason(why: str) -> CodedReason:
+    """Acquainted, and not to be written: `why`."""
+    return CodedReason(why, "read_only")
+
+
+def no_stream_reason(before: str, error: BaseException) -> CodedReason:
+    """As `before`, and the live values are refused."""
+    return CodedReason(f"{before} Live values are not available: {error}", "no_stream")
+
+
+def ready_reason(identity: Identity) -> CodedReason:
     """Acquainted: who it is."""
-    return (
+    return CodedReason(
         f"Connected to {identity.model} {identity.serial_number}, "
-        f"firmware {identity.firmware_version}."
+        f"firmware {identity.firmware_version}.",
+        "ready",
     )
 
 
-def silent_reason(port_name: str) -> str:
+def silent_reason(port_name: str) -> CodedReason:
     """It was there and is silent."""
-    return (
+    return CodedReason(
         f"The unit on {port_name} stopped answering. Check battery and cable; it is taken up "
-        "again by itself."
+        "again by itself.",
+        "silent",
     )
 
 
-def deaf_reason(port_name: str) -> str:
+def deaf_reason(port_name: str) -> CodedReason:
     """It talks and does not hear us."""
-    return (
+    return CodedReason(
         f"The unit on {port_name} is heard and answers nothing. Check the cable and its plug: one "
-        "direction seems broken. Spindle keeps trying."
+        "direction seems broken. Spindle keeps trying.",
+        "deaf",
     )
 
 
-def restarted_reason() -> str:
+def restarted_reason() -> CodedReason:
     """It says it started again."""
-    return "The unit was restarted; asking who it is again."
+    return CodedReason("The unit was restarted; asking who it is again.", "restarted")
 
 
-def greeting_reason(port_name: str, rates: str, error: BaseException) -> str:
+def greeting_reason(port_name: str, rates: str, error: BaseException) -> CodedReason:
     """Nobody answered HELLO, or not as the protocol wants."""
     at = f"{port_name} at {rates} baud" if rates else port_name
     if isinstance(error, NoAnswer):
-        return (
+        return CodedReason(
             f"No drive unit answers on {at}. Is it switched on, and is this its port? "
-            "Spindle keeps trying."
+            "Spindle keeps trying.",
+            "nobody",
         )
-    return f"What answers on {at} is no drive unit Spindle understands: {error}"
+    return CodedReason(
+        f"What answers on {at} is no drive unit Spindle understands: {error}", "not_understood"
+    )
+
+
+def version_reason(error: BaseException) -> CodedReason:
+    """It speaks another version of the protocol."""
+    return CodedReason(str(error), "other_version")
 
 
 def newer_version(major: int) -> VersionRefused:
@@ -52,11 +109,14 @@ def newer_version(major: int) -> VersionRefused:
     return VersionRefused(version_text(str(major)))
 
 
-def forgotten_reason() -> str:
+def forgotten_reason() -> CodedReason:
     """It knows nothing of the stream that was renewed."""
-    return "The unit forgot the live stream; asking who it is again."
+    return CodedReason("The unit forgot the live stream; asking who it is again.", "restarted")
 
 
-def orphan_reason() -> str:
+def orphan_reason() -> CodedReason:
     """A change broke off and may still be open in the unit."""
-    return "A change got no answer; asking the unit who it is again, so that it drops the change."
+    return CodedReason(
+        "A change got no answer; asking the unit who it is again, so that it drops the change.",
+        "orphan",
+    )

@@ -27,12 +27,19 @@ from backend.device.log_download import LogReceiver
 from backend.device.operation import Operation, attempt
 from backend.device.reasons import (
     deaf_reason,
+    greeted_reason,
     greeting_reason,
     newer_version,
+    no_stream_reason,
+    opening_reason,
     orphan_reason,
+    port_reason,
+    read_only_reason,
     ready_reason,
+    removed_reason,
     restarted_reason,
     silent_reason,
+    version_reason,
 )
 from backend.device.requests import RequestTable
 from backend.device.runner import OnError, OnResult, OperationRunner
@@ -103,7 +110,7 @@ class Session:
         self, now_s: float, plan: StreamPlan | None = None, schemas: Schemas | None = None
     ) -> None:
         self.state = LinkState.CONNECTING
-        self.reason = "The port is being opened."
+        self.reason: str = opening_reason()
         self.acquaintance: Acquaintance | None = None
         self.notes = UnitNotes()
         self.last_block: StreamBlock | None = None
@@ -209,7 +216,7 @@ class Session:
         self._phase = _Phase.FLUSHING
         self._until_s = now_s + FLUSH_S
         if self.state is LinkState.CONNECTING:
-            self._stand(self.state, f"{name} is open; waiting for the unit to answer.")
+            self._stand(self.state, greeted_reason(name))
 
     def port_failed(self, now_s: float, error: LinkError) -> None:
         """The port does not open or is gone; the message of `error` becomes the reason."""
@@ -217,7 +224,7 @@ class Session:
         self._phase = _Phase.OPENING
         self._out.clear()
         self._break_off(NoAnswer(error.message, error.code))
-        self._stand(self._absent(), error.message)
+        self._stand(self._absent(), port_reason(error))
 
     def close(self, now_s: float) -> None:
         """Say goodbye; the bytes are still to be sent. The session is of no further use."""
@@ -226,7 +233,7 @@ class Session:
             self._out += encode_frame(encode(Request(BYE_TID, ByeRequest())))
         self._phase = _Phase.ENDED
         self._break_off(LinkError("The device was removed."))
-        self._stand(LinkState.CLOSED, "The device was removed.")
+        self._stand(LinkState.CLOSED, removed_reason())
 
     # ------------------------------------------------------------------ work
 
@@ -368,7 +375,7 @@ class Session:
         if acquaintance.read_only_reason is None:
             self._stand(LinkState.READY, ready_reason(acquaintance.identity))
         else:
-            self._stand(LinkState.READ_ONLY, acquaintance.read_only_reason)
+            self._stand(LinkState.READ_ONLY, read_only_reason(acquaintance.read_only_reason))
         self._stream.begin(acquaintance)
 
     def _not_acquainted(self, error: BaseException) -> None:
@@ -382,14 +389,14 @@ class Session:
         self._until_s = self._now_s + (REFUSED_PAUSE_S if refused else PAUSE_S)
         self.failed_greetings += 0 if refused else 1
         if refused:
-            self._stand(LinkState.CLOSED, str(error))
+            self._stand(LinkState.CLOSED, version_reason(error))
         else:
             reason = greeting_reason(self._port_name, self.line.tried(), error)
             self._stand(self._absent(), reason)
 
     def _no_stream(self, error: BaseException) -> None:
         if self._phase is _Phase.UP:
-            self._stand(self.state, f"{self.reason} Live values are not available: {error}")
+            self._stand(self.state, no_stream_reason(self.reason, error))
 
     def _keep_up(self) -> None:
         if self.state is LinkState.READY:

@@ -7,6 +7,7 @@ from datetime import UTC, datetime
 
 from backend.device.identity import Identity
 from backend.device.live_values import LiveValues
+from backend.device.reasons import code_of
 from backend.device.snapshot import DeviceStatus
 
 
@@ -77,3 +78,8 @@ class DeviceView:
     config: ConfigStamp | None
     link: dict[str, float | None]
     faults_active: tuple[str, ...]
+
+    @property
+    def reason_code(self) -> str:
+        """A word for the reason, for other languages than the sentence's."""
+        return code_of(self.reason)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from playwright.sync_api import expect
 
+from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk
 from tests.fakes.server import SpindleServer, eventually
 
@@ -169,3 +170,11 @@ def test_a_unit_without_rides_shows_no_other_bike_s(
     desk.open("/")
 
     expect(page.get_by_role("region", name="Last ride")).to_contain_text("No ride yet")
+
+
+def test_a_chinese_reader_is_told_why_in_chinese(open_desk: OpenDesk, standing: str) -> None:
+    page = open_desk(language="zh-CN").open("/")
+
+    link = page.get_by_role("region", name="链路")
+    expect(link).to_contain_text("已与单元建立联系。")
+    expect(link).not_to_contain_text("Connected to")

@@ -83,6 +83,7 @@ class Device(Answer):
     kind: DeviceKind
     state: DeviceState
     reason: str
+    reason_code: str = Field(description="A word for the reason, for programs and translations.")
     identity: Identity | None
     config: ConfigStamp | None
     link: dict[str, int | float | None] = Field(

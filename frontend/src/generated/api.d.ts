@@ -1088,6 +1088,11 @@ export interface components {
             state: "connecting" | "ready" | "read_only" | "lost" | "closed";
             /** Reason */
             reason: string;
+            /**
+             * Reason Code
+             * @description A word for the reason, for programs and translations.
+             */
+            reason_code: string;
             identity: components["schemas"]["Identity"] | null;
             config: components["schemas"]["ConfigStamp"] | null;
             /**

@@ -194,6 +194,13 @@ export const en = {
   'lint.errors': 'Error',
   'lint.warnings': 'Warning',
   'lint.notes': 'Note',
+  'lint.cell': 'row {row}, column {column}',
+  'lint.row': 'row {row}',
+  'lint.column': 'column {column}',
+  'lint.mode': 'mode {mode}',
+  'lint.modes': 'all modes',
+  'lint.point': 'at {speed}, torque rate {rate}',
+  'lint.rate': 'at torque rate {rate}',
 
   'draft.same': 'Same as in the unit',
   'draft.unsaved': '{count} changed, not yet in the unit',

@@ -180,6 +180,13 @@ export const zh: Record<Key, string> = {
   'lint.errors': '错误',
   'lint.warnings': '警告',
   'lint.notes': '提示',
+  'lint.cell': '第 {row} 行第 {column} 列',
+  'lint.row': '第 {row} 行',
+  'lint.column': '第 {column} 列',
+  'lint.mode': '模式 {mode}',
+  'lint.modes': '所有模式',
+  'lint.point': '{speed}，扭矩变化率 {rate}',
+  'lint.rate': '扭矩变化率 {rate}',
 
   'draft.same': '与单元一致',
   'draft.unsaved': '{count} 项已修改，尚未写入单元',

@@ -189,5 +189,28 @@ const scenario = {
   worn_battery: '老旧且将耗尽的电池爬坡：电压下降，直到电池管理系统断开。',
 }
 
-export const zhCodes = { lint, violation, refusal, fault, mechanic, scenario }
+// 连接状态的原因。
+const reason = {
+  opening: '正在打开端口。',
+  greeted: '端口已打开，正在等待单元应答。',
+  ready: '已与单元建立联系。',
+  read_only: '此 Spindle 不完全认识该单元的固件：可以读取，不能修改。请使用与其固件配套的 Spindle。',
+  no_stream: '已连接，但无法提供实时数值。',
+  silent: '单元不再应答。请检查电池和数据线；恢复后自动重连。',
+  deaf: '能收到单元的数据，但它不应答。请检查数据线和插头：似乎有一个方向不通。',
+  restarted: '单元重启过，正在重新确认其身份。',
+  orphan: '一次修改没有得到应答，正在让单元放弃它。',
+  nobody: '此端口上没有单元应答。它开机了吗？端口选对了吗？将不断重试。',
+  not_understood: '此端口上的设备不是 Spindle 认识的驱动单元。',
+  other_version: '单元使用另一版本的协议。请更新其中之一。',
+  removed: '设备已移除。',
+  link: '端口无法打开。请检查数据线和端口名。',
+  port_absent: '没有这个端口，或对方没有响应。请插好数据线；出现后自动连接。',
+  port_busy: '端口被其他程序占用。请关闭该程序，随后自动连接。',
+  port_permission: '没有使用此端口的权限。在 Linux 上，请将自己加入该端口所属的用户组后重新登录。',
+  port_vanished: '端口消失了：数据线被拔出，或单元断电。恢复后自动重连。',
+  simulator_failed: '模拟单元无法启动。',
+}
+
+export const zhCodes = { lint, violation, refusal, fault, mechanic, scenario, reason }
 export type Saying = keyof typeof zhCodes

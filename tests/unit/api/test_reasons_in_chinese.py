@@ -1,0 +1,32 @@
+"""Goal: whatever a unit's state, a Chinese reader is told in Chinese why it is so."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from pathlib import Path
+
+import pytest
+
+from backend.device import reasons
+from backend.device.reasons import code_of, port_reason
+from backend.link import trouble
+
+ROOT = Path(__file__).resolve().parents[3]
+WORDS = (ROOT / "frontend/src/shared/i18n/zh_codes.ts").read_text(encoding="utf-8")
+OURS = set(re.findall(r'"([a-z_]+)"\s*,?\s*\)', inspect.getsource(reasons)))
+PORTS = set(re.findall(r'code="([a-z_]+)"', inspect.getsource(trouble)))
+
+
+@pytest.mark.parametrize("code", sorted(OURS | PORTS | {"link"}))
+def test_a_reason_has_chinese_words(code: str) -> None:
+    told = WORDS[WORDS.index("const reason") :]
+
+    assert re.search(rf"^  {code}:", told, re.MULTILINE)
+
+
+def test_every_sentence_carries_its_code_and_the_port_s_own() -> None:
+    assert {"ready", "silent", "restarted", "nobody", "read_only"} <= OURS
+    absent = port_reason(trouble.cannot_open("COM3", FileNotFoundError(2, "gone")))
+    assert (code_of(absent), absent[:4]) == ("port_absent", "COM3")
+    assert code_of("a sentence of somebody else") == ""
