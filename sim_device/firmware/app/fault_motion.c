@@ -10,9 +10,10 @@
 #define MISMATCH_FACTOR 3.0f
 #define MISMATCH_KMH 3.0f
 
-/* A pulse is timed to microseconds, and no wheel turns five times in the same time: legs and road
- * see to that. Only a bench's servo does, and there the motor's speed stays as well. */
-#define STUCK_KMH 0.02f
+/* A pulse is timed to microseconds, and hardly a wheel turns five times in the same time, to one in
+ * 4,000: legs and road see to that. With 0.02 km/h one magnet and even legs gave false alarms. On a
+ * bench's servo it does, and there the motor's speed stays as well. */
+#define STUCK_KMH 0.005f
 #define STUCK_WHEEL_TURNS 5.0f
 
 /* Neighbouring cogs differ by about a tenth: who keeps his cadence by shifting is seen as well. */

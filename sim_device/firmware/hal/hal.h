@@ -6,9 +6,9 @@
  * 0, no mode selected; a board writes what it has and leaves the rest.
  *
  * The wheel's speed comes new with every pulse, from its time in microseconds: a reading that stays
- * within 0.02 km/h for five turns under power, while the chain's speed changes, is a stuck sensor.
- * So it must not be rounded to tenths. While no pulse comes it falls: it is never more than what a
- * pulse would give now. */
+ * within 0.005 km/h for five turns under power, while the chain's speed changes, is a stuck sensor,
+ * so it must not be rounded. One magnet is too slow at walking pace, six will do. While no pulse
+ * comes it falls: it is never more than what a pulse would give now. */
 #ifndef SPINDLE_HAL_H
 #define SPINDLE_HAL_H
 

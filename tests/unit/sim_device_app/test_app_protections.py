@@ -321,7 +321,7 @@ def test_a_speed_that_sticks_from_switching_on_is_seen_when_the_bike_moves(unit:
 
 def test_a_shift_at_a_true_speed_is_not_a_stuck_sensor(unit: BenchUnit) -> None:
     for rpm in (2270.0, 1945.0, 1675.0, 2605.0):
-        wheel_turns(unit, 4.0, motor_rpm=(rpm, rpm), jitter_kmh=0.1)
+        wheel_turns(unit, 4.0, motor_rpm=(rpm, rpm), jitter_kmh=0.02)
 
     assert flags(unit) == 0
 
