@@ -71,6 +71,19 @@ def test_a_run_that_makes_energy_says_so_and_an_honest_one_says_its_books_close(
     expect(page.get_by_test_id("energy-books")).to_contain_text("201.40 %")
 
 
+def test_the_words_of_the_wireless_link_are_counted_on_the_page(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    simulation = server.get(f"/devices/{standing}/simulation")
+    assert simulation["rotor_link"]["words_good"] > 0
+    simulation["rotor_link"] = {"words_good": 12345, "words_bad": 67, "words_lost": 8}
+    desk.page.route("**/simulation", lambda route: route.fulfill(json=simulation))
+    page = desk.open("/")
+
+    counted = page.get_by_test_id("rotor-link")
+    expect(counted).to_contain_text("12,345 words good, 67 damaged, 8 that never came")
+
+
 def test_what_a_simulated_unit_can_break_is_broken_from_the_panel(
     desk: Desk, server: SpindleServer, standing: str
 ) -> None:

@@ -93,6 +93,7 @@ export const zh: Record<Key, string> = {
   'ground.wet': '潮湿路面',
   'ground.leaves': '湿落叶',
   'ground.ice': '冰面',
+  'simulation.rotor_link': '中轴与壳体间的无线链路：{good} 个字正确，{bad} 个损坏，{lost} 个丢失。',
   'simulation.books': '本次骑行的能量账目相差 {error} %，允许 1 %。',
   'simulation.not_consistent': '能量不守恒：本次运行照搬印刷的公式，凭空产生能量。这是复现，不是真车。',
   'broken.title': '损坏的部件',
