@@ -109,7 +109,10 @@ def concluded(found: Scan, results: Sequence[LogRide], rides: tuple[ImportedRide
             detail += f"; {found.damaged} bytes from byte {found.first_damage} on are damaged"
         return Outcome(PARTIAL, rides, "damaged", f"{detail}.", found.first_damage, whole)
     if not all(result.ended for result in results):
-        detail = "The unit lost its power before the log was closed: at most a second is missing."
+        detail = (
+            "The log has no end. The unit lost its power before it was closed, and at most a "
+            "second is missing; or only its beginning was fetched."
+        )
         return Outcome(PARTIAL, rides, "truncated", detail, None, whole)
     return Outcome(COMPLETE, rides, completeness=1.0)
 

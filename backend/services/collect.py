@@ -5,7 +5,8 @@
 
 A log is written to `.part` in order, so whatever is in that file is a beginning of the log; the
 unit's check value over it decides whether it may be gone on with. The log is confirmed to the unit
-when its bytes are in the store, never before.
+when its bytes are in the store, never before. What was fetched of a log that the unit has given up
+since is all there will ever be of it: it becomes a ride as it is.
 """
 
 from __future__ import annotations
@@ -164,14 +165,18 @@ class Collect:
     def start(self, device_id: str, log_id: int) -> Download:
         """Begin to fetch a log, or go on; the same download if one is running.
 
-        Raises NotFound, NoAnswer, Conflict while the log is still being written.
+        Beginnings of logs that the unit no longer has become rides meanwhile. Raises NotFound,
+        NoAnswer, Conflict while the log is still being written.
         """
         unit_id = self._devices.get(device_id).id
         with self._lock:
             running = self._downloads.get((unit_id, log_id))
             if running is not None and running.state in RUNNING:
                 return running
-        log = self._find(unit_id, log_id)
+        found = self._listed(unit_id)
+        for path in self._orphans(self._serial(unit_id), found):
+            self._worker(unit_id).submit(self._salvage, path)
+        log = self._find(unit_id, log_id, found)
         if log.recording:
             raise Conflict(
                 f"Ride log {log_id} is still being written. It is closed after the bike has stood "
@@ -179,14 +184,9 @@ class Collect:
                 code="recording",
             )
         download = Download(length=log.length)
+        worker = self._worker(unit_id)
         with self._lock:
-            if self._stopping.is_set():
-                raise Stopping("Spindle is closing.")
             self._downloads[unit_id, log_id] = download
-            worker = self._workers.get(unit_id)
-            if worker is None:
-                worker = ThreadPoolExecutor(1, thread_name_prefix=f"collect {unit_id}")
-                self._workers[unit_id] = worker
         worker.submit(self._run, unit_id, log)
         return download
 
@@ -245,7 +245,7 @@ class Collect:
     def _fetch(self, unit_id: str, serial: str, log: RideLog) -> Path:
         """The whole log on the disk, checked by the unit."""
         self._folder.mkdir(parents=True, exist_ok=True)
-        stem = f"{serial}-{log.boot_id:08x}-{log.log_id}-{log.generation:08x}"
+        stem = stem_of(serial, log)
         part, whole = self._folder / f"{stem}.part", self._folder / f"{stem}{BLOCKS_SUFFIX}"
         with storing(part), part.open("a+b") as file:
             fruitless = 0
@@ -358,7 +358,44 @@ class Collect:
         started_us = time.time_ns() // 1000 - (found.now_us - log.t0_us)
         return sync_block(log.log_id, log.boot_id, log.t0_us, started_us)
 
+    # ------------------------------------------------------------------ what was left behind
+
+    def _orphans(self, serial: str, found: RideLogs) -> list[Path]:
+        """Files of logs that this unit no longer has, or whose end Spindle's own end prevented."""
+        there = {stem_of(serial, log) for log in found.logs}
+        return [
+            path
+            for path in sorted(self._folder.glob(f"{serial}-*"))
+            if path.suffix in (".part", BLOCKS_SUFFIX) and path.stem not in there
+        ]
+
+    def _salvage(self, path: Path) -> None:
+        """Make a ride of what is here; the file goes once its bytes are in the store."""
+        try:
+            with storing(path):
+                if not path.exists():
+                    return
+                name = f"log {path.stem.split('-')[2]}{BLOCKS_SUFFIX}"
+                upload = self._uploads.receive_file(name, path)
+                if upload.object_key is not None or path.stat().st_size == 0:
+                    path.unlink()
+        except SpindleError as error:
+            LOG.warning("%s stays where it is: %s", path, error.message)
+        except Exception:
+            LOG.exception("%s stays where it is.", path)
+
     # ------------------------------------------------------------------ inside
+
+    def _worker(self, unit_id: str) -> ThreadPoolExecutor:
+        """The one thread that fetches from a unit. Raises Stopping."""
+        with self._lock:
+            if self._stopping.is_set():
+                raise Stopping("Spindle is closing.")
+            worker = self._workers.get(unit_id)
+            if worker is None:
+                worker = ThreadPoolExecutor(1, thread_name_prefix=f"collect {unit_id}")
+                self._workers[unit_id] = worker
+            return worker
 
     def _again(self, unit_id: str, operation: Callable[[], Operation[Result]]) -> Result:
         """Run an operation; once more when the unit was away."""
@@ -376,8 +413,8 @@ class Collect:
                 raise Conflict(f"{unit_id} keeps no ride logs.", code="no_logs") from None
             raise
 
-    def _find(self, unit_id: str, log_id: int) -> RideLog:
-        for log in self._listed(unit_id).logs:
+    def _find(self, unit_id: str, log_id: int, found: RideLogs | None = None) -> RideLog:
+        for log in (found or self._listed(unit_id)).logs:
             if log.log_id == log_id:
                 return log
         raise NotFound(f"{unit_id} has no ride log {log_id}; it may have been overwritten.")
@@ -408,6 +445,11 @@ class Collect:
             work()
         except SpindleError as error:
             LOG.debug("%s", error.message)
+
+
+def stem_of(serial: str, log: RideLog) -> str:
+    """Name of a log's files without their ending: no other log of any unit has it."""
+    return f"{serial}-{log.boot_id:08x}-{log.log_id}-{log.generation:08x}"
 
 
 def state_of(log: RideLog) -> str:

@@ -17,6 +17,7 @@ import pytest
 
 from backend.errors import Conflict, NotFound, SpindleError
 from backend.ingest import Outcome
+from backend.ingest.blocks import BLOCKS_SUFFIX
 from backend.ingest.formats import read_file
 from backend.services.collect import Collect, Download
 from backend.services.connect import Devices
@@ -263,3 +264,43 @@ def test_what_is_not_there_or_not_finished_is_refused(shop: Shop) -> None:
 
     with pytest.raises(Conflict, match="still being written"):
         shop.collect.start(shop.device, 2)
+
+
+@pytest.mark.parametrize("suffix", [".part", BLOCKS_SUFFIX])
+def test_what_was_fetched_of_a_log_that_is_gone_becomes_a_ride(shop: Shop, suffix: str) -> None:
+    whole = flash_bytes(shop)
+    (log,) = shop.collect.logs(shop.device).items
+    gone = part_of(shop).with_name(f"{shop.device}-00000001-9-0badcafe{suffix}")
+    # Half a log, and a piece of a page, as a lost supply leaves it.
+    gone.write_bytes(whole[: len(whole) // 1024 * 512 + 100])
+    stranger = gone.with_name(f"{'0' * 24}-00000001-9-0badcafe.part")
+    stranger.write_bytes(b"of another unit")
+
+    with pytest.raises(NotFound):
+        shop.collect.start(shop.device, 9)
+    (ride,) = eventually(lambda: shop.store.rides.list().items)
+
+    eventually(lambda: not gone.exists())
+    assert ride.state == "done"
+    assert ride.row_count == pytest.approx(5 * log.duration_s, abs=60)
+    assert stranger.exists()
+    assert shop.collect.logs(shop.device).items == (log,)
+
+
+def test_a_beginning_the_store_refuses_stays_on_the_disk(
+    shop: Shop, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full_disk(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    gone = part_of(shop).with_name(f"{shop.device}-00000001-9-0badcafe.part")
+    gone.write_bytes(flash_bytes(shop))
+    with monkeypatch.context() as patched:
+        patched.setattr(shop.store.objects, "publish", full_disk)
+        assert shop.fetch().state == "failed"
+    assert gone.exists()
+
+    assert shop.fetch().confirmed
+
+    assert not gone.exists()
+    assert len(shop.store.rides.list().items) == 1
