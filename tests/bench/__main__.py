@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from tests.bench import board, law, link, logs, plant, rides, server, wire, writes
+from tests.bench import answers, board, law, link, logs, plant, rides, server, wire, writes
 from tests.bench.figures import Figure, mark, write
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "benchmarks.md"
@@ -12,6 +12,7 @@ SECTIONS = {
     "The simulator": plant.run,
     "The wire": wire.run,
     "The link": link.run,
+    "Answers": answers.run,
     "Configuration writes": writes.run,
     "Ride logs": logs.run,
     "Rides": rides.run,
