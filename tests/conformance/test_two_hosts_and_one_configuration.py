@@ -1,8 +1,8 @@
 """Goal: two hosts that know nothing of each other never mix, lose or double a change.
 
 Method: a rule-based state machine (hypothesis) draws what either host does next, in any order, with
-repeated frames, power cuts inside flash writes and hosts that greet in between. A model of a page
-says what the unit must answer; after every step the unit's active image is the model's.
+repeated frames, trials, power cuts inside flash writes and hosts that greet in between. A model of
+a page says what the unit must answer; after every step the unit's active image is the model's.
 """
 
 from __future__ import annotations
@@ -27,8 +27,11 @@ from firmware_protocol._generated import (
     CfgBeginRequest,
     CfgBeginResponse,
     CfgCommitRequest,
+    CfgConfirmRequest,
+    CfgRollbackRequest,
     CfgSetRequest,
     CfgValidateRequest,
+    CommitFlags,
     HelloRequest,
     Status,
 )
@@ -53,8 +56,12 @@ CHANGES = st.fixed_dictionaries(
 )
 
 
+# Seconds a change is tried; 0 is for good.
+TRIALS = st.sampled_from([0, 0, 5, 20])
 # Mostly nothing; what another host, or time, may do between two steps of a write.
-MEANWHILE = st.sampled_from(["", "", "", "", "begins", "writes", "commits", "greets", "lease"])
+MEANWHILE = st.sampled_from(
+    ["", "", "", "", "begins", "writes", "commits", "confirms", "reverts", "greets", "lease"]
+)
 
 
 @dataclass
@@ -86,6 +93,9 @@ class TwoHosts(RuleBasedStateMachine):
         self.valid = False
         self.lease_end_s = 0.0
         self.commit_free_s = 0.0
+        # What comes back unless somebody confirms, and when.
+        self.way_back: tuple[int, bytes] | None = None
+        self.trial_end_s = 0.0
 
     @initialize()
     def both_read(self) -> None:
@@ -119,7 +129,7 @@ class TwoHosts(RuleBasedStateMachine):
         generation, image = host.base
         response = self.ask(host, CfgBeginRequest(generation, zlib.crc32(image)))
 
-        if self.open is not None:
+        if self.open is not None or self.way_back is not None:
             assert response.status == Status.BUSY
         elif (generation, image) != (self.generation, self.image):
             assert response.status == Status.STALE_BASE
@@ -155,13 +165,12 @@ class TwoHosts(RuleBasedStateMachine):
         self.valid = points[0] != points[1]
         assert response.status == (Status.OK if self.valid else Status.INVALID_CONFIG)
 
-    @rule(index=HOSTS, moving=st.sampled_from([False, False, True]))
-    def commits(self, index: int, moving: bool) -> None:
+    @rule(index=HOSTS, moving=st.sampled_from([False, False, True]), trial_s=TRIALS)
+    def commits(self, index: int, moving: bool, trial_s: int = 0) -> None:
         host = self.hosts[index]
         image = pack_image(host.intended)
         self.unit.inputs(speed_kmh=10.0 if moving else 0.0)
-        request = CfgCommitRequest(host.transaction, zlib.crc32(image), 0, 0)
-        response = self.ask(host, request)
+        response = self.ask(host, commit_request(host.transaction, image, trial_s))
         self.unit.inputs(speed_kmh=0.0)
 
         if not self.knows(host):
@@ -178,7 +187,7 @@ class TwoHosts(RuleBasedStateMachine):
             assert response.status == Status.RATE_LIMIT
         else:
             assert response.status == Status.OK
-            self._committed(image)
+            self._committed(image, trial_s)
 
     def _raises_a_limit(self) -> bool:
         """Nobody here has a token, so the cut-off only goes down."""
@@ -186,11 +195,41 @@ class TwoHosts(RuleBasedStateMachine):
         assert isinstance(cutoff, float)
         return cutoff > float(str(active["assist_cutoff_kmh"]))
 
-    def _committed(self, image: bytes) -> None:
+    def _committed(self, image: bytes, trial_s: int) -> None:
         if image != self.image:
+            if trial_s:
+                self.way_back = (self.generation, self.image)
+                self.trial_end_s = self.now_s + trial_s
             self.generation += 1
             self.commit_free_s = self.now_s + COMMIT_PERIOD_S
         self.image, self.open = image, None
+
+    @rule(index=HOSTS)
+    def confirms(self, index: int) -> None:
+        """Keeps what this host has read last, whoever wrote it."""
+        host = self.hosts[index]
+        generation, image = host.base
+        response = self.ask(host, CfgConfirmRequest(generation, zlib.crc32(image)))
+
+        if generation != self.generation:
+            assert response.status == Status.STALE_BASE
+        elif image != self.image:
+            assert response.status == Status.CRC_MISMATCH
+        else:
+            assert response.status == Status.OK
+            self.way_back = None
+
+    @rule(index=HOSTS)
+    def reverts(self, index: int) -> None:
+        response = self.ask(self.hosts[index], CfgRollbackRequest())
+
+        assert response.status == (Status.STATE if self.way_back is None else Status.OK)
+        self._returned()
+
+    def _returned(self) -> None:
+        if self.way_back is not None:
+            self.generation, self.image = self.way_back
+            self.way_back = None
 
     @rule(index=HOSTS)
     def aborts(self, index: int) -> None:
@@ -207,9 +246,16 @@ class TwoHosts(RuleBasedStateMachine):
         wait=st.booleans(),
         fresh=st.booleans(),
         between=st.lists(MEANWHILE, min_size=4, max_size=4),
+        trial_s=TRIALS,
     )
     def writes(
-        self, index: int, changes: dict[str, Value], wait: bool, fresh: bool, between: list[str]
+        self,
+        index: int,
+        changes: dict[str, Value],
+        wait: bool,
+        fresh: bool,
+        between: list[str],
+        trial_s: int = 0,
     ) -> None:
         """The whole way in one go, with something happening between its steps."""
         if wait:
@@ -223,7 +269,7 @@ class TwoHosts(RuleBasedStateMachine):
         self._meanwhile(between[2], 1 - index)
         self.validates(index)
         self._meanwhile(between[3], 1 - index)
-        self.commits(index, False)
+        self.commits(index, False, trial_s)
 
     def _meanwhile(self, what: str, other: int) -> None:
         if what == "begins":
@@ -232,6 +278,11 @@ class TwoHosts(RuleBasedStateMachine):
             self.writes(other, {"pedal_stop_ms": 777}, True, True, [""] * 4)
         elif what == "greets":
             self.greets(other)
+        elif what == "confirms":
+            self.reads(other)
+            self.confirms(other)
+        elif what == "reverts":
+            self.reverts(other)
         elif what == "commits":
             self.commits(other, False)
         elif what == "lease":
@@ -250,19 +301,24 @@ class TwoHosts(RuleBasedStateMachine):
         self.now_s += seconds
         if self.open is not None and self.now_s >= self.lease_end_s:
             self.open = None
+        if self.now_s >= self.trial_end_s:
+            self._returned()
 
-    @rule(index=HOSTS, cut=CUTS)
-    def loses_power_while_committing(self, index: int, cut: int) -> None:
+    @rule(index=HOSTS, cut=CUTS, trial_s=TRIALS)
+    def loses_power_while_committing(self, index: int, cut: int, trial_s: int) -> None:
         """Whatever byte the supply fails at: exactly the old or exactly the new one boots."""
         host = self.hosts[index]
         writes = self.open is not None and host.transaction == self.open and self.valid
         lib.bench_flash_cut_after(self.unit.board, cut)
         image = pack_image(host.intended)
-        self.ask(host, CfgCommitRequest(host.transaction, zlib.crc32(image), 0, 0))
+        self.ask(host, commit_request(host.transaction, image, trial_s))
         self.unit.boot()
         found = self.unit.read_image()
 
-        news = (self.generation + 1, pack_image(self.staged)) if writes else None
+        # No trial survives a restart, neither one that ran nor one that began here.
+        self._returned()
+        lasting = writes and trial_s == 0
+        news = (self.generation + 1, pack_image(self.staged)) if lasting else None
         assert found in ((self.generation, self.image), news)
         self.generation, self.image = found
         self.open, self.now_s, self.commit_free_s = None, 0.0, 0.0
@@ -272,6 +328,11 @@ class TwoHosts(RuleBasedStateMachine):
     @invariant()
     def the_unit_holds_what_the_model_says(self) -> None:
         assert self.unit.read_image() == (self.generation, self.image)
+
+
+def commit_request(transaction: int, image: bytes, trial_s: int) -> CfgCommitRequest:
+    flags = CommitFlags.PROVISIONAL if trial_s else 0
+    return CfgCommitRequest(transaction, zlib.crc32(image), flags, trial_s)
 
 
 TwoHosts.TestCase.settings = settings(
