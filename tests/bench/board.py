@@ -34,6 +34,9 @@ LINK = ("link", "line_rate", "dispatch", "telemetry", "admission", "events", "re
         "requests_line", "requests_stream", "requests_time")  # fmt: skip
 UNLOCKING = ("sha512", "signature", "unlock", "unlock_store", "requests_unlock")
 
+# Files of the codec that hold the parameters.
+PARAMETERS = ("ebl_config", "ebl_registry", "ebl_values")
+
 # Members of `app` by what they are for.
 PARTS = {
     "link (decoder, three queues, frame in and out)": ("link",),
@@ -59,8 +62,10 @@ def memory(image: Path) -> list[Figure]:
         ("law", "codec", "description of itself", "link and requests", "configuration and product",
          "unlocking", "ride logs", "board", "compiler's own"), 0
     )  # fmt: skip
+    parameters = 0
     for name, size in linked(image.with_suffix(".map").read_text()):
         rooms[room_of(name)] += size
+        parameters += size if name in PARAMETERS else 0
     ram = {row[3]: int(row[1], 16) for row in symbols(image)}
     parts = "; ".join(f"{room} {size:,}" for room, size in rooms.items())
     codec = rooms["codec"] + rooms["link and requests"]
@@ -70,9 +75,14 @@ def memory(image: Path) -> list[Figure]:
     return [
         Figure("flash, all of it", f"{sum(rooms.values()):,} B", "", None, parts),
         Figure("flash of the protocol: codec, link and requests", f"{codec:,} B", "<= 12,288 B",
-               codec <= 12_288, "its description, which the host could bring along, not counted"),
+               codec <= 12_288,
+               f"of it {parameters:,} are the tables of parameters and channels with their checks. "
+               "The budget's list also names transactions, slots and the logs' window, counted in "
+               "other rooms above; with a copy written out for every field of every message it is "
+               "out of reach. Its description, which the host could bring along, is not counted"),
         Figure(f"RAM of the protocol, frames of {MTU} bytes", f"{protocol:,} B", "", None,
-               "link, answers and streams: four of each, so that four requests may be under way"),
+               "four answers kept and four queued, four streams and four of their frames queued: "
+               "4,096 B would hold seven such frames, so the budget is for short ones"),
         Figure(f"RAM of the protocol, frames of {MTU_BEFORE_HELLO} bytes", f"{least:,} B",
                "<= 4,096 B", least <= 4096, "built with MTU=128"),
         Figure("RAM of the whole product", f"{ram['unit']:,} B", "", None,

@@ -28,11 +28,8 @@ UID = b"board-test-1"
 
 # Frames above the 512 bytes of the design, each with its reason; none may grow or join them.
 LARGE_FRAMES = {
-    "centroid_block": 1700,  # four points of the centroid at once, 101 samples each
     "crypto_eddsa_check_equation": 1100,  # Monocypher: the window of one point
-    "ride_log_store_boot": 720,  # a page
     "parameters_image_is_valid": 820,  # a configuration, and the law's view of it
-    "list": 600,  # a response full of logs
 }
 FRAME_BYTES_MAX = 512
 HOST_BOARD = emulator.BOARD_FOLDER.parent / "host"

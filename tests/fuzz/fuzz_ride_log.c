@@ -153,6 +153,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static ride_log_store store;
     log_flash flash;
     hal board;
+    uint8_t page[RIDE_LOG_PAGE_BYTES];
 
     memset(&board, 0, sizeof board);
     board.now_us = now_us;
@@ -162,7 +163,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (int i = byte(&from) % PAGES_MAX; i > 0 && from.left > 0; i--) {
         lay_page(flash.bytes, &from);
     }
-    ride_log_store_boot(&store, &board, ROW_PERIOD_US);
+    ride_log_store_boot(&store, &board, ROW_PERIOD_US, page);
     for (uint16_t number = 0; number < ride_log_store_count(&store); number++) {
         uint8_t place = ride_log_store_by_age(&store, number);
 

@@ -51,37 +51,38 @@ static uint32_t slot_crc(const uint8_t *header, const uint8_t *image)
     return ebl_crc32(crc, image, EBL_IMAGE_LENGTH);
 }
 
-static int slot_is_whole(const uint8_t *slot)
+static int slot_is_whole(const uint8_t *head, const uint8_t *image)
 {
-    return ebl_get_u32(slot + AT_MAGIC) == SLOT_MAGIC &&
-           ebl_get_u32(slot + AT_LAYOUT) == parameters_layout_crc32() &&
-           ebl_get_u16(slot + AT_LENGTH) == EBL_IMAGE_LENGTH &&
-           ebl_get_u32(slot + AT_CRC) == slot_crc(slot, slot + AT_IMAGE) &&
-           parameters_image_is_valid(slot + AT_IMAGE);
+    return ebl_get_u32(head + AT_MAGIC) == SLOT_MAGIC &&
+           ebl_get_u32(head + AT_LAYOUT) == parameters_layout_crc32() &&
+           ebl_get_u16(head + AT_LENGTH) == EBL_IMAGE_LENGTH &&
+           ebl_get_u32(head + AT_CRC) == slot_crc(head, image) && parameters_image_is_valid(image);
 }
 
 /* A state word that was cut in half says as little as one that was never written, but for void:
  * whoever began to take a slot back meant it. */
-static uint8_t slot_state(const uint8_t *slot)
+static uint8_t slot_state(const uint8_t *head, const uint8_t *image)
 {
-    if (ebl_get_u32(slot + AT_MAGIC) == WORD_ERASED) return EBL_SLOT_STATE_EMPTY;
-    if (!slot_is_whole(slot)) return EBL_SLOT_STATE_DAMAGED;
-    if (ebl_get_u32(slot + AT_VOID) != WORD_ERASED) return EBL_SLOT_STATE_VOID;
-    if (ebl_get_u32(slot + AT_CONFIRMED) == WORD_WRITTEN) return EBL_SLOT_STATE_CONFIRMED;
-    if (ebl_get_u32(slot + AT_PROVISIONAL) == WORD_WRITTEN) return EBL_SLOT_STATE_PROVISIONAL;
+    if (ebl_get_u32(head + AT_MAGIC) == WORD_ERASED) return EBL_SLOT_STATE_EMPTY;
+    if (!slot_is_whole(head, image)) return EBL_SLOT_STATE_DAMAGED;
+    if (ebl_get_u32(head + AT_VOID) != WORD_ERASED) return EBL_SLOT_STATE_VOID;
+    if (ebl_get_u32(head + AT_CONFIRMED) == WORD_WRITTEN) return EBL_SLOT_STATE_CONFIRMED;
+    if (ebl_get_u32(head + AT_PROVISIONAL) == WORD_WRITTEN) return EBL_SLOT_STATE_PROVISIONAL;
     return EBL_SLOT_STATE_DAMAGED;
 }
 
-/* The slot's bytes and its state. */
-static uint8_t slot_read(const hal *board, uint8_t slot_index, uint8_t *slot)
+/* The slot's state, what lies before its image, and the image. */
+static uint8_t slot_read(const hal *board, uint8_t slot_index, uint8_t *head, uint8_t *image)
 {
     size_t stride = slot_stride(board);
+    size_t address = slot_index * stride;
 
     if (stride == 0) return EBL_SLOT_STATE_EMPTY;
-    if (board->flash_read(board->context, slot_index * stride, slot, SLOT_LENGTH) < 0) {
+    if (board->flash_read(board->context, address, head, AT_IMAGE) < 0 ||
+        board->flash_read(board->context, address + AT_IMAGE, image, EBL_IMAGE_LENGTH) < 0) {
         return EBL_SLOT_STATE_DAMAGED;
     }
-    return slot_state(slot);
+    return slot_state(head, image);
 }
 
 static int word_write(const hal *board, uint8_t slot_index, size_t at)
@@ -95,7 +96,8 @@ static int word_write(const hal *board, uint8_t slot_index, size_t at)
 /* The confirmed slot of the highest generation, or the factory default. */
 static void slot_choose(config_store *store, const hal *board)
 {
-    uint8_t slot[SLOT_LENGTH];
+    uint8_t head[AT_IMAGE];
+    uint8_t image[EBL_IMAGE_LENGTH];
 
     parameters_default_image(store->image);
     store->generation = 0;
@@ -104,10 +106,10 @@ static void slot_choose(config_store *store, const hal *board)
     for (uint8_t index = 0; index < CONFIG_STORE_SLOTS; index++) {
         uint32_t generation;
 
-        if (slot_read(board, index, slot) != EBL_SLOT_STATE_CONFIRMED) continue;
-        generation = ebl_get_u32(slot + AT_GENERATION);
+        if (slot_read(board, index, head, image) != EBL_SLOT_STATE_CONFIRMED) continue;
+        generation = ebl_get_u32(head + AT_GENERATION);
         if (store->slot != CONFIG_STORE_NO_SLOT && generation <= store->generation) continue;
-        memcpy(store->image, slot + AT_IMAGE, EBL_IMAGE_LENGTH);
+        memcpy(store->image, image, sizeof image);
         store->generation = generation;
         store->slot = index;
     }
@@ -141,13 +143,22 @@ static int slot_erase(const hal *board, uint8_t slot_index)
 }
 
 /* Image, then header, then the one word that makes the slot count. */
-static int slot_write(const hal *board, uint8_t slot_index, const uint8_t *header,
-                      const uint8_t *image, size_t state_word)
+static int slot_write(const hal *board, uint8_t slot_index, const config_slot *slot,
+                      const uint8_t *image)
 {
+    uint8_t header[HEADER_LENGTH];
     size_t address = slot_index * slot_stride(board);
+    size_t state_word = slot->state == EBL_SLOT_STATE_PROVISIONAL ? AT_PROVISIONAL : AT_CONFIRMED;
     int result = slot_erase(board, slot_index);
 
     if (result != CONFIG_STORE_OK) return result;
+    memset(header, 0xFF, sizeof header);
+    ebl_put_u32(header + AT_MAGIC, SLOT_MAGIC);
+    ebl_put_u32(header + AT_LAYOUT, parameters_layout_crc32());
+    ebl_put_u32(header + AT_GENERATION, slot->generation);
+    ebl_put_u16(header + AT_LENGTH, EBL_IMAGE_LENGTH);
+    ebl_put_u32(header + AT_ERASES, slot->erases);
+    ebl_put_u32(header + AT_CRC, slot_crc(header, image));
     result = flash_program_verified(board, address + AT_IMAGE, image, EBL_IMAGE_LENGTH);
     if (result == CONFIG_STORE_OK) {
         result = flash_program_verified(board, address, header, HEADER_LENGTH);
@@ -173,19 +184,14 @@ static uint32_t erases_so_far(const hal *board, uint8_t slot_index)
 
 int config_store_write(config_store *store, const hal *board, const uint8_t *image, int on_trial)
 {
-    uint8_t header[HEADER_LENGTH];
     uint8_t target = store->slot == 0 ? 1 : 0;
+    config_slot slot = {EBL_SLOT_STATE_CONFIRMED, store->generation + 1, 0};
     int result;
 
     if (slot_stride(board) == 0) return CONFIG_STORE_NO_SPACE;
-    memset(header, 0xFF, sizeof header);
-    ebl_put_u32(header + AT_MAGIC, SLOT_MAGIC);
-    ebl_put_u32(header + AT_LAYOUT, parameters_layout_crc32());
-    ebl_put_u32(header + AT_GENERATION, store->generation + 1);
-    ebl_put_u16(header + AT_LENGTH, EBL_IMAGE_LENGTH);
-    ebl_put_u32(header + AT_ERASES, erases_so_far(board, target) + 1);
-    ebl_put_u32(header + AT_CRC, slot_crc(header, image));
-    result = slot_write(board, target, header, image, on_trial ? AT_PROVISIONAL : AT_CONFIRMED);
+    if (on_trial) slot.state = EBL_SLOT_STATE_PROVISIONAL;
+    slot.erases = erases_so_far(board, target) + 1;
+    result = slot_write(board, target, &slot, image);
     if (result != CONFIG_STORE_OK) return result;
 
     memcpy(store->image, image, EBL_IMAGE_LENGTH);
@@ -212,33 +218,34 @@ void config_store_return(config_store *store, const hal *board)
 
 int config_store_provision(const hal *board, const uint8_t *image)
 {
-    config_store store;
+    const config_slot first = {EBL_SLOT_STATE_CONFIRMED, 1, 1};
 
+    if (slot_stride(board) == 0) return CONFIG_STORE_NO_SPACE;
     if (!flash_is_blank(board, 0, config_store_flash_bytes(board))) return CONFIG_STORE_OK;
-    config_store_boot(&store, board);
-    return config_store_write(&store, board, image, 0);
+    return slot_write(board, 0, &first, image);
 }
 
 int config_store_previous(const config_store *store, const hal *board, uint8_t *image,
                           uint32_t *generation)
 {
-    uint8_t slot[SLOT_LENGTH];
+    uint8_t head[AT_IMAGE];
+    uint8_t other = store->slot == 0 ? 1 : 0;
 
     if (store->slot == CONFIG_STORE_NO_SLOT) return 0;
-    if (slot_read(board, store->slot == 0 ? 1 : 0, slot) != EBL_SLOT_STATE_CONFIRMED) return 0;
-    *generation = ebl_get_u32(slot + AT_GENERATION);
-    memcpy(image, slot + AT_IMAGE, EBL_IMAGE_LENGTH);
+    if (slot_read(board, other, head, image) != EBL_SLOT_STATE_CONFIRMED) return 0;
+    *generation = ebl_get_u32(head + AT_GENERATION);
     return *generation < store->generation;
 }
 
 void config_store_slot(const hal *board, uint8_t slot_index, config_slot *seen)
 {
-    uint8_t slot[SLOT_LENGTH];
+    uint8_t head[AT_IMAGE];
+    uint8_t image[EBL_IMAGE_LENGTH];
 
-    seen->state = slot_read(board, slot_index, slot);
+    seen->state = slot_read(board, slot_index, head, image);
     seen->generation = 0;
     seen->erases = 0;
     if (seen->state == EBL_SLOT_STATE_EMPTY || seen->state == EBL_SLOT_STATE_DAMAGED) return;
-    seen->generation = ebl_get_u32(slot + AT_GENERATION);
-    seen->erases = ebl_get_u32(slot + AT_ERASES);
+    seen->generation = ebl_get_u32(head + AT_GENERATION);
+    seen->erases = ebl_get_u32(head + AT_ERASES);
 }

@@ -57,7 +57,7 @@ void config_store_return(config_store *store, const hal *board);
  * A flash that holds anything, even damage, is left as it is. */
 int config_store_provision(const hal *board, const uint8_t *image);
 
-/* The image before the active one. False where there is none. */
+/* The image before the active one. False where there is none; `image` then is nothing. */
 int config_store_previous(const config_store *store, const hal *board, uint8_t *image,
                           uint32_t *generation);
 

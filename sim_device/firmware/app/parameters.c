@@ -157,21 +157,19 @@ static uint8_t item_read(item *read, const uint8_t *bytes, size_t length, uint8_
 uint8_t parameters_set(uint8_t *image, const uint8_t *items, size_t length, uint8_t access,
                        uint16_t *detail)
 {
-    uint8_t changed[EBL_IMAGE_LENGTH];
-    size_t at = 0;
+    item read;
+    size_t used;
 
-    memcpy(changed, image, sizeof changed);
-    while (at < length) {
-        item read;
-        size_t used;
+    for (size_t at = 0; at < length; at += used) {
         uint8_t status = item_read(&read, items + at, length - at, access, &used, detail);
 
         if (status != EBL_STATUS_OK) return status;
-        memcpy(changed + read.parameter->image_offset + (size_t)read.first * read.parameter->length,
-               read.values, (size_t)read.count * read.parameter->length);
-        at += used;
     }
-    memcpy(image, changed, sizeof changed);
+    for (size_t at = 0; at < length; at += used) {
+        (void)item_read(&read, items + at, length - at, access, &used, detail);
+        memcpy(image + read.parameter->image_offset + (size_t)read.first * read.parameter->length,
+               read.values, (size_t)read.count * read.parameter->length);
+    }
     *detail = 0;
     return EBL_STATUS_OK;
 }

@@ -6,7 +6,6 @@
 #include "ebl_registry.h" // ebl_log_list_request_get
 
 #define ENTRY_LENGTH 40
-#define ENTRIES_MAX 12 /* what a frame of the largest MTU holds */
 
 /* What LOG_CRC and LOG_CONFIRM are told to expect: 2 ms for each of the check's pieces. */
 #define CHECK_BYTES_PER_MS 1024u
@@ -28,13 +27,13 @@ static void entry_put(const ride_log_store *store, uint8_t place, uint8_t *bytes
     bytes[32] = log->flags;
 }
 
+/* The entries are put where they are sent from, behind what comes before them. */
 static void list(app *unit, const ebl_header *request, reply *answer)
 {
     const ride_log_store *store = &unit->ride_log.store;
-    uint8_t entries[ENTRIES_MAX * ENTRY_LENGTH];
     size_t room = (reply_capacity(answer) - EBL_LOG_LIST_RESPONSE_LENGTH) / ENTRY_LENGTH;
     ebl_log_list_request asked;
-    ebl_log_list_response response;
+    ebl_log_list_response response = {0};
     size_t count = 0;
     size_t length = 0;
     int put;
@@ -43,22 +42,20 @@ static void list(app *unit, const ebl_header *request, reply *answer)
         reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LOG_LIST_REQUEST_LENGTH);
         return;
     }
-    if (room > ENTRIES_MAX) room = ENTRIES_MAX;
     if (asked.count < room) room = asked.count;
     response.total = ride_log_store_count(store);
-    while (count < room && asked.start + count < response.total) {
-        uint8_t place = ride_log_store_by_age(store, (uint16_t)(asked.start + count));
-
-        entry_put(store, place, entries + count * ENTRY_LENGTH);
-        count++;
-    }
     response.overwritten = store->overwritten;
     response.boot_id = unit->board->boot_id;
     response.now_us = now_us(unit);
-    response.entries = entries;
-    response.entries_length = count * ENTRY_LENGTH;
     put =
         ebl_log_list_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
+    while (count < room && asked.start + count < response.total) {
+        uint8_t place = ride_log_store_by_age(store, (uint16_t)(asked.start + count));
+
+        entry_put(store, place, reply_fields(answer) + length);
+        length += ENTRY_LENGTH;
+        count++;
+    }
     reply_with(answer, put, length);
 }
 
@@ -293,16 +290,11 @@ size_t requests_log_bulk(void *context, uint8_t *frame, size_t capacity)
     return ride_log_bulk_frame(&unit->bulk, &unit->ride_log.store, unit->board, frame, capacity);
 }
 
-/* A unit without memory for logs answers what is well formed with UNSUPPORTED. */
+/* Of a unit without memory for logs, whatever the request says. */
 static void no_log(app *unit, const ebl_header *request, reply *answer)
 {
-    const ebl_message *message = ebl_message_find(request->word);
-
     (void)unit;
-    if (request->payload_length < message->request_length) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, (uint16_t)message->request_length);
-        return;
-    }
+    (void)request;
     reply_refuse(answer, EBL_STATUS_UNSUPPORTED, 0);
 }
 

@@ -23,7 +23,7 @@ void ride_log_init(ride_log *log, const hal *board)
     log->place = RIDE_LOG_NONE;
     log->victim = RIDE_LOG_NONE;
     log->steps_left = 1;
-    ride_log_store_boot(&log->store, board, ride_log_row_period_us());
+    ride_log_store_boot(&log->store, board, ride_log_row_period_us(), log->page);
 }
 
 static void row_take(ride_log *log, const int16_t *row, uint64_t now_us)

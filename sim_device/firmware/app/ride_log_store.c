@@ -211,17 +211,16 @@ uint32_t ride_log_store_length(const ride_log_store *store, uint8_t place)
 
 /* Every log whose beginning is there, whole. What is left of others was given up and may be
  * reused, but its numbers may not: half-programmed ones do not count. */
-static void logs_find(ride_log_store *store, const hal *board)
+static void logs_find(ride_log_store *store, const hal *board, uint8_t *page)
 {
     for (uint16_t block = 0; block < store->blocks; block++) {
-        uint8_t page[RIDE_LOG_PAGE_BYTES];
         ride_log_header header;
         ride_log_entry *log;
         uint32_t crc32;
         uint8_t place;
 
         if (board->log_read(board->log_context, ride_log_store_address(store, board, block, 0),
-                            page, sizeof page) < 0 ||
+                            page, RIDE_LOG_PAGE_BYTES) < 0 ||
             !ride_log_block_get(&header, &crc32, page)) {
             continue;
         }
@@ -268,18 +267,17 @@ static void owners_find(ride_log_store *store, const hal *board, uint32_t *last)
 
 /* How far the log goes: to its last whole block. */
 static void end_find(ride_log_store *store, const hal *board, uint8_t place, uint32_t last,
-                     uint32_t row_period_us)
+                     uint32_t row_period_us, uint8_t *page)
 {
     ride_log_entry *log = &store->logs[place];
     uint32_t page_count = (last + 1) * store->pages_per_block;
 
     for (uint16_t i = 0; i < 2u * store->pages_per_block && page_count > 0; i++) {
-        uint8_t page[RIDE_LOG_PAGE_BYTES];
         ride_log_header header;
         uint32_t crc32;
 
         (void)ride_log_store_read(store, board, place, (page_count - 1) * RIDE_LOG_PAGE_BYTES, page,
-                                  sizeof page);
+                                  RIDE_LOG_PAGE_BYTES);
         if (ride_log_block_get(&header, &crc32, page) && header.log_id == log->id) {
             log->t1_us = header.t0_us;
             if (header.type == RIDE_LOG_DATA) log->t1_us += (uint64_t)header.n * row_period_us;
@@ -291,7 +289,8 @@ static void end_find(ride_log_store *store, const hal *board, uint8_t place, uin
     log->pages = page_count;
 }
 
-void ride_log_store_boot(ride_log_store *store, const hal *board, uint32_t row_period_us)
+void ride_log_store_boot(ride_log_store *store, const hal *board, uint32_t row_period_us,
+                         uint8_t *page)
 {
     uint32_t last[RIDE_LOG_LOGS_MAX] = {0};
     size_t blocks = board->log_block_size == 0 ? 0 : board->log_size / board->log_block_size;
@@ -303,10 +302,10 @@ void ride_log_store_boot(ride_log_store *store, const hal *board, uint32_t row_p
     if (store->blocks < BLOCKS_MIN) store->blocks = 0;
     if (store->blocks == 0) return;
     store->pages_per_block = (uint16_t)(board->log_block_size / RIDE_LOG_PAGE_BYTES);
-    logs_find(store, board);
+    logs_find(store, board, page);
     owners_find(store, board, last);
     for (uint8_t place = 0; place < RIDE_LOG_LOGS_MAX; place++) {
         if (store->logs[place].id == 0) continue;
-        end_find(store, board, place, last[place], row_period_us);
+        end_find(store, board, place, last[place], row_period_us, page);
     }
 }

@@ -40,8 +40,9 @@ typedef struct {
     uint8_t erases;       /* of blocks, until the unit's counters have them */
 } ride_log_store;
 
-/* Reads the flash. `row_period_us` tells how long a DATA block lasts. */
-void ride_log_store_boot(ride_log_store *store, const hal *board, uint32_t row_period_us);
+/* Reads the flash. row_period_us: how long a row of a DATA block lasts. page: room to read one. */
+void ride_log_store_boot(ride_log_store *store, const hal *board, uint32_t row_period_us,
+                         uint8_t *page);
 
 /* Place of a log, or RIDE_LOG_NONE. A generation of another log of the same id is not found. */
 uint8_t ride_log_store_find(const ride_log_store *store, uint32_t id, uint32_t generation);

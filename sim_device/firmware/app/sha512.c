@@ -115,3 +115,12 @@ void sha512_final(sha512 *hash, uint8_t *digest)
     block_take(hash);
     for (size_t i = 0; i < 8; i++) big_endian_put(digest + 8 * i, hash->state[i]);
 }
+
+void sha512_of(const sha512_part *parts, size_t count, uint8_t *digest)
+{
+    sha512 hash;
+
+    sha512_init(&hash);
+    for (size_t i = 0; i < count; i++) sha512_update(&hash, parts[i].bytes, parts[i].length);
+    sha512_final(&hash, digest);
+}

@@ -14,6 +14,14 @@ typedef struct {
     uint8_t block[SHA512_BLOCK_LENGTH];
 } sha512;
 
+/* Of what lies in several places. */
+typedef struct {
+    const uint8_t *bytes;
+    size_t length;
+} sha512_part;
+
+void sha512_of(const sha512_part *parts, size_t count, uint8_t *digest);
+
 void sha512_init(sha512 *hash);
 void sha512_update(sha512 *hash, const uint8_t *bytes, size_t length);
 void sha512_final(sha512 *hash, uint8_t *digest);
