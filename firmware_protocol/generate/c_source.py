@@ -19,8 +19,7 @@ const {struct} *ebl_{row}_find({type} {key})
 
 def registry_source(registry: Registry) -> str:
     """The text of ebl_registry.c."""
-    lines = [FIRST_LINE, '#include "ebl_registry.h"', "", "#include <string.h>", ""]
-    lines += ['#include "ebl_bytes.h" // ebl_get_f32, ebl_put_f32', ""]
+    lines = [FIRST_LINE, '#include "ebl_registry.h"', ""]
     lines += ["const ebl_message ebl_messages[EBL_MESSAGE_COUNT] = {"]
     lines += [
         f"    {{0x{row.id:04x}, {row.request.length}, {row.response.length}}},"
@@ -48,7 +47,7 @@ def registry_source(registry: Registry) -> str:
         ("channel", "ebl_channel", "uint8_t", "id"),
     ):
         lines += [FIND.format(row=row, struct=struct, type=kind, key=key, upper=row.upper())]
-    lines += [*_config_default(registry), "", *_config_copies(registry)]
+    lines += [*_config_default(registry)]
     return "\n".join(lines) + "\n"
 
 
@@ -62,7 +61,8 @@ def _parameter_row(registry: Registry, parameter: Parameter) -> str:
     return (
         f"    {{0x{parameter.id:04x}, {parameter.image_offset}, EBL_TYPE_{parameter.type.upper()},"
         f" {parameter.count}, {parameter.length}, EBL_ACCESS_{access}, {flags},\n"
-        f"     {float_literal(low)}, {float_literal(high)}}}, /* {parameter.name} */"
+        f"     offsetof(ebl_config, {parameter.name}),"
+        f" {float_literal(low)}, {float_literal(high)}}},"
     )
 
 
@@ -97,27 +97,6 @@ def _initialiser(registry: Registry, parameter: Parameter) -> str:
 def _rows(parameter: Parameter) -> tuple[object, ...]:
     assert isinstance(parameter.default, tuple)
     return parameter.default
-
-
-def _config_copies(registry: Registry) -> list[str]:
-    pack = ["void ebl_config_pack(const ebl_config *config, uint8_t *image)", "{"]
-    unpack = ["void ebl_config_unpack(ebl_config *config, const uint8_t *image)", "{"]
-    for parameter in registry.parameters:
-        at = f"image + {parameter.image_offset}"
-        name = f"config->{parameter.name}"
-        kind, count = parameter.type, parameter.count
-        if kind in ("u8", "text") and parameter.size > 1:
-            pack.append(f"    memcpy({at}, {name}, {parameter.size});")
-            unpack.append(f"    memcpy({name}, {at}, {parameter.size});")
-        elif count > 1:
-            loop = f"    for (size_t i = 0; i < {count}; i++) {{"
-            step = f"{at} + {parameter.length} * i"
-            pack += [loop, f"        ebl_put_{kind}({step}, {name}[i]);", "    }"]
-            unpack += [loop, f"        {name}[i] = ebl_get_{kind}({step});", "    }"]
-        else:
-            pack.append(f"    ebl_put_{kind}({at}, {name});")
-            unpack.append(f"    {name} = ebl_get_{kind}({at});")
-    return [*pack, "}", "", *unpack, "}"]
 
 
 def messages_source(registry: Registry) -> str:

@@ -25,7 +25,7 @@ HAL_FOLDER = "sim_device/firmware/hal"
 
 # In order of dependence. A header that is not here cannot be called from Python.
 HEADERS: tuple[str, ...] = (
-    "firmware_protocol/c/ebl_bytes.h",
+    "firmware_protocol/c/ebl_result.h",
     "firmware_protocol/c/ebl_registry.h",
     "firmware_protocol/c/ebl_frame.h",
     "firmware_protocol/c/ebl_values.h",
