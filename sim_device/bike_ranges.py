@@ -48,8 +48,6 @@ _RANGES: dict[str, tuple[float, float]] = {
     "motor.inertia_kg_m2": (1e-6, 10.0),
     "motor.torque_nm_max": (0.0, 1000.0),
     "motor.speed_rpm_max": (0.0, 1e5),
-    "motor.bus_current_a_max": (0.0, 1e4),
-    "motor.bus_power_w_max": (0.0, 1e6),
     "motor.inductance_h": (1e-6, 0.1),
     "motor.pole_pairs": (1.0, 100.0),
     "motor.current_bandwidth_hz": (1.0, 2000.0),
