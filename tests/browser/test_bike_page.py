@@ -81,7 +81,7 @@ def test_the_words_of_the_wireless_link_are_counted_on_the_page(
     page = desk.open("/")
 
     counted = page.get_by_test_id("rotor-link")
-    expect(counted).to_contain_text("12,345 words good, 67 damaged, 8 that never came")
+    expect(counted).to_contain_text("12,345 words good, 67 damaged, 8 lost")
 
 
 def test_what_a_simulated_unit_can_break_is_broken_from_the_panel(

@@ -100,11 +100,9 @@ export const en = {
   'ground.wet': 'wet road',
   'ground.leaves': 'wet leaves',
   'ground.ice': 'ice',
-  'simulation.rotor_link':
-    'Link between spindle and housing: {good} words good, {bad} damaged, {lost} that never came.',
-  'simulation.books': 'Energy books of this ride fail to close by {error} %; 1 % is allowed.',
-  'simulation.not_consistent':
-    'Not energy consistent: a printed equation that makes energy. A replay, not a bike.',
+  'simulation.rotor_link': 'Rotor link: {good} words good, {bad} damaged, {lost} lost',
+  'simulation.books': 'Energy books: {error} % off',
+  'simulation.not_consistent': 'Not energy consistent',
   'broken.title': 'What is broken',
   'broken.torque_sensor': 'Torque sensor',
   'broken.speed_sensor': 'Speed sensor',
