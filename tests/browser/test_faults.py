@@ -7,6 +7,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
+import pytest
 from playwright.sync_api import Route, expect
 
 from tests.browser.conftest import OpenDesk
@@ -115,3 +116,26 @@ def test_what_was_changed_is_told_while_the_unit_is_silent(
 
     changes = page.get_by_role("region", name="Changes of the configuration").first
     expect(changes.locator("tbody tr")).to_have_count(len(known))
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_on_paper_the_page_names_the_unit_and_shows_no_buttons(
+    open_desk: OpenDesk, server: SpindleServer, standing: str, theme: str
+) -> None:
+    desk = open_desk(theme=theme)
+    with_faults(desk)
+    page = desk.open("/service")
+    expect(page.locator("[data-fault=TORQUE_SENSOR]")).to_be_visible()
+
+    page.emulate_media(media="print")
+
+    head = page.get_by_test_id("sheet-head")
+    expect(head).to_be_visible()
+    expect(head).to_contain_text(server.get(f"/devices/{standing}")["identity"]["serial_number"])
+    expect(page.locator("nav").first).to_be_hidden()
+    expect(page.get_by_role("button").locator("visible=true")).to_have_count(0)
+    assert page.evaluate("getComputedStyle(document.documentElement).color") == "rgb(0, 0, 0)"
+    box = head.bounding_box()
+    assert box is not None
+    assert box["width"] > 1000  # the sheet's width, not the menu's column
+    desk.picture(f"service-paper-{theme}", full=True)

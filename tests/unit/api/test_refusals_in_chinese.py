@@ -33,7 +33,12 @@ DEFAULTS = {kind.default_code for kind in tree(SpindleError)}
 STATUSES = {status.name.lower() for status in Status} - {"ok", "pending"}
 
 
-@pytest.mark.parametrize("code", sorted(DEFAULTS | STATUSES | set(CODE_OF_STATUS.values())))
+VERDICTS = {"truncated", "damaged", "part_unreadable", "duplicate", "filled", "ride_is_live"}
+
+
+@pytest.mark.parametrize(
+    "code", sorted(VERDICTS | DEFAULTS | STATUSES | set(CODE_OF_STATUS.values()))
+)
 def test_a_code_has_chinese_words(code: str) -> None:
     refusals = WORDS[WORDS.index("const refusal") : WORDS.index("const fault")]
 
