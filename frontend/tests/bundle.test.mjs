@@ -15,13 +15,36 @@ const heatmap = files.filter((name) => name.startsWith('plotly_heatmap'))
 // uPlot's chunk is named after whatever module the bundler met first; its class names give it away.
 const strips = files.filter((name) => readFileSync(`${folder}/${name}`, 'utf8').includes('u-over'))
 const charts = [...lines, ...surface, ...heatmap, ...strips]
+const chinese = files.filter((name) => /^zh(_codes)?-/.test(name))
+const shell = files.filter((name) => !charts.includes(name) && !chinese.includes(name))
+
+// What the page names itself, and then what those files import before they run.
+const entry = () =>
+  [...readFileSync('dist/index.html', 'utf8').matchAll(/assets\/([\w.-]+\.js)/g)].map((m) => m[1])
+function loaded(names) {
+  const found = new Set(names)
+  for (const name of found) {
+    const text = readFileSync(`${folder}/${name}`, 'utf8')
+    for (const [, imported] of text.matchAll(/(?:from|import)\s*["']\.\/([\w.-]+\.js)["']/g)) {
+      found.add(imported)
+    }
+  }
+  return [...found]
+}
 
 describe.skipIf(!built)('the built pages', () => {
   it('have a shell and all pages without charts within 120 kB, first page within 80 kB', () => {
-    const first = files.filter((name) => /^(index|BikePage|parameter_text|registry)-/.test(name))
+    const page = files.find((name) => /^BikePage-.*js$/.test(name))
+    const styles = files.filter((name) => /^(index|BikePage)-.*css$/.test(name))
+    const first = [...loaded([...entry(), page]), ...styles]
 
     expect(kb(first)).toBeLessThan(80)
-    expect(kb(files.filter((name) => !charts.includes(name)))).toBeLessThan(120)
+    expect(kb(shell)).toBeLessThan(120)
+  })
+
+  it('have the words of another language only for who reads it, within 25 kB', () => {
+    expect(chinese.length).toBeGreaterThan(0)
+    expect(kb(chinese)).toBeLessThan(25)
   })
 
   it('have line charts within 380 kB, heatmaps within 20 more and live strips within 30', () => {
@@ -32,10 +55,8 @@ describe.skipIf(!built)('the built pages', () => {
   })
 
   it('load three dimensions only on request, within 170 kB', () => {
-    const entry = readFileSync('dist/index.html', 'utf8')
-
     expect(kb(surface)).toBeLessThan(170)
-    expect(entry).not.toContain('plotly')
+    expect(loaded(entry()).join()).not.toContain('plotly')
   })
 
   it('ask nobody else for scripts, styles or fonts', () => {

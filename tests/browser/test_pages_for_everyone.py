@@ -95,6 +95,7 @@ def test_language_theme_and_units_are_chosen_and_kept(desk: Desk, riding: str) -
     page.check("input[value=dark]")
     page.check("input[value=imperial]")
     page.check("input[value=zh]")
+    expect(page.locator("h1")).to_have_text("设置")
     page.reload()
 
     expect(page.locator("h1")).to_have_text("设置")

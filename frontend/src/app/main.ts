@@ -18,7 +18,9 @@ const chosen = readPreferences()
 const theme = new Theme(chosen.theme)
 theme.apply()
 const server = new Server(openHttp())
-const locale = new Locale(chosen.language)
+const locale = new Locale()
+// Words that cannot be fetched leave the pages in English: that is better than none.
+await locale.speak(chosen.language).catch(() => undefined)
 const router = new Router()
 const devices = new DeviceWatch(server, chosen.device_id)
 const desk: Desk = {

@@ -27,7 +27,7 @@ const told: Dashboard = {
 let shown: ReturnType<typeof mount> | null = null
 
 async function show(dashboard: Server['dashboard'], stale = false) {
-  const locale = new Locale('en')
+  const locale = new Locale()
   const units = new Units(locale, 'metric')
   desk.now = { locale, units, server: { dashboard } } as Partial<Omit<Desk, 'server'>>
   document.body.innerHTML = ''

@@ -4,8 +4,11 @@ import { Units, type System } from '$shared/units/units.svelte'
 import { expect, it } from 'vitest'
 import { lintPlace } from './lint_place'
 
+const chinese = new Locale()
+await chinese.speak('zh')
+
 function place(where: string, language: Language = 'en', system: System = 'metric') {
-  const locale = new Locale(language)
+  const locale = language === 'zh' ? chinese : new Locale()
   return lintPlace(where, locale, new Units(locale, system))
 }
 

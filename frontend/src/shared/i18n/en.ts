@@ -431,6 +431,8 @@ export const en = {
   'service.why': 'Why',
 
   'settings.language': 'Language',
+  'settings.language_not_fetched':
+    'The words of that language could not be fetched. Is the server running?',
   'settings.theme': 'Appearance',
   'settings.units': 'Units',
   'settings.units_note': 'Only what is shown changes; the unit and the files keep SI units.',

@@ -1,35 +1,46 @@
 // The reader's language: words from a typed dictionary, numbers and times by Intl.
 import { en, type Key } from './en'
-import { zh } from './zh'
-import { zhCodes, type Saying } from './zh_codes'
+import type { Saying } from './zh_codes'
 
 export type Language = 'en' | 'zh'
 export type Values = Record<string, string | number>
 export type Words = (key: Key, values?: Values) => string
-const dictionaries: Record<Language, Record<Key, string>> = { en, zh }
+/** words: of the pages. codes: for what the server says with a code, by kind and code. */
+interface Dictionary {
+  words: Record<Key, string>
+  codes: Partial<Record<Saying, Record<string, string>>>
+}
+const english: Dictionary = { words: en, codes: {} }
 const tags: Record<Language, string> = { en: 'en-GB', zh: 'zh-CN' }
 
+/** English to begin with; another language is fetched when it is spoken first. */
 export class Locale {
-  language = $state<Language>('en')
+  private spoken = $state.raw<Language>('en')
+  private dictionary = $state.raw<Dictionary>(english)
 
-  constructor(language: Language) {
-    this.language = language
+  get language(): Language {
+    return this.spoken
+  }
+
+  /** Changes the language. Rejects and changes nothing if its words cannot be fetched. */
+  async speak(language: Language): Promise<void> {
+    this.dictionary = await dictionaryOf(language)
+    this.spoken = language
   }
 
   /** The words for a key; `{name}` in them is replaced by `values.name`. */
-  t: Words = (key, values) => fill(dictionaries[this.language][key], values)
+  t: Words = (key, values) => fill(this.dictionary.words[key], values)
 
   /** The words for a key made at run time, or the fallback where the dictionary has none. */
   lookup = (key: string, fallback: string): string => {
-    const words = dictionaries[this.language] as Record<string, string>
-    return words[key] ?? fallback
+    return (this.dictionary.words as Record<string, string>)[key] ?? fallback
   }
 
   /** What the server says in English and with a code: translated by its code where it is known.
       `{name}` in the translation is replaced by `values.name`. */
   said(kind: Saying, code: string, english: string, values?: Values): string {
-    if (this.language === 'en') return english
-    return fill((zhCodes[kind] as Record<string, string>)[code] ?? english, values)
+    const translated = this.dictionary.codes[kind]?.[code]
+    return translated === undefined ? english : fill(translated, values)
   }
 
   /** A number with a fixed count of decimals; "—" for a missing one. */
@@ -58,6 +69,12 @@ export class Locale {
     if (seconds == null || !Number.isFinite(seconds)) return '—'
     return clock(seconds)
   }
+}
+
+async function dictionaryOf(language: Language): Promise<Dictionary> {
+  if (language === 'en') return english
+  const [{ zh }, { zhCodes }] = await Promise.all([import('./zh'), import('./zh_codes')])
+  return { words: zh, codes: zhCodes }
 }
 
 /** h:mm:ss of a duration in seconds; below an hour m:ss. */

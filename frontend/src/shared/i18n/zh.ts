@@ -396,6 +396,7 @@ export const zh: Record<Key, string> = {
   'service.why': '原因',
 
   'settings.language': '语言',
+  'settings.language_not_fetched': '无法获取该语言的文字。服务器在运行吗？',
   'settings.theme': '外观',
   'settings.units': '单位',
   'settings.units_note': '只改变显示；单元和文件始终使用国际单位。',

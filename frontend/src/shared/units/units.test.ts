@@ -4,7 +4,7 @@ import { expect, it } from 'vitest'
 import { Locale } from '../i18n/locale.svelte'
 import { Units } from './units.svelte'
 
-const imperial = new Units(new Locale('en'), 'imperial')
+const imperial = new Units(new Locale(), 'imperial')
 
 it('shows acceleration in feet where speed is in miles', () => {
   expect(imperial.text(0.3048, 'm/s²')).toBe('1.00\u00a0ft/s²')
