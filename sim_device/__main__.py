@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from firmware_protocol._generated import Market
 from sim_device.controls import SPEED_FACTOR_MAX, SPEED_FACTOR_MIN
 from sim_device.emulated import EmulatedSetup
 from sim_device.emulator import BOARD, BOARD_VARIABLE, EmulatorError
@@ -86,6 +87,12 @@ def _add_unit(unit: argparse.ArgumentParser) -> None:
         help="keeps its configuration, FILE.log its ride logs; of another board, FILE.log all",
     )
     unit.add_argument(
+        "--market",
+        default=Market.EU_EPAC.name,
+        choices=list(Market.__members__),
+        help="whose law a new unit is made for; a --flash that is there keeps its own",
+    )
+    unit.add_argument(
         "--unlock-key", type=_unlock_key, metavar="FILE", help="the maker's public key (*.pub)"
     )
 
@@ -138,6 +145,7 @@ def _serve(arguments: argparse.Namespace) -> None:
         arguments,
         flash=flash.load() if flash is not None else None,
         log=log.load() if log is not None else None,
+        market=arguments.market,
         unlock_key=arguments.unlock_key,
         boot_id=new_boot_id(),
         line_baud=arguments.serial_rate,
@@ -161,6 +169,7 @@ def _serve_board(arguments: argparse.Namespace, stop: Stop) -> None:
         pty=arguments.pty,
         tcp=arguments.tcp,
         serial_rate=arguments.serial_rate,
+        market=Market[arguments.market],
     ).run(_ready, stop)
 
 

@@ -39,7 +39,7 @@ def write_config(unit: Unit, changes: dict[str, Any]) -> None:
     """
     exchange = Exchange(unit)
     info: Any = exchange.ask(CfgInfoRequest())
-    staged = unpack_image(_read_image(exchange, info.image_length)) | changes
+    staged = unpack_image(_read(exchange, info.image_length)) | changes
     begun: Any = exchange.ask(
         CfgBeginRequest(base_generation=info.generation, base_crc32=info.crc32)
     )
@@ -56,7 +56,14 @@ def write_config(unit: Unit, changes: dict[str, Any]) -> None:
     )
 
 
-def _read_image(exchange: "Exchange", length: int) -> bytes:
+def read_image(unit: Unit) -> bytes:
+    """The configuration a unit runs on; its clock moves on a little. Raises ConfigureError."""
+    exchange = Exchange(unit)
+    info: Any = exchange.ask(CfgInfoRequest())
+    return _read(exchange, info.image_length)
+
+
+def _read(exchange: "Exchange", length: int) -> bytes:
     image = b""
     while len(image) < length:
         wanted = min(READ_LENGTH, length - len(image))

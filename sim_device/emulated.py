@@ -14,6 +14,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from firmware_protocol._generated import Market
 from sim_device.emulator import Emulator, build, free_port, make_memory
 from sim_device.firmware.python.unit import ASSIST_OUTPUT_LENGTH
 from sim_device.lockstep import US_PER_S, LockstepUnit
@@ -33,7 +34,7 @@ AT_INPUTS = AT_REQUEST + ANSWER_BYTES
 AT_OUTPUT = AT_INPUTS + 256
 REGISTERS_LENGTH = AT_OUTPUT + ASSIST_OUTPUT_LENGTH - REGISTERS_AT
 
-IDENTITY = struct.Struct("<II12sB3x32sI")
+IDENTITY = struct.Struct("<II12sBB2x32sI")
 MAGIC = 0x31364250
 BELL = b"\x01"
 BELLS_MAX = 256
@@ -45,8 +46,10 @@ def prepare(
     unlock_key: bytes | None,
     has_clock: bool = False,
     serial_rate: int = 0,
+    market: Market = Market.EU_EPAC,
 ) -> None:
-    """What the factory writes, serial number and maybe the maker's key, and registers at rest.
+    """What the factory writes, serial number, market and maybe the maker's key, and registers at
+    rest.
 
     has_clock: the board's clock is in the bench's hand from power on. serial_rate: that the line
     begins with, 0 for a line where bytes take no time.
@@ -56,7 +59,8 @@ def prepare(
         boots = boots if magic == MAGIC else 0
         file.seek(0)
         key = unlock_key or bytes(32)
-        file.write(IDENTITY.pack(MAGIC, boots, uid, unlock_key is not None, key, serial_rate))
+        has_key = unlock_key is not None
+        file.write(IDENTITY.pack(MAGIC, boots, uid, has_key, market, key, serial_rate))
         file.seek(REGISTERS_AT)
         file.write(struct.pack("<2I", 0, has_clock) + bytes(REGISTERS_LENGTH - 8))
 
@@ -214,6 +218,7 @@ class EmulatedSetup:
     pty: Path | None
     tcp: tuple[str, int] | None
     serial_rate: int = 0
+    market: Market = Market.EU_EPAC
 
     def run(self, ready: Callable[[str], None], stop: Callable[[], bool]) -> None:
         """Serves until `stop()`; `ready` is called once with the address of the first line."""
@@ -222,7 +227,7 @@ class EmulatedSetup:
             memory = self.memory_file or Path(folder) / "memory"
             make_memory(memory)
             has_clock = takes_the_clock(self.bike)
-            prepare(memory, self.uid, self.unlock_key, has_clock, self.serial_rate)
+            prepare(memory, self.uid, self.unlock_key, has_clock, self.serial_rate, self.market)
             with Emulator(image, memory, self.tcp and free_port(self.tcp)) as emulator:
                 if self.pty is None:
                     ready(emulator.host_address)

@@ -9,7 +9,7 @@ import json
 from dataclasses import replace
 from typing import Any, Final
 
-from firmware_protocol._generated import MessageId, Status
+from firmware_protocol._generated import Market, MessageId, Status
 from sim_device.configure import write_config
 from sim_device.controls import NOT_CONSISTENT, Changes, choices_made, pack, parse_changes, plain
 from sim_device.firmware.python.unit import UID_LENGTH, Unit, default_bike, finite_or_none
@@ -42,6 +42,13 @@ def uid_of(name: str, seed: int) -> bytes:
     return hashlib.sha256(f"spindle simulated unit {name} {seed}".encode()).digest()[:UID_LENGTH]
 
 
+def market_named(name: str) -> Market:
+    """The market of this name. Raises ValueError with those there are."""
+    if name not in Market.__members__:
+        raise ValueError(f"there is no market {name}; there are {', '.join(Market.__members__)}")
+    return Market[name]
+
+
 class LockstepUnit:
     """One simulated unit with its rider and road.
 
@@ -52,6 +59,7 @@ class LockstepUnit:
         scenario: a live scenario to ride from the start: its name, its file's path or as read.
         bike: `part.name` -> value, over the pinned bike W1.
         flash: the flash of an earlier life. log: that for ride logs.
+        market: whose law a new unit is made for, by name; one with a flash keeps its own.
         unlock_key: the maker's public key; without one no limit can be raised again.
         boot_id: another one tells the host that the unit was restarted.
         line_baud: the serial line's rate at boot, 0 for a line where bytes take no time.
@@ -60,6 +68,7 @@ class LockstepUnit:
 
     Raises:
         ScenarioError: there is no such live scenario.
+        ValueError: there is no such market.
         ConfigureError: an override was refused.
     """
 
@@ -73,6 +82,7 @@ class LockstepUnit:
         bike: dict[str, float] | None = None,
         flash: bytes | None = None,
         log: bytes | None = None,
+        market: str = Market.EU_EPAC.name,
         unlock_key: bytes | None = None,
         boot_id: int = 1,
         line_baud: int = 0,
@@ -102,6 +112,7 @@ class LockstepUnit:
             bike=self._bike,
             flash=flash,
             log=log,
+            market=market_named(market),
             unlock_key=unlock_key,
             line_baud=line_baud,
             request=self.answer,

@@ -27,7 +27,7 @@ from backend.link.serial_port import BAUD_DEFAULT, SerialPort, baud_of
 READY_TIMEOUT_S = 15.0
 STOP_TIMEOUT_S = 2.0
 NAME_DEFAULT = "unit"
-SETTINGS = ("seed", "speed", "clock", "scenario", "flash", "unlock_key", "baud")
+SETTINGS = ("seed", "speed", "clock", "scenario", "flash", "market", "unlock_key", "baud")
 CLOCKS = ("real", "virtual")
 # What the child says last is quoted when it fails; more than this helps nobody.
 COMPLAINT_CHARACTERS_MAX = 600
@@ -35,12 +35,14 @@ COMPLAINT_CHARACTERS_MAX = 600
 
 @dataclass(frozen=True)
 class SimulatedAddress:
-    """`sim` or `sim:NAME?seed=&speed=&clock=&scenario=&flash=&unlock_key=&baud=`, taken apart.
+    """`sim` or `sim:NAME?seed=&speed=&clock=&scenario=&flash=&market=&unlock_key=&baud=`, taken
+    apart.
 
     Each name is a unit of its own: without a seed the name makes one, so two names never share a
     serial number. clock: `real`, or `virtual` for time that passes only when told to. scenario:
     one of Spindle's, `none`, or the path of a TOML file. flash: file that keeps the unit's
-    configuration. unlock_key: file with the maker's public key; without one the unit's limits only
+    configuration. market: whose law it was made for, `EU_EPAC` unless told; a flash that is there
+    keeps its own. unlock_key: file with the maker's public key; without one the unit's limits only
     go down. baud: its line has a rate like a real one, from 115200 bit/s on, and this is the rate
     to ask for.
     """
@@ -53,6 +55,7 @@ class SimulatedAddress:
     unlock_key: str | None = None
     clock: str = "real"
     baud: int | None = None
+    market: str | None = None
 
     @classmethod
     def parse(cls, url: str) -> SimulatedAddress:
@@ -80,7 +83,8 @@ class SimulatedAddress:
         if baud is not None and clock == "virtual":
             raise InvalidRequest(f"{url}: bytes take time on a line with a rate; clock=real.")
         scenario, flash = settings.get("scenario"), settings.get("flash")
-        return cls(name, seed, speed, scenario, flash, settings.get("unlock_key"), clock, baud)
+        key, market = settings.get("unlock_key"), settings.get("market")
+        return cls(name, seed, speed, scenario, flash, key, clock, baud, market)
 
     def command(self, pty_path: Path) -> list[str]:
         """The command line of the child that serves this address on `pty_path`."""
@@ -94,6 +98,8 @@ class SimulatedAddress:
             words += ["--scenario", self.scenario]
         if self.flash is not None:
             words += ["--flash", self.flash]
+        if self.market is not None:
+            words += ["--market", self.market]
         if self.unlock_key is not None:
             words += ["--unlock-key", self.unlock_key]
         return words
@@ -120,7 +126,10 @@ class SimulatedLink:
         address = SimulatedAddress.parse(url)
         if address.flash is None and flash_folder is not None:
             flash_folder.mkdir(parents=True, exist_ok=True)
-            address = replace(address, flash=str(flash_folder / f"unit-{address.seed}.flash"))
+            # Two units that differ only in their market do not share a memory.
+            made_for = f"-{address.market}" if address.market else ""
+            remembered = flash_folder / f"unit-{address.seed}{made_for}.flash"
+            address = replace(address, flash=str(remembered))
         self._url = url
         self._folder = Path(tempfile.mkdtemp(prefix="spindle-sim-"))
         self._complaints = (self._folder / "stderr").open("w+b")

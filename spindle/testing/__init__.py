@@ -26,7 +26,7 @@ SERVED = "sim:bench?clock=virtual&scenario=none&seed=1"
 def pytest_configure(config: pytest.Config) -> None:
     """The one mark of the kit, so that `--strict-markers` knows it."""
     config.addinivalue_line(
-        "markers", "drive_unit(seed, scenario, config, bike): which unit the fixture makes"
+        "markers", "drive_unit(seed, scenario, config, bike, market): which unit the fixture makes"
     )
 
 

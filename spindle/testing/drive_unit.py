@@ -39,8 +39,8 @@ class DriveUnit:
 
     seed: of the noise. scenario: a live one to ride from the start, by name or its file's path,
     None for a bike at rest. config: parameters by registry name, written before anything moves.
-    bike: `part.name` -> value over the pinned bike. Raises ScenarioError and
-    ConfigureError for what does not exist.
+    bike: `part.name` -> value over the pinned bike. market: whose law it was made for. Raises
+    ScenarioError, ConfigureError and ValueError for what does not exist.
     """
 
     def __init__(
@@ -49,11 +49,17 @@ class DriveUnit:
         scenario: str | None = None,
         config: Mapping[str, Any] | None = None,
         bike: Mapping[str, float] | None = None,
+        market: str = "EU_EPAC",
     ) -> None:
         self._seed = seed
         self._bike = read_bike(bike or {})
         self.unit = LockstepUnit(
-            seed, dict(config or {}), name="bench", scenario=scenario, bike=self._bike
+            seed,
+            dict(config or {}),
+            name="bench",
+            scenario=scenario,
+            bike=self._bike,
+            market=market,
         )
         self._now_s = 0.0
         self._boots = 1

@@ -3,7 +3,8 @@
 #include <string.h>
 
 #include "dispatch.h"   // dispatch_frame, requests_log_poll
-#include "float32.h"    // float32_missing
+#include "float32.h"    // float32_min, float32_missing
+#include "market.h"     // market_profile_of
 #include "parameters.h" // parameters_to_assist
 
 #define RECEIVE_BLOCK_BYTES 64
@@ -71,6 +72,16 @@ void app_init(app *unit, const hal *board)
         app_config_apply(unit);
     }
     if (unit->store.slot == CONFIG_STORE_NO_SLOT) config_defaulted(unit);
+}
+
+void app_factory_config(ebl_config *config, uint8_t market_number)
+{
+    float cutoff_kmh = market_profile_of(market_number)->cutoff_kmh;
+
+    ebl_config_default(config);
+    config->market = market_number;
+    config->assist_cutoff_kmh = float32_min(config->assist_cutoff_kmh, cutoff_kmh);
+    config->assist_cutoff_extra_kmh = cutoff_kmh - config->assist_cutoff_kmh;
 }
 
 int app_provision(const hal *board, const ebl_config *config)

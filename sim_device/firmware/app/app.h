@@ -83,6 +83,9 @@ void app_inputs_prepare(hal_inputs *inputs);
 /* What the law gave in the latest control step. */
 const assist_output *app_output(const app *unit);
 
+/* What a unit leaves the factory with: the defaults, and assist up to where the market ends it. */
+void app_factory_config(ebl_config *config, uint8_t market_number);
+
 /* The factory's last step, before the first app_init: gives a flash that was never written its
  * first configuration. Any other flash is left alone. 0, or a negative CONFIG_STORE_ result. */
 int app_provision(const hal *board, const ebl_config *config);

@@ -228,7 +228,7 @@ unit *unit_create(const unit_setup *setup)
     }
     connect_board(self, setup);
     ebl_config factory;
-    ebl_config_default(&factory);
+    app_factory_config(&factory, setup->market_number);
     if (app_provision(&self->hal, &factory) < 0 ||
         (setup->unlock_key != NULL &&
          app_provision_unlock_key(&self->hal, setup->unlock_key) < 0)) {

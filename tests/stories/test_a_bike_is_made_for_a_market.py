@@ -1,0 +1,49 @@
+"""Goal: what a bike was made for is seen by whoever connects, cannot be talked away, and a mistaken
+market is refused in words.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from tests.fakes.server import SpindleServer, eventually
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
+    """One unit made for Japan, at rest."""
+    devices = ["sim:tokyo?market=JAPAN&scenario=none"]
+    running = SpindleServer(tmp_path_factory.mktemp("market"), devices).start()
+    yield running
+    running.stop()
+
+
+def test_a_unit_for_japan_ends_assist_at_24_and_says_so(server: SpindleServer) -> None:
+    limits = server.get(f"/devices/{server.ready_device()}/limits")
+
+    assert limits["market"] == "JAPAN"
+    assert limits["assist_cutoff_kmh"] == 24.0
+    assert limits["effective_assist_cutoff_kmh"] == 24.0
+
+
+def test_a_dealer_does_not_move_it_to_another_market(server: SpindleServer) -> None:
+    device = server.ready_device()
+    limits = server.get(f"/devices/{device}/limits")
+
+    response = server.client.put(f"/devices/{device}/limits", json=limits | {"market": "EU_EPAC"})
+
+    assert response.status_code == 403
+    assert server.get(f"/devices/{device}/limits")["market"] == "JAPAN"
+
+
+def test_a_market_that_is_none_is_named_with_those_there_are(server: SpindleServer) -> None:
+    device = server.ask("POST", "/devices", json={"url": "sim:mars?market=MARS"})["id"]
+
+    seen = eventually(
+        lambda: server.get(f"/devices/{device}"), lambda seen: "MARS" in str(seen["reason"])
+    )
+
+    assert "EU_EPAC" in seen["reason"]
+    server.ask("DELETE", f"/devices/{device}")
