@@ -35,19 +35,25 @@ export function typed(value: number): string {
   return Number.isFinite(value) ? String(Number(value.toPrecision(6))) : ''
 }
 
+/** A value as it is shown where it can be typed: whole in its own unit, to four digits in another. */
+export function shownTyped(value: number, unit: string, units: Units): string {
+  const shown = units.show(value, unit)
+  return typed(shown === value ? shown : Number(shown.toPrecision(4)))
+}
+
 /** The bounds of a parameter with its unit, such as "0 … 25 km/h". */
 export function rangeText(parameter: Parameter, units: Units): string {
   const { min, max, unit, choices } = parameter
   if (choices && choices.length > 3) return `${choices[0]} … ${choices[choices.length - 1]}`
   if (min == null || max == null) return ''
-  const shown = `${typed(units.show(min, unit))} … ${typed(units.show(max, unit))}`
+  const shown = `${shownTyped(min, unit, units)} … ${shownTyped(max, unit, units)}`
   return `${shown} ${units.label(unit)}`.trim()
 }
 
 /** A fault in words. */
 export function faultText(locale: Locale, units: Units, fault: Fault, unit: string): string {
   if (!('bound' in fault)) return locale.t(`fault.${fault.code}`)
-  const bound = `${typed(units.show(fault.bound, unit))} ${units.label(unit)}`.trim()
+  const bound = `${shownTyped(fault.bound, unit, units)} ${units.label(unit)}`.trim()
   return locale.t(`fault.${fault.code}`, { bound })
 }
 
@@ -68,7 +74,7 @@ export function elementLabel(
   }
   const speeds = draft.value('fuzzy_speed_points_kmh') as number[]
   const rates = draft.value('fuzzy_torque_rate_points') as number[]
-  const speed = `${typed(units.show(speeds[row] ?? NaN, 'km/h'))} ${units.label('km/h')}`
+  const speed = `${shownTyped(speeds[row] ?? NaN, 'km/h', units)} ${units.label('km/h')}`
   const rule = parameter.name === 'second_rules' ? 'review.second_rule' : 'review.rule'
   return locale.t(rule, { speed, rate: typed(rates[column] ?? NaN) })
 }
@@ -123,7 +129,7 @@ function elementText(
   if (typeof element === 'string') return choiceLabel(locale, element)
   const unit = parameter?.unit ?? ''
   if (!Number.isFinite(element)) return '—'
-  return `${typed(units.show(element, unit))} ${units.label(unit)}`.trim()
+  return `${shownTyped(element, unit, units)} ${units.label(unit)}`.trim()
 }
 
 function elementAt(value: ParameterValue, path: number[]): number | string | undefined {

@@ -1,0 +1,25 @@
+/* Goal: a value is exact in the unit's own measure and readable in another. */
+import { Locale } from '../i18n/locale.svelte'
+import { Units } from '../units/units.svelte'
+import { expect, it } from 'vitest'
+import { shownTyped } from './parameter_text'
+
+const metric = new Units(new Locale(), 'metric')
+const imperial = new Units(new Locale(), 'imperial')
+
+it('shows what is stored as it is stored', () => {
+  expect(shownTyped(0.0072345, 'Nm/count', metric)).toBe('0.0072345')
+  expect(shownTyped(24.94494, 'km/h', metric)).toBe('24.9449')
+})
+
+it('shows a converted value to four digits, so that it fits its field', () => {
+  expect([5, 10, 25].map((kmh) => shownTyped(kmh, 'km/h', imperial))).toEqual([
+    '3.107',
+    '6.214',
+    '15.53',
+  ])
+})
+
+it('shows nothing for what is missing', () => {
+  expect(shownTyped(NaN, 'km/h', imperial)).toBe('')
+})
