@@ -79,17 +79,15 @@ size_t uart_read(uart_line line, uint8_t *bytes, size_t capacity)
 {
     ring_pair *ring = &lines[line];
     size_t taken = 0;
-    int was_full = ring->received_in - ring->received_out == RECEIVE_BYTES;
 
     while (taken < capacity && ring->received_in != ring->received_out) {
         bytes[taken++] = ring->received[ring->received_out % RECEIVE_BYTES];
         ring->received_out++;
     }
-    if (was_full && taken > 0) {
-        chip_interrupts_off();
-        receive(ring, ring->port->state);
-        chip_interrupts_on();
-    }
+    /* A byte that found the ring full waits in the port and interrupts no more. */
+    chip_interrupts_off();
+    receive(ring, ring->port->state);
+    chip_interrupts_on();
     return taken;
 }
 
