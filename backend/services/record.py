@@ -97,6 +97,10 @@ class UnitRecorder:
         self._device_id = device_id
         self._rides = rides
         self._settings = settings
+        self._moving_above = {
+            "speed_kmh": settings.moving_kmh,
+            "cadence_rpm": settings.moving_rpm,
+        }
         self._context_of = context_of
         self._lock = threading.Lock()
         self._channels: tuple[ChannelSpec, ...] = ()
@@ -158,13 +162,11 @@ class UnitRecorder:
 
     def _take_part(self, block: StreamBlock) -> StreamBlock:
         """Takes rows of the block up to where a ride ends; returns the rest of it."""
-        limits = {
-            "speed_kmh": self._settings.moving_kmh,
-            "cadence_rpm": self._settings.moving_rpm,
-        }
-        moving = moving_rows(block, limits)
+        moving = moving_rows(block, self._moving_above)
         if self._live is not None:
             return self._add(self._live, block, moving)
+        if self._lead and not self._follows(self._lead[-1], block):
+            self._lead.clear()
         if len(moving):
             return self._begin(block, int(moving[0]))
         self._keep_lead(block)
@@ -181,8 +183,6 @@ class UnitRecorder:
 
     def _keep_lead(self, block: StreamBlock) -> None:
         """Remember the rows before the first movement, as long as they follow one another."""
-        if self._lead and not self._follows(self._lead[-1], block):
-            self._lead.clear()
         self._lead.append(block)
         keep_us = self._settings.lead_in_s * 1e6
         while len(self._lead) > 1 and block.t0_us - self._lead[1].t0_us >= keep_us:
@@ -194,8 +194,6 @@ class UnitRecorder:
 
     def _begin(self, block: StreamBlock, first_moving: int) -> StreamBlock:
         """Starts a ride `lead_in_s` before the first moving row; returns the block's rows of it."""
-        if self._lead and not self._follows(self._lead[-1], block):
-            self._lead.clear()
         lead_rows = sum(len(lead.values) for lead in self._lead)
         kept = round(self._settings.lead_in_s * 1e6 / self._period_us)
         skipped = max(0, lead_rows + first_moving - kept)
