@@ -88,8 +88,14 @@ def ratio_warnings(
     allowed = allowed_ratios(cutoff.market, speeds)
     if allowed is None:
         return
+    points = table.torque_rate_points
+    rates = np.linspace(points[0], points[-1], RATE_STEPS + 1)
+    gains = surface(table, speeds, rates).max(axis=1).astype(np.float64)
     for slot, mode in enumerate(modes.modes):
-        asked = _asked_ratios(table, modes, slot, which, taper_speeds_kmh, speeds)
+        if mode.law == "fuzzy" and mode.table == which:
+            asked: Floats | None = mode.ratio * (1.0 + gains)
+        else:
+            asked = _fixed_ratios(modes, slot, taper_speeds_kmh, speeds)
         if asked is None or not (asked - allowed > RATIO_SHOWN).any():
             continue
         yield _ratio_finding(mode, slot, cutoff.market, speeds, asked, allowed)
@@ -121,21 +127,11 @@ def _rows_not_reached(table: FuzzyTable, cutoff_kmh: float) -> Iterator[Finding]
             yield Finding("row_not_reached", message, f"rules[{row}]")
 
 
-def _asked_ratios(
-    table: FuzzyTable,
-    modes: AssistModes,
-    slot: int,
-    which: str,
-    taper_speeds_kmh: tuple[float, float] | None,
-    speeds: Floats,
+def _fixed_ratios(
+    modes: AssistModes, slot: int, taper_speeds_kmh: tuple[float, float] | None, speeds: Floats
 ) -> Floats | None:
-    """The most a mode asks for at each speed; None if that cannot be said of this mode."""
+    """What a fixed mode asks for at each speed; None of another one, or where it is not known."""
     mode = modes.modes[slot]
-    if mode.law == "fuzzy" and mode.table == which:
-        points = table.torque_rate_points
-        gains = surface(table, speeds, np.linspace(points[0], points[-1], RATE_STEPS + 1))
-        most: Floats = gains.max(axis=1).astype(np.float64)
-        return mode.ratio * (1.0 + most)
     if mode.law != "fixed" or (mode.taper == "taper_speeds" and taper_speeds_kmh is None):
         return None
     config = modes.to_parameters()
