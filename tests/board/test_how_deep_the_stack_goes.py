@@ -6,7 +6,6 @@ of each frame, against the stack painted in QEMU, and on listings written down h
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import pytest
@@ -28,14 +27,6 @@ STACK_BYTES_MAX = 2688
 OWN = {at: Source("ride", False) for at in (0x100, 0x200, 0x300)}
 
 
-@pytest.fixture(scope="module")
-def unit() -> Path:
-    reason = emulator.missing()
-    if reason is not None and os.environ.get("CI") != "true":
-        pytest.skip(reason)
-    return emulator.build("unit")
-
-
 def listing(**bodies: list[str]) -> str:
     """Functions at 0x100, 0x200 .. with these instructions, as objdump writes them."""
     lines = []
@@ -52,8 +43,8 @@ def depth_of(text: str) -> tuple[int, list[str]]:
 
 
 @pytest.mark.slow
-def test_the_unit_has_a_bound_and_it_starts_at_reset(unit: Path) -> None:
-    bound = stack.stack_bound(unit)
+def test_the_unit_has_a_bound_and_it_starts_at_reset(image: Path) -> None:
+    bound = stack.stack_bound(image)
 
     assert bound.bytes_max <= STACK_BYTES_MAX
     assert bound.path[:2] == ("reset_handler", "main")
@@ -61,7 +52,7 @@ def test_the_unit_has_a_bound_and_it_starts_at_reset(unit: Path) -> None:
 
 
 @pytest.mark.slow
-def test_no_painted_stack_was_ever_deeper_than_its_bound(unit: Path) -> None:
+def test_no_painted_stack_was_ever_deeper_than_its_bound(image: Path) -> None:
     image = emulator.build("count")
 
     painted = board.told(image)
@@ -72,9 +63,9 @@ def test_no_painted_stack_was_ever_deeper_than_its_bound(unit: Path) -> None:
 
 
 @pytest.mark.slow
-def test_no_frame_is_smaller_than_the_compiler_says(unit: Path) -> None:
-    reported = {(file, name): size for file, name, size in frames_reported(unit)}
-    graph = functions(said_by("-d", unit), linked(unit))
+def test_no_frame_is_smaller_than_the_compiler_says(image: Path) -> None:
+    reported = {(file, name): size for file, name, size in frames_reported(image)}
+    graph = functions(said_by("-d", image), linked(image))
 
     known = [
         (function, reported[function.source.file, function.name])
@@ -89,9 +80,9 @@ def test_no_frame_is_smaller_than_the_compiler_says(unit: Path) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("table", ["CALLERS", "POINTERS"])
 def test_a_pointer_that_nobody_declared_leaves_no_bound(
-    unit: Path, table: str, monkeypatch: pytest.MonkeyPatch
+    image: Path, table: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    graph, pointers = stack.read(unit)
+    graph, pointers = stack.read(image)
     declared = getattr(stack, table)
     for entry in declared:
         if entry.startswith("main_count"):

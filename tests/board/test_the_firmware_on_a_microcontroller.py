@@ -7,7 +7,6 @@ its serial line behind pyserial. The whole conformance suite runs against it as 
 
 from __future__ import annotations
 
-import os
 import re
 import subprocess
 from collections.abc import Iterator
@@ -34,14 +33,6 @@ LARGE_FRAMES = {
 FRAME_BYTES_MAX = 512
 HOST_BOARD = emulator.BOARD_FOLDER.parent / "host"
 OTHER_IMAGES = ("main_bench", "main_count")
-
-
-@pytest.fixture(scope="module")
-def image() -> Path:
-    reason = emulator.missing()
-    if reason is not None and os.environ.get("CI") != "true":
-        pytest.skip(reason)
-    return emulator.build("unit")
 
 
 @pytest.fixture
