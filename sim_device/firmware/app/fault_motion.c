@@ -37,8 +37,6 @@ static float wheel_kmh(const ebl_config *config, float wheel_rpm)
     return wheel_rpm * TWO_PI * config->wheel_radius_m * KMH_PER_M_PER_MIN;
 }
 
-static fault_sign bad_if(int bad) { return bad ? FAULT_SIGN_BAD : FAULT_SIGN_GOOD; }
-
 fault_sign fault_motion_mismatch(const hal_inputs *inputs, const ebl_config *config,
                                  const fault_law *law)
 {
@@ -47,7 +45,7 @@ fault_sign fault_motion_mismatch(const hal_inputs *inputs, const ebl_config *con
     float driven_kmh = wheel_kmh(config, wheel_rpm);
 
     if (!(law->motor_torque_nm > DRIVING_TORQUE_NM)) return FAULT_SIGN_NONE;
-    return bad_if(driven_kmh > MISMATCH_FACTOR * inputs->speed_kmh + MISMATCH_KMH);
+    return fault_sign_of(driven_kmh > MISMATCH_FACTOR * inputs->speed_kmh + MISMATCH_KMH);
 }
 
 /* The chain's speed, in turns of the motor, while it is driven; 0 otherwise. Motor and cranks each
@@ -94,8 +92,9 @@ fault_sign fault_motion_stuck(fault_watch *watch, const hal_inputs *inputs,
     }
     watch->gear_low_rpm_per_kmh = float32_min(watch->gear_low_rpm_per_kmh, rpm_per_kmh);
     watch->gear_high_rpm_per_kmh = float32_max(watch->gear_high_rpm_per_kmh, rpm_per_kmh);
-    return bad_if(watch->kept_turns >= STUCK_WHEEL_TURNS &&
-                  watch->gear_high_rpm_per_kmh > STUCK_GEAR_FACTOR * watch->gear_low_rpm_per_kmh);
+    return fault_sign_of(watch->kept_turns >= STUCK_WHEEL_TURNS &&
+                         watch->gear_high_rpm_per_kmh >
+                             STUCK_GEAR_FACTOR * watch->gear_low_rpm_per_kmh);
 }
 
 fault_sign fault_motion_hall(const hal_inputs *inputs, const ebl_config *config,
@@ -107,5 +106,5 @@ fault_sign fault_motion_hall(const hal_inputs *inputs, const ebl_config *config,
     if (!(law->motor_torque_nm > HALL_TORQUE_NM) || !(inputs->cadence_rpm > HALL_CADENCE_RPM)) {
         return FAULT_SIGN_NONE;
     }
-    return bad_if(inputs->motor_speed_rpm < HALL_SHARE * crank_rpm);
+    return fault_sign_of(inputs->motor_speed_rpm < HALL_SHARE * crank_rpm);
 }

@@ -53,12 +53,10 @@ int faults_torque_is_plausible(float torque_raw_counts)
     return torque_raw_counts > -TORQUE_RAW_COUNTS_MAX && torque_raw_counts < TORQUE_RAW_COUNTS_MAX;
 }
 
-static fault_sign bad_if(int bad) { return bad ? FAULT_SIGN_BAD : FAULT_SIGN_GOOD; }
-
 static fault_sign speed_sign(const hal_inputs *inputs)
 {
-    return bad_if(!(inputs->speed_kmh >= 0.0f && inputs->speed_kmh < SPEED_KMH_MAX) ||
-                  inputs->speed_age_ms > SPEED_AGE_MS_MAX);
+    return fault_sign_of(!(inputs->speed_kmh >= 0.0f && inputs->speed_kmh < SPEED_KMH_MAX) ||
+                         inputs->speed_age_ms > SPEED_AGE_MS_MAX);
 }
 
 static fault_sign battery_low_sign(const fault_list *faults, const hal_inputs *inputs,
@@ -67,7 +65,7 @@ static fault_sign battery_low_sign(const fault_list *faults, const hal_inputs *i
     float floor_v = config->battery_voltage_v_min;
 
     if (faults->active & EBL_FAULT_BATTERY_LOW) floor_v += BATTERY_RECOVERY_V;
-    return bad_if(!(inputs->battery_voltage_v >= floor_v));
+    return fault_sign_of(!(inputs->battery_voltage_v >= floor_v));
 }
 
 static fault_sign current_sign(const hal_inputs *inputs, const ebl_config *config)
@@ -76,7 +74,7 @@ static fault_sign current_sign(const hal_inputs *inputs, const ebl_config *confi
     float motor_a_max = OVER_CURRENT_FACTOR * motor_a;
     float battery_a_max = OVER_CURRENT_FACTOR * config->battery_current_a_max;
 
-    return bad_if(
+    return fault_sign_of(
         float32_abs(inputs->motor_current_a) > float32_max(motor_a_max, OVER_CURRENT_FLOOR_A) ||
         float32_abs(inputs->battery_current_a) > float32_max(battery_a_max, OVER_CURRENT_FLOOR_A));
 }
@@ -85,7 +83,7 @@ static fault_sign current_sign(const hal_inputs *inputs, const ebl_config *confi
 static fault_sign heat_sign(const fault_list *faults, uint16_t flag, float temperature_degc,
                             float warm_degc, float hot_degc)
 {
-    return bad_if(temperature_degc >= ((faults->active & flag) ? warm_degc : hot_degc));
+    return fault_sign_of(temperature_degc >= ((faults->active & flag) ? warm_degc : hot_degc));
 }
 
 static void turn_begin(fault_watch *watch, float raw_counts)
@@ -131,7 +129,7 @@ static fault_sign stuck_sign(fault_watch *watch, const hal_inputs *inputs, const
         turn_end(watch);
         turn_begin(watch, raw);
     }
-    return bad_if(watch->lively_turns == LIVELY_TURNS && watch->still_turns == STUCK_TURNS);
+    return fault_sign_of(watch->lively_turns == LIVELY_TURNS && watch->still_turns == STUCK_TURNS);
 }
 
 static fault_sign drift_sign(fault_watch *watch, const hal_inputs *inputs, const fault_law *law)
@@ -161,7 +159,7 @@ static fault_sign drift_sign(fault_watch *watch, const hal_inputs *inputs, const
         return FAULT_SIGN_NONE;
     }
     if (float32_abs(torque_nm) > DRIFT_NM_MAX) return FAULT_SIGN_NONE;
-    return bad_if(float32_abs(torque_nm) > DRIFT_NM);
+    return fault_sign_of(float32_abs(torque_nm) > DRIFT_NM);
 }
 
 static void sign_set(fault_sign *signs, uint16_t flag, fault_sign sign)
@@ -181,14 +179,14 @@ void fault_signs(fault_list *faults, const hal_inputs *inputs, const ebl_config 
     for (unsigned bit = 0; bit < FAULT_KINDS; bit++) signs[bit] = FAULT_SIGN_NONE;
     if (fresh) {
         sign_set(signs, EBL_FAULT_TORQUE_SENSOR,
-                 bad_if(!faults_torque_is_plausible(inputs->torque_raw_counts)));
+                 fault_sign_of(!faults_torque_is_plausible(inputs->torque_raw_counts)));
         sign_set(signs, EBL_FAULT_TORQUE_STUCK, stuck_sign(&faults->watch, inputs, law));
     }
     sign_set(signs, EBL_FAULT_SPEED_SENSOR, speed_sign(inputs));
     sign_set(signs, EBL_FAULT_BATTERY_LOW, battery_low_sign(faults, inputs, config));
     sign_set(signs, EBL_FAULT_OVER_CURRENT, current_sign(inputs, config));
-    sign_set(signs, EBL_FAULT_UNDER_VOLTAGE, bad_if(inputs->battery_voltage_v < deep_v));
-    sign_set(signs, EBL_FAULT_BATTERY_CUT, bad_if(inputs->battery_cut));
+    sign_set(signs, EBL_FAULT_UNDER_VOLTAGE, fault_sign_of(inputs->battery_voltage_v < deep_v));
+    sign_set(signs, EBL_FAULT_BATTERY_CUT, fault_sign_of(inputs->battery_cut));
     sign_set(signs, EBL_FAULT_MOTOR_TEMPERATURE,
              heat_sign(faults, EBL_FAULT_MOTOR_TEMPERATURE, inputs->motor_temperature_degc,
                        HEAT_MOTOR_WARM_DEGC, HEAT_MOTOR_HOT_DEGC));
@@ -197,7 +195,7 @@ void fault_signs(fault_list *faults, const hal_inputs *inputs, const ebl_config 
                        inputs->controller_temperature_degc, HEAT_CONTROLLER_WARM_DEGC,
                        HEAT_CONTROLLER_HOT_DEGC));
     sign_set(signs, EBL_FAULT_TORQUE_DRIFT, drift_sign(&faults->watch, inputs, law));
-    sign_set(signs, EBL_FAULT_TORQUE_LINK, bad_if(!fresh));
+    sign_set(signs, EBL_FAULT_TORQUE_LINK, fault_sign_of(!fresh));
     sign_set(signs, EBL_FAULT_SPEED_MISMATCH, fault_motion_mismatch(inputs, config, law));
     sign_set(signs, EBL_FAULT_SPEED_STUCK, fault_motion_stuck(&faults->watch, inputs, config, law));
     sign_set(signs, EBL_FAULT_MOTOR_HALL, fault_motion_hall(inputs, config, law));
