@@ -2,7 +2,7 @@
 
 SpindleError
 ├── LinkError                the port: absent, busy, vanished
-│   └── NoAnswer             the unit is connected but silent; nothing is known to have changed
+│   └── NoAnswer             the unit did not answer; of a change it says what became of it
 ├── PeerProtocolError        the unit broke the protocol
 ├── OurProtocolError         we broke it: a bug of ours
 ├── DeviceRefused            the unit answered with a status other than OK
@@ -17,12 +17,18 @@ SpindleError
 │   └── NotFound             no such device, ride, upload or port
 ├── BadFile                  a log that cannot be read; says where and what could be saved
 └── StoreError               the database or the object store
+    └── StoreFull            its disk has no room left
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Literal
+
+# What became of a change whose answer did not come: the unit is as it was, it has the change, or
+# nobody could find out.
+Outcome = Literal["unchanged", "changed", "unknown"]
 
 
 @dataclass(frozen=True)
@@ -64,9 +70,22 @@ class LinkError(SpindleError):
 
 
 class NoAnswer(LinkError):
-    """The unit stayed silent until the deadline."""
+    """The unit stayed silent until the deadline.
+
+    outcome: of a change, what became of it; None where nothing was to be changed.
+    """
 
     default_code = "no_answer"
+
+    def __init__(
+        self,
+        message: str,
+        code: str | None = None,
+        fields: Iterable[FieldError] = (),
+        outcome: Outcome | None = None,
+    ) -> None:
+        super().__init__(message, code, fields)
+        self.outcome = outcome
 
 
 class PeerProtocolError(SpindleError):
@@ -179,3 +198,9 @@ class StoreError(SpindleError):
     """The database or the object store failed; the message names which and what was not saved."""
 
     default_code = "store"
+
+
+class StoreFull(StoreError):
+    """The disk of the database or of the object store has no room left."""
+
+    default_code = "disk_full"

@@ -29,6 +29,7 @@ from backend.link import kind_of
 from backend.services.collect import Collect
 from backend.services.connect import Devices
 from backend.services.dashboard import Dashboards
+from backend.services.health import Health
 from backend.services.preview import Preview
 from backend.services.record import Recorder
 from backend.services.remember import UnitMemory
@@ -90,7 +91,7 @@ def open_services(settings: Settings) -> Iterator[Services]:
             in_background(url, partial(devices.add, url))
         preview = Preview()
         yield Services(
-            version=__version__,
+            health=Health(__version__, devices, recorder, store.watch),
             devices=devices,
             watch=Watch(devices),
             dashboards=dashboards,

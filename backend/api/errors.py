@@ -34,6 +34,7 @@ STATUS_OF: dict[type[errors.SpindleError], int] = {
     errors.NotFound: 404,
     errors.BadFile: 422,
     errors.StoreError: 500,
+    errors.StoreFull: 507,
 }
 # What the validator puts into a location for each kind of value it tries.
 KINDS = frozenset({"int", "float", "str", "bool"})
@@ -64,8 +65,14 @@ def spindle_problem(_: Request, error: Exception) -> JSONResponse:
         LOG.warning("%s: %s", type(error).__name__, error.message)
     fields = [FieldProblem(field=f.field, code=f.code, message=f.message) for f in error.fields]
     asked = error.challenge if isinstance(error, errors.TokenNeeded) else None
+    outcome = error.outcome if isinstance(error, errors.NoAnswer) else None
     return problem_response(
-        status, error.code, error.message, fields[:FIELD_ERRORS_MAX], challenge=asked
+        status,
+        error.code,
+        error.message,
+        fields[:FIELD_ERRORS_MAX],
+        challenge=asked,
+        outcome=outcome,
     )
 
 

@@ -9,6 +9,8 @@ from typing import Any
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
 
+from backend.errors import Outcome
+
 MEDIA_TYPE = "application/problem+json"
 
 
@@ -46,6 +48,10 @@ class Problem(BaseModel):
     challenge: TokenChallenge | None = Field(
         default=None, description="Only with the code `token_needed`."
     )
+    outcome: Outcome | None = Field(
+        default=None,
+        description="With 504 of a change: whether the unit has it, as far as could be found out.",
+    )
 
 
 def problem_response(
@@ -55,6 +61,7 @@ def problem_response(
     errors: Iterable[FieldProblem] = (),
     headers: dict[str, str] | None = None,
     challenge: Mapping[str, str | int] | None = None,
+    outcome: Outcome | None = None,
 ) -> JSONResponse:
     """The response for one refusal. code: lower-case word for programs; detail: for people."""
     problem = Problem(
@@ -65,6 +72,7 @@ def problem_response(
         code=code,
         errors=list(errors),
         challenge=None if challenge is None else TokenChallenge.model_validate(challenge),
+        outcome=outcome,
     )
     return JSONResponse(
         problem.model_dump(exclude_none=True), status, headers=headers, media_type=MEDIA_TYPE

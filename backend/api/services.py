@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from backend.services.collect import Collect
     from backend.services.connect import Devices
     from backend.services.dashboard import Dashboards
+    from backend.services.health import Health
     from backend.services.preview import Preview
     from backend.services.review import Rides
     from backend.services.try_live import LiveTuning
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 class Services:
     """The use cases behind the API; each is safe to call from any thread."""
 
-    version: str
+    health: Health
     devices: Devices
     watch: Watch
     dashboards: Dashboards

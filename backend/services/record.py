@@ -5,7 +5,8 @@
 All times are the unit's own, so a simulated unit at twenty times real time records the same ride.
 Rows that were lost on the way become rows of missing samples, so that row number times period is
 always the time. A unit that starts anew, or is away longer than `lost_s`, starts a new ride.
-Nothing is acknowledged before the store has it: `rows_saved` counts committed rows only.
+Nothing is acknowledged before the store has it: `rows_saved` counts committed rows only. A store
+that refuses (a full disk) is waited for, also by a ride that is over; what is given up is counted.
 """
 
 from __future__ import annotations
@@ -18,7 +19,6 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.stream import StreamBlock
@@ -32,19 +32,20 @@ from backend.services.ride_bounds import (
     rows_until_still,
     still_rows,
 )
+from backend.services.ride_tail import RideTail, RowCounts
 from backend.store import RideStore
 
 LOG = logging.getLogger(__name__)
 
-Rows16 = npt.NDArray[np.int16]
 ContextOf = Callable[[str], RideContext]
 
 # A ride is cut after a day at 100 Hz: it bounds what one crash recovery has to read.
 RIDE_ROWS_MAX = 24 * 3600 * 100
-# Seconds that wait for a disk that refuses them; more are lost, and counted as lost rows.
-TAILS_WAITING_MAX = 120
-# How often a refused second is tried again when the ride ends.
-LAST_TRIES = 3
+# Seconds of a unit that wait for a disk that refuses them: some 3 MB, and the time in which a
+# person who reads that the disk is full can make room. More are lost, and counted as lost rows.
+TAILS_WAITING_MAX = 600
+# How often a ride that could not be finished is tried again.
+FINISH_AGAIN_S = 10.0
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,8 @@ class RecordSettings:
 
     moving_kmh, moving_rpm: above either the bike is ridden. idle_s: standstill that ends a ride.
     lead_in_s: rows kept from before the first movement. lost_s: a gap longer than this ends it.
-    tail_s: how much may be lost when the machine loses power.
+    tail_s: how much may be lost when the machine loses power. tails_waiting_max: how many of these
+    wait for a store that refuses them.
     """
 
     moving_kmh: float = 1.0
@@ -62,27 +64,31 @@ class RecordSettings:
     lead_in_s: float = 2.0
     lost_s: float = 60.0
     tail_s: float = 1.0
+    tails_waiting_max: int = TAILS_WAITING_MAX
 
 
 @dataclass(frozen=True)
 class RecordingStatus:
-    """A ride that is being recorded. rows: taken; rows_saved: committed; rows_lost: never came."""
+    """A ride that is being recorded.
 
-    ride_id: int
+    ride_id: None while the store refuses to begin it. rows: that came for it. rows_saved: committed
+    of them. rows_lost: given up. rows_missing: never came.
+    """
+
+    ride_id: int | None
     rows: int
     rows_saved: int
     rows_lost: int
+    rows_missing: int
 
 
 @dataclass
 class LiveRide:
     """A ride in the making: row r of it has the unit time t0_us + r * period_us."""
 
-    ride_id: int
+    tail: RideTail
     t0_us: int
-    rows: int = 0
-    rows_saved: int = 0
-    rows_lost: int = 0
+    rows_missing: int = 0
     still_rows: int = 0
     context: RideContext = field(default_factory=RideContext)
     last_wall_us: int = 0
@@ -92,7 +98,12 @@ class UnitRecorder:
     """Records one unit. Fed from one thread, closed from any."""
 
     def __init__(
-        self, device_id: str, rides: RideStore, settings: RecordSettings, context_of: ContextOf
+        self,
+        device_id: str,
+        rides: RideStore,
+        settings: RecordSettings,
+        context_of: ContextOf,
+        finish: Callable[[int], Future[Ride | None]],
     ) -> None:
         self._device_id = device_id
         self._rides = rides
@@ -108,9 +119,13 @@ class UnitRecorder:
         self._live: LiveRide | None = None
         self._lead: deque[StreamBlock] = deque()
         self._told_trouble = False
+        # Read by those who must not wait for the lock.
+        self.counts = RowCounts()
+        self.lost_lately = 0
+        self._finish = finish
+        # Rides that are over and whose last rows the store has refused so far.
+        self._ending: list[LiveRide] = []
         self._finishing: Future[Ride | None] | None = None
-        self._unsent: list[Rows16] = []
-        self._in_flight: deque[tuple[Future[None], int, Rows16]] = deque()
 
     def take(self, event: DeviceEvent) -> None:
         """Listener for the unit's events."""
@@ -134,10 +149,30 @@ class UnitRecorder:
             if silent_us > self._settings.lost_s * 1e6:
                 self._end()
 
+    def look_again(self) -> None:
+        """Give a store that refused rows another chance; never waits for it."""
+        with self._lock:
+            if self._live is not None:
+                self._live.tail.push()
+            for ride in list(self._ending):
+                ride.tail.push()
+                if ride.tail.is_empty:
+                    self._over(ride)
+
     def end(self) -> Future[Ride | None] | None:
         """End the ride that is being recorded; the future is done when the last one is finished."""
         with self._lock:
             return self._end() or self._finishing
+
+    def close(self) -> Future[Ride | None] | None:
+        """As `end`, and give up what the store still refuses."""
+        with self._lock:
+            last = self._end() or self._finishing
+            for ride in list(self._ending):
+                if not ride.tail.drain():
+                    ride.tail.give_up(ride.tail.tails_waiting)
+                last = self._over(ride) or last
+            return last
 
     @property
     def status(self) -> RecordingStatus | None:
@@ -146,8 +181,12 @@ class UnitRecorder:
             live = self._live
             if live is None:
                 return None
-            self._collect()
-            return RecordingStatus(live.ride_id, live.rows, live.rows_saved, live.rows_lost)
+            live.tail.collect()
+            found = live.tail.counts
+            rows = found.rows_saved + found.rows_lost + found.rows_waiting
+            return RecordingStatus(
+                live.tail.ride_id, rows, found.rows_saved, found.rows_lost, live.rows_missing
+            )
 
     def _take_block(self, block: StreamBlock) -> None:
         if block.channels != self._channels or block.period_us != self._period_us:
@@ -178,7 +217,7 @@ class UnitRecorder:
         return 0 <= ahead <= self._settings.lost_s * 1e6 / self._period_us
 
     def _rows_ahead(self, live: LiveRide, block: StreamBlock) -> int:
-        due_us = live.t0_us + live.rows * self._period_us
+        due_us = live.t0_us + live.tail.rows * self._period_us
         return round((block.t0_us - due_us) / self._period_us)
 
     def _keep_lead(self, block: StreamBlock) -> None:
@@ -200,13 +239,30 @@ class UnitRecorder:
         t0_us = (self._lead[0] if self._lead else block).t0_us + skipped * self._period_us
         started_us = block.wall_us - (block.t0_us - t0_us)
         context = replace(self._context(), unit_t0_us=t0_us)
-        ride_id = self._rides.start_live(self._channels, self._period_us, started_us, context)
-        self._live = LiveRide(ride_id, t0_us, last_wall_us=block.wall_us, context=context)
+        channels, period_us = self._channels, self._period_us
+
+        def begin() -> int:
+            return self._rides.start_live(channels, period_us, started_us, context)
+
+        tail = RideTail(self._rides, begin, self._count)
+        self._live = LiveRide(tail, t0_us, last_wall_us=block.wall_us, context=context)
+        self.lost_lately = 0
         if skipped < lead_rows:
             rows = np.concatenate([lead.values for lead in self._lead])
-            self._append(self._live, rows[skipped:])
+            tail.add(rows[skipped:])
         self._lead.clear()
+        # The ride is there as soon as it has begun, not only with its first second.
+        tail.push()
         return rows_after(block, max(0, skipped - lead_rows))
+
+    def _count(self, saved: int, lost: int, waiting: int) -> None:
+        """Add up over all rides; say once a ride that rows are being lost."""
+        self.counts.rows_saved += saved
+        self.counts.rows_lost += lost
+        self.counts.rows_waiting += waiting
+        if lost and not self.lost_lately:
+            LOG.error("Unit %s: rows of its ride are lost, nothing takes them.", self._device_id)
+        self.lost_lately += lost
 
     def _context(self) -> RideContext:
         try:
@@ -220,77 +276,64 @@ class UnitRecorder:
         lost = self._rows_ahead(live, block)
         if lost > 0:
             missing = np.full((lost, block.values.shape[1]), MISSING_INT16, np.int16)
-            self._append(live, missing)
-            live.rows_lost += lost
+            live.tail.add(missing, taken=False)
+            live.rows_missing += lost
         row_count = len(block.values)
         still_max = max(1, round(self._settings.idle_s * 1e6 / self._period_us))
         until_still = rows_until_still(moving, row_count, live.still_rows, still_max)
-        room = max(0, RIDE_ROWS_MAX - live.rows)
+        room = max(0, RIDE_ROWS_MAX - live.tail.rows)
         taken = min(row_count, room, row_count if until_still is None else until_still)
         live.still_rows = still_rows(moving[moving < taken], taken, live.still_rows)
-        self._append(live, block.values[:taken])
+        live.tail.add(block.values[:taken])
         live.last_wall_us = block.wall_us
-        unsent_us = sum(map(len, self._unsent)) * self._period_us
-        if unsent_us >= self._settings.tail_s * 1e6:
-            self._send(live)
+        if live.tail.rows_unsent * self._period_us >= self._settings.tail_s * 1e6:
+            live.tail.send()
+            self._shed(live)
         if taken in (room, until_still):
             self._end()
         return rows_after(block, taken)
 
-    def _append(self, live: LiveRide, rows: Rows16) -> None:
-        self._unsent.append(rows)
-        live.rows += len(rows)
-
-    def _send(self, live: LiveRide) -> None:
-        """Hand the unsent rows to the store."""
-        if not self._unsent:
-            return
-        rows = np.concatenate(self._unsent)
-        self._unsent = []
-        self._submit(live, live.rows - len(rows), rows)
-        self._collect()
-
-    def _submit(self, live: LiveRide, row_start: int, rows: Rows16) -> None:
-        future = self._rides.append_tail(live.ride_id, row_start, rows)
-        self._in_flight.append((future, row_start, rows))
-
-    def _collect(self) -> None:
-        """Count what the disk has taken; what it refused is tried again, a bounded number."""
-        while self._in_flight and self._in_flight[0][0].done():
-            future, row_start, rows = self._in_flight.popleft()
-            live = self._live
-            if live is None:
-                continue
-            if future.exception() is None:
-                live.rows_saved += len(rows)
-            elif len(self._in_flight) < TAILS_WAITING_MAX:
-                self._submit(live, row_start, rows)
-                return
-            else:
-                live.rows_lost += len(rows)
+    def _shed(self, live: LiveRide) -> None:
+        """Give the oldest up when too much waits."""
+        tails = [ride.tail for ride in (*self._ending, live)]
+        too_many = sum(tail.tails_waiting for tail in tails) - self._settings.tails_waiting_max
+        for tail in tails:
+            if too_many <= 0:
+                break
+            shed = min(too_many, tail.tails_waiting)
+            tail.give_up(shed)
+            too_many -= shed
 
     def _end(self) -> Future[Ride | None] | None:
         """Last rows out, refused ones once more, then finish on the store's thread."""
         live = self._live
         if live is None:
             return None
-        self._send(live)
-        for _ in range(LAST_TRIES):
-            refused = [(start, rows) for done, start, rows in self._in_flight if done.exception()]
-            self._in_flight.clear()
-            for row_start, rows in refused:
-                self._submit(live, row_start, rows)
-        self._in_flight.clear()
         self._live = None
-        if live.context.gear_ratio is None:
+        self._ending.append(live)
+        if not live.tail.drain():
+            return None
+        return self._over(live)
+
+    def _over(self, ride: LiveRide) -> Future[Ride | None] | None:
+        """Everything of a ride is saved or lost: finish it. None for one that never began."""
+        self._ending.remove(ride)
+        ride_id = ride.tail.ride_id
+        if ride_id is None:
+            return None
+        if ride.context.gear_ratio is None:
             # The unit may have told its configuration only after the bike began to move.
-            context = replace(self._context(), unit_t0_us=live.t0_us)
+            context = replace(self._context(), unit_t0_us=ride.t0_us)
             if context.gear_ratio is not None:
-                self._rides.set_context(live.ride_id, context)
-        finished: Future[Ride | None] = self._rides.finish_later(live.ride_id)
-        finished.add_done_callback(lambda future: tell_trouble(live.ride_id, future))
-        self._finishing = finished
-        return finished
+                self._tell_context(ride_id, context)
+        self._finishing = self._finish(ride_id)
+        return self._finishing
+
+    def _tell_context(self, ride_id: int, context: RideContext) -> None:
+        try:
+            self._rides.set_context(ride_id, context)
+        except StoreError as error:
+            LOG.warning("Ride %d does not know its gear ratio: %s", ride_id, error.message)
 
 
 class Recorder:
@@ -307,13 +350,15 @@ class Recorder:
         self._settings = settings or RecordSettings()
         self._units: dict[str, UnitRecorder] = {}
         self._lock = threading.Lock()
+        # Rides that could not be finished, by when to try again; Unix time.
+        self._unfinished: dict[int, int] = {}
 
     def listener(self, device_id: str) -> Callable[[DeviceEvent], None]:
         """What to subscribe to a unit's events; the same for the same unit."""
         with self._lock:
             if device_id not in self._units:
                 self._units[device_id] = UnitRecorder(
-                    device_id, self._rides, self._settings, self._context_of
+                    device_id, self._rides, self._settings, self._context_of, self.finish
                 )
             return self._units[device_id].take
 
@@ -326,14 +371,43 @@ class Recorder:
         unit = self._units.get(device_id)
         return unit.status if unit else None
 
+    def counts(self, device_id: str) -> RowCounts:
+        """What became of a unit's rows; never waits."""
+        unit = self._units.get(device_id)
+        return unit.counts if unit else RowCounts()
+
+    def rows_lost_lately(self) -> Sequence[tuple[str, int]]:
+        """Units whose latest ride lost rows to the store, and how many; never waits."""
+        units = list(self._units.items())
+        return [(name, unit.lost_lately) for name, unit in units if unit.lost_lately]
+
     def tick(self, now_us: int) -> None:
-        """End the rides of units that have been silent too long; now_us: Unix time."""
+        """End rides of silent units, and try again what the store refused; now_us: Unix time."""
         for unit in self._all():
             unit.end_if_lost(now_us)
+            unit.look_again()
+        for ride_id, due_us in list(self._unfinished.items()):
+            if due_us <= now_us:
+                self._unfinished[ride_id] = now_us + round(FINISH_AGAIN_S * 1e6)
+                self.finish(ride_id)
+
+    def finish(self, ride_id: int) -> Future[Ride | None]:
+        """Finish a ride on the store's thread; tried again, by `tick`, as long as that fails."""
+
+        def told(future: Future[Ride | None]) -> None:
+            if future.exception() is None:
+                self._unfinished.pop(ride_id, None)
+            elif ride_id not in self._unfinished:
+                self._unfinished[ride_id] = 0
+                tell_trouble(ride_id, future)
+
+        finished: Future[Ride | None] = self._rides.finish_later(ride_id)
+        finished.add_done_callback(told)
+        return finished
 
     def close(self) -> None:
         """End and finish every ride; what cannot be finished now is finished at the next start."""
-        for future in [unit.end() for unit in self._all()]:
+        for future in [unit.close() for unit in self._all()]:
             if future is not None:
                 future.exception()
 

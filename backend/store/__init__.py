@@ -12,6 +12,7 @@ from backend.store.objects import Disk, FileObjects, open_objects
 from backend.store.reader import RideReader
 from backend.store.revisions import RevisionLog
 from backend.store.rides import RidePage, RideStore
+from backend.store.trouble import Trouble, WriteWatch
 from backend.store.uploads import Upload, UploadStore
 
 __all__ = [
@@ -20,8 +21,10 @@ __all__ = [
     "RideReader",
     "RideStore",
     "Store",
+    "Trouble",
     "Upload",
     "UploadStore",
+    "WriteWatch",
     "open_store",
 ]
 
@@ -31,6 +34,7 @@ class Store:
 
     def __init__(self, database: Database, objects: FileObjects, lock: FolderLock) -> None:
         self.database = database
+        self.watch = database.watch
         self.objects = objects
         self.rides = RideStore(database, objects)
         self.revisions = RevisionLog(database)

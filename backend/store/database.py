@@ -17,6 +17,7 @@ from sqlalchemy import Connection, Engine, create_engine, event, inspect, text
 from sqlalchemy.exc import SQLAlchemyError
 
 from backend.errors import StoreError
+from backend.store.trouble import QUEUE_FULL, WriteWatch
 
 Result = TypeVar("Result")
 
@@ -25,12 +26,18 @@ HEAD_REVISION = "0002"
 # Bounds the memory of writes that wait for a slow disk: about 256 one-second tails.
 WRITES_WAITING_MAX = 256
 BUSY_TIMEOUT_MS = 10_000
+# The database's name among the parts of the store that may refuse to be written.
+PART = "database"
 
 
 class Database:
-    """One database by URL (`sqlite:///path`, `postgresql+psycopg://...`)."""
+    """One database by URL (`sqlite:///path`, `postgresql+psycopg://...`).
 
-    def __init__(self, url: str) -> None:
+    watch: is told of every write, whether it succeeded.
+    """
+
+    def __init__(self, url: str, watch: WriteWatch | None = None) -> None:
+        self.watch = watch or WriteWatch()
         self.engine = open_engine(url)
         self.one_writer = self.engine.dialect.name == "sqlite"
         self._writer = ThreadPoolExecutor(1, thread_name_prefix="store-writer")
@@ -45,7 +52,9 @@ class Database:
         """Run `work` in one transaction on the writing thread; blocks while too many wait."""
         if not self.one_writer:
             return done(lambda: self._transaction(work))
-        self._waiting.acquire()
+        if not self._waiting.acquire(blocking=False):
+            self.watch.note(PART, QUEUE_FULL)
+            self._waiting.acquire()
         try:
             future = self._writer.submit(self._transaction, work)
         except RuntimeError as error:
@@ -57,6 +66,11 @@ class Database:
     def write(self, work: Callable[[Connection], Result]) -> Result:
         """Run `work` in one transaction and wait for its commit."""
         return self.submit(work).result()
+
+    def settle(self) -> None:
+        """Wait until everything handed over before is committed or refused."""
+        if self.one_writer:
+            self._writer.submit(lambda: None).result()
 
     def read(self, work: Callable[[Connection], Result]) -> Result:
         """Run `work` on a reading connection, on the caller's thread."""
@@ -74,9 +88,12 @@ class Database:
     def _transaction(self, work: Callable[[Connection], Result]) -> Result:
         try:
             with self.engine.begin() as connection:
-                return work(connection)
+                result = work(connection)
         except SQLAlchemyError as error:
-            raise StoreError(f"The database did not save the change: {error}") from error
+            lost = "The database did not save the change"
+            raise self.watch.refused(PART, error, lost) from error
+        self.watch.worked(PART)
+        return result
 
 
 def done(work: Callable[[], Result]) -> Future[Result]:

@@ -141,7 +141,7 @@ class RideStore:
         """`finish` on the store's own thread, after every tail handed over before this call."""
 
         def work() -> Ride | None:
-            self._database.write(lambda _: None)
+            self._database.settle()
             return self.finish(ride_id)
 
         return self._finisher.submit(work)

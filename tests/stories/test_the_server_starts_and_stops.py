@@ -36,7 +36,9 @@ def test_the_simulated_unit_appears_ready_with_its_identity(
     assert unit["identity"]["serial_number"] == device
     assert unit["identity"]["protocol_version"] == "1.0"
     assert unit["config"]["generation"] >= 1
-    assert {"id": device, "state": "ready"} in health["devices"]
+    (told,) = health["devices"]
+    assert (told["id"], told["state"]) == (device, "ready")
+    assert (health["status"], health["reasons"]) == ("ok", [])
     assert "sim" in [port["url"] for port in server.get("/ports")["items"]]
 
 

@@ -11,19 +11,42 @@ from backend.api.models.base import Answer, Question
 
 DeviceKind = Literal["simulated", "serial", "socket"]
 DeviceState = Literal["connecting", "ready", "read_only", "lost", "closed"]
+HealthCode = Literal[
+    "disk_full", "store_read_only", "io_error", "queue_full", "database_unreachable", "rows_lost"
+]
 RiderKind = Literal["off", "constant", "legs"]
 DynoConvention = Literal["physical", "thesis"]
 MotorModel = Literal["average", "foc"]
 
 
+class RecorderHealth(Answer):
+    """Rows of rides since the server started; those that never came from the unit are no rows."""
+
+    rows_saved: int = Field(description="Committed in the store.")
+    rows_lost: int = Field(description="Given up, because the store refused them too long.")
+    rows_waiting: int = Field(description="On the way to the store, or waiting for it.")
+
+
 class DeviceHealth(Answer):
     id: str
     state: DeviceState
+    recorder: RecorderHealth
+
+
+class HealthReason(Answer):
+    code: HealthCode
+    message: str
+    part: str = Field(description="What it is about: a part of the store, or the id of a unit.")
 
 
 class Health(Answer):
-    status: Literal["ok"]
+    status: Literal["ok", "degraded"] = Field(
+        description="`degraded` while something that is to be kept cannot be written."
+    )
     version: str
+    reasons: list[HealthReason] = Field(
+        description="`rows_lost` stays here, with status ok, until the unit's next ride."
+    )
     devices: list[DeviceHealth]
 
 

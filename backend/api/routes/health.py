@@ -14,10 +14,6 @@ router = APIRouter(tags=["server"], responses=refusals())
 
 
 @router.get("/health", operation_id="get_health", response_model=Health)
-async def get_health(services: Provided) -> dict[str, Any]:
-    """The server's version and the state of each unit."""
-    return {
-        "status": "ok",
-        "version": services.version,
-        "devices": services.devices.list(),
-    }
+async def get_health(services: Provided) -> Any:
+    """Whether everything that is to be kept is kept, and how each unit is."""
+    return services.health.look()

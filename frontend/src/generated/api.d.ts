@@ -10,7 +10,7 @@ export interface paths {
         };
         /**
          * Get Health
-         * @description The server's version and the state of each unit.
+         * @description Whether everything that is to be kept is kept, and how each unit is.
          */
         get: operations["get_health"];
         put?: never;
@@ -1114,6 +1114,7 @@ export interface components {
              * @enum {string}
              */
             state: "connecting" | "ready" | "read_only" | "lost" | "closed";
+            recorder: components["schemas"]["RecorderHealth"];
         };
         /** DeviceList */
         DeviceList: {
@@ -1308,13 +1309,34 @@ export interface components {
         Health: {
             /**
              * Status
-             * @constant
+             * @description `degraded` while something that is to be kept cannot be written.
+             * @enum {string}
              */
-            status: "ok";
+            status: "ok" | "degraded";
             /** Version */
             version: string;
+            /**
+             * Reasons
+             * @description `rows_lost` stays here, with status ok, until the unit's next ride.
+             */
+            reasons: components["schemas"]["HealthReason"][];
             /** Devices */
             devices: components["schemas"]["DeviceHealth"][];
+        };
+        /** HealthReason */
+        HealthReason: {
+            /**
+             * Code
+             * @enum {string}
+             */
+            code: "disk_full" | "store_read_only" | "io_error" | "queue_full" | "database_unreachable" | "rows_lost";
+            /** Message */
+            message: string;
+            /**
+             * Part
+             * @description What it is about: a part of the store, or the id of a unit.
+             */
+            part: string;
         };
         /** Identity */
         Identity: {
@@ -1567,6 +1589,27 @@ export interface components {
             items: components["schemas"]["Port"][];
             /** Next */
             next: string | null;
+        };
+        /**
+         * RecorderHealth
+         * @description Rows of rides since the server started; those that never came from the unit are no rows.
+         */
+        RecorderHealth: {
+            /**
+             * Rows Saved
+             * @description Committed in the store.
+             */
+            rows_saved: number;
+            /**
+             * Rows Lost
+             * @description Given up, because the store refused them too long.
+             */
+            rows_lost: number;
+            /**
+             * Rows Waiting
+             * @description On the way to the store, or waiting for it.
+             */
+            rows_waiting: number;
         };
         /**
          * Replay
@@ -2235,6 +2278,12 @@ export interface components {
              * @default null
              */
             challenge: components["schemas"]["TokenChallenge"] | null;
+            /**
+             * Outcome
+             * @description With 504 of a change: whether the unit has it, as far as could be found out.
+             * @default null
+             */
+            outcome: ("unchanged" | "changed" | "unknown") | null;
         };
         /**
          * FieldProblem

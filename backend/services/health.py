@@ -1,0 +1,84 @@
+"""Is everything kept that is to be kept, and is each unit there?
+
+Told now, not then: `degraded` while something cannot be written. Rows that were lost for good stay
+among the reasons until the unit's next ride begins, so that nobody misses it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from backend.services.connect import Devices
+from backend.services.record import Recorder
+from backend.services.ride_tail import RowCounts
+from backend.store import WriteWatch
+
+OK = "ok"
+DEGRADED = "degraded"
+ROWS_LOST = "rows_lost"
+
+
+class Reason(Protocol):
+    """Why something is not as it should be; a store's Trouble is one."""
+
+    @property
+    def part(self) -> str: ...
+    @property
+    def code(self) -> str: ...
+    @property
+    def message(self) -> str: ...
+
+
+@dataclass(frozen=True)
+class RowsLost:
+    """Rows of a unit's latest ride that the store refused until they were given up."""
+
+    part: str
+    message: str
+    code: str = ROWS_LOST
+
+
+@dataclass(frozen=True)
+class DeviceHealth:
+    """One unit: its state, and its rows on their way to the store."""
+
+    id: str
+    state: str
+    recorder: RowCounts
+
+
+@dataclass(frozen=True)
+class HealthView:
+    """The answer of `GET /health`."""
+
+    status: str
+    version: str
+    reasons: tuple[Reason, ...]
+    devices: tuple[DeviceHealth, ...]
+
+
+class Health:
+    """Looks at everything that may be wrong; never waits. For any thread."""
+
+    def __init__(
+        self, version: str, devices: Devices, recorder: Recorder, watch: WriteWatch
+    ) -> None:
+        self._version = version
+        self._devices = devices
+        self._recorder = recorder
+        self._watch = watch
+
+    def look(self) -> HealthView:
+        """How things are now."""
+        troubles: Sequence[Reason] = self._watch.troubles
+        devices = tuple(
+            DeviceHealth(view.id, view.state, self._recorder.counts(view.id))
+            for view in self._devices.list()
+        )
+        lost = [
+            RowsLost(unit, f"{rows} rows of the latest ride of {unit} could not be saved.")
+            for unit, rows in self._recorder.rows_lost_lately()
+        ]
+        return HealthView(DEGRADED if troubles else OK, self._version, (*troubles, *lost), devices)

@@ -1,0 +1,141 @@
+"""Whether the store can be written: told once when it begins to fail, once when that is over.
+
+A spell of trouble begins with a refused write. It ends with a write that succeeds after `CALM_S`
+without a refusal: on a full disk small writes still find room while large ones do not, and a log
+that says "full" and "not full" by turns tells nothing.
+"""
+
+from __future__ import annotations
+
+import errno
+import logging
+import sqlite3
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from sqlalchemy.exc import DBAPIError
+
+from backend.errors import StoreError, StoreFull
+
+LOG = logging.getLogger(__name__)
+
+# Longer than a recorder waits before it tries a refused second again.
+CALM_S = 5.0
+
+DISK_FULL = "disk_full"
+READ_ONLY = "store_read_only"
+IO_ERROR = "io_error"
+QUEUE_FULL = "queue_full"
+UNREACHABLE = "database_unreachable"
+WORDS = {
+    DISK_FULL: "no space is left on its disk. Free some",
+    READ_ONLY: "it may only be read. Give this user the right to write there",
+    IO_ERROR: "its disk reports a fault. Look at the system's log, and make a copy of the data",
+    QUEUE_FULL: "its disk is slower than the rows that come. Look for what else uses it",
+    UNREACHABLE: "it does not answer. Look whether its server runs",
+}
+
+OF_ERRNO = {
+    errno.ENOSPC: DISK_FULL,
+    errno.EDQUOT: DISK_FULL,
+    errno.EFBIG: DISK_FULL,
+    errno.EROFS: READ_ONLY,
+    errno.EACCES: READ_ONLY,
+    errno.EPERM: READ_ONLY,
+}
+OF_SQLITE = {
+    sqlite3.SQLITE_FULL: DISK_FULL,
+    sqlite3.SQLITE_READONLY: READ_ONLY,
+    sqlite3.SQLITE_PERM: READ_ONLY,
+    sqlite3.SQLITE_IOERR: IO_ERROR,
+    sqlite3.SQLITE_CANTOPEN: IO_ERROR,
+    sqlite3.SQLITE_CORRUPT: IO_ERROR,
+    sqlite3.SQLITE_NOTADB: IO_ERROR,
+    sqlite3.SQLITE_BUSY: QUEUE_FULL,
+    sqlite3.SQLITE_LOCKED: QUEUE_FULL,
+}
+# Classes of SQLSTATE (PostgreSQL manual, appendix A).
+OF_SQLSTATE = {"53": DISK_FULL, "25": READ_ONLY, "58": IO_ERROR, "08": UNREACHABLE}
+
+
+@dataclass(frozen=True)
+class Trouble:
+    """Something that cannot be written now.
+
+    part: what (`database`, `objects`, `uploads`). code: why, one of `WORDS`. message: for people.
+    """
+
+    part: str
+    code: str
+    message: str
+
+
+class WriteWatch:
+    """What of the store refuses writes. For any thread. now_s: a clock that never goes back."""
+
+    def __init__(self, now_s: Callable[[], float] = time.monotonic) -> None:
+        self._now_s = now_s
+        self._lock = threading.Lock()
+        self._troubles: dict[str, Trouble] = {}
+        self._refused_s: dict[str, float] = {}
+        self._since_s: dict[str, float] = {}
+
+    @property
+    def troubles(self) -> tuple[Trouble, ...]:
+        """What cannot be written now, in the order in which it began."""
+        with self._lock:
+            return tuple(self._troubles.values())
+
+    def refused(self, part: str, error: Exception, lost: str) -> StoreError:
+        """Note a refused write; the error to raise. lost: what was not done, a sentence's start."""
+        code = code_of(error)
+        message = f"{lost}: {error}"
+        if code is None:
+            return StoreError(message)
+        self.note(part, code)
+        if code == DISK_FULL:
+            return StoreFull(message)
+        return StoreError(message, code)
+
+    def note(self, part: str, code: str) -> None:
+        """Note that `part` cannot be written because of `code`; in the log once a spell."""
+        trouble = Trouble(part, code, f"The {part} cannot be written: {WORDS[code]}.")
+        now_s = self._now_s()
+        with self._lock:
+            is_new = part not in self._troubles
+            if is_new:
+                self._since_s[part] = now_s
+            self._troubles[part] = trouble
+            self._refused_s[part] = now_s
+        if is_new:
+            LOG.error("%s", trouble.message)
+
+    def worked(self, part: str) -> None:
+        """Note that something was written to `part`."""
+        if part not in self._troubles:
+            return
+        now_s = self._now_s()
+        with self._lock:
+            if part not in self._troubles or now_s - self._refused_s[part] < CALM_S:
+                return
+            del self._troubles[part]
+            spell_s = now_s - self._since_s[part]
+        LOG.warning("The %s can be written again, after %.0f s.", part, spell_s)
+
+
+def code_of(error: BaseException) -> str | None:
+    """Why a write was refused; None for what is not the disk's or the database's trouble."""
+    if isinstance(error, OSError):
+        return OF_ERRNO.get(error.errno or 0, IO_ERROR)
+    if not isinstance(error, DBAPIError):
+        return None
+    number = getattr(error.orig, "sqlite_errorcode", None)
+    if number is not None:
+        # The low byte of an extended code is what kind it is.
+        return OF_SQLITE.get(number & 0xFF)
+    state = getattr(error.orig, "sqlstate", None)
+    if state is not None:
+        return OF_SQLSTATE.get(state[:2])
+    return UNREACHABLE if error.connection_invalidated else None
