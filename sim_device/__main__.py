@@ -16,12 +16,12 @@ from firmware_protocol._generated import Market
 from sim_device.controls import SPEED_FACTOR_MAX, SPEED_FACTOR_MIN
 from sim_device.emulated import EmulatedSetup
 from sim_device.emulator import BOARD, BOARD_VARIABLE, EmulatorError
+from sim_device.flash_file import FlashFile, LogFile
 from sim_device.lockstep import LockstepUnit, uid_of
-from sim_device.log_file import LogFile
 from sim_device.scenario import list_scenarios, run
 from sim_device.scenario_file import ScenarioError, ScenarioFile, load, load_live, names
 from sim_device.serial_line import PtyLine, SerialLine, TcpLine
-from sim_device.simulator import FlashFile, Stop, new_boot_id, serve
+from sim_device.simulator import Stop, new_boot_id, save, serve
 
 PROGRAM = "sim_device"
 DEFAULT_SCENARIO = "commute"
@@ -153,6 +153,7 @@ def _serve(arguments: argparse.Namespace) -> None:
     pty: Path | None = arguments.pty
     line: SerialLine = PtyLine(pty) if pty is not None else TcpLine(*arguments.tcp)
     try:
+        save(unit, flash, log)
         _ready(line.address)
         serve(unit, line, stop, flash, log)
     finally:

@@ -11,13 +11,10 @@ import secrets
 import signal
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
-from pathlib import Path
 from types import FrameType
 
-from sim_device.firmware.python.unit import FLASH_LENGTH
+from sim_device.flash_file import FlashFile, LogFile
 from sim_device.lockstep import US_PER_S, LockstepUnit
-from sim_device.log_file import LogFile
 from sim_device.serial_line import SerialLine
 
 SLEEP_S = 0.008
@@ -25,8 +22,6 @@ LINE_PIECE_US = 10_000
 
 # A machine that slept, or cannot keep up, is not caught up with: the unit skips the missed time.
 BEHIND_S_MAX = 1.0
-
-HOUSEKEEPING_S = 0.25
 
 # Virtual time passes in pieces this long, so that what the unit sends meanwhile fits its queue.
 PIECE_US = 100_000
@@ -55,39 +50,6 @@ class Pace:
         self._start_s, self._speed_factor, self._served_us = now_s, speed_factor, 0
 
 
-@dataclass
-class FlashFile:
-    """The unit's flash on disk, so that a simulated unit keeps its configuration."""
-
-    path: Path
-    written: bytes = b""
-
-    def load(self) -> bytes | None:
-        """The image, or None for a unit that has none yet. Raises ValueError on another length."""
-        if not self.path.exists():
-            return None
-        image = self.path.read_bytes()
-        if len(image) != FLASH_LENGTH:
-            raise ValueError(
-                f"{self.path} has {len(image)} bytes, a flash image has {FLASH_LENGTH}; "
-                "move it away to start with an erased flash"
-            )
-        self.written = image
-        return image
-
-    def save(self, image: bytes) -> None:
-        """Writes the image if it changed; a crash leaves the old file or the new one."""
-        if image == self.written:
-            return
-        fresh = self.path.with_name(f"{self.path.name}.{os.getpid()}")
-        with fresh.open("wb") as file:
-            file.write(image)
-            file.flush()
-            os.fsync(file.fileno())
-        fresh.replace(self.path)
-        self.written = image
-
-
 class Stop:
     """True once a signal asked for the end, or the parent process is gone."""
 
@@ -111,10 +73,13 @@ def serve(
     flash: FlashFile | None = None,
     log: LogFile | None = None,
 ) -> None:
-    """Runs the unit against the clock until `stop()`."""
+    """Runs the unit against the clock until `stop()`.
+
+    What the unit says leaves only when its flash memories are on disk as they were when it spoke:
+    an acknowledged write is there after the process was killed.
+    """
     pace = Pace(time.monotonic(), unit.speed_factor)
     waiting = b""
-    save_due_s = 0.0
     while not stop():
         now_s = time.monotonic()
         unit.send(line.read())
@@ -126,17 +91,17 @@ def serve(
             unit.pay(PIECE_US)
         # Only when the line took everything is more asked for: the unit itself notices a full line.
         waiting = waiting or unit.receive()
+        save(unit, flash, log)
         if waiting:
             waiting = waiting[line.write(waiting) :]
-        if flash is not None and now_s >= save_due_s:
-            flash.save(unit.unit.flash())
-            if log is not None:
-                log.save(unit.unit)
-            save_due_s = now_s + HOUSEKEEPING_S
         if unit.owed_us == 0:
             time.sleep(SLEEP_S)
         elif waiting:
             time.sleep(LINE_FULL_S)
+
+
+def save(unit: LockstepUnit, flash: FlashFile | None, log: LogFile | None) -> None:
+    """What changed of the flash memories is on disk when this returns."""
     if flash is not None:
         flash.save(unit.unit.flash())
     if log is not None:

@@ -284,6 +284,12 @@ class Unit:
         """The flash for ride logs as it is now."""
         return bytes(ffi.buffer(lib.unit_log(self._unit), lib.unit_log_size(self._unit)))
 
+    def log_changed(self) -> tuple[int, bytes]:
+        """Address and bytes of what changed in the flash for ride logs since the last call."""
+        address = ffi.new("size_t *")
+        length = lib.unit_log_changed(self._unit, address)
+        return address[0], bytes(ffi.buffer(lib.unit_log(self._unit) + address[0], length))
+
     @property
     def log_changes(self) -> int:
         """How often the flash for ride logs was written; the same number means the same bytes."""

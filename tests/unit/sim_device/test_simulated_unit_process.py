@@ -17,8 +17,9 @@ from pathlib import Path
 import pytest
 import serial
 
+from sim_device.flash_file import FlashFile
 from sim_device.serial_line import PtyLine
-from sim_device.simulator import FlashFile, Pace
+from sim_device.simulator import Pace
 
 # Processes, compilers or hundreds of files: left out of `make test-fast`.
 pytestmark = pytest.mark.slow

@@ -37,6 +37,13 @@ static int read_bytes(void *context, size_t address, uint8_t *bytes, size_t leng
     return 0;
 }
 
+static void note_change(log_flash *flash, size_t address, size_t length)
+{
+    flash->changes++;
+    if (flash->changed_to == 0 || address < flash->changed_from) flash->changed_from = address;
+    if (address + length > flash->changed_to) flash->changed_to = address + length;
+}
+
 static int erase(void *context, size_t address)
 {
     log_flash *flash = context;
@@ -44,7 +51,7 @@ static int erase(void *context, size_t address)
     if (busy(context) || address % flash->block_size != 0) return -1;
     if (!holds(flash, address, flash->block_size)) return -1;
     if (address == flash->worn_address) return -1;
-    flash->changes++;
+    note_change(flash, address, flash->block_size);
     for (size_t i = 0; i < flash->block_size; i++) {
         if (!step(flash)) return -1;
         flash->bytes[address + i] = 0xFF;
@@ -58,7 +65,7 @@ static int program(void *context, size_t address, const uint8_t *bytes, size_t l
     log_flash *flash = context;
 
     if (busy(context) || !holds(flash, address, length)) return -1;
-    flash->changes++;
+    note_change(flash, address, length);
     for (size_t i = 0; i < length; i++) {
         if (!step(flash)) return -1;
         flash->bytes[address + i] &= bytes[i];
@@ -107,4 +114,14 @@ void log_flash_power_on(log_flash *flash)
     flash->busy_until_us = 0;
     flash->steps = 0;
     flash->steps_left = NEVER;
+}
+
+size_t log_flash_changed(log_flash *flash, size_t *address)
+{
+    size_t length = flash->changed_to - flash->changed_from;
+
+    *address = flash->changed_from;
+    flash->changed_from = 0;
+    flash->changed_to = 0;
+    return length;
 }

@@ -387,3 +387,8 @@ const uint8_t *unit_log(const unit *self) { return self->log.bytes; }
 size_t unit_log_size(const unit *self) { return self->log.size; }
 
 uint32_t unit_log_changes(const unit *self) { return self->log.changes; }
+
+size_t unit_log_changed(unit *self, size_t *address)
+{
+    return log_flash_changed(&self->log, address);
+}

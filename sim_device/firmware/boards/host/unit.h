@@ -141,6 +141,9 @@ const uint8_t *unit_log(const unit *self);
 size_t unit_log_size(const unit *self);
 uint32_t unit_log_changes(const unit *self);
 
+/* Where all lies that changed in it since the last call, as an address and a length. */
+size_t unit_log_changed(unit *self, size_t *address);
+
 /* Brown-out: the supply fails after `bytes` more bytes were erased or programmed, and with it the
  * whole unit; what the flash holds then is for the next life. 0 takes the battery out now. */
 void unit_flash_cut_after(unit *self, uint32_t bytes);
