@@ -13,7 +13,7 @@ MTU = 544
 MAX_OUTSTANDING = 4
 CONTROL_PERIOD_US = 10000
 IMAGE_LENGTH = 413
-SCHEMA_HASH = bytes.fromhex("ff64fbc56d307d08")
+SCHEMA_HASH = bytes.fromhex("37ccf2fffe481656")
 
 
 class Status(IntEnum):
@@ -246,7 +246,7 @@ class LogFlags(IntFlag):
 
 
 class FaultFlags(IntFlag):
-    """What is wrong with the unit now."""
+    """What is wrong with the unit now. Bits 15 and 31 are never given."""
 
     TORQUE_SENSOR = 1
     SPEED_SENSOR = 2
@@ -1091,6 +1091,7 @@ class EvtFaultListResponse(Message):
     MESSAGE_ID: ClassVar[MessageId] = MessageId.EVT_FAULT_LIST
     LAYOUT: ClassVar[tuple[Field, ...]] = (
         Field("fault_flags", "u16"),
+        Field("fault_flags_high", "u16", high_of="fault_flags"),
     )
     LENGTH: ClassVar[int] = 2
 
@@ -1136,6 +1137,7 @@ class EvtFaultClearRequest(Message):
     MESSAGE_ID: ClassVar[MessageId] = MessageId.EVT_FAULT_CLEAR
     LAYOUT: ClassVar[tuple[Field, ...]] = (
         Field("fault_flags", "u16"),
+        Field("fault_flags_high", "u16", high_of="fault_flags"),
     )
     LENGTH: ClassVar[int] = 2
 
@@ -1149,6 +1151,7 @@ class EvtFaultClearResponse(Message):
     MESSAGE_ID: ClassVar[MessageId] = MessageId.EVT_FAULT_CLEAR
     LAYOUT: ClassVar[tuple[Field, ...]] = (
         Field("fault_flags", "u16"),
+        Field("fault_flags_high", "u16", high_of="fault_flags"),
     )
     LENGTH: ClassVar[int] = 2
 
@@ -1563,6 +1566,7 @@ class FaultSetEvent(Message):
     CODE: ClassVar[Event] = Event.FAULT_SET
     LAYOUT: ClassVar[tuple[Field, ...]] = (
         Field("fault_flags", "u16"),
+        Field("fault_flags_high", "u16", high_of="fault_flags"),
     )
     LENGTH: ClassVar[int] = 2
 
@@ -1576,6 +1580,7 @@ class FaultClearedEvent(Message):
     CODE: ClassVar[Event] = Event.FAULT_CLEARED
     LAYOUT: ClassVar[tuple[Field, ...]] = (
         Field("fault_flags", "u16"),
+        Field("fault_flags_high", "u16", high_of="fault_flags"),
     )
     LENGTH: ClassVar[int] = 2
 
@@ -2259,7 +2264,8 @@ CHANNELS: tuple[Channel, ...] = (
     Channel(17, "limit_flags", "flags", 1, "Bits of limit_flags."),
     Channel(18, "motor_temperature_degc", "degC", 0.01, "Motor winding temperature."),
     Channel(19, "sensor_temperature_degc", "degC", 0.01, "Temperature at the torque sensor."),
-    Channel(20, "fault_flags", "flags", 1, "Bits of fault_flags."),
+    Channel(20, "fault_flags", "flags", 1, "Bits 0 to 14 of fault_flags."),
+    Channel(21, "fault_flags_high", "flags", 1, "Bits 16 up of fault_flags: bit 0 here is bit 16 there."),
 )
 CHANNEL_BY_NAME = {channel.name: channel for channel in CHANNELS}
 CHANNEL_BY_ID = {channel.id: channel for channel in CHANNELS}

@@ -217,7 +217,7 @@ def _event(frame: bytes, seq: int, retransmit: bool) -> Decoded:
     if message_type is None:
         return Event(seq, code, t_us, None, payload, {}, retransmit)
     message = message_type.from_bytes(payload)
-    names = [column.name for column in message.LAYOUT]
+    names = [column.name for column in message.LAYOUT if not column.high_of]
     return Event(
         seq,
         EventCode(code),

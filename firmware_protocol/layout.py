@@ -15,6 +15,9 @@ Default: TypeAlias = "float | int | str | tuple[Default, ...]"
 ParameterType: TypeAlias = Literal["f32", "u8", "u16", "text"]
 
 STRUCT_CODES = {"u8": "B", "u16": "H", "u32": "I", "u64": "Q", "i16": "h", "i32": "i", "f32": "f"}
+HALF_BITS = 16
+HALF_MASK = 0xFFFF
+HIGH_HALF = struct.Struct("<H")
 MISSING = -32768
 """The telemetry count that stands for no value."""
 
@@ -25,17 +28,24 @@ class ShortPayload(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """One field of a message: its name, its type, and how many (1 for a plain value)."""
+    """One field of a message: its name, its type, and how many (1 for a plain value).
+
+    high_of: the field whose bits 16 up these are, "" for a field of its own. The message has one
+    number for both; a payload of a peer that does not know the high half ends before it, and then
+    these bits are 0.
+    """
 
     name: str
     type: str
     count: int = 1
+    high_of: str = ""
 
 
 class Message:
     """Base of every generated message: fields in the order of the wire, little-endian.
 
-    A `u8` array is `bytes`; any other array a tuple; a last field of type `bytes` takes the rest.
+    A `u8` array is `bytes`; any other array a tuple; a last field of type `bytes` takes the rest;
+    a field and its high half are one number.
     """
 
     __slots__ = ()
@@ -59,6 +69,12 @@ class Message:
             if field.type == "bytes":
                 values.append(bytes(payload[at:]))
                 break
+            if field.high_of:
+                if at + HIGH_HALF.size <= len(payload):
+                    place = [one.name for one in cls.LAYOUT].index(field.high_of)
+                    values[place] |= HIGH_HALF.unpack_from(payload, at)[0] << HALF_BITS
+                at += HIGH_HALF.size
+                continue
             code = "<" + (f"{field.count}" if field.count > 1 else "") + STRUCT_CODES[field.type]
             size = struct.calcsize(code)
             if field.type == "u8" and field.count > 1:
@@ -72,9 +88,14 @@ class Message:
     def to_bytes(self) -> bytes:
         """The payload. Raises struct.error or ValueError if a value does not fit its field."""
         parts: list[bytes] = []
+        halved = {field.high_of for field in self.LAYOUT if field.high_of}
         for field in self.LAYOUT:
-            value = getattr(self, field.name)
-            if field.type == "bytes":
+            value = getattr(self, field.high_of or field.name)
+            if field.high_of:
+                parts.append(HIGH_HALF.pack(value >> HALF_BITS))
+            elif field.name in halved:
+                parts.append(HIGH_HALF.pack(value & HALF_MASK))
+            elif field.type == "bytes":
                 parts.append(value)
             elif field.type == "u8" and field.count > 1:
                 if len(value) != field.count:

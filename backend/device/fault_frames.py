@@ -17,7 +17,7 @@ from firmware_protocol._generated import (
     Status,
 )
 
-ALL_FAULTS = 0xFFFF
+ALL_FAULTS = 0xFFFFFFFF
 
 
 @dataclass(frozen=True)

@@ -41,9 +41,13 @@ def ask_values() -> Operation[LiveValues]:
 
 
 def values_of(t_us: int, row: bytes) -> LiveValues:
-    """A row of every channel in the order of their ids, as the wire carries it."""
-    counts = np.frombuffer(row[: 2 * len(CHANNEL_SPECS)], dtype="<i2").tolist()
-    return LiveValues(t_us, _named(CHANNEL_SPECS, counts))
+    """A row of every channel in the order of their ids, as the wire carries it.
+
+    A unit of earlier firmware has fewer channels: those it does not send are missing.
+    """
+    known = len(CHANNEL_SPECS)
+    counts = np.frombuffer(row[: min(len(row) // 2, known) * 2], dtype="<i2").tolist()
+    return LiveValues(t_us, _named(CHANNEL_SPECS, counts + [MISSING] * (known - len(counts))))
 
 
 def _named(channels: Sequence[ChannelSpec], counts: Sequence[int]) -> dict[str, float | None]:

@@ -20,6 +20,8 @@ from firmware_protocol._generated import (
 from firmware_protocol._generated import Event as EventCode
 from firmware_protocol.codec import Event
 
+FAULT_BITS = 32
+
 
 class UnitNotes:
     """The unit's own word on its configuration and faults, kept fresh by its events.
@@ -40,7 +42,7 @@ class UnitNotes:
     @property
     def faults_active(self) -> tuple[str, ...]:
         """Names of the active faults; one of a newer firmware is `FAULT_n`."""
-        return tuple(_fault_name(bit) for bit in range(16) if self.fault_flags >> bit & 1)
+        return tuple(_fault_name(bit) for bit in range(FAULT_BITS) if self.fault_flags >> bit & 1)
 
     def begin(self, acquaintance: Acquaintance, now_s: float) -> None:
         """Start from what the handshake found."""

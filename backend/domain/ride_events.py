@@ -19,7 +19,8 @@ ASSIST_MODE = "assist_mode"
 # A loose plug makes thousands; they are in the rows all the same.
 EVENTS_MAX = 200
 
-FAULTS_CHANNEL = "fault_flags"
+# Each channel of faults with the bit that its bit 0 is. A ride of an older unit has only the first.
+FAULTS_CHANNELS = {"fault_flags": 0, "fault_flags_high": 16}
 MODE_CHANNEL = "assist_mode"
 
 
@@ -39,8 +40,8 @@ class RideEvent:
 def events_of_rows(
     channel: ChannelSpec, counts: Counts, times_us: np.ndarray[tuple[int], np.dtype[np.int64]]
 ) -> list[RideEvent]:
-    """Changes in the faults' or the mode's channel, counts (n,); none for any other."""
-    if channel.name not in (FAULTS_CHANNEL, MODE_CHANNEL):
+    """Changes in a channel of faults or the mode's, counts (n,); none for any other."""
+    if channel.name != MODE_CHANNEL and channel.name not in FAULTS_CHANNELS:
         return []
     there = np.flatnonzero(counts != channel.missing)
     values = np.rint(channel.to_values(counts[there])).astype(np.int64)
@@ -54,11 +55,12 @@ def events_of_rows(
     return found[:EVENTS_MAX]
 
 
-def merged(seen: Sequence[RideEvent], told: Sequence[RideEvent], same_s: float) -> list[RideEvent]:
+def merged(rows: Sequence[RideEvent], told: Sequence[RideEvent], same_s: float) -> list[RideEvent]:
     """What the rows show and what was told besides, in order of time.
 
     same_s: so far apart they are one and the same.
     """
+    seen = _one_a_moment(rows)
     extra = [
         event
         for event in told
@@ -72,12 +74,27 @@ def merged(seen: Sequence[RideEvent], told: Sequence[RideEvent], same_s: float) 
     return sorted([*seen, *extra], key=lambda event: event.t_s)[:EVENTS_MAX]
 
 
+def _one_a_moment(events: Sequence[RideEvent]) -> list[RideEvent]:
+    """Faults that both channels show in the same row are one event."""
+    together: dict[tuple[float, str], RideEvent] = {}
+    modes = []
+    for event in events:
+        if event.kind == ASSIST_MODE:
+            modes.append(event)
+            continue
+        key = (event.t_s, event.kind)
+        before = together.get(key)
+        bits = event.value | (before.value if before else 0)
+        together[key] = RideEvent(event.t_s, event.kind, bits)
+    return [*together.values(), *modes]
+
+
 def _between(name: str, time_us: int, before: int | None, after: int) -> list[RideEvent]:
     t_s = float(time_us) / 1e6
     if name == MODE_CHANNEL:
         return [RideEvent(t_s, ASSIST_MODE, after)]
-    was = before or 0
-    pairs = ((FAULT_SET, after & ~was), (FAULT_CLEARED, was & ~after))
+    was, lowest = before or 0, FAULTS_CHANNELS[name]
+    pairs = ((FAULT_SET, (after & ~was) << lowest), (FAULT_CLEARED, (was & ~after) << lowest))
     return [RideEvent(t_s, kind, bits) for kind, bits in pairs if bits]
 
 

@@ -24,6 +24,8 @@ ERASED = b"\xff"
 
 CONFIG, SCHEMA, DATA, EVENT, SYNC, END = range(1, 7)
 EVENT_FIELDS = struct.Struct("<QBH")
+# One for each event, behind all of them; a log of an older unit ends before them.
+EVENT_FLAGS_HIGH = struct.Struct("<H")
 SYNC_FIELDS = struct.Struct("<QI")
 # Number of a block that a host appended to a log.
 HOST_SEQ = 0xFFFFFFFF

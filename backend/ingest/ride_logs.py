@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import struct
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -31,6 +31,7 @@ from backend.ingest.blocks import (
     END,
     EVENT,
     EVENT_FIELDS,
+    EVENT_FLAGS_HIGH,
     HOST_SEQ,
     SCHEMA,
     SYNC,
@@ -43,6 +44,7 @@ from backend.ingest.blocks import (
 from backend.ingest.columns import EPOCH_S, LATEST_S, SPAN_S_MAX
 from backend.ingest.outcome import COMPLETE, PARTIAL, ImportedRide, Outcome, rejected
 from firmware_protocol._generated import CHANNELS, IMAGE_LENGTH, SCHEMA_HASH, LogEvent
+from firmware_protocol.layout import HALF_BITS
 from firmware_protocol.parameters import unpack_image
 
 CONFIG_HEAD = struct.Struct("<12s8sII")
@@ -56,7 +58,7 @@ ROWS_MAX = 2_000_000
 LOGS_MAX = 64
 PERIOD_US_MIN = 1_000
 PERIOD_US_MAX = 60_000_000
-EVENT_KINDS = {
+EVENT_KINDS: dict[int, str] = {
     LogEvent.FAULT_SET: FAULT_SET,
     LogEvent.FAULT_CLEARED: FAULT_CLEARED,
     LogEvent.ASSIST_MODE: ASSIST_MODE,
@@ -284,12 +286,22 @@ def events_of(blocks: Sequence[Block], t0_us: int, length_us: int) -> list[RideE
     for block in blocks:
         if block.type != EVENT:
             continue
-        whole = len(block.payload) - len(block.payload) % EVENT_FIELDS.size
-        for t_us, code, value in EVENT_FIELDS.iter_unpack(block.payload[:whole]):
+        for t_us, code, value in events_in(block):
             kind = EVENT_KINDS.get(code)
             if kind is not None and 0 <= t_us - t0_us <= length_us:
                 found.append(RideEvent((t_us - t0_us) / 1e6, kind, value))
     return sorted(found, key=lambda event: event.t_s)[:EVENTS_MAX]
+
+
+def events_in(block: Block) -> Iterator[tuple[int, int, int]]:
+    """Time in us, code and flags or slot of each event of an EVENT block."""
+    count = min(block.n, len(block.payload) // EVENT_FIELDS.size)
+    rows = EVENT_FIELDS.iter_unpack(block.payload[: count * EVENT_FIELDS.size])
+    highs = block.payload[count * EVENT_FIELDS.size :][: count * EVENT_FLAGS_HIGH.size]
+    if len(highs) < count * EVENT_FLAGS_HIGH.size:
+        highs = bytes(count * EVENT_FLAGS_HIGH.size)
+    for (t_us, code, value), (high,) in zip(rows, EVENT_FLAGS_HIGH.iter_unpack(highs), strict=True):
+        yield t_us, code, value | high << HALF_BITS
 
 
 def start_of(blocks: Sequence[Block], t0_us: int) -> int | None:

@@ -918,17 +918,21 @@ int ebl_evt_fault_list_response_get(ebl_evt_fault_list_response *message, const 
         return EBL_ERROR_LENGTH;
     }
     message->fault_flags = ebl_get_u16(bytes + 0);
+    if (length >= 4) {
+        message->fault_flags |= (uint32_t)ebl_get_u16(bytes + 2) << 16;
+    }
     return EBL_OK;
 }
 
 int ebl_evt_fault_list_response_put(const ebl_evt_fault_list_response *message, uint8_t *bytes, size_t capacity,
                                    size_t *length)
 {
-    if (capacity < 2) {
+    if (capacity < 4) {
         return EBL_ERROR_SPACE;
     }
-    ebl_put_u16(bytes + 0, message->fault_flags);
-    *length = 2;
+    ebl_put_u16(bytes + 0, (uint16_t)(message->fault_flags & 0xffffu));
+    ebl_put_u16(bytes + 2, (uint16_t)(message->fault_flags >> 16));
+    *length = 4;
     return EBL_OK;
 }
 
@@ -987,17 +991,21 @@ int ebl_evt_fault_clear_request_get(ebl_evt_fault_clear_request *message, const 
         return EBL_ERROR_LENGTH;
     }
     message->fault_flags = ebl_get_u16(bytes + 0);
+    if (length >= 4) {
+        message->fault_flags |= (uint32_t)ebl_get_u16(bytes + 2) << 16;
+    }
     return EBL_OK;
 }
 
 int ebl_evt_fault_clear_request_put(const ebl_evt_fault_clear_request *message, uint8_t *bytes, size_t capacity,
                                    size_t *length)
 {
-    if (capacity < 2) {
+    if (capacity < 4) {
         return EBL_ERROR_SPACE;
     }
-    ebl_put_u16(bytes + 0, message->fault_flags);
-    *length = 2;
+    ebl_put_u16(bytes + 0, (uint16_t)(message->fault_flags & 0xffffu));
+    ebl_put_u16(bytes + 2, (uint16_t)(message->fault_flags >> 16));
+    *length = 4;
     return EBL_OK;
 }
 
@@ -1007,17 +1015,21 @@ int ebl_evt_fault_clear_response_get(ebl_evt_fault_clear_response *message, cons
         return EBL_ERROR_LENGTH;
     }
     message->fault_flags = ebl_get_u16(bytes + 0);
+    if (length >= 4) {
+        message->fault_flags |= (uint32_t)ebl_get_u16(bytes + 2) << 16;
+    }
     return EBL_OK;
 }
 
 int ebl_evt_fault_clear_response_put(const ebl_evt_fault_clear_response *message, uint8_t *bytes, size_t capacity,
                                     size_t *length)
 {
-    if (capacity < 2) {
+    if (capacity < 4) {
         return EBL_ERROR_SPACE;
     }
-    ebl_put_u16(bytes + 0, message->fault_flags);
-    *length = 2;
+    ebl_put_u16(bytes + 0, (uint16_t)(message->fault_flags & 0xffffu));
+    ebl_put_u16(bytes + 2, (uint16_t)(message->fault_flags >> 16));
+    *length = 4;
     return EBL_OK;
 }
 
@@ -1536,17 +1548,21 @@ int ebl_fault_set_event_get(ebl_fault_set_event *message, const uint8_t *bytes, 
         return EBL_ERROR_LENGTH;
     }
     message->fault_flags = ebl_get_u16(bytes + 0);
+    if (length >= 4) {
+        message->fault_flags |= (uint32_t)ebl_get_u16(bytes + 2) << 16;
+    }
     return EBL_OK;
 }
 
 int ebl_fault_set_event_put(const ebl_fault_set_event *message, uint8_t *bytes, size_t capacity,
                            size_t *length)
 {
-    if (capacity < 2) {
+    if (capacity < 4) {
         return EBL_ERROR_SPACE;
     }
-    ebl_put_u16(bytes + 0, message->fault_flags);
-    *length = 2;
+    ebl_put_u16(bytes + 0, (uint16_t)(message->fault_flags & 0xffffu));
+    ebl_put_u16(bytes + 2, (uint16_t)(message->fault_flags >> 16));
+    *length = 4;
     return EBL_OK;
 }
 
@@ -1556,17 +1572,21 @@ int ebl_fault_cleared_event_get(ebl_fault_cleared_event *message, const uint8_t 
         return EBL_ERROR_LENGTH;
     }
     message->fault_flags = ebl_get_u16(bytes + 0);
+    if (length >= 4) {
+        message->fault_flags |= (uint32_t)ebl_get_u16(bytes + 2) << 16;
+    }
     return EBL_OK;
 }
 
 int ebl_fault_cleared_event_put(const ebl_fault_cleared_event *message, uint8_t *bytes, size_t capacity,
                                size_t *length)
 {
-    if (capacity < 2) {
+    if (capacity < 4) {
         return EBL_ERROR_SPACE;
     }
-    ebl_put_u16(bytes + 0, message->fault_flags);
-    *length = 2;
+    ebl_put_u16(bytes + 0, (uint16_t)(message->fault_flags & 0xffffu));
+    ebl_put_u16(bytes + 2, (uint16_t)(message->fault_flags >> 16));
+    *length = 4;
     return EBL_OK;
 }
 

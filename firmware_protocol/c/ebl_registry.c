@@ -184,6 +184,7 @@ const ebl_channel ebl_channels[EBL_CHANNEL_COUNT] = {
     {18, 0.01f},
     {19, 0.01f},
     {20, 1.0f},
+    {21, 1.0f},
 };
 
 const ebl_message *ebl_message_find(uint16_t id)

@@ -17,12 +17,12 @@
 #define EBL_EVENT_HEAD_LENGTH 5
 #define EBL_PARAMETER_COUNT 46
 #define EBL_ORDER_COUNT 1
-#define EBL_CHANNEL_COUNT 20
-#define EBL_FAULT_COUNT 15
+#define EBL_CHANNEL_COUNT 21
+#define EBL_FAULT_BITS 15
 #define EBL_FAULTS_ASSIST_OFF 32759
 #define EBL_FAULTS_LATCHED 29683
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 4461
+#define EBL_SCHEMA_LENGTH 4486
 
 enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */
 
@@ -234,7 +234,7 @@ enum {
     EBL_LOG_ENDED = 4,
 };
 
-/* What is wrong with the unit now. */
+/* What is wrong with the unit now. Bits 15 and 31 are never given. */
 enum {
     EBL_FAULT_TORQUE_SENSOR = 1,
     EBL_FAULT_SPEED_SENSOR = 2,
@@ -371,6 +371,7 @@ enum {
     EBL_CHANNEL_MOTOR_TEMPERATURE_DEGC = 18,
     EBL_CHANNEL_SENSOR_TEMPERATURE_DEGC = 19,
     EBL_CHANNEL_FAULT_FLAGS = 20,
+    EBL_CHANNEL_FAULT_FLAGS_HIGH = 21,
 };
 
 typedef struct {
@@ -867,8 +868,9 @@ int ebl_evt_ack_request_put(const ebl_evt_ack_request *message, uint8_t *bytes, 
                            size_t *length);
 
 #define EBL_EVT_FAULT_LIST_RESPONSE_LENGTH 2
+#define EBL_EVT_FAULT_LIST_RESPONSE_LENGTH_WHOLE 4 /* with the high half */
 typedef struct {
-    uint16_t fault_flags;
+    uint32_t fault_flags;
 } ebl_evt_fault_list_response;
 int ebl_evt_fault_list_response_get(ebl_evt_fault_list_response *message, const uint8_t *bytes, size_t length);
 int ebl_evt_fault_list_response_put(const ebl_evt_fault_list_response *message, uint8_t *bytes, size_t capacity,
@@ -895,16 +897,18 @@ int ebl_evt_fault_freeze_response_put(const ebl_evt_fault_freeze_response *messa
                                      size_t *length);
 
 #define EBL_EVT_FAULT_CLEAR_REQUEST_LENGTH 2
+#define EBL_EVT_FAULT_CLEAR_REQUEST_LENGTH_WHOLE 4 /* with the high half */
 typedef struct {
-    uint16_t fault_flags;
+    uint32_t fault_flags;
 } ebl_evt_fault_clear_request;
 int ebl_evt_fault_clear_request_get(ebl_evt_fault_clear_request *message, const uint8_t *bytes, size_t length);
 int ebl_evt_fault_clear_request_put(const ebl_evt_fault_clear_request *message, uint8_t *bytes, size_t capacity,
                                    size_t *length);
 
 #define EBL_EVT_FAULT_CLEAR_RESPONSE_LENGTH 2
+#define EBL_EVT_FAULT_CLEAR_RESPONSE_LENGTH_WHOLE 4 /* with the high half */
 typedef struct {
-    uint16_t fault_flags;
+    uint32_t fault_flags;
 } ebl_evt_fault_clear_response;
 int ebl_evt_fault_clear_response_get(ebl_evt_fault_clear_response *message, const uint8_t *bytes, size_t length);
 int ebl_evt_fault_clear_response_put(const ebl_evt_fault_clear_response *message, uint8_t *bytes, size_t capacity,
@@ -1124,16 +1128,18 @@ int ebl_boot_event_put(const ebl_boot_event *message, uint8_t *bytes, size_t cap
                       size_t *length);
 
 #define EBL_FAULT_SET_EVENT_LENGTH 2
+#define EBL_FAULT_SET_EVENT_LENGTH_WHOLE 4 /* with the high half */
 typedef struct {
-    uint16_t fault_flags;
+    uint32_t fault_flags;
 } ebl_fault_set_event;
 int ebl_fault_set_event_get(ebl_fault_set_event *message, const uint8_t *bytes, size_t length);
 int ebl_fault_set_event_put(const ebl_fault_set_event *message, uint8_t *bytes, size_t capacity,
                            size_t *length);
 
 #define EBL_FAULT_CLEARED_EVENT_LENGTH 2
+#define EBL_FAULT_CLEARED_EVENT_LENGTH_WHOLE 4 /* with the high half */
 typedef struct {
-    uint16_t fault_flags;
+    uint32_t fault_flags;
 } ebl_fault_cleared_event;
 int ebl_fault_cleared_event_get(ebl_fault_cleared_event *message, const uint8_t *bytes, size_t length);
 int ebl_fault_cleared_event_put(const ebl_fault_cleared_event *message, uint8_t *bytes, size_t capacity,

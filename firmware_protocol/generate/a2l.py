@@ -4,7 +4,7 @@ Two pieces of memory are described, neither of which is a processor's: see `ABOU
 """
 
 from firmware_protocol.generate.registry import NOTICE, Registry, Table
-from firmware_protocol.layout import Channel, Parameter
+from firmware_protocol.layout import HALF_BITS, Channel, Parameter
 
 LIVE_ROW = 0x10000
 FACTORY = 2
@@ -12,6 +12,8 @@ COUNT_MAX = 32767
 DATATYPES = {"f32": "FLOAT32_IEEE", "u8": "UBYTE", "u16": "UWORD"}
 MASK_BITS = 15
 """Flags travel as an int16 channel: bit 15 would be its sign."""
+HIGH = "_high"
+"""Of the name of the channel that carries the flags' bits 16 up."""
 
 ABOUT = f"""\
 /* Addresses are not those of a processor:
@@ -197,13 +199,14 @@ def _flag_measurements(registry: Registry) -> list[str]:
     tables = {table.name: table for table in registry.flags}
     lines = []
     for position, row in enumerate(registry.channels):
-        for name, bit in tables[row.name].members.items() if row.name in tables else ():
-            if bit >= MASK_BITS:
+        flags, lowest = row.name.removesuffix(HIGH), HALF_BITS if row.name.endswith(HIGH) else 0
+        for name, bit in tables[flags].members.items() if flags in tables else ():
+            if not 0 <= bit - lowest < MASK_BITS:
                 continue
             lines += [
-                f'    /begin MEASUREMENT {row.name}.{name} ""',
+                f'    /begin MEASUREMENT {flags}.{name} ""',
                 "      SWORD NO_COMPU_METHOD 1 0 0 1",
-                f"      BIT_MASK 0x{1 << bit:X}",
+                f"      BIT_MASK 0x{1 << bit - lowest:X}",
                 f"      ECU_ADDRESS 0x{LIVE_ROW + 2 * position:X}",
                 "    /end MEASUREMENT",
             ]

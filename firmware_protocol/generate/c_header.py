@@ -119,7 +119,7 @@ def _numbers(registry: Registry, schema_length: int) -> list[str]:
         "PARAMETER_COUNT": len(registry.parameters),
         "ORDER_COUNT": len(registry.orders),
         "CHANNEL_COUNT": len(registry.channels),
-        "FAULT_COUNT": len(registry.faults),
+        "FAULT_BITS": max(fault.bit for fault in registry.faults) + 1,
         "FAULTS_ASSIST_OFF": _fault_mask(registry, "ASSIST_OFF"),
         "FAULTS_LATCHED": _fault_mask(registry, "LATCHED"),
         "SCHEMA_HASH_LENGTH": 8,
@@ -170,8 +170,12 @@ def _structs(registry: Registry) -> list[str]:
     ]
     for name, layout in layouts(registry):
         upper = name.upper()
-        lines += [f"#define {upper}_LENGTH {layout.length}", "typedef struct {"]
-        lines += [f"    {text}" for field in layout.fields for text in member(field)]
+        lines += [f"#define {upper}_LENGTH {layout.length}"]
+        if layout.whole != layout.length:
+            lines += [f"#define {upper}_LENGTH_WHOLE {layout.whole} /* with the high half */"]
+        lines += ["typedef struct {"]
+        for field in layout.members:
+            lines += [f"    {text}" for text in member(field, layout.is_halved(field))]
         lines += [
             f"}} {name};",
             f"int {name}_get({name} *message, const uint8_t *bytes, size_t length);",

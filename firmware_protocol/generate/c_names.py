@@ -34,8 +34,10 @@ def layouts(registry: Registry) -> list[tuple[str, Layout]]:
     return found
 
 
-def member(field: Field) -> list[str]:
+def member(field: Field, halved: bool) -> list[str]:
     """The declaration of one field; a tail is a pointer into the caller's bytes."""
+    if halved:
+        return [f"uint32_t {field.name};"]
     if field.type == "bytes":
         return [f"const uint8_t *{field.name};", f"size_t {field.name}_length;"]
     dimension = f"[{field.count}]" if field.count > 1 else ""

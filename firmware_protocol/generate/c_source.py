@@ -122,7 +122,12 @@ def _get(name: str, layout: Layout) -> list[str]:
         if field.type == "bytes":
             lines += [f"    {target} = {source};", f"    {target}_length = length - {at};"]
             break
-        lines += _copy(field, f"{target} = ebl_get_{field.type}({{}});", target, source, source)
+        if field.high_of:
+            lines += [f"    if (length >= {at + size(field)}) {{"]
+            lines += [f"        message->{field.high_of} |= (uint32_t)ebl_get_u16({source}) << 16;"]
+            lines += ["    }"]
+        else:
+            lines += _copy(field, f"{target} = ebl_get_{field.type}({{}});", target, source, source)
         at += size(field)
     return [*lines, "    return EBL_OK;", "}"]
 
@@ -133,11 +138,11 @@ def _put(name: str, layout: Layout) -> list[str]:
         f"    {' ' * len(name)}    size_t *length)",
         "{",
     ]
-    total = f"{layout.length}"
+    total = f"{layout.whole}"
     if layout.has_tail:
         tail = f"message->{layout.fields[-1].name}_length"
         lines += [f"    if (capacity < {total} || capacity - {total} < {tail}) {{"]
-        if not layout.length:
+        if not layout.whole:
             lines[-1] = f"    if (capacity < {tail}) {{"
         total = f"{total} + {tail}"
     else:
@@ -150,6 +155,10 @@ def _put(name: str, layout: Layout) -> list[str]:
             lines += [f"    if ({source}_length > 0) {{"]
             lines += [f"        memcpy({target}, {source}, {source}_length);", "    }"]
             break
+        if field.high_of:
+            source = f"(uint16_t)(message->{field.high_of} >> 16)"
+        elif layout.is_halved(field):
+            source = f"(uint16_t)({source} & 0xffffu)"
         call = f"ebl_put_{field.type}({{}}, {source}" + ");"
         lines += _copy(field, call, target, source, target)
         at += size(field)

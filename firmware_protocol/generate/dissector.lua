@@ -314,6 +314,8 @@ local function add_fields(tree, layout, tvb, at, note)
             return
         end
         local size = SIZES[field.type]
+        -- A peer that does not know the high half of a number ends before it.
+        if field.high and tvb:len() - at < size then return end
         if tvb:len() - at < size * field.count then return complain(tree, tvb(), "LENGTH") end
         if field.type == "u8" and field.count > 1 and not field.enum then
             tree:add(field.field, tvb(at, field.count))

@@ -82,12 +82,13 @@ def _class(name: str, doc: str, identity: str, layout: Layout) -> list[str]:
     if fields:
         lines += ["    LAYOUT: ClassVar[tuple[Field, ...]] = (", *fields, "    )"]
         lines += [f"    LENGTH: ClassVar[int] = {layout.length}", ""]
-        lines += [f"    {field.name}: {_annotation(field)}" for field in layout.fields]
+        lines += [f"    {field.name}: {_annotation(field)}" for field in layout.members]
     return [*lines, "", ""]
 
 
 def _field(field: Field) -> str:
     count = f", {field.count}" if field.count > 1 else ""
+    count += f', high_of="{field.high_of}"' if field.high_of else ""
     return f'Field("{field.name}", "{field.type}"{count})'
 
 

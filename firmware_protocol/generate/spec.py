@@ -40,11 +40,10 @@ def _enumerations(registry: Registry) -> list[str]:
 
 def _fields(layout: Layout) -> str:
     texts = [f"{f.name} {f.type}" + (f"[{f.count}]" if f.count > 1 else "") for f in layout.fields]
-    return (
-        ", ".join(texts) + f" ({layout.length}{' B +' if layout.has_tail else ' B'})"
-        if texts
-        else "nothing"
-    )
+    if not texts:
+        return "nothing"
+    least = f"{layout.length} or " if layout.whole != layout.length else ""
+    return f"{', '.join(texts)} ({least}{layout.whole}{' B +' if layout.has_tail else ' B'})"
 
 
 def _messages(registry: Registry) -> list[str]:

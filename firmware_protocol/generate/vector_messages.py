@@ -4,7 +4,7 @@ import struct
 from typing import Any
 
 from firmware_protocol.generate.registry import Layout, Registry
-from firmware_protocol.layout import STRUCT_CODES, Field
+from firmware_protocol.layout import HALF_BITS, STRUCT_CODES, Field
 
 SIZES = {"least": 0, "usual": 1, "largest": 2}
 
@@ -21,11 +21,22 @@ def cases(registry: Registry) -> list[dict[str, Any]]:
                 ("request", row.request, b"\x20" + header),
                 ("response", row.response, b"\x28" + header + b"\0"),
             ):
-                found.append(_case(row.name, kind, layout, head, size, room))
+                found += _cases(row.name, kind, layout, head, size, room)
         for name, layout in registry.events:
             code = registry.enum("event").members[name]
             head = b"\x38\x00" + struct.pack("<HBI", 513, code, 1_000_000)
-            found.append(_case(name, "event", layout, head, size, room))
+            found += _cases(name, "event", layout, head, size, room)
+    return found
+
+
+def _cases(
+    name: str, kind: str, layout: Layout, head: bytes, size: str, room: int
+) -> list[dict[str, Any]]:
+    """What is sent; where a number has a high half, first what a peer that has none of it sends."""
+    found = [_case(name, kind, Layout(layout.members), head, size, room)]
+    if layout.whole != layout.length:
+        found.append(_case(name, kind, layout, head, size, room))
+        found[-1]["name"] += ", both halves"
     return found
 
 
@@ -36,7 +47,7 @@ def _case(
     payload = b""
     for position, field in enumerate(layout.fields):
         if field.type == "bytes":
-            length = (0, 5, room - (len(head) - 4) - layout.length)[SIZES[size]]
+            length = (0, 5, room - (len(head) - 4) - layout.whole)[SIZES[size]]
             data = bytes((index * 7 + 1) % 256 for index in range(length))
             fields[field.name] = data.hex()
             payload += data
@@ -44,7 +55,9 @@ def _case(
         values = [_number(field, size, position + index) for index in range(field.count)]
         data = struct.pack(f"<{field.count}{STRUCT_CODES[field.type]}", *values)
         payload += data
-        if field.count == 1:
+        if field.high_of:
+            fields[field.high_of] |= values[0] << HALF_BITS
+        elif field.count == 1:
             fields[field.name] = values[0]
         else:
             fields[field.name] = data.hex() if field.type == "u8" else values

@@ -3,7 +3,7 @@
 from typing import Any
 
 from firmware_protocol.generate.registry import NOTICE, Layout, Registry
-from firmware_protocol.layout import Field, Parameter
+from firmware_protocol.layout import HALF_BITS, Field, Parameter
 
 SESSION_MAX = 15
 FRAME_LENGTH_MIN = 8
@@ -17,6 +17,7 @@ FIELD_TABLES = {
     "bank": "bank",
     "rollback_cause": "rollback_cause",
     "fault_flags": "fault_flags",
+    "fault_flags_high": "fault_flags_high",
     "level": "access",
     "CFG_INFO.state": "config_state",
     "CFG_COMMIT.state": "config_state",
@@ -75,7 +76,7 @@ def dissector(registry: Registry, logic: str) -> str:
         "enums": {
             t.name: {value: name for name, value in t.members.items()} for t in registry.enums
         },
-        "flags": {t.name: {bit: name for name, bit in t.members.items()} for t in registry.flags},
+        "flags": _flags(registry),
         "details": DETAILS,
         "messages": {
             row.id: {
@@ -129,6 +130,19 @@ def lua(value: Any) -> str:
     return "{ " + ", ".join(lua(row) for row in value) + " }"
 
 
+def _flags(registry: Registry) -> dict[str, dict[int, str]]:
+    """Names by bit of every field of flags; a high half has a table of its own."""
+    tables = {t.name: {bit: name for name, bit in t.members.items()} for t in registry.flags}
+    halved = [name for name in tables if f"{name}_high" in FIELD_TABLES]
+    for name in halved:
+        whole = tables[name]
+        tables[name] = {bit: text for bit, text in whole.items() if bit < HALF_BITS}
+        tables[f"{name}_high"] = {
+            bit - HALF_BITS: text for bit, text in whole.items() if bit >= HALF_BITS
+        }
+    return tables
+
+
 def _layout(registry: Registry, owner: str, layout: Layout) -> list[dict[str, Any]]:
     return [_field(registry, owner, field) for field in layout.fields]
 
@@ -143,6 +157,7 @@ def _field(registry: Registry, owner: str, field: Field) -> dict[str, Any]:
         "unit": next((u for s, u in UNIT_OF_SUFFIX.items() if field.name.endswith(s)), None),
         "enum": table if is_enum else None,
         "flags": None if is_enum else table,
+        "high": bool(field.high_of) or None,
         "tail": _looked_up(FIELD_TAILS, owner, field) if field.type == "bytes" else None,
     }
 

@@ -33,6 +33,7 @@ local EBL = {
         ["baud_rates"] = { [0] = "BAUD_115200", [1] = "BAUD_230400", [2] = "BAUD_460800", [3] = "BAUD_921600", [4] = "BAUD_1000000", [5] = "BAUD_2000000" },
         ["log_flags"] = { [0] = "RECORDING", [1] = "CONFIRMED", [2] = "ENDED" },
         ["fault_flags"] = { [0] = "TORQUE_SENSOR", [1] = "SPEED_SENSOR", [2] = "BATTERY_LOW", [3] = "CONFIG_DEFAULTED", [4] = "OVER_CURRENT", [5] = "UNDER_VOLTAGE", [6] = "BATTERY_CUT", [7] = "MOTOR_TEMPERATURE", [8] = "CONTROLLER_TEMPERATURE", [9] = "TORQUE_STUCK", [10] = "TORQUE_DRIFT", [11] = "TORQUE_LINK", [12] = "SPEED_MISMATCH", [13] = "SPEED_STUCK", [14] = "MOTOR_HALL" },
+        ["fault_flags_high"] = {  },
     },
     details = {
         ["PENDING"] = "ms until the answer",
@@ -81,9 +82,9 @@ local EBL = {
         [516] = { ["name"] = "STR_LIST", ["request"] = {  }, ["response"] = { { ["name"] = "budget_bytes_per_s", ["type"] = "u32", ["count"] = 1, ["unit"] = "B/s" }, { ["name"] = "entries", ["type"] = "bytes", ["count"] = 1 } } },
         [517] = { ["name"] = "STR_SNAPSHOT", ["request"] = { { ["name"] = "channel_ids", ["type"] = "bytes", ["count"] = 1, ["tail"] = "channel_ids" } }, ["response"] = { { ["name"] = "t_us", ["type"] = "u64", ["count"] = 1, ["unit"] = "us" }, { ["name"] = "values", ["type"] = "bytes", ["count"] = 1, ["tail"] = "asked_row" } } },
         [769] = { ["name"] = "EVT_ACK", ["request"] = { { ["name"] = "seq", ["type"] = "u16", ["count"] = 1 } }, ["response"] = {  } },
-        [770] = { ["name"] = "EVT_FAULT_LIST", ["request"] = {  }, ["response"] = { { ["name"] = "fault_flags", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags" } } },
+        [770] = { ["name"] = "EVT_FAULT_LIST", ["request"] = {  }, ["response"] = { { ["name"] = "fault_flags", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags" }, { ["name"] = "fault_flags_high", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags_high", ["high"] = true } } },
         [771] = { ["name"] = "EVT_FAULT_FREEZE", ["request"] = { { ["name"] = "fault_bit", ["type"] = "u8", ["count"] = 1 } }, ["response"] = { { ["name"] = "active", ["type"] = "u8", ["count"] = 1 }, { ["name"] = "count", ["type"] = "u16", ["count"] = 1 }, { ["name"] = "t_us", ["type"] = "u64", ["count"] = 1, ["unit"] = "us" }, { ["name"] = "values", ["type"] = "bytes", ["count"] = 1, ["tail"] = "full_row" } } },
-        [772] = { ["name"] = "EVT_FAULT_CLEAR", ["request"] = { { ["name"] = "fault_flags", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags" } }, ["response"] = { { ["name"] = "fault_flags", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags" } } },
+        [772] = { ["name"] = "EVT_FAULT_CLEAR", ["request"] = { { ["name"] = "fault_flags", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags" }, { ["name"] = "fault_flags_high", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags_high", ["high"] = true } }, ["response"] = { { ["name"] = "fault_flags", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags" }, { ["name"] = "fault_flags_high", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags_high", ["high"] = true } } },
         [1281] = { ["name"] = "TIM_SYNC", ["request"] = { { ["name"] = "host_us", ["type"] = "u64", ["count"] = 1, ["unit"] = "us" } }, ["response"] = { { ["name"] = "host_us", ["type"] = "u64", ["count"] = 1, ["unit"] = "us" }, { ["name"] = "heard_us", ["type"] = "u64", ["count"] = 1, ["unit"] = "us" }, { ["name"] = "answered_us", ["type"] = "u64", ["count"] = 1, ["unit"] = "us" }, { ["name"] = "unix_us", ["type"] = "u64", ["count"] = 1, ["unit"] = "us" } } },
         [1282] = { ["name"] = "TIM_SET", ["request"] = { { ["name"] = "unix_us", ["type"] = "u64", ["count"] = 1, ["unit"] = "us" }, { ["name"] = "utc_offset_min", ["type"] = "i16", ["count"] = 1, ["unit"] = "min" }, { ["name"] = "uncertainty_us", ["type"] = "u32", ["count"] = 1, ["unit"] = "us" } }, ["response"] = {  } },
         [1025] = { ["name"] = "LOG_LIST", ["request"] = { { ["name"] = "start", ["type"] = "u16", ["count"] = 1 }, { ["name"] = "count", ["type"] = "u8", ["count"] = 1 } }, ["response"] = { { ["name"] = "total", ["type"] = "u16", ["count"] = 1 }, { ["name"] = "overwritten", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "boot_id", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "now_us", ["type"] = "u64", ["count"] = 1, ["unit"] = "us" }, { ["name"] = "entries", ["type"] = "bytes", ["count"] = 1 } } },
@@ -101,8 +102,8 @@ local EBL = {
     },
     events = {
         [1] = { ["name"] = "BOOT", ["fields"] = { { ["name"] = "boot_id", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "reset_cause", ["type"] = "u8", ["count"] = 1 } } },
-        [2] = { ["name"] = "FAULT_SET", ["fields"] = { { ["name"] = "fault_flags", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags" } } },
-        [3] = { ["name"] = "FAULT_CLEARED", ["fields"] = { { ["name"] = "fault_flags", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags" } } },
+        [2] = { ["name"] = "FAULT_SET", ["fields"] = { { ["name"] = "fault_flags", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags" }, { ["name"] = "fault_flags_high", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags_high", ["high"] = true } } },
+        [3] = { ["name"] = "FAULT_CLEARED", ["fields"] = { { ["name"] = "fault_flags", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags" }, { ["name"] = "fault_flags_high", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags_high", ["high"] = true } } },
         [4] = { ["name"] = "CONFIG_COMMITTED", ["fields"] = { { ["name"] = "generation", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "crc32", ["type"] = "u32", ["count"] = 1 } } },
         [5] = { ["name"] = "CONFIG_ROLLED_BACK", ["fields"] = { { ["name"] = "generation", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "crc32", ["type"] = "u32", ["count"] = 1 } } },
         [6] = { ["name"] = "CONFIG_DEFAULTED", ["fields"] = { { ["name"] = "generation", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "crc32", ["type"] = "u32", ["count"] = 1 } } },
@@ -183,8 +184,9 @@ local EBL = {
         [18] = { ["name"] = "motor_temperature_degc", ["unit"] = "degC", ["scale"] = 0.01 },
         [19] = { ["name"] = "sensor_temperature_degc", ["unit"] = "degC", ["scale"] = 0.01 },
         [20] = { ["name"] = "fault_flags", ["unit"] = "flags", ["scale"] = 1 },
+        [21] = { ["name"] = "fault_flags_high", ["unit"] = "flags", ["scale"] = 1 },
     },
-    channel_order = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20 },
+    channel_order = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21 },
 }
 
 -- ------------------------------------------------------------------ arithmetic of every Lua
@@ -503,6 +505,8 @@ local function add_fields(tree, layout, tvb, at, note)
             return
         end
         local size = SIZES[field.type]
+        -- A peer that does not know the high half of a number ends before it.
+        if field.high and tvb:len() - at < size then return end
         if tvb:len() - at < size * field.count then return complain(tree, tvb(), "LENGTH") end
         if field.type == "u8" and field.count > 1 and not field.enum then
             tree:add(field.field, tvb(at, field.count))

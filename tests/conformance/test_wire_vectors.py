@@ -84,7 +84,7 @@ def test_both_sides_pass_the_same_verdict_on_odd_frames(case: dict[str, str]) ->
 
 def as_vector(message: Message) -> dict[str, Any]:
     fields = {}
-    for column in message.LAYOUT:
+    for column in (column for column in message.LAYOUT if not column.high_of):
         value = getattr(message, column.name)
         if isinstance(value, bytes):
             value = value.hex()
@@ -103,10 +103,17 @@ def test_every_message_has_the_same_fields_on_both_sides(case: dict[str, Any]) -
     assert isinstance(decoded, codec.Request | codec.Response | codec.Event)
     assert decoded.message is not None
     assert as_vector(decoded.message) == case["fields"]
-    assert codec.encode(decoded) == frame
+    # A peer that does not know the high half of a number ends before it; it is written as 0.
+    written = frame + bytes(2 * high_halves_missing(decoded.message, frame[head:]))
+    assert codec.encode(decoded) == written
     if case["fields"]:
         assert wire.read_message(struct_name, frame[head:]) == case["fields"]
-        assert wire.copy_message(struct_name, frame[head:]) == frame[head:]
+        assert wire.copy_message(struct_name, frame[head:]) == written[head:]
+
+
+def high_halves_missing(message: Message, payload: bytes) -> int:
+    highs = sum(bool(column.high_of) for column in message.LAYOUT)
+    return highs if len(payload) == message.LENGTH else 0
 
 
 @pytest.mark.parametrize("case", cases("images"))

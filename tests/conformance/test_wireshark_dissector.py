@@ -91,10 +91,15 @@ def same(meant: object, shown: str) -> bool:
     return shown == meant or not str(meant).isprintable()
 
 
-def members(message: Message, path: str) -> Iterator[tuple[str, object]]:
-    """The fields a dissector must show of a message."""
+def members(message: Message, path: str, length: int) -> Iterator[tuple[str, object]]:
+    """The fields a dissector must show of a message whose payload has this length."""
+    halved = {field.high_of for field in message.LAYOUT}
     for field in message.LAYOUT:
-        value = getattr(message, field.name)
+        if field.high_of and length == message.LENGTH:
+            continue  # of a peer that does not know it
+        value = getattr(message, field.high_of or field.name)
+        if field.high_of or field.name in halved:
+            value = value >> 16 if field.high_of else value & 0xFFFF
         if field.name == "text":
             value = value.decode("latin-1")
         if value in (b"", ""):
@@ -113,19 +118,20 @@ def expected(frame: bytes) -> list[tuple[str, object]]:
         return [("ebl.malformed", decoded.reason.name)]
     if isinstance(decoded, codec.Request):
         name = MessageId(decoded.message.MESSAGE_ID).name.lower()
-        found = members(decoded.message, f"ebl.{name}.request")
+        found = members(decoded.message, f"ebl.{name}.request", len(frame) - 4)
         return [("ebl.retransmit", decoded.retransmit), ("ebl.tid", decoded.tid), *found]
     if isinstance(decoded, codec.Response):
         head = [("ebl.tid", decoded.tid), ("ebl.status", int(decoded.status))]
         if decoded.message is None:
             return [*head, ("ebl.detail", decoded.detail)]
         name = MessageId(decoded.message_id).name.lower()
-        return [*head, *members(decoded.message, f"ebl.{name}.response")]
+        return [*head, *members(decoded.message, f"ebl.{name}.response", len(frame) - 5)]
     if isinstance(decoded, codec.Event):
         head = [("ebl.seq", decoded.seq), ("ebl.event.code", int(decoded.code))]
         if decoded.message is None:
             return [*head, ("ebl.event.t_us", decoded.t_us)]
-        return [*head, *members(decoded.message, f"ebl.event.{Event(decoded.code).name.lower()}")]
+        path = f"ebl.event.{Event(decoded.code).name.lower()}"
+        return [*head, *members(decoded.message, path, len(frame) - 9)]
     if isinstance(decoded, codec.Bulk):
         head = [("ebl.bulk.session", decoded.session), ("ebl.bulk.offset", decoded.offset)]
         return [*head, ("ebl.bulk.length", len(decoded.data)), ("ebl.bulk.data", decoded.data)]

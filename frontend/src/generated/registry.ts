@@ -1161,7 +1161,14 @@ export const CHANNELS = {
     name: "fault_flags",
     unit: "flags",
     scale: 1,
-    doc: "Bits of fault_flags.",
+    doc: "Bits 0 to 14 of fault_flags.",
+  },
+  fault_flags_high: {
+    id: 21,
+    name: "fault_flags_high",
+    unit: "flags",
+    scale: 1,
+    doc: "Bits 16 up of fault_flags: bit 0 here is bit 16 there.",
   },
 } as const satisfies Record<string, ChannelRow>;
 

@@ -178,7 +178,7 @@ static void assist_input_from(const hal_inputs *inputs, uint8_t mode, int inhibi
     input->inhibit = (uint8_t)inhibit;
 }
 
-void app_faults_cleared(app *unit, uint16_t cleared, uint64_t now_us)
+void app_faults_cleared(app *unit, uint32_t cleared, uint64_t now_us)
 {
     if (cleared == 0) return;
     event_faults_cleared(&unit->events, &unit->link, now_us, cleared);
@@ -188,8 +188,8 @@ void app_faults_cleared(app *unit, uint16_t cleared, uint64_t now_us)
 static void faults_report(app *unit, const hal_inputs *inputs, uint64_t now_us)
 {
     const fault_law law = {unit->output.motor_torque_nm, unit->assist_state.torque_filtered_nm};
-    uint16_t set;
-    uint16_t cleared;
+    uint32_t set;
+    uint32_t cleared;
 
     faults_step(&unit->faults, inputs, &unit->config, &law, &set, &cleared);
     unit->faults_new = set;

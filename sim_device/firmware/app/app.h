@@ -61,7 +61,7 @@ typedef struct {
 
     telemetry telemetry;
     fault_list faults;
-    uint16_t faults_new;     /* set in this control step */
+    uint32_t faults_new;     /* set in this control step */
     uint64_t unix_offset_us; /* Unix time minus the unit's; 0: nobody told */
     ride_log ride_log;
     ride_log_bulk bulk;
@@ -101,7 +101,7 @@ uint8_t app_access_check(const app *unit, const uint8_t *image, uint16_t *detail
 void app_lock(app *unit);
 
 /* For the rooms of this folder: tells the host and the ride log of faults that are over. */
-void app_faults_cleared(app *unit, uint16_t cleared, uint64_t now_us);
+void app_faults_cleared(app *unit, uint32_t cleared, uint64_t now_us);
 
 /* For the rooms of this folder: the image in force becomes the law's at the next control step. */
 void app_config_apply(app *unit);

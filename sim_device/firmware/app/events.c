@@ -105,20 +105,20 @@ void event_boot(event_log *events, unit_link *link, uint64_t now_us, uint32_t bo
     event_send(events, link, now_us, EBL_EVENT_BOOT, fields, length);
 }
 
-void event_faults_set(event_log *events, unit_link *link, uint64_t now_us, uint16_t fault_flags)
+void event_faults_set(event_log *events, unit_link *link, uint64_t now_us, uint32_t fault_flags)
 {
     ebl_fault_set_event event = {fault_flags};
-    uint8_t fields[EBL_FAULT_SET_EVENT_LENGTH];
+    uint8_t fields[EBL_FAULT_SET_EVENT_LENGTH_WHOLE];
     size_t length;
 
     if (ebl_fault_set_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
     event_send(events, link, now_us, EBL_EVENT_FAULT_SET, fields, length);
 }
 
-void event_faults_cleared(event_log *events, unit_link *link, uint64_t now_us, uint16_t fault_flags)
+void event_faults_cleared(event_log *events, unit_link *link, uint64_t now_us, uint32_t fault_flags)
 {
     ebl_fault_cleared_event event = {fault_flags};
-    uint8_t fields[EBL_FAULT_CLEARED_EVENT_LENGTH];
+    uint8_t fields[EBL_FAULT_CLEARED_EVENT_LENGTH_WHOLE];
     size_t length;
 
     if (ebl_fault_cleared_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;

@@ -38,9 +38,9 @@ void events_poll(event_log *events, unit_link *link, uint64_t now_us);
 void event_boot(event_log *events, unit_link *link, uint64_t now_us, uint32_t boot_id);
 
 /* `fault_flags`: only the bits that changed. */
-void event_faults_set(event_log *events, unit_link *link, uint64_t now_us, uint16_t fault_flags);
+void event_faults_set(event_log *events, unit_link *link, uint64_t now_us, uint32_t fault_flags);
 void event_faults_cleared(event_log *events, unit_link *link, uint64_t now_us,
-                          uint16_t fault_flags);
+                          uint32_t fault_flags);
 
 /* `code`: EBL_EVENT_CONFIG_COMMITTED, _ROLLED_BACK or _DEFAULTED. */
 void event_config(event_log *events, unit_link *link, uint64_t now_us, uint8_t code,

@@ -80,7 +80,7 @@ static fault_sign current_sign(const hal_inputs *inputs, const ebl_config *confi
 }
 
 /* Hot sets it, and only what has cooled to where the assist is whole again is good. */
-static fault_sign heat_sign(const fault_list *faults, uint16_t flag, float temperature_degc,
+static fault_sign heat_sign(const fault_list *faults, uint32_t flag, float temperature_degc,
                             float warm_degc, float hot_degc)
 {
     return fault_sign_of(temperature_degc >= ((faults->active & flag) ? warm_degc : hot_degc));
@@ -162,7 +162,7 @@ static fault_sign drift_sign(fault_watch *watch, const hal_inputs *inputs, const
     return fault_sign_of(float32_abs(torque_nm) > DRIFT_NM);
 }
 
-static void sign_set(fault_sign *signs, uint16_t flag, fault_sign sign)
+static void sign_set(fault_sign *signs, uint32_t flag, fault_sign sign)
 {
     for (unsigned bit = 0; bit < FAULT_KINDS; bit++) {
         if (flag >> bit & 1u) signs[bit] = sign;

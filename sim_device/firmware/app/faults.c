@@ -7,7 +7,7 @@
 #define GOOD_STEPS 100 /* 1 s */
 
 /* Bad control steps of 10 ms until a fault is set. What a sign itself has waited for takes one. */
-static uint16_t bad_steps_max(uint16_t flag)
+static uint16_t bad_steps_max(uint32_t flag)
 {
     switch (flag) {
     case EBL_FAULT_OVER_CURRENT: return 2;     /* the bridge's own trip is faster than any step */
@@ -25,10 +25,10 @@ static uint16_t bad_steps_max(uint16_t flag)
 
 /* Counts one step of one fault; `set` and `cleared` gain its bit when it changes. A latched fault
  * that a step cannot judge has no cause any more, for whoever clears it. */
-static void fault_count(fault_list *faults, unsigned bit, fault_sign sign, uint16_t *set,
-                        uint16_t *cleared)
+static void fault_count(fault_list *faults, unsigned bit, fault_sign sign, uint32_t *set,
+                        uint32_t *cleared)
 {
-    uint16_t flag = (uint16_t)(1u << bit);
+    uint32_t flag = 1u << bit;
     int latched = (flag & EBL_FAULTS_LATCHED) != 0;
 
     if (sign == FAULT_SIGN_NONE && !latched) return;
@@ -42,13 +42,13 @@ static void fault_count(fault_list *faults, unsigned bit, fault_sign sign, uint1
         faults->bad_steps[bit] = 0;
         if (faults->good_steps[bit] < GOOD_STEPS) faults->good_steps[bit]++;
         if (faults->good_steps[bit] < GOOD_STEPS || !(faults->active & flag) || latched) return;
-        faults->active &= (uint16_t)~flag;
+        faults->active &= ~flag;
         *cleared |= flag;
     }
 }
 
 void faults_step(fault_list *faults, const hal_inputs *inputs, const ebl_config *config,
-                 const fault_law *law, uint16_t *set, uint16_t *cleared)
+                 const fault_law *law, uint32_t *set, uint32_t *cleared)
 {
     fault_sign signs[FAULT_KINDS];
 
@@ -65,21 +65,21 @@ int faults_inhibit(const fault_list *faults)
     return (faults->active & EBL_FAULTS_ASSIST_OFF) != 0;
 }
 
-uint16_t faults_clear_latched(fault_list *faults, uint16_t flags)
+uint32_t faults_clear_latched(fault_list *faults, uint32_t flags)
 {
-    uint16_t cleared = 0;
+    uint32_t cleared = 0;
 
     for (unsigned bit = 0; bit < FAULT_KINDS; bit++) {
-        uint16_t flag = (uint16_t)(1u << bit);
+        uint32_t flag = 1u << bit;
 
         if (!(flags & faults->active & EBL_FAULTS_LATCHED & flag)) continue;
         if (faults->good_steps[bit] < GOOD_STEPS) continue;
-        faults->active &= (uint16_t)~flag;
+        faults->active &= ~flag;
         cleared |= flag;
     }
     return cleared;
 }
-int faults_latch(fault_list *faults, uint16_t flag)
+int faults_latch(fault_list *faults, uint32_t flag)
 {
     int is_new = (faults->active & flag) == 0;
 
@@ -87,15 +87,15 @@ int faults_latch(fault_list *faults, uint16_t flag)
     return is_new;
 }
 
-int faults_clear(fault_list *faults, uint16_t flag)
+int faults_clear(fault_list *faults, uint32_t flag)
 {
     int was_set = (faults->active & flag) != 0;
 
-    faults->active &= (uint16_t)~flag;
+    faults->active &= ~flag;
     return was_set;
 }
 
-void faults_freeze(fault_list *faults, uint16_t set, uint64_t t_us, const int16_t *row)
+void faults_freeze(fault_list *faults, uint32_t set, uint64_t t_us, const int16_t *row)
 {
     for (size_t bit = 0; bit < FAULT_KINDS; bit++) {
         fault_frame *frame = &faults->frames[bit];
@@ -107,9 +107,9 @@ void faults_freeze(fault_list *faults, uint16_t set, uint64_t t_us, const int16_
     }
 }
 
-void faults_forget(fault_list *faults, uint16_t flags)
+void faults_forget(fault_list *faults, uint32_t flags)
 {
     for (size_t bit = 0; bit < FAULT_KINDS; bit++) {
-        if ((uint32_t)(flags & ~faults->active) >> bit & 1u) faults->frames[bit].count = 0;
+        if ((flags & ~faults->active) >> bit & 1u) faults->frames[bit].count = 0;
     }
 }

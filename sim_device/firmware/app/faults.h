@@ -12,7 +12,8 @@
 #include "ebl_registry.h" // EBL_FAULT_TORQUE_SENSOR, ebl_config
 #include "hal.h"          // hal_inputs
 
-#define FAULT_KINDS EBL_FAULT_COUNT
+/* One more than the highest bit; those that are never given have no cause and stay clear. */
+#define FAULT_KINDS EBL_FAULT_BITS
 
 /* What the bike did when a fault was last set. */
 typedef struct {
@@ -41,7 +42,7 @@ typedef struct {
 } fault_watch;
 
 typedef struct {
-    uint16_t active; /* EBL_FAULT_* bits */
+    uint32_t active; /* EBL_FAULT_* bits */
     uint16_t bad_steps[FAULT_KINDS];
     uint16_t good_steps[FAULT_KINDS];
     fault_watch watch;
@@ -59,23 +60,23 @@ int faults_torque_is_plausible(float torque_raw_counts);
 
 /* Looks at one control step's inputs. The bits that changed go to `set` and `cleared`. */
 void faults_step(fault_list *faults, const hal_inputs *inputs, const ebl_config *config,
-                 const fault_law *law, uint16_t *set, uint16_t *cleared);
+                 const fault_law *law, uint32_t *set, uint32_t *cleared);
 
 /* True while a fault forbids any torque. */
 int faults_inhibit(const fault_list *faults);
 
 /* Clears those of these latched faults whose cause is gone; to be called at standstill. Returns
  * the bits that were cleared. */
-uint16_t faults_clear_latched(fault_list *faults, uint16_t flags);
+uint32_t faults_clear_latched(fault_list *faults, uint32_t flags);
 
 /* A fault that does not come from the inputs and stays until `faults_clear`. True if new. */
-int faults_latch(fault_list *faults, uint16_t flag);
-int faults_clear(fault_list *faults, uint16_t flag);
+int faults_latch(fault_list *faults, uint32_t flag);
+int faults_clear(fault_list *faults, uint32_t flag);
 
 /* Keeps the latest row of telemetry for the faults that were just set. */
-void faults_freeze(fault_list *faults, uint16_t set, uint64_t t_us, const int16_t *row);
+void faults_freeze(fault_list *faults, uint32_t set, uint64_t t_us, const int16_t *row);
 
 /* Forgets the frames of these faults, but for those that are active. */
-void faults_forget(fault_list *faults, uint16_t flags);
+void faults_forget(fault_list *faults, uint32_t flags);
 
 #endif

@@ -66,7 +66,7 @@ void ride_log_step(ride_log *log, const int16_t *row, uint64_t now_us, int movin
     row_take(log, row, now_us);
 }
 
-void ride_log_event_add(ride_log *log, uint8_t code, uint16_t flags, uint64_t now_us)
+void ride_log_event_add(ride_log *log, uint8_t code, uint32_t flags, uint64_t now_us)
 {
     ride_log_event *event = &log->events[log->event_count];
 

@@ -20,7 +20,7 @@
 
 typedef struct {
     uint64_t t_us;
-    uint16_t flags;
+    uint32_t flags;
     uint8_t code;
 } ride_log_event;
 
@@ -67,7 +67,7 @@ void ride_log_init(ride_log *log, const hal *board);
 void ride_log_step(ride_log *log, const int16_t *row, uint64_t now_us, int moving);
 
 /* `code`: an ebl_log_event. */
-void ride_log_event_add(ride_log *log, uint8_t code, uint16_t flags, uint64_t now_us);
+void ride_log_event_add(ride_log *log, uint8_t code, uint32_t flags, uint64_t now_us);
 
 /* The mode the rider has chosen; a change is an event. */
 void ride_log_mode_set(ride_log *log, uint8_t mode, uint64_t now_us);

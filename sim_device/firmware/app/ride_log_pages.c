@@ -19,6 +19,7 @@ enum {
     SCHEMA_CHANNEL_LENGTH = 5,
     SCHEMA_LENGTH = SCHEMA_HEAD_LENGTH + SCHEMA_CHANNEL_LENGTH * EBL_CHANNEL_COUNT,
     EVENT_LENGTH = 11,
+    EVENT_HIGH_LENGTH = 2,
     SYNC_LENGTH = 12,
     END_LENGTH = 13
 };
@@ -26,7 +27,8 @@ enum {
 /* Whatever the registry becomes, a block must hold these whole. */
 typedef char config_fits[CONFIG_LENGTH <= RIDE_LOG_PAYLOAD_BYTES ? 1 : -1];
 typedef char schema_fits[SCHEMA_LENGTH <= RIDE_LOG_PAYLOAD_BYTES ? 1 : -1];
-typedef char events_fit[EVENT_LENGTH * RIDE_LOG_EVENTS_MAX <= RIDE_LOG_PAYLOAD_BYTES ? 1 : -1];
+typedef char events_fit
+    [(EVENT_LENGTH + EVENT_HIGH_LENGTH) * RIDE_LOG_EVENTS_MAX <= RIDE_LOG_PAYLOAD_BYTES ? 1 : -1];
 typedef char a_row_fits[RIDE_LOG_ROW_BYTES <= RIDE_LOG_PAYLOAD_BYTES ? 1 : -1];
 
 uint32_t ride_log_row_period_us(void) { return ROW_PERIOD_US; }
@@ -58,19 +60,24 @@ void ride_log_schema_put(uint8_t *payload, ride_log_header *header)
     header->schema_id = RIDE_LOG_SCHEMA_ID;
 }
 
+/* The flags' high halves come behind all events: a reader that does not know them finds what it
+ * knows at its place. */
 void ride_log_events_put(uint8_t *payload, const ride_log_event *events, uint8_t count,
                          ride_log_header *header)
 {
+    uint8_t *highs = payload + (size_t)count * EVENT_LENGTH;
+
     for (size_t i = 0; i < count; i++) {
         uint8_t *at = payload + i * EVENT_LENGTH;
 
         ebl_put_u64(at, events[i].t_us);
         at[8] = events[i].code;
-        ebl_put_u16(at + 9, events[i].flags);
+        ebl_put_u16(at + 9, (uint16_t)(events[i].flags & 0xffffu));
+        ebl_put_u16(highs + i * EVENT_HIGH_LENGTH, (uint16_t)(events[i].flags >> 16));
     }
     header->type = RIDE_LOG_EVENT;
     header->n = count;
-    header->length = (uint16_t)(count * EVENT_LENGTH);
+    header->length = (uint16_t)(count * (EVENT_LENGTH + EVENT_HIGH_LENGTH));
 }
 
 void ride_log_sync_put(uint8_t *payload, uint64_t unix_us, ride_log_header *header)

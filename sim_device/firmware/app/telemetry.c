@@ -8,7 +8,8 @@
 #include "ebl_values.h" // ebl_channel_counts
 #include "float32.h"    // float32_missing
 
-#define COUNT_MAX 32767 /* what a value beyond the range of its channel becomes */
+#define COUNT_MAX 32767    /* what a value beyond the range of its channel becomes */
+#define FLAGS_MASK 0x7fffu /* what an int16 carries of them: bits 15 and 31 are never given */
 #define STREAM_OVERHEAD (EBL_HEADER_LENGTH + ADMISSION_STREAM_HEAD_LENGTH)
 #define FLAG_OVERRUN 0x08
 #define FLAG_CLIPPED 0x10
@@ -42,7 +43,8 @@ static float channel_value(uint8_t channel_id, const telemetry_sources *sources)
     case EBL_CHANNEL_LIMIT_FLAGS: return (float)output->limit_flags;
     case EBL_CHANNEL_MOTOR_TEMPERATURE_DEGC: return inputs->motor_temperature_degc;
     case EBL_CHANNEL_SENSOR_TEMPERATURE_DEGC: return inputs->sensor_temperature_degc;
-    case EBL_CHANNEL_FAULT_FLAGS: return (float)sources->fault_flags;
+    case EBL_CHANNEL_FAULT_FLAGS: return (float)(sources->fault_flags & FLAGS_MASK);
+    case EBL_CHANNEL_FAULT_FLAGS_HIGH: return (float)(sources->fault_flags >> 16 & FLAGS_MASK);
     default: return float32_missing();
     }
 }

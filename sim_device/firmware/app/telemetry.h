@@ -18,7 +18,7 @@ typedef struct {
     const hal_inputs *inputs;
     const assist_output *output;
     uint8_t mode;
-    uint16_t fault_flags;
+    uint32_t fault_flags;
 } telemetry_sources;
 
 typedef struct {

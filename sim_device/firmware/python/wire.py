@@ -106,7 +106,7 @@ def copy_message(struct_name: str, payload: bytes) -> bytes:
     _must(getattr(lib, f"{struct_name}_get")(message, source, len(payload)))
     target = ffi.new("uint8_t[]", len(payload) + CHECK_LENGTH)
     length = ffi.new("size_t *")
-    _must(getattr(lib, f"{struct_name}_put")(message, target, len(payload), length))
+    _must(getattr(lib, f"{struct_name}_put")(message, target, len(target), length))
     return bytes(ffi.buffer(target, length[0]))
 
 

@@ -60,8 +60,21 @@ def a_channel_more(schema: dict[str, Any]) -> None:
     schema["channel"].append({"id": 250, "name": "moon", "unit": "lx", "scale": 1})
 
 
+def no_high_halves(schema: dict[str, Any]) -> None:
+    for row in schema["message"]:
+        for layout in ("request", "response"):
+            row[layout] = [field for field in row[layout] if field[2:] != ["high"]]
+
+
 @pytest.mark.parametrize(
-    "change", [a_new_message, an_answer_that_grew, a_request_that_is_shorter, a_channel_more]
+    "change",
+    [
+        a_new_message,
+        an_answer_that_grew,
+        a_request_that_is_shorter,
+        a_channel_more,
+        no_high_halves,
+    ],
 )
 def test_a_unit_whose_difference_does_not_concern_us_is_ready_and_tuned(change: Change) -> None:
     bench = Bench(unit_with(change), StreamPlan()).connect()

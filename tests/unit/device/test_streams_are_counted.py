@@ -39,7 +39,7 @@ def test_a_hundred_rows_a_second_arrive_in_twenty_blocks_of_all_channels() -> No
 
     blocks = bench.blocks()[before:]
     assert len(blocks) == 200
-    assert {block.values.shape for block in blocks} == {(5, 20)}
+    assert {block.values.shape for block in blocks} == {(5, len(CHANNELS))}
     assert [channel.name for channel in blocks[0].channels] == [row.name for row in CHANNELS]
     assert blocks[0].period_us == 10_000
 

@@ -11,6 +11,7 @@ from backend.domain.channels import ChannelSpec
 from backend.domain.ride_events import RideEvent, events_of_rows, merged
 
 FAULTS = ChannelSpec("fault_flags", "", 1.0)
+FAULTS_HIGH = ChannelSpec("fault_flags_high", "", 1.0)
 MODE = ChannelSpec("assist_mode", "", 1.0)
 PERIOD_US = 100_000
 
@@ -35,6 +36,19 @@ def test_one_fault_that_takes_the_place_of_another_is_two_events() -> None:
         (0.0, "fault_set", 1),
         (0.1, "fault_set", 2),
         (0.1, "fault_cleared", 1),
+    ]
+
+
+def test_faults_of_both_channels_in_one_row_are_one_event() -> None:
+    counts, high = np.array([0, 2, 0], np.int16), np.array([0, 1, 1], np.int16)
+    times_us = np.arange(3, dtype=np.int64) * PERIOD_US
+    rows = [*events_of_rows(FAULTS, counts, times_us), *events_of_rows(FAULTS_HIGH, high, times_us)]
+
+    together = merged(rows, [RideEvent(0.1, "fault_set", 0x10002)], 0.2)
+
+    assert [(e.t_s, e.kind, e.value) for e in together] == [
+        (0.1, "fault_set", 0x10002),
+        (0.2, "fault_cleared", 2),
     ]
 
 

@@ -103,7 +103,12 @@ def test_the_list_says_what_runs_and_for_how_long(unit: BenchUnit) -> None:
     assert found.budget_bytes_per_s == pytest.approx(0.8 * 11520, rel=0.01)
     assert len(found.entries) == ENTRY_BYTES
     entry = found.entries
-    assert (entry[0], int.from_bytes(entry[2:4], "little"), entry[4], entry[5]) == (7, 4, 5, 20)
+    assert (entry[0], int.from_bytes(entry[2:4], "little"), entry[4], entry[5]) == (
+        7,
+        4,
+        5,
+        len(CHANNELS),
+    )
     assert int.from_bytes(entry[6:10], "little") == pytest.approx(250_000, abs=20)
 
 

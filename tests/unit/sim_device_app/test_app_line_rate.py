@@ -120,7 +120,7 @@ def test_a_second_request_while_a_switch_is_under_way_is_refused() -> None:
 
 
 def test_streams_that_would_not_fit_the_new_rate_keep_the_old_one() -> None:
-    # 20 channels at 100 Hz need over 4000 bytes/s; 80 % of 11520 holds two such, not three.
+    # 21 channels at 100 Hz need over 4000 bytes/s; 80 % of 11520 holds two such, not three.
     unit = on_a_line()
     unit.ask(SetBaudRequest(1_000_000))
     unit.advance(0.02)

@@ -1,7 +1,7 @@
 """Goal: the unit's own record of a ride is whole, honest about what it lost, and never in the way.
 
 Method: the real firmware on the bench board; what it wrote is fetched over the wire and read by the
-host's reader of such logs. Figures: a row a 0.1 s, 11 rows of 20 channels in a block, 20 s of
+host's reader of such logs. Figures: a row a 0.1 s, 11 rows of 21 channels in a block, 20 s of
 standstill, from SPEC chapter 2.5 and 11.
 """
 

@@ -255,7 +255,7 @@ def test_streams_end_when_the_host_wants_or_leaves(unit: BenchUnit, ending: str)
         (StrSubscribeRequest(1, 1, 5, 0, 0, b"\x01"), Status.RANGE, 0),
         (StrSubscribeRequest(1, 1, 5, 1, 5, b"\x01"), Status.UNSUPPORTED, 0),
         (StrSubscribeRequest(1, 1, 5, 0, 5, b""), Status.LENGTH, 0),
-        (StrSubscribeRequest(1, 1, 5, 0, 5, b"\x01" * 21), Status.LENGTH, 0),
+        (StrSubscribeRequest(1, 1, 5, 0, 5, b"\x01" * (len(CHANNELS) + 1)), Status.LENGTH, 0),
         (StrSubscribeRequest(1, 1, 5, 0, 5, b"\x01\xc8"), Status.UNKNOWN_ID, 200),
         (StrSnapshotRequest(b"\x01\xc8"), Status.UNKNOWN_ID, 200),
         (StrSnapshotRequest(b""), Status.LENGTH, 0),

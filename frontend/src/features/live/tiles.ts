@@ -27,5 +27,6 @@ export const CHANNELS = [
   'torque_rate',
   'limit_flags',
   'fault_flags',
+  'fault_flags_high',
   'motor_temperature_degc',
 ]

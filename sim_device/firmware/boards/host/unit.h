@@ -75,7 +75,7 @@ typedef struct {
     double energy_balance_error_pct; /* NaN before any work was done */
     int assist_mode;
     int limit_flags;
-    int fault_flags;
+    uint32_t fault_flags;
     int crank_engaged;
     int motor_engaged;
     int slipping;
