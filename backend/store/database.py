@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from sqlalchemy import Connection, Engine, create_engine, event, inspect, text
+from sqlalchemy.engine import make_url
 from sqlalchemy.exc import SQLAlchemyError
 
 from backend.errors import StoreError
@@ -22,7 +23,7 @@ from backend.store.trouble import QUEUE_FULL, WriteWatch
 Result = TypeVar("Result")
 
 # The newest migration; a test holds it against the files in migrations/versions.
-HEAD_REVISION = "0002"
+HEAD_REVISION = "0003"
 # Bounds the memory of writes that wait for a slow disk: about 256 one-second tails.
 WRITES_WAITING_MAX = 256
 BUSY_TIMEOUT_MS = 10_000
@@ -46,7 +47,7 @@ class Database:
             migrate(self.engine, url)
         except (SQLAlchemyError, OSError) as error:
             self.close()
-            raise StoreError(f"The database {url} cannot be opened: {error}") from error
+            raise StoreError(f"The database {shown(url)} cannot be opened: {error}") from error
 
     def submit(self, work: Callable[[Connection], Result]) -> Future[Result]:
         """Run `work` in one transaction on the writing thread; blocks while too many wait."""
@@ -106,12 +107,27 @@ def done(work: Callable[[], Result]) -> Future[Result]:
     return future
 
 
+def sqlite_path(url: str) -> Path | None:
+    """The file of an SQLite URL, links followed; None for any other and for one in memory."""
+    parts = make_url(url)
+    name = parts.database
+    if parts.get_backend_name() != "sqlite" or not name or name.startswith((":memory:", "file:")):
+        return None
+    return Path(name).resolve()
+
+
+def shown(url: str) -> str:
+    """A database's URL as it may be shown: without the password."""
+    return make_url(url).render_as_string(hide_password=True)
+
+
 def open_engine(url: str) -> Engine:
     """An engine with SQLite's durable settings, or PostgreSQL's own."""
     if not url.startswith("sqlite"):
         return create_engine(url)
-    path = Path(url.split("///", 1)[-1])
-    path.parent.mkdir(parents=True, exist_ok=True)
+    path = sqlite_path(url)
+    if path is not None:
+        path.parent.mkdir(parents=True, exist_ok=True)
     engine = create_engine(url, pool_size=8, max_overflow=32)
     event.listen(engine, "connect", prepare_sqlite)
     event.listen(engine, "begin", begin_sqlite)

@@ -1,23 +1,38 @@
 """The object store: whole files under a key, written once, addressed by their content.
 
+    spindle-store.json          the store's identity, the same as in the database
+    rides/ab/<sha256>.parquet   a finished ride
+    rides/ab/<sha256>.json      its sidecar: what a person wrote about it
+    originals/ab/<sha256>       a file as it came
+    lost+found/...              what was in `rides` and `originals` and the database did not know
+
 An object appears under its key all at once or not at all: it is written beside, flushed, renamed,
-and the folder is flushed. A crash in between leaves a staged file or an object nobody knows; both
-are collected when the store is opened.
+and the folder is flushed. Only what is named here is ever looked at, moved or removed: the folder
+may hold files of other people.
 """
 
 from __future__ import annotations
 
 import hashlib
+import json
 import os
+import re
 import secrets
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Protocol
-from urllib.parse import unquote, urlsplit
+from typing import Any, Protocol
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 from backend.errors import StoreError
 
 STAGING = ".staging"
+STAGED_NAME = re.compile(r"[0-9a-f]{16}")
+KINDS = ("rides", "originals")
+LOST_FOUND = "lost+found"
+IDENTITY = "spindle-store.json"
+IDENTITY_ID = re.compile(r"[0-9a-f]{32}")
+RIDE_SUFFIX, SIDECAR_SUFFIX = ".parquet", ".json"
 READ_BYTES = 1 << 20
 
 
@@ -52,6 +67,8 @@ class Objects(Protocol):
 
     def stage(self) -> Path: ...
     def publish(self, staged: Path, key: str) -> None: ...
+    def publish_json(self, key: str, body: Mapping[str, object]) -> None: ...
+    def read_json(self, key: str) -> dict[str, Any] | None: ...
     def local_path(self, key: str) -> Path: ...
     def remove(self, key: str) -> None: ...
     def keys(self) -> Iterator[str]: ...
@@ -59,12 +76,15 @@ class Objects(Protocol):
 
 
 class FileObjects:
-    """Objects as files under a folder (`file:///...`)."""
+    """Objects as files under a folder (`file:///...`). Makes nothing before `prepare`."""
 
     def __init__(self, root: Path, disk: Disk | None = None) -> None:
         self.root = root
         self.disk = disk or Disk()
-        (root / STAGING).mkdir(parents=True, exist_ok=True)
+
+    def prepare(self) -> None:
+        """Make the folder and our own places in it."""
+        (self.root / STAGING).mkdir(parents=True, exist_ok=True)
 
     def stage(self) -> Path:
         """A path to write a new object to."""
@@ -75,17 +95,36 @@ class FileObjects:
 
         Raises StoreError when a step fails; then the key is absent, or whole if it was renamed.
         """
-        target = self.root / key
         try:
             self.disk.flush_file(staged)
-            for folder in (target.parent.parent, target.parent):
-                if not folder.exists():
-                    folder.mkdir()
-                    self.disk.flush_folder(folder.parent)
-            self.disk.rename(staged, target)
-            self.disk.flush_folder(target.parent)
+            self._put(staged, self.root / key)
         except OSError as error:
             raise StoreError(f"The object {key} was not saved: {error}") from error
+
+    def publish_json(self, key: str, body: Mapping[str, object]) -> None:
+        """Write a small JSON object under a key, in place of the one before. Raises StoreError."""
+        staged = self.stage()
+        try:
+            text = json.dumps(body, sort_keys=True, ensure_ascii=False, indent=1)
+            staged.write_text(text + "\n", encoding="utf-8")
+        except OSError as error:
+            raise StoreError(f"The object {key} was not saved: {error}") from error
+        try:
+            self.publish(staged, key)
+        finally:
+            staged.unlink(missing_ok=True)
+
+    def read_json(self, key: str) -> dict[str, Any] | None:
+        """A small JSON object, None when it is absent. Raises StoreError when it is damaged."""
+        try:
+            body = json.loads((self.root / key).read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            return None
+        except (OSError, ValueError) as error:
+            raise StoreError(f"{self.root / key} cannot be read: {error}.") from error
+        if not isinstance(body, dict):
+            raise StoreError(f"{self.root / key} cannot be read: it is no JSON object.")
+        return body
 
     def local_path(self, key: str) -> Path:
         """Where the object can be read. Raises StoreError when it is not there."""
@@ -102,18 +141,64 @@ class FileObjects:
             raise StoreError(f"The object {key} was not removed: {error}") from error
 
     def keys(self) -> Iterator[str]:
-        """Every object's key."""
-        for path in self.root.rglob("*"):
-            relative = path.relative_to(self.root)
-            if path.is_file() and not relative.parts[0].startswith("."):
-                yield relative.as_posix()
+        """Every object's key, sidecars too."""
+        yield from self._files(KINDS)
+
+    def lost_keys(self) -> Iterator[str]:
+        """What lies in `lost+found/`."""
+        yield from self._files((LOST_FOUND,))
+
+    def move_to_lost_found(self, key: str, name: str | None = None) -> str:
+        """Move a file aside under its key, or another name; its new key. Overwrites nothing.
+
+        Raises StoreError when the disk refuses; the file is then where it was, or moved.
+        """
+        target = free_name(self.root / LOST_FOUND / (name or key))
+        try:
+            self._put(self.root / key, target)
+        except OSError as error:
+            raise StoreError(f"{key} was not moved to {LOST_FOUND}/: {error}") from error
+        return target.relative_to(self.root).as_posix()
+
+    def identity(self) -> str | None:
+        """The store's id as the folder has it, None when it has none. Raises StoreError."""
+        body = self.read_json(IDENTITY)
+        if body is None:
+            return None
+        found = body.get("id")
+        if not isinstance(found, str) or not IDENTITY_ID.fullmatch(found):
+            raise StoreError(
+                f"{self.root / IDENTITY} holds no identity. Without that file a database that "
+                "knows every object of the folder is taken again."
+            )
+        return found
+
+    def set_identity(self, store_id: str) -> None:
+        """Write the store's id into the folder. Raises StoreError."""
+        if self.identity() != store_id:
+            self.publish_json(IDENTITY, {"id": store_id, "format": 1})
 
     def clear_staging(self) -> int:
         """Remove what a crash left half written; returns how many files."""
-        left = list((self.root / STAGING).iterdir())
+        left = [p for p in (self.root / STAGING).iterdir() if STAGED_NAME.fullmatch(p.name)]
         for path in left:
             self.disk.remove(path)
         return len(left)
+
+    def _put(self, source: Path, target: Path) -> None:
+        """Rename within the store, making folders on the way, each of them flushed."""
+        missing = [folder for folder in target.parents if not folder.exists()]
+        for folder in reversed(missing):
+            folder.mkdir()
+            self.disk.flush_folder(folder.parent)
+        self.disk.rename(source, target)
+        self.disk.flush_folder(target.parent)
+
+    def _files(self, folders: tuple[str, ...]) -> Iterator[str]:
+        for folder in folders:
+            for path in sorted((self.root / folder).rglob("*")):
+                if path.is_file() or path.is_symlink():
+                    yield path.relative_to(self.root).as_posix()
 
 
 def open_objects(url: str, disk: Disk | None = None) -> FileObjects:
@@ -121,12 +206,26 @@ def open_objects(url: str, disk: Disk | None = None) -> FileObjects:
     parts = urlsplit(url)
     if parts.scheme != "file":
         raise StoreError(f"Objects at {parts.scheme}:// are not available: use file:///folder.")
-    return FileObjects(Path(unquote(parts.path)), disk)
+    return FileObjects(Path(url2pathname(parts.path)), disk)
 
 
 def content_key(kind: str, sha256: str, suffix: str = "") -> str:
     """Key of an object by its content: two letters of the hash spread the folders."""
     return f"{kind}/{sha256[:2]}/{sha256}{suffix}"
+
+
+def sidecar_key(ride_key: str) -> str:
+    """Key of the sidecar of a ride's object."""
+    return ride_key.removesuffix(RIDE_SUFFIX) + SIDECAR_SUFFIX
+
+
+def free_name(path: Path) -> Path:
+    """The path, or the first of path.1, path.2 ... that is not taken."""
+    number, free = 0, path
+    while free.exists() or free.is_symlink():
+        number += 1
+        free = path.with_name(f"{path.name}.{number}")
+    return free
 
 
 def file_sha256(path: Path) -> str:

@@ -17,6 +17,7 @@ from backend.domain.ride_events import RideEvent
 from backend.errors import FieldError, InvalidRequest
 from backend.store import tables as t
 from backend.store.blobs import channel_list, encode_level
+from backend.store.discard import take_back, with_sidecar
 from backend.store.finish import Digest, WrittenObject
 
 NAME_LENGTH_MAX = 200
@@ -129,6 +130,7 @@ def finish_row(
     completeness: float | None,
 ) -> None:
     """Make a ride `done`, with everything that belongs to a finished one."""
+    take_back(connection, with_sidecar(written.key))
     connection.execute(
         update(t.ride)
         .where(t.ride.c.id == ride_id)

@@ -26,6 +26,7 @@ from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
 from backend.store import tables as t
 from backend.store.blobs import Rows16, decode_level, decode_tail, encode_tail
 from backend.store.database import Database
+from backend.store.discard import note_discarded, remove_discarded, with_sidecar
 from backend.store.filling import Filling, filled_chunks, grown
 from backend.store.finish import WrittenObject, digest, write_object
 from backend.store.objects import Objects
@@ -201,6 +202,8 @@ class RideStore:
             if not refill_row(connection, new, key):
                 raise Conflict(f"Ride {ride.id} is another since it was looked at.")
             finish_row(connection, ride.id, written, found, completeness)
+            if key != written.key:
+                note_discarded(connection, with_sidecar(key))
 
         self._database.write(work)
         self._readers.forget(ride.id)
@@ -271,24 +274,28 @@ class RideStore:
         if ride.state == "live":
             raise Conflict(f"Ride {ride_id} is being recorded: it can be deleted when it is over.")
 
-        def work(connection: Connection) -> bool:
+        def work(connection: Connection) -> tuple[str, ...]:
             remove_ride(connection, ride_id)
             left = select(func.count()).where(t.ride.c.object_key == ride.object_key)
-            return connection.execute(left).scalar_one() == 0
+            if ride.object_key is None or connection.execute(left).scalar_one():
+                return ()
+            unused = with_sidecar(ride.object_key)
+            note_discarded(connection, unused)
+            return unused
 
         unused = self._database.write(work)
         self._readers.forget(ride_id)
-        if unused and ride.object_key:
-            self._objects.remove(ride.object_key)
+        remove_discarded(self._database, self._objects, unused)
 
     def reader(self, ride_id: int) -> RideReader:
         """Rows and overview of a ride. Raises NotFound, StoreError when the object is damaged."""
         return self._readers.get(ride_id, lambda: self._open_reader(self.get(ride_id)))
 
     def object_keys(self) -> set[str]:
-        """Keys of every object a ride needs."""
+        """Keys of every object a ride needs, sidecars too."""
         query = select(t.ride.c.object_key).where(t.ride.c.object_key.is_not(None))
-        return set(self._database.read(lambda c: c.execute(query).scalars().all()))
+        keys = self._database.read(lambda c: c.execute(query).scalars().all())
+        return {part for key in keys for part in with_sidecar(key)}
 
     def _open_reader(self, ride: Ride) -> RideReader:
         if ride.object_key is not None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from sqlalchemy import (
     JSON,
     BigInteger,
+    Boolean,
     Column,
     Float,
     ForeignKey,
@@ -38,6 +39,24 @@ KEY = BigInteger().with_variant(Integer, "sqlite")
 def key() -> Column[int]:
     return Column("id", KEY, primary_key=True, autoincrement=True)
 
+
+# One row: which folder of objects this database belongs to. rebuilding: a rebuild is not through.
+# server_id: the server that took the lock last; on PostgreSQL only its transactions commit.
+store_identity = Table(
+    "store_identity",
+    metadata,
+    Column("store_id", String(32), primary_key=True),
+    Column("rebuilding", Boolean, nullable=False),
+    Column("server_id", String(32)),
+    Column("created_us", BigInteger, nullable=False),
+)
+
+# Objects that the store itself gave up: a deleted ride's, one that a fuller one replaced.
+discarded_object = Table(
+    "discarded_object",
+    metadata,
+    Column("key", String(160), primary_key=True),
+)
 
 device = Table(
     "device",
@@ -112,6 +131,9 @@ ride = Table(
     Column("object_sha256", String(64)),
     Column("object_bytes", BigInteger),
     Column("created_us", BigInteger, nullable=False),
+    Column("server_id", String(32)),
+    Column("heartbeat_us", BigInteger),
+    Column("cut_short", Boolean),
 )
 
 # Real columns, one for each figure of domain.ride.RideSummary: they are searched and summed.

@@ -8,6 +8,7 @@ middle of a piece never leaves bytes that nobody counted.
 from __future__ import annotations
 
 import os
+import re
 import secrets
 import threading
 import time
@@ -23,6 +24,7 @@ from backend.store.database import Database
 from backend.store.objects import Objects, content_key, file_sha256
 
 RECEIVING = "receiving"
+TOKEN = re.compile(r"[0-9a-f]{32}")
 
 
 @dataclass(frozen=True)
@@ -201,13 +203,19 @@ class UploadStore:
             self.remove(token)
         return len(tokens)
 
-    def clear_spool(self) -> None:
-        """Remove spooled files that no upload knows."""
+    def unknown_spooled(self) -> list[Path]:
+        """Spooled files that no upload knows; empty ones, which a crash leaves, are removed."""
         query = select(t.upload.c.token).where(t.upload.c.object_key.is_(None))
         known = set(self._database.read(lambda c: c.execute(query).scalars().all()))
+        unknown = []
         for path in self._spool.iterdir():
-            if path.name not in known:
+            if path.name in known or not TOKEN.fullmatch(path.name):
+                continue
+            if path.stat().st_size:
+                unknown.append(path)
+            else:
                 path.unlink(missing_ok=True)
+        return unknown
 
     def object_keys(self) -> set[str]:
         """Keys of every original."""

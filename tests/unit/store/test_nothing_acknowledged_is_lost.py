@@ -139,7 +139,7 @@ def test_whichever_step_of_the_disk_fails_the_ride_stays_whole_and_can_be_finish
     assert failures >= 3
 
 
-def test_a_transaction_that_fails_leaves_the_ride_live_and_the_object_to_be_collected(
+def test_a_transaction_that_fails_leaves_the_ride_live_and_its_object_to_be_taken(
     reopen: OpenStore, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     store = reopen()
@@ -160,7 +160,7 @@ def test_a_transaction_that_fails_leaves_the_ride_live_and_the_object_to_be_coll
     assert is_whole(again, ride_id)
 
 
-def test_what_nobody_knows_is_collected_and_what_is_known_is_kept(
+def test_what_nobody_knows_is_put_aside_and_what_is_known_is_kept(
     reopen: OpenStore, tmp_path: Path
 ) -> None:
     store = reopen()
@@ -175,6 +175,8 @@ def test_what_nobody_knows_is_collected_and_what_is_known_is_kept(
     again = reopen()
 
     assert not orphan.exists()
+    aside = tmp_path / "objects" / "lost+found" / "rides" / "00" / "orphan.parquet"
+    assert aside.read_bytes() == b"left by a crash"
     assert again.objects.clear_staging() == 0
     assert is_whole(again, ride_id)
 

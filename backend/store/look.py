@@ -1,0 +1,123 @@
+"""What is in a database, looked at without writing a byte: before it is opened, or beside a server.
+
+Reads every schema there ever was. An SQLite file that no server has open is read as it lies;
+beside a running server, or after a crash, its journal is read with it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from urllib.parse import quote
+
+from sqlalchemy import Connection, Engine, create_engine, inspect, text
+from sqlalchemy.exc import DatabaseError, OperationalError, SQLAlchemyError
+
+from backend.errors import StoreError
+from backend.store.database import shown, sqlite_path
+from backend.store.objects import sidecar_key
+
+MISSING, EMPTY, DAMAGED, FOREIGN, OK = "missing", "empty", "damaged", "foreign", "ok"
+# Tables whose rows somebody would miss.
+OURS = ("ride", "upload", "device", "config_revision")
+
+
+@dataclass(frozen=True)
+class LiveRecording:
+    """A ride that is being recorded, or was when its server died."""
+
+    ride_id: int
+    row_count: int
+    server_id: str | None
+    heartbeat_us: int | None
+
+
+@dataclass(frozen=True)
+class DatabaseView:
+    """What a database holds.
+
+    state: `missing` (no file), `empty` (nothing of ours), `damaged`, `foreign` (of another
+    program), or `ok`. object_keys: keys of the objects it names, without sidecars. known_keys:
+    with them, and with those it gave up.
+    """
+
+    state: str
+    detail: str | None = None
+    identity: str | None = None
+    rebuilding: bool = False
+    rides: int = 0
+    object_keys: frozenset[str] = frozenset()
+    known_keys: frozenset[str] = frozenset()
+    live: tuple[LiveRecording, ...] = ()
+
+
+def look_at(url: str) -> DatabaseView:
+    """The contents of a database. Raises StoreError when it cannot be reached at all."""
+    path = sqlite_path(url)
+    if path is not None and not path.exists():
+        return DatabaseView(MISSING)
+    if path is not None and path.is_file() and path.stat().st_size == 0:
+        return DatabaseView(EMPTY)
+    engine = reading_engine(url, path)
+    try:
+        with engine.connect() as connection:
+            return view_of(connection)
+    except OperationalError as error:
+        raise StoreError(f"The database {shown(url)} cannot be read: {error.orig}") from error
+    except DatabaseError as error:
+        return DatabaseView(DAMAGED, str(error.orig))
+    except SQLAlchemyError as error:
+        raise StoreError(f"The database {shown(url)} cannot be read: {error}") from error
+    finally:
+        engine.dispose()
+
+
+def reading_engine(url: str, path: Path | None) -> Engine:
+    """An engine that writes nothing, not even the files SQLite keeps beside a database."""
+    if path is None:
+        return create_engine(url)
+    journal = path.with_name(path.name + "-wal")
+    mode = "mode=ro" if journal.exists() else "mode=ro&immutable=1"
+    return create_engine(f"sqlite:///file:{quote(path.as_posix())}?{mode}&uri=true")
+
+
+def view_of(connection: Connection) -> DatabaseView:
+    """What a connection shows, in one snapshot."""
+    inspector = inspect(connection)
+    tables = set(inspector.get_table_names())
+    if not tables & set(OURS):
+        foreign = tables - {"alembic_version"} and connection.dialect.name == "sqlite"
+        named = ", ".join(sorted(tables)[:3])
+        return DatabaseView(FOREIGN, f"its tables are {named}") if foreign else DatabaseView(EMPTY)
+
+    def values(query: str) -> list[str]:
+        return [str(value) for value in connection.execute(text(query)).scalars()]
+
+    rides = values("SELECT object_key FROM ride WHERE object_key IS NOT NULL")
+    originals = values("SELECT object_key FROM upload WHERE object_key IS NOT NULL")
+    objects = frozenset(rides) | frozenset(originals)
+    discarded: list[str] = []
+    identity, rebuilding = None, False
+    if "store_identity" in tables:
+        row = connection.execute(text("SELECT store_id, rebuilding FROM store_identity")).first()
+        identity, rebuilding = (row.store_id, bool(row.rebuilding)) if row else (None, False)
+        discarded = values("SELECT key FROM discarded_object")
+    names = {column["name"] for column in inspector.get_columns("ride")}
+    holds = any(connection.execute(text(f"SELECT 1 FROM {name} LIMIT 1")).first() for name in OURS)
+    return DatabaseView(
+        state=OK if holds or identity else EMPTY,
+        identity=identity,
+        rebuilding=rebuilding,
+        rides=int(connection.execute(text("SELECT count(*) FROM ride")).scalar_one()),
+        object_keys=objects,
+        known_keys=objects | {sidecar_key(key) for key in rides} | frozenset(discarded),
+        live=live_recordings(connection, "heartbeat_us" in names),
+    )
+
+
+def live_recordings(connection: Connection, with_servers: bool) -> tuple[LiveRecording, ...]:
+    """The rides that have no object yet."""
+    extra = "server_id, heartbeat_us" if with_servers else "NULL AS server_id, NULL AS heartbeat_us"
+    query = f"SELECT id, row_count, {extra} FROM ride WHERE state = 'live' ORDER BY id"
+    rows = connection.execute(text(query)).all()
+    return tuple(LiveRecording(r.id, r.row_count, r.server_id, r.heartbeat_us) for r in rows)

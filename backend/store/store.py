@@ -1,0 +1,145 @@
+"""The store as a whole: opened only when database and folder belong together, and for one server.
+
+look (nothing is written) -> lock database, lock folder -> migrate, adopt -> recover
+"""
+
+from __future__ import annotations
+
+import logging
+from contextlib import ExitStack
+from types import TracebackType
+
+from backend.errors import StoreError
+from backend.store.database import Database, shown, sqlite_path
+from backend.store.discard import discarded_keys, remove_discarded
+from backend.store.identity import belonging, new_id, require, write_identity
+from backend.store.locks import lock_database_file, lock_folder
+from backend.store.look import look_at
+from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
+from backend.store.revisions import RevisionLog
+from backend.store.rides import RideStore
+from backend.store.uploads import UploadStore
+
+LOG = logging.getLogger(__name__)
+
+SPOOL = ".spool"
+# So many files put aside are named in the log; the rest is counted.
+NAMED_MAX = 10
+
+
+class Store:
+    """Everything that is kept: `rides`, `revisions`, `uploads`. closing: lets go of the locks."""
+
+    def __init__(
+        self, database: Database, objects: FileObjects, closing: ExitStack, server_id: str
+    ) -> None:
+        self.database = database
+        self.watch = database.watch
+        self.objects = objects
+        self.server_id = server_id
+        self.rides = RideStore(database, objects)
+        self.revisions = RevisionLog(database)
+        self.uploads = UploadStore(database, objects, objects.root / SPOOL)
+        self.unfinished: dict[int, str] = {}
+        self._closing = closing
+
+    def recover(self) -> list[int]:
+        """Finish what a crash left: half written files, live rides, objects nobody knows.
+
+        Returns the ids of the rides that were finished. One that cannot be (a full disk) stays
+        live and whole, and `unfinished` says why. Safe to repeat.
+        """
+        self.objects.clear_staging()
+        finished = []
+        for ride_id in self.rides.live_ids():
+            try:
+                if self.rides.finish(ride_id) is not None:
+                    finished.append(ride_id)
+            except StoreError as error:
+                self.unfinished[ride_id] = error.message
+        known = self.rides.object_keys() | self.uploads.object_keys()
+        given_up = self.database.read(discarded_keys) - known
+        try:
+            remove_discarded(self.database, self.objects, given_up)
+        except StoreError as error:
+            LOG.warning("%s It is tried again at the next start.", error.message)
+        self._put_aside(known | given_up)
+        return finished
+
+    def close(self) -> None:
+        """Finish what is being written and let go of database and folder."""
+        self._closing.close()
+
+    def __enter__(self) -> Store:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def _put_aside(self, known: set[str]) -> None:
+        """Move what the database does not know to `lost+found/`; nothing is unlinked."""
+        unknown = [(key, key) for key in sorted(set(self.objects.keys()) - known)]
+        spooled = [path.name for path in self.uploads.unknown_spooled()]
+        unknown += [(f"{SPOOL}/{token}", f"uploads/{token}") for token in spooled]
+        for number, (key, name) in enumerate(unknown):
+            try:
+                moved = self.objects.move_to_lost_found(key, name)
+            except StoreError as error:
+                LOG.warning("%s Free some room; the next start tries again.", error.message)
+                return
+            if number < NAMED_MAX:
+                LOG.warning("%s is not known to the database: it is now %s.", key, moved)
+        if len(unknown) > NAMED_MAX:
+            LOG.warning(
+                "%d files were not known to the database and are now in %s: if there are rides "
+                "among them, this may be an older copy of the database.",
+                len(unknown),
+                self.objects.root / LOST_FOUND,
+            )
+
+
+def open_store(db_url: str, objects_url: str, disk: Disk | None = None) -> Store:
+    """Open the store and finish what a crash left behind.
+
+    db_url: `sqlite:///path` or `postgresql+psycopg://...`. objects_url: `file:///folder`.
+    disk: the disk's steps, for tests. Raises StoreError, and then nothing was changed if the two do
+    not belong together or another server has them.
+    """
+    objects = open_objects(objects_url, disk)
+    require(belonging(look_at(db_url), objects), shown(db_url), objects)
+    server_id = new_id()
+    closing = ExitStack()
+    try:
+        hold(closing, db_url, objects)
+        # Another server may have come and gone since the first look.
+        found = belonging(look_at(db_url), objects)
+        store_id = require(found, shown(db_url), objects)
+        database = Database(db_url)
+        closing.callback(database.close)
+        if found.adopted:
+            objects.set_identity(store_id)
+        database.write(lambda c: write_identity(c, store_id, server_id, rebuilding=False))
+        store = Store(database, objects, closing, server_id)
+        closing.callback(store.rides.close)
+        store.recover()
+    except BaseException:
+        closing.close()
+        raise
+    return store
+
+
+def hold(closing: ExitStack, db_url: str, objects: FileObjects) -> None:
+    """Lock the database, then the folder, until the stack is closed. Raises StoreError."""
+    path = sqlite_path(db_url)
+    if path is not None:
+        closing.callback(lock_database_file(path).release)
+    try:
+        objects.prepare()
+    except OSError as error:
+        raise StoreError(f"The folder {objects.root} cannot be used: {error}.") from error
+    closing.callback(lock_folder(objects).release)
