@@ -7,7 +7,14 @@ from collections.abc import Sequence
 
 from backend.cli.client import print_json
 from backend.cli.parser import build_parser
-from backend.errors import InvalidRequest, SpindleError, TokenNeeded
+from backend.errors import InvalidRequest, NoAnswer, Outcome, SpindleError, TokenNeeded
+
+# Of a change whose answer did not come, below the message.
+OUTCOMES: dict[Outcome, str] = {
+    "unchanged": "Outcome: unchanged. Nothing of it is in the unit.",
+    "changed": "Outcome: changed. The unit has it, at least in part.",
+    "unknown": "Outcome: unknown. Look at what the unit has before you repeat it.",
+}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -25,6 +32,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stderr.write(f"{error.message}\n")
         for field in error.fields:
             sys.stderr.write(f"  {field.field}: {field.message}\n")
+        if isinstance(error, NoAnswer) and error.outcome is not None:
+            sys.stderr.write(f"{OUTCOMES[error.outcome]}\n")
         if isinstance(error, TokenNeeded):
             # For `spindle unlock sign`, which reads it from a pipe or a file.
             print_json(error.challenge)

@@ -6,11 +6,20 @@ import json
 import os
 import sys
 from collections.abc import Mapping
+from http import HTTPStatus
 from typing import Any
 
 import httpx
 
-from backend.errors import FieldError, InvalidRequest, LinkError, RequestRefused, TokenNeeded
+from backend.errors import (
+    FieldError,
+    InvalidRequest,
+    LinkError,
+    NoAnswer,
+    RequestRefused,
+    SpindleError,
+    TokenNeeded,
+)
 
 # A unit that is slow to answer is given up by the server after a few seconds; a large file takes
 # its time to be read and stored.
@@ -41,7 +50,8 @@ class Server:
     def response(self, method: str, path: str, **request: Any) -> httpx.Response:
         """The whole response.
 
-        Raises LinkError when no server answers, RequestRefused with every field when it refuses.
+        Raises LinkError when no server answers, RequestRefused with every field when it refuses,
+        NoAnswer when the unit did not answer the server, with the outcome of a change.
         """
         try:
             response = self._client.request(method, path, **request)
@@ -73,13 +83,16 @@ class Server:
         raise RequestRefused(f"{asked}. The server has: {known}.")
 
 
-def refusal(response: httpx.Response) -> RequestRefused:
+def refusal(response: httpx.Response) -> SpindleError:
     """What a problem+json response says, as an error."""
     try:
         problem = response.json()
         fields = [FieldError(**item) for item in problem.get("errors", [])]
         if "challenge" in problem:
             return TokenNeeded(problem["detail"], problem["challenge"], fields)
+        if response.status_code == HTTPStatus.GATEWAY_TIMEOUT:
+            outcome = problem.get("outcome")
+            return NoAnswer(problem["detail"], problem.get("code"), fields, outcome)
         return RequestRefused(problem["detail"], problem.get("code"), fields)
     except (ValueError, KeyError, TypeError, AttributeError):
         return RequestRefused(f"The server answered {response.status_code}: {response.text[:200]}")

@@ -44,7 +44,9 @@ def erase(options: Namespace) -> int:
     if options.json:
         print_json(answer)
     else:
-        print(f"Log {options.log} is erased; {answer['erases']} blocks of the unit's flash so far.")
+        blocks = answer["erases"]
+        so_far = "" if blocks is None else f"; {blocks} blocks of the unit's flash so far"
+        print(f"Log {options.log} is erased{so_far}.")
     return 0
 
 

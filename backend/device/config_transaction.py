@@ -8,7 +8,7 @@ and what counts in the end is the image read back and compared field by field.
 from __future__ import annotations
 
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from backend.device.operation import (
@@ -73,12 +73,19 @@ class CommitUnanswered(NoAnswer):
 
     default_code = "commit_unanswered"
 
+    def __init__(self, message: str) -> None:
+        super().__init__(message, outcome="unknown")
+
 
 class OrphanLeft(NoAnswer):
     """The unit may hold a transaction of ours that we cannot name or did not get it to drop.
 
-    Only a new session ends it before its lease does: the session that sees this says HELLO again.
+    It was not committed. Only a new session ends it before its lease does: the session that sees
+    this says HELLO again.
     """
+
+    def __init__(self, message: str, fields: Iterable[FieldError] = ()) -> None:
+        super().__init__(message, fields=fields, outcome="unchanged")
 
 
 @dataclass(frozen=True)
@@ -299,7 +306,8 @@ def _abort(transaction: int) -> Operation[bool]:
 def _explained(error: SpindleError) -> SpindleError:
     """The error as people meet it; in every case here the active configuration is untouched."""
     if isinstance(error, NoAnswer):
-        return NoAnswer(f"{error.message} The unit's configuration is unchanged.", error.code)
+        message = f"{error.message} The unit's configuration is unchanged."
+        return NoAnswer(message, error.code, outcome="unchanged")
     if not isinstance(error, DeviceRefused):
         return error
     if error.status == Status.NOT_STOPPED.name:

@@ -8,9 +8,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from backend.device.config_transaction import ConfigImage, compare, read_config
+from backend.device.config_transaction import (
+    CommitUnanswered,
+    ConfigImage,
+    compare,
+    read_config,
+)
 from backend.device.operation import Operation, ask, attempt, expect
-from backend.errors import Conflict
+from backend.errors import Conflict, LinkError, NoAnswer
 from firmware_protocol._generated import (
     MTU,
     CfgConfirmRequest,
@@ -23,6 +28,7 @@ from firmware_protocol._generated import (
     RollbackCause,
     Status,
 )
+from firmware_protocol.codec import Response
 from firmware_protocol.layout import Value
 
 NO_TRIAL = (
@@ -70,7 +76,8 @@ def confirm_config(intended: Mapping[str, Value], mtu: int = MTU) -> Operation[C
     """Read back what is on trial, compare every field with `intended`, keep it, and look again.
 
     Raises Conflict when nothing is on trial (any more), PeerProtocolError naming each field that
-    differs, with the trial still running out, NoAnswer, DeviceRefused.
+    differs, with the trial still running out, NoAnswer, DeviceRefused, CommitUnanswered when nobody
+    said whether it is kept.
     """
     status = yield from trial_status()
     if not status.on_trial:
@@ -78,11 +85,14 @@ def confirm_config(intended: Mapping[str, Value], mtu: int = MTU) -> Operation[C
     found = yield from read_config(mtu)
     compare(intended, found.parameters)
     request = CfgConfirmRequest(found.generation, found.crc32)
-    response = yield from attempt(request)
+    response = yield from _decided(request, "kept")
     if response.status in (Status.STALE_BASE, Status.CRC_MISMATCH):
         raise Conflict(NO_TRIAL, "no_trial")
     expect(request, response, CfgConfirmResponse)
-    status = yield from trial_status()
+    try:
+        status = yield from trial_status()
+    except NoAnswer as error:
+        raise CommitUnanswered(f"{error.message} {_unsure('kept')}") from error
     if (status.generation, status.crc32) != (found.generation, found.crc32) or status.on_trial:
         raise Conflict(
             "The unit did not keep the change: its time ran out meanwhile. Write it again.",
@@ -92,10 +102,31 @@ def confirm_config(intended: Mapping[str, Value], mtu: int = MTU) -> Operation[C
 
 
 def rollback_config(mtu: int = MTU) -> Operation[ConfigImage]:
-    """Give up what is on trial; what is active then, read back. Raises Conflict without a trial."""
+    """Give up what is on trial; what is active then, read back.
+
+    Raises Conflict without a trial, CommitUnanswered when nobody said whether it is given up.
+    """
     request = CfgRollbackRequest()
-    response = yield from attempt(request)
+    response = yield from _decided(request, "given up")
     if response.status == Status.STATE:
         raise Conflict(NO_TRIAL, "no_trial")
     expect(request, response, CfgRollbackResponse)
-    return (yield from read_config(mtu))
+    try:
+        return (yield from read_config(mtu))
+    except NoAnswer as error:
+        raise CommitUnanswered(f"{error.message} {_unsure('given up')}") from error
+
+
+def _decided(request: CfgConfirmRequest | CfgRollbackRequest, done: str) -> Operation[Response]:
+    """The answer to the word that ends a trial. Raises CommitUnanswered without one."""
+    try:
+        response = yield from attempt(request)
+    except LinkError as error:
+        raise CommitUnanswered(f"{error.message} {_unsure(done)}") from error
+    if response.status == Status.SESSION:
+        raise CommitUnanswered(f"The unit was restarted meanwhile. {_unsure(done)}")
+    return response
+
+
+def _unsure(done: str) -> str:
+    return f"Whether the change was {done} is not known until it answers."

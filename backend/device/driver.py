@@ -50,8 +50,14 @@ COMMANDS_MAX = 32
 # What a port that takes nothing may pile up: thirty of our longest frames.
 UNSENT_BYTES_MAX = 16384
 CLOSE_TIMEOUT_S = 5.0
+# What an operation that took too long has to end itself: a change is dropped in the unit, too.
+ABANDON_S = 3.0
 
 SETTLED = (*ACQUAINTED, LinkState.CLOSED)
+
+# Codes of a NoAnswer after which it is certain that the unit was not even asked.
+NOT_BEGUN = "not_begun"
+NEVER_ASKED = frozenset({NOT_BEGUN, "not_connected"})
 
 _Command = Callable[[], None]
 
@@ -125,7 +131,8 @@ class Driver:
     def run(self, operation: Operation[Result], timeout_s: float) -> Result:
         """Run an operation and wait for its result; for any thread but the driver's own.
 
-        Raises what the operation raises, NoAnswer after `timeout_s`.
+        Raises what the operation raises. After `timeout_s` the operation gets NoAnswer in place of
+        the answer it waits for, and what it makes of that is raised: a change knows how far it was.
         """
         future: Future[Result] = Future()
 
@@ -133,22 +140,32 @@ class Driver:
             if future.set_running_or_notify_cancel():
                 self._session.start(operation, future.set_result, future.set_exception)
 
+        self._command(begin)
         try:
-            self._commands.put_nowait(begin)
+            return future.result(timeout_s)
+        except FutureTimeout:
+            pass
+        late = NoAnswer(f"{self._opener.url}: no result within {timeout_s:g} s.", "no_result")
+        if future.cancel():
+            raise NoAnswer(f"{late.message} Nothing was asked of the unit yet.", NOT_BEGUN)
+        self._command(lambda: self._session.abandon(operation, late))
+        try:
+            return future.result(ABANDON_S)
+        except FutureTimeout:
+            raise NoAnswer(
+                f"{late.message} What was asked may still be done; look again before you repeat "
+                "it.",
+                late.code,
+            ) from None
+
+    def _command(self, work: _Command) -> None:
+        try:
+            self._commands.put_nowait(work)
         except queue.Full:
             raise LinkError(
                 f"{self._opener.url}: too much is asked at once; try again in a moment."
             ) from None
         self._wake.set()
-        try:
-            return future.result(timeout_s)
-        except FutureTimeout:
-            future.cancel()
-            raise NoAnswer(
-                f"{self._opener.url}: no result within {timeout_s:g} s. What was asked may still "
-                "be done; look again before you repeat it.",
-                "no_result",
-            ) from None
 
     # ------------------------------------------------------------------ the thread
 

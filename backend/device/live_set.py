@@ -13,7 +13,13 @@ from backend.device.config_transaction import MESSAGE_OVERHEAD_BYTES, read_confi
 from backend.device.operation import Operation, ask, ask_all, attempt
 from backend.device.refusals import refused
 from backend.device.violations import unit_violations
-from backend.errors import AccessDenied, FieldError, LimitViolation, PeerProtocolError
+from backend.errors import (
+    AccessDenied,
+    FieldError,
+    LimitViolation,
+    NoAnswer,
+    PeerProtocolError,
+)
 from firmware_protocol._generated import (
     IMAGE_LENGTH,
     MTU,
@@ -101,6 +107,40 @@ def set_live(changes: Mapping[str, Value], ttl_s: int, mtu: int = MTU) -> Operat
             f"The unit tries something else than it was told: {words}", "read_back_differs", wrong
         )
     return (yield from read_live(mtu))
+
+
+def settle_live(
+    before: Mapping[str, Value], values: Mapping[str, Value], mtu: int = MTU
+) -> Operation[LiveState]:
+    """What is tried, if all of `values` are in force. before: the same names before they were sent.
+
+    Raises NoAnswer with the outcome: `unchanged` when none of them is, `changed` when some are.
+    """
+    in_force = yield from values_in_force(mtu)
+    taken = [name for name in values if in_force[name] == values[name]]
+    if len(taken) == len(values):
+        return (yield from read_live(mtu))
+    if all(in_force[name] == before[name] for name in values):
+        raise NoAnswer(
+            "The unit did not answer. It was asked again since: nothing of this is tried.",
+            outcome="unchanged",
+        )
+    raise NoAnswer(
+        "The unit did not answer all of it. It was asked again since: of what was sent it tries "
+        f"only {', '.join(taken) or 'something else'}. End the trial, or send it once more.",
+        outcome="changed",
+    )
+
+
+def settle_live_end(mtu: int = MTU) -> Operation[LiveState]:
+    """What is tried, if that is nothing. Raises NoAnswer, with `unchanged` when it still is."""
+    state = yield from read_live(mtu)
+    if state.left_s > 0.0:
+        raise NoAnswer(
+            "The unit did not answer. It was asked again since: the values are still tried.",
+            outcome="unchanged",
+        )
+    return state
 
 
 def end_live() -> Operation[None]:

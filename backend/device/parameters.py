@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -88,3 +89,8 @@ def faults_of(config: Mapping[str, Value]) -> list[FieldError]:
 def rounded(config: Mapping[str, Value]) -> dict[str, Value]:
     """A checked configuration as the unit will hold it: numbers as their float32."""
     return unpack_image(pack_image(config))
+
+
+def image_crc32(config: Mapping[str, Value]) -> int:
+    """The checksum a unit gives for this whole configuration."""
+    return zlib.crc32(pack_image(config))

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from backend.device.operation import Question
 from backend.device.statistics import LinkStatistics
@@ -67,13 +68,18 @@ class RequestTable:
         """Whether nothing is under way; what waits for its time does not keep the line busy."""
         return not self._under_way and all(one.question.after_s > 0.0 for one in self._waiting)
 
-    def submit(self, question: Question, on_answer: OnAnswer) -> None:
-        """Queue a question; `on_answer` gets the response or the error, exactly once."""
+    def submit(self, question: Question, on_answer: OnAnswer) -> Callable[[], None]:
+        """Queue a question; `on_answer` gets the response or the error, exactly once.
+
+        The result takes the question back: it is not sent (again), and `on_answer` gets nothing.
+        """
         if self._shut is not None:
             raise self._shut
         if len(self._waiting) >= WAITING_MAX:
             raise LinkError("The unit has too many requests waiting; try again in a moment.")
-        self._waiting.append(_UnderWay(question, on_answer))
+        entry = _UnderWay(question, on_answer)
+        self._waiting.append(entry)
+        return partial(self._withdraw, entry)
 
     def frames_due(self, now_s: float) -> bytes:
         """Bytes to send now: new requests while there is room, repetitions whose time has come.
@@ -140,6 +146,12 @@ class RequestTable:
         if self.bits_per_second:
             line_s = (request_bytes + self.longest_answer) * BITS_PER_BYTE / self.bits_per_second
         return max(TIMEOUT_S_MIN, 4.0 * (self._smoothed_s or 0.0) + line_s)
+
+    def _withdraw(self, entry: _UnderWay) -> None:
+        if entry in self._waiting:
+            self._waiting.remove(entry)
+        if self._under_way.get(entry.tid) is entry:
+            del self._under_way[entry.tid]
 
     def _may_start(self) -> bool:
         """Whether one more request keeps every repetition recognisable.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from backend.device.log_download import LogReceiver
 from backend.device.operation import Operation, ask, attempt
-from backend.errors import PeerProtocolError, SpindleError
+from backend.errors import NoAnswer, PeerProtocolError, SpindleError
 from firmware_protocol._generated import (
     LogCloseRequest,
     LogConfirmRequest,
@@ -94,6 +94,20 @@ def erase_log(log: RideLog) -> Operation[int]:
     """
     request = LogEraseRequest(log.log_id, log.generation)
     return (yield from ask(request, LogEraseResponse)).erases
+
+
+def settle_erase(log: RideLog) -> Operation[None]:
+    """Whether a log whose erasing went unanswered is gone.
+
+    Raises NoAnswer with the outcome `unchanged` when it is still there.
+    """
+    found = yield from list_logs()
+    if any((one.log_id, one.generation) == (log.log_id, log.generation) for one in found.logs):
+        raise NoAnswer(
+            f"The unit did not answer. It was asked again since: it still has ride log "
+            f"{log.log_id}. Erase it once more.",
+            outcome="unchanged",
+        )
 
 
 def receive_log(

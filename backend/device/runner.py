@@ -24,7 +24,8 @@ class OperationRunner:
 
     def __init__(self, requests: RequestTable) -> None:
         self._requests = requests
-        self._running: set[Operation[Any]] = set()
+        # Each operation with what makes its present questions fail.
+        self._running: dict[Operation[Any], Callable[[SpindleError], None]] = {}
 
     @property
     def is_idle(self) -> bool:
@@ -39,8 +40,17 @@ class OperationRunner:
             operation.close()
             on_error(LinkError("The unit has too much to do already; try again in a moment."))
             return
-        self._running.add(operation)
+        self._running[operation] = lambda error: None
         self._resume(operation, lambda: next(operation), on_result, on_error)
+
+    def abandon(self, operation: Operation[Any], error: SpindleError) -> None:
+        """Give an operation this error in place of the answers it waits for.
+
+        Its questions are taken back, so that nothing of it is sent behind its back; what it asks
+        from there on (a change that is given up tells the unit) is asked as ever.
+        """
+        if operation in self._running:
+            self._running[operation](error)
 
     def _resume(
         self,
@@ -53,15 +63,16 @@ class OperationRunner:
         try:
             questions = step()
         except StopIteration as end:
-            self._running.discard(operation)
+            self._running.pop(operation, None)
             on_result(end.value)
             return
         except Exception as error:
             # An operation's error, a bug included, belongs to whoever asked for it.
-            self._running.discard(operation)
+            self._running.pop(operation, None)
             on_error(error)
             return
         answers = _Answers(len(questions))
+        withdrawals: list[Callable[[], None]] = []
 
         def on_answer(index: int, answer: Response | SpindleError) -> None:
             if isinstance(answer, SpindleError):
@@ -72,9 +83,15 @@ class OperationRunner:
                     operation, lambda: operation.send(answers.responses), on_result, on_error
                 )
 
+        def abandoned(error: SpindleError) -> None:
+            for withdraw in withdrawals:
+                withdraw()
+            on_answer(0, error)
+
+        self._running[operation] = abandoned
         for index, question in enumerate(questions):
             try:
-                self._requests.submit(question, partial(on_answer, index))
+                withdrawals.append(self._requests.submit(question, partial(on_answer, index)))
             except SpindleError as error:
                 on_answer(index, error)
 

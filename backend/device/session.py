@@ -253,6 +253,10 @@ class Session:
 
         self._runner.start(operation, on_result, failed)
 
+    def abandon(self, operation: Operation[Result], error: SpindleError) -> None:
+        """Wait no longer for an operation's answers: it goes on with this error."""
+        self._runner.abandon(operation, error)
+
     def receive_log(self, receiver: LogReceiver | None) -> None:
         """Give a ride log's frames to `receiver` from now on; None for nobody."""
         self._log = receiver

@@ -34,6 +34,7 @@ from backend.device.ride_logs import (
     list_logs,
     log_crc,
     receive_log,
+    settle_erase,
 )
 from backend.domain.ride import iso_utc
 from backend.errors import (
@@ -48,6 +49,8 @@ from backend.errors import (
 )
 from backend.ingest.blocks import BLOCKS_SUFFIX, PAGE_BYTES, sync_block
 from backend.services.connect import Devices
+from backend.services.outcome import telling
+from backend.services.settle import settled
 from backend.services.upload import Uploads
 
 LOG = logging.getLogger(__name__)
@@ -109,10 +112,14 @@ class UnitLogs:
 
 @dataclass(frozen=True)
 class Erased:
-    """A log that was freed. erases: blocks of the unit's flash for logs erased in its life."""
+    """A log that was freed.
+
+    erases: blocks of the unit's flash for logs erased in its life; None where the unit's answer was
+    lost and the log is gone.
+    """
 
     log_id: int
-    erases: int
+    erases: int | None
 
 
 class Stopping(SpindleError):
@@ -200,12 +207,14 @@ class Collect:
         return found
 
     def erase(self, device_id: str, log_id: int) -> Erased:
-        """Have the unit free a log that is safe here. Raises NotFound, NoAnswer, Conflict.
+        """Have the unit free a log that is safe here. Raises NotFound, Conflict, NoAnswer that says
+        whether it is erased as far as could be found out.
 
         Conflict while it is being written or fetched, or before the unit knows that it is safe.
         """
         unit_id = self._devices.get(device_id).id
-        log = self._find(unit_id, log_id)
+        with telling("unchanged"):
+            log = self._find(unit_id, log_id)
         with self._lock:
             download = self._downloads.get((unit_id, log_id))
         if log.recording or (download is not None and download.state in RUNNING):
@@ -216,7 +225,14 @@ class Collect:
                 "Fetch it first.",
                 code="not_confirmed",
             )
-        erases = self._again(unit_id, lambda: erase_log(log))
+        try:
+            with telling("unknown"):
+                erases: int | None = self._devices.run(unit_id, erase_log(log), CHECK_TIMEOUT_S)
+        except NoAnswer as error:
+            if error.outcome != "unknown":
+                raise
+            settled(self._devices, unit_id, lambda _: settle_erase(log), error)
+            erases = None
         with self._lock:
             self._downloads.pop((unit_id, log_id), None)
         return Erased(log_id, erases)

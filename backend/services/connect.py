@@ -28,6 +28,7 @@ from backend.device.stream import StreamPlan
 from backend.device.upkeep import Upkeep, read_upkeep
 from backend.errors import Conflict, DeviceRefused, InvalidRequest, NotFound
 from backend.services.device_view import ConfigStamp, DeviceView, FaultView
+from backend.services.outcome import telling
 
 Result = TypeVar("Result")
 Listener = Callable[[DeviceEvent], None]
@@ -199,8 +200,12 @@ class Devices:
         return [_fault_view(FaultFrame(name, True, None, None)) for name in status.faults_active]
 
     def clear_faults(self, device_id: str) -> Sequence[FaultView]:
-        """Forget the faults that are over; those that are left. Raises NotFound, NoAnswer."""
-        return _fault_views(self.run(device_id, clear_faults()))
+        """Forget the faults that are over; those that are left. Raises NotFound, NoAnswer.
+
+        After a NoAnswer whose outcome is not known they may be forgotten: list them again.
+        """
+        with telling("unknown"):
+            return _fault_views(self.run(device_id, clear_faults()))
 
     # ------------------------------------------------------------------ what is asked of them
 
@@ -240,7 +245,8 @@ class Devices:
 
     def simulation_set(self, device_id: str, changes: Mapping[str, Any]) -> dict[str, Any]:
         """Change what is named. Raises InvalidRequest in the simulator's words, Conflict."""
-        return self._simulation(device_id, simulation_set(changes))
+        with telling("unknown"):
+            return self._simulation(device_id, simulation_set(changes))
 
     # ------------------------------------------------------------------ inside
 

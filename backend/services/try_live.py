@@ -13,11 +13,15 @@ from backend.device.live_set import (
     end_live,
     read_live,
     set_live,
+    settle_live,
+    settle_live_end,
     values_in_force,
 )
 from backend.device.parameters import Value, faults_of, rounded, unknown_names
-from backend.errors import FieldError, InvalidRequest, LimitViolation
+from backend.errors import FieldError, InvalidRequest, LimitViolation, NoAnswer
 from backend.services.connect import Devices
+from backend.services.outcome import telling
+from backend.services.settle import settled
 
 
 @dataclass(frozen=True)
@@ -57,20 +61,38 @@ class LiveTuning:
         unknown = unknown_names(changes)
         if unknown:
             raise InvalidRequest(" ".join(fault.message for fault in unknown), fields=unknown)
-        in_force = self._devices.run(device_id, values_in_force(status.mtu))
+        with telling("unchanged"):
+            in_force = self._devices.run(device_id, values_in_force(status.mtu))
         intended = {**in_force, **changes}
         faults = faults_of(intended)
         if faults:
             raise LimitViolation(" ".join(fault.message for fault in faults), fields=faults)
         whole = rounded(intended)
         values = {name: whole[name] for name in changes}
-        return self._view(self._devices.run(device_id, set_live(values, ttl_s, status.mtu)))
+        try:
+            with telling("unknown"):
+                state = self._devices.run(device_id, set_live(values, ttl_s, status.mtu))
+        except NoAnswer as error:
+            if error.outcome != "unknown":
+                raise
+            before = {name: in_force[name] for name in changes}
+            state = settled(
+                self._devices, device_id, lambda mtu: settle_live(before, values, mtu), error
+            )
+        return self._view(state)
 
     def end(self, device_id: str) -> LiveView:
         """End what is tried: the law runs on the configuration again."""
         status = self._devices.writable(device_id)
-        self._devices.run(device_id, end_live())
-        return self._view(self._devices.run(device_id, read_live(status.mtu)))
+        try:
+            with telling("unknown"):
+                self._devices.run(device_id, end_live())
+                state = self._devices.run(device_id, read_live(status.mtu))
+        except NoAnswer as error:
+            if error.outcome != "unknown":
+                raise
+            state = settled(self._devices, device_id, settle_live_end, error)
+        return self._view(state)
 
     def _view(self, state: LiveState) -> LiveView:
         if state.left_s == 0.0:

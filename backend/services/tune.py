@@ -15,24 +15,20 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import asdict
 from datetime import UTC, datetime
 
-from backend.device.config_transaction import (
-    CommitUnanswered,
-    ConfigImage,
-    compare,
-    read_bank,
-    read_config,
-    write_config,
-)
+from backend.device.config_settle import settle_confirm, settle_rollback, settle_write
+from backend.device.config_transaction import ConfigImage, read_bank, read_config, write_config
 from backend.device.config_trial import (
     NO_TRIAL,
     confirm_config,
     rollback_config,
     trial_status,
 )
+from backend.device.operation import Operation
 from backend.device.parameters import (
     PARAMETER_ROWS,
     Value,
     faults_of,
+    image_crc32,
     rounded,
     unknown_names,
 )
@@ -40,7 +36,6 @@ from backend.device.snapshot import DeviceStatus
 from backend.device.unlock import Token, token_from
 from backend.domain.revision import Revision
 from backend.errors import (
-    ConfigConflict,
     Conflict,
     FieldError,
     InvalidRequest,
@@ -59,6 +54,8 @@ from backend.services.config_view import (
     differences,
 )
 from backend.services.connect import Devices
+from backend.services.outcome import telling
+from backend.services.settle import Unsettled, settled
 from backend.services.typed_views import (
     ASSIST_MODES,
     CALIBRATION,
@@ -71,10 +68,6 @@ LOG = logging.getLogger(__name__)
 
 # A write is some ten round trips; on a poor line each may take four attempts.
 WRITE_TIMEOUT_S = 30.0
-# A unit that fell silent in the middle of a commit is waited for to learn what it did. The first
-# attempts may still meet the dying link, so there are three.
-SETTLE_S = 8.0
-SETTLE_ATTEMPTS = 3
 FOUND_REASON = "Found in the unit before a change."
 GIVEN_UP_REASON = "Returned to by the unit itself: the trial before was not confirmed."
 RETURNED_REASON = "Returned to: the trial before was given up."
@@ -103,6 +96,7 @@ class Tuning:
         self._now_s = now_s
         self._lock = threading.Lock()
         self._writing: defaultdict[str, threading.Lock] = defaultdict(threading.Lock)
+        self._unsettled: dict[str, Unsettled] = {}  # by serial number
 
     # ------------------------------------------------------------------ reading
 
@@ -150,8 +144,8 @@ class Tuning:
         so many seconds. token: the maker's answer to TokenNeeded. kept: names among `changes`
         that are there to be compared: another value than the unit's is refused. Raises
         InvalidRequest, LimitViolation with every fault named, TokenNeeded, AccessDenied,
-        ConfigConflict, NotStandingStill, NoAnswer; after each of them the unit is unchanged, or the
-        message says that it may not be. PeerProtocolError names the fields that read back
+        ConfigConflict, NotStandingStill; after each of them the unit is unchanged. NoAnswer says
+        in `outcome` what became of the change. PeerProtocolError names the fields that read back
         different.
         """
         if not 0 <= confirm_s <= CONFIRM_S_MAX:
@@ -160,7 +154,7 @@ class Tuning:
         unknown = unknown_names(changes)
         if unknown:
             raise InvalidRequest(" ".join(fault.message for fault in unknown), fields=unknown)
-        with self._turn(device_id):
+        with self._turn(device_id), telling("unchanged"):
             base = self._read(device_id)
             check_base(base, if_match)
             intended = _intended(base, changes)
@@ -169,13 +163,20 @@ class Tuning:
             serial_number = self._serial_number(self._devices.status(device_id))
             self._back_up(serial_number, base)
             if changed:
-                found = self._commit(device_id, base, intended, changed, confirm_s, permit)
                 state = TRIED if confirm_s else KEPT
+                try:
+                    found = self._commit(device_id, base, intended, changed, confirm_s, permit)
+                except NoAnswer as error:
+                    if error.outcome == "unknown":
+                        meant = Unsettled(image_crc32(intended), changed, reason, author, state)
+                        self._unsettled[serial_number] = meant
+                    raise
                 self._remember(serial_number, found, changed, reason, author, state)
                 base = found
         if not changed or not confirm_s:
             return ConfigChange(base.generation, base.crc32, "committed", True, changed, None)
-        expires_at = self._expires_at(device_id, base)
+        with telling("changed"):
+            expires_at = self._expires_at(device_id, base)
         return ConfigChange(base.generation, base.crc32, "provisional", True, changed, expires_at)
 
     def confirm_config(self, device_id: str, author: str = "") -> ConfigChange:
@@ -184,7 +185,7 @@ class Tuning:
         Raises Conflict when nothing is on trial or what is on trial was not written by this
         Spindle, PeerProtocolError naming fields that read back different, NotFound, NoAnswer.
         """
-        with self._turn(device_id):
+        with self._turn(device_id), telling("unchanged"):
             status = self._devices.status(device_id)
             serial_number = self._serial_number(status)
             trial = self._devices.run(device_id, trial_status())
@@ -197,7 +198,12 @@ class Tuning:
                     "was meant. Revert it, or keep it with the tool that wrote it.",
                     "unknown_trial",
                 )
-            found = self._devices.run(device_id, confirm_config(meant.parameters, status.mtu))
+            tried = ConfigImage(trial.generation, trial.crc32, dict(meant.parameters))
+            found = self._certainly(
+                device_id,
+                confirm_config(meant.parameters, status.mtu),
+                lambda _: settle_confirm(tried),
+            )
             reason = f"Kept after its trial: {meant.reason}" if meant.reason else KEPT_REASON
             self._remember(serial_number, found, (), reason, author, KEPT)
         return ConfigChange(found.generation, found.crc32, "committed", True, (), None)
@@ -208,10 +214,12 @@ class Tuning:
         changed: from what was on trial to what is active again. Raises Conflict without a trial,
         NotFound, NoAnswer.
         """
-        with self._turn(device_id):
+        with self._turn(device_id), telling("unchanged"):
             tried = self._read(device_id)
             mtu = self._devices.status(device_id).mtu
-            found = self._devices.run(device_id, rollback_config(mtu))
+            found = self._certainly(
+                device_id, rollback_config(mtu), lambda mtu: settle_rollback(tried, mtu)
+            )
             changed = differences(tried.parameters, found.parameters)
             serial_number = self._serial_number(self._devices.status(device_id))
             self._remember(serial_number, found, changed, RETURNED_REASON, author, KEPT)
@@ -220,13 +228,14 @@ class Tuning:
     def note_trial_end(self, device_id: str) -> None:
         """Note what the unit has, if the newest it is known to have had was on trial and is over.
 
-        For a trial that ended without us: its time ran out, or the unit restarted. Raises NotFound,
-        NoAnswer, StoreError.
+        For a trial that ended without us: its time ran out, or the unit restarted; and for a change
+        whose answer never came. Raises NotFound, NoAnswer, StoreError.
         """
         with self._turn(device_id):
             serial_number = self._serial_number(self._devices.status(device_id))
             newest = self._revisions.list(serial_number, 1)
-            if newest and newest[0].state == TRIED:
+            on_trial = bool(newest) and newest[0].state == TRIED
+            if on_trial or serial_number in self._unsettled:
                 self._back_up(serial_number, self._read(device_id))
 
     # ------------------------------------------------------------------ typed views
@@ -346,47 +355,39 @@ class Tuning:
     ) -> ConfigImage:
         changes = {change.name: change.new for change in changed}
         mtu = self._devices.status(device_id).mtu
-        try:
-            operation = write_config(base, changes, mtu, confirm_s, permit)
-            return self._devices.run(device_id, operation, WRITE_TIMEOUT_S)
-        except CommitUnanswered as error:
-            return self._settle(device_id, base, intended, error)
+        return self._certainly(
+            device_id,
+            write_config(base, changes, mtu, confirm_s, permit),
+            lambda mtu: settle_write(base, intended, mtu),
+        )
 
-    def _settle(
+    def _certainly(
         self,
         device_id: str,
-        base: ConfigImage,
-        intended: Mapping[str, Value],
-        error: CommitUnanswered,
+        change: Operation[ConfigImage],
+        settle: Callable[[int], Operation[ConfigImage]],
     ) -> ConfigImage:
-        """Learn what became of a commit nobody answered; its result, or NoAnswer."""
-        found: ConfigImage | None = None
-        for _ in range(SETTLE_ATTEMPTS):
-            self._devices.wait_connected(device_id, SETTLE_S)
-            try:
-                found = self._read(device_id)
-                break
-            except NoAnswer:
-                continue
-        if found is None:
-            raise error
-        if (found.generation, found.crc32) == (base.generation, base.crc32):
-            raise NoAnswer(
-                "The unit did not answer the change. It was read again since: its configuration "
-                "is unchanged. Write once more."
-            ) from error
-        if found.generation != base.generation + 1:
-            raise ConfigConflict(
-                "The unit did not answer the change and has another configuration now. Read it "
-                "again and look at the difference."
-            ) from error
-        compare(intended, found.parameters)
-        return found
+        """Make a change; where nobody said what became of it, find out by `settle`."""
+        try:
+            with telling("unknown"):
+                return self._devices.run(device_id, change, WRITE_TIMEOUT_S)
+        except NoAnswer as error:
+            if error.outcome != "unknown":
+                raise
+            return settled(self._devices, device_id, settle, error)
 
     def _back_up(self, serial_number: str, base: ConfigImage) -> None:
         """Keep what the unit has if the log does not know it; a write that cannot is refused."""
+        unsettled = self._unsettled.pop(serial_number, None)
         newest = self._revisions.list(serial_number, 1)
         if not newest or newest[0].crc32 != base.crc32:
+            if unsettled is not None and unsettled.crc32 == base.crc32:
+                # The change was made after all: the log has it with its author's own reason.
+                lost = unsettled
+                self._remember(
+                    serial_number, base, lost.changed, lost.reason, lost.author, lost.state
+                )
+                return
             given_up = bool(newest) and newest[0].state == TRIED
             self._revisions.append(
                 serial_number,

@@ -23,7 +23,7 @@ from backend.device.operation import Operation
 from backend.device.requests import RequestTable
 from backend.device.stream import StreamReceiver
 from backend.errors import NoAnswer
-from tests.simulation import people_trials
+from tests.simulation import people_trials, workload
 from tests.simulation.workload import simulate
 from tests.simulation.world import Verdict
 
@@ -115,6 +115,18 @@ def test_a_host_that_trusts_silence_is_found(monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr(config_transaction, "compare", lambda intended, found: None)
 
     assert found("; the unit holds another one")
+
+
+def test_a_host_that_calls_a_lost_commit_undone_without_a_look_is_found(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def hasty(*_: object) -> Operation[Any]:
+        yield from ()
+        raise NoAnswer("The unit did not answer.", outcome="unchanged")
+
+    monkeypatch.setattr(workload, "settle_write", hasty)
+
+    assert found("says that nothing changed")
 
 
 def test_a_host_that_counts_no_gap_is_found(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import random
 
+from backend.device.config_settle import settle_write
 from backend.device.config_transaction import (
     CommitUnanswered,
     ConfigImage,
@@ -13,7 +14,7 @@ from backend.device.config_transaction import (
 )
 from backend.device.live_values import LiveValues, ask_values
 from backend.device.states import LinkState
-from backend.errors import ConfigConflict, PeerProtocolError
+from backend.errors import ConfigConflict, NoAnswer, PeerProtocolError
 from firmware_protocol.layout import Value
 from sim_device.configure import ConfigureError
 from sim_device.configure import write_config as write_as_rival
@@ -52,6 +53,8 @@ class Workload:
         # Limits go down freely and never up: nobody here has a token.
         self._torque_nm_max = 2.0
         self._cutoff_kmh = CUTOFF_KMH
+        # Writes nobody answered, with the configuration each was made for.
+        self._unsettled: list[tuple[Intent, ConfigImage]] = []
         self._settled = False
         self._read_again = False
         self.last_write: Intent | None = None
@@ -73,9 +76,34 @@ class Workload:
             self._act()
         if 0.0 < self._ride_until_s <= world.now_s:
             self._stop()
+        self._find_out()
         self._trials.step()
         self._unlocking.step()
         self._collecting.step()
+
+    def _find_out(self) -> None:
+        """What became of writes nobody answered, as the service asks; the judge holds it to it."""
+        if not self._unsettled or self.world.session.state is not LinkState.READY:
+            return
+        intent, base = self._unsettled.pop()
+        world = self.world
+        name = self.name(f"find out {intent.marker}")
+
+        def done(config: ConfigImage) -> None:
+            world.figures["writes_found_done"] += 1
+            world.watcher.verified(intent, config)
+            world.tell("host", f"{intent.marker}: found done")
+
+        def failed(error: BaseException) -> None:
+            self.told(name, error)
+            if isinstance(error, NoAnswer) and error.outcome == "unchanged":
+                world.figures["writes_found_undone"] += 1
+                world.watcher.refused(intent, str(error))
+            elif isinstance(error, NoAnswer):
+                self._unsettled.append((intent, base))
+
+        intended = {**base.parameters, **intent.changes}
+        world.ask(name, settle_write(base, intended, world.session.mtu), done, failed)
 
     def _act(self) -> None:
         actions = (
@@ -176,6 +204,8 @@ class Workload:
             if isinstance(error, CommitUnanswered | PeerProtocolError):
                 intent.outcome = "unknown"
                 world.figures["writes_unknown"] += 1
+                if isinstance(error, CommitUnanswered):
+                    self._unsettled.append((intent, base))
             else:
                 world.figures["writes_refused"] += 1
                 world.watcher.refused(intent, str(error))

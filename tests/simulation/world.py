@@ -86,6 +86,7 @@ class World:
         self.story: list[str] = []
         self._trace = hashlib.sha256()
         self.figures = {"writes_verified": 0, "writes_refused": 0, "writes_unknown": 0}
+        self.figures |= {"writes_found_done": 0, "writes_found_undone": 0}
         self.figures |= {"blocks": 0, "resets": 0, "brown_outs": 0, "unplugs": 0}
         self.figures |= {"log_brown_outs": 0, "trials_kept": 0, "trials_asked_about": 0}
         self.figures |= {"limits_raised": 0, "tokens_replayed": 0, "logs_fetched": 0}

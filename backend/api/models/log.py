@@ -37,7 +37,9 @@ class UnitLog(Answer):
 
 class ErasedLog(Answer):
     log_id: int
-    erases: int = Field(description="Blocks of the flash for logs erased in its life.")
+    erases: int | None = Field(
+        description="Blocks of the flash for logs erased in its life; null if its answer was lost."
+    )
 
 
 class UnitLogs(Answer):

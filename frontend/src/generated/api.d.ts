@@ -1137,9 +1137,9 @@ export interface components {
             log_id: number;
             /**
              * Erases
-             * @description Blocks of the flash for logs erased in its life.
+             * @description Blocks of the flash for logs erased in its life; null if its answer was lost.
              */
-            erases: number;
+            erases: number | null;
         };
         /** Evaluation */
         Evaluation: {

@@ -89,8 +89,10 @@ def test_a_result_that_is_late_is_not_called_undone(
     heard.wait_for(StateChanged, state=LinkState.READY)
     opener.unit.silent = True  # type: ignore[attr-defined]
 
-    with pytest.raises(NoAnswer, match="may still be done"):
+    with pytest.raises(NoAnswer, match="no result within") as caught:
         driver.run(read_config(), 0.05)
+
+    assert caught.value.code == "no_result"
 
 
 def test_asking_a_unit_that_is_not_there_gives_the_reason(
