@@ -4,7 +4,16 @@ from dataclasses import dataclass
 from enum import IntEnum, IntFlag
 from typing import ClassVar
 
-from firmware_protocol.layout import Channel, Fault, Field, Message, Order, Parameter
+from firmware_protocol.layout import (
+    Band,
+    Channel,
+    Fault,
+    Field,
+    Message,
+    Order,
+    Parameter,
+    Retired,
+)
 
 MAJOR = 1
 MINOR = 0
@@ -12,8 +21,8 @@ MTU_BEFORE_HELLO = 128
 MTU = 544
 MAX_OUTSTANDING = 4
 CONTROL_PERIOD_US = 10000
-IMAGE_LENGTH = 413
-SCHEMA_HASH = bytes.fromhex("37ccf2fffe481656")
+IMAGE_LENGTH = 426
+SCHEMA_HASH = bytes.fromhex("0aae44fb3234b0a3")
 
 
 class Status(IntEnum):
@@ -2117,12 +2126,12 @@ PARAMETERS: tuple[Parameter, ...] = (
         doc="Teeth of the rear cog.",
     ),
     Parameter(
-        id=0x0503, name="wheel_radius_m", group="drivetrain",
+        id=0x0504, name="wheel_circumference_m", group="drivetrain",
         type="f32", unit="m", shape=(),
-        length=4, min=0.15, max=0.45, enum=None,
-        increasing=False, access=2, image_offset=287,
-        default=0.33,
-        doc="Rolling radius of the driven wheel.",
+        length=4, min=0.9, max=2.9, enum=None,
+        increasing=False, access=1, image_offset=287,
+        default=2.073451,
+        doc="Way of the bike in one turn of the wheel that carries the speed sensor: every speed and distance is counted with it.",
     ),
     Parameter(
         id=0x0510, name="motor_torque_constant_nm_per_a", group="drivetrain",
@@ -2236,12 +2245,70 @@ PARAMETERS: tuple[Parameter, ...] = (
         default=0.0,
         doc="Added to assist_cutoff_kmh for a market that allows more than 25 km/h; the market's own limit holds.",
     ),
+    Parameter(
+        id=0x0630, name="wheel_pulses_per_turn", group="drivetrain",
+        type="u8", unit="", shape=(),
+        length=1, min=1, max=100, enum=None,
+        increasing=False, access=2, image_offset=413,
+        default=36,
+        doc="Pulses of the speed sensor in one turn of its wheel: its magnets, or the teeth of its ring.",
+    ),
+    Parameter(
+        id=0x0631, name="wheel_circumference_m_factory", group="drivetrain",
+        type="f32", unit="m", shape=(),
+        length=4, min=0.9, max=2.9, enum=None,
+        increasing=False, access=2, image_offset=414,
+        default=2.073451,
+        doc="Circumference of the wheel that the bike left the factory with: the middle of what a dealer may set.",
+    ),
+    Parameter(
+        id=0x0632, name="sensor_gain_nm_per_count_factory", group="sensor",
+        type="f32", unit="Nm/count", shape=(),
+        length=4, min=0.001, max=0.1, enum=None,
+        increasing=False, access=2, image_offset=418,
+        default=0.01,
+        doc="Gain of this unit's torque sensor as the factory measured it: the middle of what a dealer may set.",
+    ),
+    Parameter(
+        id=0x0633, name="sensor_offset_counts_factory", group="sensor",
+        type="f32", unit="counts", shape=(),
+        length=4, min=-30000, max=30000, enum=None,
+        increasing=False, access=2, image_offset=422,
+        default=0.0,
+        doc="Reading of this unit's torque sensor without load as the factory measured it: the middle of what a dealer may set.",
+    ),
 )
 PARAMETER_BY_NAME = {parameter.name: parameter for parameter in PARAMETERS}
 PARAMETER_BY_ID = {parameter.id: parameter for parameter in PARAMETERS}
 
 ORDERS: tuple[Order, ...] = (
     Order("fixed_taper_start_kmh", "fixed_taper_end_kmh", "TAPER_ORDER"),
+)
+
+BANDS: tuple[Band, ...] = (
+    Band(
+        "wheel_circumference_m",
+        around="wheel_circumference_m_factory",
+        within_pct=4.0, within=None,
+        times=None, unit="",
+    ),
+    Band(
+        "sensor_gain_nm_per_count",
+        around="sensor_gain_nm_per_count_factory",
+        within_pct=15.0, within=None,
+        times=None, unit="",
+    ),
+    Band(
+        "sensor_offset_counts",
+        around="sensor_offset_counts_factory",
+        within_pct=None, within=5.0,
+        times="sensor_gain_nm_per_count_factory", unit="Nm",
+    ),
+)
+BAND_BY_NAME = {band.parameter: band for band in BANDS}
+
+RETIRED: tuple[Retired, ...] = (
+    Retired(0x0503, "wheel_radius_m", "f32", "wheel_circumference_m", 6.283185307179586),
 )
 
 CHANNELS: tuple[Channel, ...] = (

@@ -179,3 +179,30 @@ class Order:
     low: str
     high: str
     violation: str
+
+
+@dataclass(frozen=True, slots=True)
+class Band:
+    """What a dealer may set around what the factory measured; beyond it the maker's token.
+
+    within_pct: of the value of `around`; else `within`, in `unit`, and `times` names the parameter
+    that a distance is multiplied with to be in it.
+    """
+
+    parameter: str
+    around: str
+    within_pct: float | None
+    within: float | None
+    times: str | None
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Retired:
+    """A parameter of older units: its value times `factor` is that of `becomes`."""
+
+    id: int
+    name: str
+    type: ParameterType
+    becomes: str
+    factor: float

@@ -9,6 +9,7 @@ from typing import Any
 
 from backend.cli.client import Server, default_server, print_json, print_table, text_of
 from backend.errors import InvalidRequest, RequestRefused
+from firmware_protocol.retired import brought_forward
 
 
 def server_of(options: Namespace) -> Server:
@@ -107,7 +108,10 @@ def restore(options: Namespace) -> int:
     """Writes the values of a backup that differ from the unit's and that we may change."""
     server = server_of(options)
     unit = server.device_id(options.unit)
-    saved = parameters_of(options.file)
+    saved, notes = parameters_of(options.file)
+    if not options.json:
+        for note in notes:
+            print(note)
     items = server.ask("GET", f"/devices/{unit}/parameters")["items"]
     differing = [p for p in items if p["name"] in saved and saved[p["name"]] != p["value"]]
     kept = [p["name"] for p in differing if p["access"] == "FACTORY"]
@@ -123,9 +127,9 @@ def restore(options: Namespace) -> int:
 
 def diff(options: Namespace) -> int:
     """What differs between a backup and the unit, or between two backups."""
-    one = parameters_of(options.file)
+    one, _ = parameters_of(options.file)
     if options.other is not None and Path(options.other).is_file():
-        other = parameters_of(Path(options.other))
+        other, _ = parameters_of(Path(options.other))
     else:
         server = server_of(options)
         unit = server.device_id(options.other)
@@ -181,13 +185,14 @@ def assignment(word: str) -> tuple[str, Any]:
         return name, text
 
 
-def parameters_of(file: Path) -> dict[str, Any]:
-    """The parameters in a backup. Raises InvalidRequest if it is none."""
+def parameters_of(file: Path) -> tuple[dict[str, Any], list[str]]:
+    """The parameters in a backup, those of an older unit under their names of today, and what was
+    made of them in words. Raises InvalidRequest if it is none.
+    """
     saved = read_json(file)
     if not isinstance(saved, dict) or not isinstance(saved.get("parameters"), dict):
         raise InvalidRequest(f"{file} is not a backup: it has no `parameters`.")
-    parameters: dict[str, Any] = saved["parameters"]
-    return parameters
+    return brought_forward(saved["parameters"])
 
 
 def read_json(file: Path) -> Any:

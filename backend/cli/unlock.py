@@ -19,7 +19,7 @@ from cryptography.hazmat.primitives.serialization import (
 
 from backend.cli.device import read_json
 from backend.errors import InvalidRequest, RequestRefused
-from firmware_protocol._generated import PARAMETERS, Access
+from firmware_protocol._generated import BAND_BY_NAME, PARAMETERS, Access
 from firmware_protocol.parameters import unpack_image
 from firmware_protocol.unlock_token import Challenge, Token, signed_message
 
@@ -50,7 +50,11 @@ def sign(options: Namespace) -> int:
     private = private_key(options.key)
     challenge = challenge_of(read_challenge(options.challenge))
     image = unpack_image(challenge.image)
-    protected = [row for row in PARAMETERS if row.ratchet or row.access == Access.FACTORY]
+    protected = [
+        row
+        for row in PARAMETERS
+        if row.ratchet or row.access == Access.FACTORY or row.name in BAND_BY_NAME
+    ]
     sys.stderr.write(f"unit {challenge.uid.hex()}, level {challenge.level.name}, allows:\n")
     for row in protected:
         sys.stderr.write(f"  {row.name:32} {image[row.name]} {row.unit}\n")

@@ -8,16 +8,20 @@ from dataclasses import dataclass
 
 from backend.device.violations import host_violations
 from backend.errors import FieldError
-from firmware_protocol._generated import ENUM_BY_NAME, PARAMETERS, Access
+from firmware_protocol._generated import BAND_BY_NAME, ENUM_BY_NAME, PARAMETERS, RETIRED, Access
+from firmware_protocol.bands import band_limits
 from firmware_protocol.layout import Parameter, Value
 from firmware_protocol.parameters import default_config, pack_image, unpack_image
 
 __all__ = [
     "PARAMETER_ROWS",
+    "Free",
     "ParameterRow",
     "Value",
     "faults_of",
+    "free_of",
     "group",
+    "is_factory",
     "rounded",
     "unknown_names",
 ]
@@ -63,6 +67,21 @@ def _row(row: Parameter, default: Value) -> ParameterRow:
     )
 
 
+@dataclass(frozen=True)
+class Free:
+    """From where to where a value may be set without the maker's token, around the factory's."""
+
+    min: float
+    max: float
+    around: str
+
+
+def free_of(name: str, config: Mapping[str, Value]) -> Free | None:
+    """The band of a parameter in this configuration; None for one without."""
+    band = BAND_BY_NAME.get(name)
+    return None if band is None else Free(*band_limits(band, config), band.around)
+
+
 PARAMETER_ROWS = tuple(_row(row, default_config()[row.name]) for row in PARAMETERS)
 _BY_NAME = {row.name: row for row in PARAMETER_ROWS}
 
@@ -72,13 +91,25 @@ def group(name: str) -> tuple[str, ...]:
     return tuple(row.name for row in PARAMETER_ROWS if row.group == name)
 
 
+def is_factory(name: str) -> bool:
+    """Whether only the maker may change it."""
+    return _BY_NAME[name].access == Access.FACTORY.name
+
+
 def unknown_names(changes: Mapping[str, Value]) -> list[FieldError]:
     """Names that are no parameter."""
     return [
-        FieldError(name, "unknown_parameter", f"{name} is not a parameter of this unit.")
+        FieldError(name, "unknown_parameter", not_a_parameter(name))
         for name in changes
         if name not in _BY_NAME
     ]
+
+
+def not_a_parameter(name: str) -> str:
+    """What is said of a name nothing is called; one of an older unit is told its name of today."""
+    said = f"{name} is not a parameter of this unit."
+    now = next((row for row in RETIRED if row.name == name), None)
+    return said if now is None else f"{said} It is {now.becomes} now: times {now.factor:.6g}."
 
 
 def faults_of(config: Mapping[str, Value]) -> list[FieldError]:

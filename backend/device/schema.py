@@ -16,6 +16,7 @@ from typing import Any
 from backend.device.operation import Operation, ask
 from backend.errors import PeerProtocolError
 from firmware_protocol._generated import (
+    BANDS,
     CHANNELS,
     ENUM_BY_NAME,
     MTU,
@@ -50,6 +51,8 @@ NEEDED = (
     MessageId.STR_RENEW,
     MessageId.EVT_FAULT_LIST,
 )
+
+BAND_KEYS = ("parameter", "around", "within_pct", "within", "times")
 
 # Compressed schemas as units sent them, by their hash in hex.
 Schemas = MutableMapping[str, bytes]
@@ -136,6 +139,9 @@ def _parameter_differences(schema: Mapping[str, Any]) -> Iterator[str]:
     ours = [(order.low, order.high) for order in ORDERS]
     if ours != [(row.get("low"), row.get("high")) for row in _rows(schema, "order")]:
         yield "its rules between parameters are others"
+    bands = [(b.parameter, b.around, b.within_pct, b.within, b.times) for b in BANDS]
+    if bands != [tuple(row.get(key) for key in BAND_KEYS) for row in _rows(schema, "band")]:
+        yield "its bands around the factory's values are others"
 
 
 def _meaning(row: Parameter) -> tuple[object, ...]:

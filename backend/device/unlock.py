@@ -17,6 +17,7 @@ from backend.errors import (
     TokenNeeded,
 )
 from firmware_protocol._generated import (
+    BAND_BY_NAME,
     PARAMETER_BY_NAME,
     Access,
     AuthChallengeRequest,
@@ -25,12 +26,23 @@ from firmware_protocol._generated import (
     AuthResponseResponse,
     Status,
 )
-from firmware_protocol.layout import Parameter, Value
+from firmware_protocol.bands import band_limits, leaves_band
+from firmware_protocol.layout import Band, Parameter, Value
 from firmware_protocol.unlock_token import Token
 
 __all__ = ["Token", "access_refused", "show_token", "token_from"]
 
 AGAIN = "Write once more without a token to get a new challenge. Nothing was changed."
+NEXT_STEPS = {
+    "wheel_circumference_m": "Measure it once more, with a rider on the bike.",
+    "sensor_gain_nm_per_count": (
+        "Check weight and lever first; if they are right, the sensor is damaged or another one."
+    ),
+    "sensor_offset_counts": (
+        "Take every load off the pedals and read the zero again; if it stays, the sensor is bent."
+    ),
+}
+"""What to try before the maker is asked, for each parameter with a band."""
 LEVELS = (Access.DEALER, Access.FACTORY)
 
 
@@ -121,8 +133,9 @@ def access_refused(
 
 
 def protected(base: Mapping[str, Value], changes: Mapping[str, Value]) -> list[FieldError]:
-    """The changes that need a token: factory parameters, and limits that go up."""
+    """The changes that need a token: factory parameters, limits that go up, and bands left."""
     found = []
+    intended = {**base, **changes}
     for name, value in changes.items():
         row = PARAMETER_BY_NAME[name]
         if value == base[name]:
@@ -132,6 +145,8 @@ def protected(base: Mapping[str, Value], changes: Mapping[str, Value]) -> list[F
             found.append(FieldError(name, "access_denied", message))
         elif row.ratchet and is_raised(base[name], value):
             found.append(FieldError(name, "token_needed", raised(row, base[name], value)))
+        elif name in BAND_BY_NAME and leaves_band(BAND_BY_NAME[name], base, intended):
+            found.append(FieldError(name, "outside_band", left(BAND_BY_NAME[name], row, intended)))
     return found
 
 
@@ -145,4 +160,15 @@ def raised(row: Parameter, old: Value, new: Value) -> str:
     return (
         f"{row.name} should go up from {old} to {new} {row.unit}; this limit goes down freely and "
         "up only with a token."
+    )
+
+
+def left(band: Band, row: Parameter, intended: Mapping[str, Value]) -> str:
+    """What a person is told about a value too far from what the factory measured, and what next."""
+    low, high = band_limits(band, intended)
+    within = f"{band.within_pct:g} %" if band.within_pct else f"{band.within:g} {band.unit}"
+    return (
+        f"{row.name} should become {intended[row.name]} {row.unit}; from {low} to {high} "
+        f"it may be set here, which is within {within} of the factory's {intended[band.around]}. "
+        f"{NEXT_STEPS[band.parameter]} Beyond that it needs the maker's token."
     )

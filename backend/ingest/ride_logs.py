@@ -43,13 +43,13 @@ from backend.ingest.blocks import (
 )
 from backend.ingest.columns import EPOCH_S, LATEST_S, SPAN_S_MAX
 from backend.ingest.outcome import COMPLETE, PARTIAL, ImportedRide, Outcome, rejected
-from firmware_protocol._generated import CHANNELS, IMAGE_LENGTH, SCHEMA_HASH, LogEvent
+from firmware_protocol._generated import CHANNELS, PARAMETER_BY_NAME, LogEvent
 from firmware_protocol.layout import HALF_BITS
-from firmware_protocol.parameters import unpack_image
 
 CONFIG_HEAD = struct.Struct("<12s8sII")
 SCHEMA_HEAD = struct.Struct("<IB")
 SCHEMA_CHANNEL = struct.Struct("<Bf")
+GEAR_RATIO = struct.Struct("<f")
 END_FIELDS = struct.Struct("<IIB")
 # Behind the reason; a log of an older unit ends before it.
 END_EVENTS_LOST = struct.Struct("<I")
@@ -172,19 +172,28 @@ def context_of(blocks: Sequence[Block], notes: list[str]) -> RideContext:
         notes.append("which unit it was is not known: no configuration block is whole")
         return RideContext()
     payload = configs[0].payload
-    uid, schema_hash, generation, crc32 = CONFIG_HEAD.unpack_from(payload)
+    uid, _schema_hash, generation, crc32 = CONFIG_HEAD.unpack_from(payload)
     image = payload[CONFIG_HEAD.size :]
-    gear_ratio: float | None = None
-    if schema_hash == SCHEMA_HASH and len(image) == IMAGE_LENGTH and zlib.crc32(image) == crc32:
-        found = unpack_image(image)["gear_ratio"]
-        if isinstance(found, float) and math.isfinite(found) and found > 0:
-            gear_ratio = found
+    gear_ratio = gear_ratio_in(image) if zlib.crc32(image) == crc32 else None
     return RideContext(
         device_serial=uid.hex(),
         config_generation=generation,
         config_crc32=crc32,
         gear_ratio=gear_ratio,
     )
+
+
+def gear_ratio_in(image: bytes) -> float | None:
+    """The gear ratio of a configuration, of an earlier version's too.
+
+    Its place is the same in all of them: parameters of later versions follow by id.
+    """
+    row = PARAMETER_BY_NAME["gear_ratio"]
+    if len(image) < row.image_offset + row.size or row.min is None or row.max is None:
+        return None
+    (ratio,) = GEAR_RATIO.unpack_from(image, row.image_offset)
+    # Seven digits are what a float32 has: 40.34, not 40.3400001.
+    return float(f"{ratio:.7g}") if row.min <= ratio <= row.max else None
 
 
 def grouped(blocks: Sequence[Block], notes: list[str]) -> list[tuple[Block, Group | None]]:

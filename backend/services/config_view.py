@@ -8,7 +8,7 @@ from datetime import datetime
 from typing import Any, Protocol
 
 from backend.device.config_transaction import ConfigImage
-from backend.device.parameters import PARAMETER_ROWS, ParameterRow, Value
+from backend.device.parameters import PARAMETER_ROWS, Free, ParameterRow, Value
 from backend.domain.revision import Revision
 from backend.errors import ConfigConflict
 
@@ -24,9 +24,10 @@ class ConfigView:
 
 @dataclass(frozen=True)
 class ParameterView(ParameterRow):
-    """A parameter and its value in the unit now."""
+    """A parameter, its value in the unit now, and its band; None: it has none."""
 
     value: Value
+    free: Free | None
 
 
 @dataclass(frozen=True)

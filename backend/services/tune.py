@@ -28,6 +28,7 @@ from backend.device.parameters import (
     PARAMETER_ROWS,
     Value,
     faults_of,
+    free_of,
     image_crc32,
     rounded,
     unknown_names,
@@ -104,7 +105,11 @@ class Tuning:
         """Every parameter with its bounds and its value now. Raises NotFound, NoAnswer."""
         config = self._read(device_id)
         return [
-            ParameterView(**asdict(row), value=config.parameters[row.name])
+            ParameterView(
+                **asdict(row),
+                value=config.parameters[row.name],
+                free=free_of(row.name, config.parameters),
+            )
             for row in PARAMETER_ROWS
         ]
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from operator import itemgetter
 from typing import Any, cast
 
 from backend.control import cutoff_of
-from backend.device.parameters import Value, group
+from backend.device.parameters import Value, group, is_factory
 from backend.domain.assist_mode import AssistModes
 from backend.domain.fuzzy_table import PARAMETERS_OF, SHARED_FIELDS, FuzzyTable
 from backend.errors import FieldError, InvalidRequest
@@ -100,7 +101,10 @@ ASSIST_MODES = ConfigPart(
     changes=lambda value: cast("dict[str, Value]", AssistModes.from_json(value).to_parameters()),
     fields=MODE_FIELDS,
 )
-CALIBRATION = _by_name(group("sensor"))
+CALIBRATION = _by_name(
+    tuple(name for name in group("sensor") if not is_factory(name)),
+    {name: itemgetter(name) for name in group("sensor") if is_factory(name)},
+)
 LIMITS = _by_name(
     group("limits") + group("market"), {"effective_assist_cutoff_kmh": _effective_cutoff_kmh}
 )

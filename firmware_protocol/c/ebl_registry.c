@@ -127,8 +127,8 @@ const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT] = {
      offsetof(ebl_config, chainring_teeth), 10.0f, 80.0f},
     {0x0502, 286, EBL_TYPE_U8, 1, 1, EBL_ACCESS_FACTORY, 0,
      offsetof(ebl_config, cog_teeth), 8.0f, 60.0f},
-    {0x0503, 287, EBL_TYPE_F32, 1, 4, EBL_ACCESS_FACTORY, 0,
-     offsetof(ebl_config, wheel_radius_m), 0.15f, 0.45f},
+    {0x0504, 287, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, 0,
+     offsetof(ebl_config, wheel_circumference_m), 0.9f, 2.9f},
     {0x0510, 291, EBL_TYPE_F32, 1, 4, EBL_ACCESS_FACTORY, 0,
      offsetof(ebl_config, motor_torque_constant_nm_per_a), 0.01f, 1.0f},
     {0x0511, 295, EBL_TYPE_F32, 1, 4, EBL_ACCESS_FACTORY, 0,
@@ -157,10 +157,31 @@ const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT] = {
      offsetof(ebl_config, market), 0.0f, 6.0f},
     {0x0621, 409, EBL_TYPE_F32, 1, 4, EBL_ACCESS_FACTORY, 0,
      offsetof(ebl_config, assist_cutoff_extra_kmh), 0.0f, 20.1f},
+    {0x0630, 413, EBL_TYPE_U8, 1, 1, EBL_ACCESS_FACTORY, 0,
+     offsetof(ebl_config, wheel_pulses_per_turn), 1.0f, 100.0f},
+    {0x0631, 414, EBL_TYPE_F32, 1, 4, EBL_ACCESS_FACTORY, 0,
+     offsetof(ebl_config, wheel_circumference_m_factory), 0.9f, 2.9f},
+    {0x0632, 418, EBL_TYPE_F32, 1, 4, EBL_ACCESS_FACTORY, 0,
+     offsetof(ebl_config, sensor_gain_nm_per_count_factory), 0.001f, 0.1f},
+    {0x0633, 422, EBL_TYPE_F32, 1, 4, EBL_ACCESS_FACTORY, 0,
+     offsetof(ebl_config, sensor_offset_counts_factory), -30000.0f, 30000.0f},
 };
 
 const ebl_order ebl_orders[EBL_ORDER_COUNT] = {
     {124, 128, 0x0205, EBL_VIOLATION_TAPER_ORDER},
+};
+
+const ebl_band ebl_bands[EBL_BAND_COUNT] = {
+    {0x0504, 0x0631, 287, 414, EBL_BAND_NO_SCALE,
+     0.04f, 0.0f},
+    {0x0101, 0x0632, 4, 418, EBL_BAND_NO_SCALE,
+     0.15f, 0.0f},
+    {0x0100, 0x0633, 0, 422, 418,
+     0.0f, 5.0f},
+};
+
+const ebl_retired_row ebl_retired[EBL_RETIRED_COUNT] = {
+    {0x0503, EBL_TYPE_F32, 0x0504, 6.283185307179586f},
 };
 
 const ebl_channel ebl_channels[EBL_CHANNEL_COUNT] = {
@@ -266,7 +287,7 @@ void ebl_config_default(ebl_config *config)
         .gear_ratio = 40.34f,
         .chainring_teeth = 44,
         .cog_teeth = 14,
-        .wheel_radius_m = 0.33f,
+        .wheel_circumference_m = 2.073451f,
         .motor_torque_constant_nm_per_a = 0.112f,
         .motor_resistance_ohm = 0.25f,
         .mode_tapers = {EBL_TAPER_TAPER_SPEEDS, EBL_TAPER_TAPER_SPEEDS, EBL_TAPER_TAPER_SPEEDS, EBL_TAPER_TAPER_SPEEDS, EBL_TAPER_TAPER_SPEEDS},
@@ -286,6 +307,10 @@ void ebl_config_default(ebl_config *config)
             {EBL_LABEL_NB, EBL_LABEL_NB, EBL_LABEL_NS, EBL_LABEL_NS, EBL_LABEL_NS}},
         .market = EBL_MARKET_EU_EPAC,
         .assist_cutoff_extra_kmh = 0.0f,
+        .wheel_pulses_per_turn = 36,
+        .wheel_circumference_m_factory = 2.073451f,
+        .sensor_gain_nm_per_count_factory = 0.01f,
+        .sensor_offset_counts_factory = 0.0f,
     };
     *config = factory;
 }

@@ -11,18 +11,20 @@
 #define EBL_MTU 544
 #define EBL_MAX_OUTSTANDING 4
 #define EBL_CONTROL_PERIOD_US 10000
-#define EBL_IMAGE_LENGTH 413
+#define EBL_IMAGE_LENGTH 426
 #define EBL_MESSAGE_COUNT 45
 #define EBL_EVENT_COUNT 12
 #define EBL_EVENT_HEAD_LENGTH 5
-#define EBL_PARAMETER_COUNT 46
+#define EBL_PARAMETER_COUNT 50
 #define EBL_ORDER_COUNT 1
+#define EBL_BAND_COUNT 3
+#define EBL_RETIRED_COUNT 1
 #define EBL_CHANNEL_COUNT 21
 #define EBL_FAULT_BITS 15
 #define EBL_FAULTS_ASSIST_OFF 32759
 #define EBL_FAULTS_LATCHED 29683
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 4486
+#define EBL_SCHEMA_LENGTH 4692
 
 enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */
 
@@ -333,7 +335,7 @@ enum {
     EBL_PARAMETER_GEAR_RATIO = 0x0500,
     EBL_PARAMETER_CHAINRING_TEETH = 0x0501,
     EBL_PARAMETER_COG_TEETH = 0x0502,
-    EBL_PARAMETER_WHEEL_RADIUS_M = 0x0503,
+    EBL_PARAMETER_WHEEL_CIRCUMFERENCE_M = 0x0504,
     EBL_PARAMETER_MOTOR_TORQUE_CONSTANT_NM_PER_A = 0x0510,
     EBL_PARAMETER_MOTOR_RESISTANCE_OHM = 0x0511,
     EBL_PARAMETER_MODE_TAPERS = 0x0600,
@@ -348,6 +350,10 @@ enum {
     EBL_PARAMETER_SECOND_RULES = 0x0613,
     EBL_PARAMETER_MARKET = 0x0620,
     EBL_PARAMETER_ASSIST_CUTOFF_EXTRA_KMH = 0x0621,
+    EBL_PARAMETER_WHEEL_PULSES_PER_TURN = 0x0630,
+    EBL_PARAMETER_WHEEL_CIRCUMFERENCE_M_FACTORY = 0x0631,
+    EBL_PARAMETER_SENSOR_GAIN_NM_PER_COUNT_FACTORY = 0x0632,
+    EBL_PARAMETER_SENSOR_OFFSET_COUNTS_FACTORY = 0x0633,
 };
 
 enum {
@@ -415,6 +421,28 @@ typedef struct {
     uint8_t violation; /* ebl_violation */
 } ebl_order;
 
+/* What a dealer may set around what the factory measured. The values are single floats, each told
+ * by its bytes from the start of the image. `share` is of the value around; 0: `within` holds, of
+ * the distance times the value at `scale_offset`. See ebl_band_holds. */
+typedef struct {
+    uint16_t id;
+    uint16_t around_id;
+    uint16_t offset;
+    uint16_t around_offset;
+    uint16_t scale_offset; /* EBL_BAND_NO_SCALE: the distance itself */
+    float share;
+    float within;
+} ebl_band;
+#define EBL_BAND_NO_SCALE 0xffff
+
+/* A parameter of older units: its value times `factor` is that of `becomes_id`. */
+typedef struct {
+    uint16_t id;
+    uint8_t type; /* ebl_type */
+    uint16_t becomes_id;
+    float factor;
+} ebl_retired_row;
+
 typedef struct {
     uint8_t id;
     float scale; /* value = count * scale */
@@ -452,7 +480,7 @@ typedef struct {
     float gear_ratio;
     uint8_t chainring_teeth;
     uint8_t cog_teeth;
-    float wheel_radius_m;
+    float wheel_circumference_m;
     float motor_torque_constant_nm_per_a;
     float motor_resistance_ohm;
     uint8_t mode_tapers[5];
@@ -467,12 +495,18 @@ typedef struct {
     uint8_t second_rules[5][5];
     uint8_t market;
     float assist_cutoff_extra_kmh;
+    uint8_t wheel_pulses_per_turn;
+    float wheel_circumference_m_factory;
+    float sensor_gain_nm_per_count_factory;
+    float sensor_offset_counts_factory;
 } ebl_config;
 
 extern const ebl_message ebl_messages[EBL_MESSAGE_COUNT];
 extern const ebl_event_row ebl_event_rows[EBL_EVENT_COUNT];
 extern const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT]; /* in the order of their ids */
 extern const ebl_order ebl_orders[EBL_ORDER_COUNT];
+extern const ebl_band ebl_bands[EBL_BAND_COUNT];
+extern const ebl_retired_row ebl_retired[EBL_RETIRED_COUNT];
 extern const ebl_channel ebl_channels[EBL_CHANNEL_COUNT];       /* in the order of their ids */
 
 extern const uint8_t ebl_schema_hash[EBL_SCHEMA_HASH_LENGTH];

@@ -145,3 +145,19 @@ size_t ebl_config_violations(const ebl_config *config, ebl_refusal *found, size_
     ebl_config_pack(config, image);
     return ebl_image_violations(image, found, capacity);
 }
+
+/* Written so that what is no number does not hold. */
+int ebl_band_holds(const ebl_band *band, const uint8_t *image)
+{
+    float around = ebl_get_f32(image + band->around_offset);
+    float distance = ebl_get_f32(image + band->offset) - around;
+    float within = band->within;
+
+    if (band->scale_offset != EBL_BAND_NO_SCALE) {
+        distance *= ebl_get_f32(image + band->scale_offset);
+    }
+    if (band->share > 0.0f) {
+        within = band->share * (around < 0.0f ? -around : around);
+    }
+    return (distance < 0.0f ? -distance : distance) <= within;
+}

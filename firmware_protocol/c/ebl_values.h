@@ -20,6 +20,9 @@ typedef struct {
  * their ids, at most one refusal for an element, then the rules between parameters. Fills up to
  * `capacity` and returns how many there are in all. */
 size_t ebl_image_violations(const uint8_t *image, ebl_refusal *found, size_t capacity);
+/* True if the banded value of an image is within its band. Not so for one that is no number. */
+int ebl_band_holds(const ebl_band *band, const uint8_t *image);
+
 size_t ebl_config_violations(const ebl_config *config, ebl_refusal *found, size_t capacity);
 
 #endif

@@ -22,8 +22,9 @@ ABOUT = f"""\
      0x{LIVE_ROW:05X} + n  byte n of a row of every channel in the order of their ids, as
                   STR_SNAPSHOT and freeze frames carry it: int16, and -32768 is no value.
    READ_ONLY parameters are the factory's. A parameter that says ratchet goes down freely and up
-   only with the maker's token. The EPK is the hash of the schema this was made from; HELLO tells
-   the unit's, and a file of another hash is not this unit's. */"""
+   only with the maker's token, one that says band stays near the factory's value without it. The
+   EPK is the hash of the schema this was made from; HELLO tells the unit's, and a file of another
+   hash is not this unit's. */"""
 
 
 def description(registry: Registry, schema_hash: bytes) -> str:
@@ -153,15 +154,28 @@ def _characteristics(registry: Registry, row: Parameter) -> list[str]:
     return [
         line
         for index, name in enumerate(_names(row))
-        for line in _characteristic(row, choices, name, row.image_offset + index * row.length)
+        for line in _characteristic(
+            row, choices, name, row.image_offset + index * row.length, _note(registry, row)
+        )
     ]
 
 
-def _characteristic(row: Parameter, choices: int, name: str, address: int) -> list[str]:
+def _note(registry: Registry, row: Parameter) -> str:
+    """What a token is needed for, beside READ_ONLY."""
+    if row.ratchet:
+        return "Goes up only with a token (ratchet)."
+    for band in registry.bands:
+        if band.parameter == row.name:
+            within = f"{band.within:g} {band.unit}" if band.within else f"{band.within_pct:g} %"
+            return f"Further than {within} from {band.around} only with a token (band)."
+    return ""
+
+
+def _characteristic(row: Parameter, choices: int, name: str, address: int, note: str) -> list[str]:
     kind = "ASCII" if row.type == "text" else "VAL_BLK" if row.shape else "VALUE"
     layout = "u8" if row.type == "text" else row.type
     method = "NO_COMPU_METHOD" if row.type == "text" else row.enum or _unit_method(row.unit)
-    doc = f"{row.doc} Goes up only with a token (ratchet)." if row.ratchet else row.doc
+    doc = f"{row.doc} {note}".strip()
     lines = [
         f"    /begin CHARACTERISTIC {name} {_text(doc)}",
         f"      {kind} 0x{address:X} {layout} 0 {method} {_limits(row, choices)}",

@@ -51,6 +51,28 @@ typedef struct {
     uint8_t violation; /* ebl_violation */
 } ebl_order;
 
+/* What a dealer may set around what the factory measured. The values are single floats, each told
+ * by its bytes from the start of the image. `share` is of the value around; 0: `within` holds, of
+ * the distance times the value at `scale_offset`. See ebl_band_holds. */
+typedef struct {
+    uint16_t id;
+    uint16_t around_id;
+    uint16_t offset;
+    uint16_t around_offset;
+    uint16_t scale_offset; /* EBL_BAND_NO_SCALE: the distance itself */
+    float share;
+    float within;
+} ebl_band;
+#define EBL_BAND_NO_SCALE 0xffff
+
+/* A parameter of older units: its value times `factor` is that of `becomes_id`. */
+typedef struct {
+    uint16_t id;
+    uint8_t type; /* ebl_type */
+    uint16_t becomes_id;
+    float factor;
+} ebl_retired_row;
+
 typedef struct {
     uint8_t id;
     float scale; /* value = count * scale */
@@ -62,6 +84,8 @@ extern const ebl_message ebl_messages[EBL_MESSAGE_COUNT];
 extern const ebl_event_row ebl_event_rows[EBL_EVENT_COUNT];
 extern const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT]; /* in the order of their ids */
 extern const ebl_order ebl_orders[EBL_ORDER_COUNT];
+extern const ebl_band ebl_bands[EBL_BAND_COUNT];
+extern const ebl_retired_row ebl_retired[EBL_RETIRED_COUNT];
 extern const ebl_channel ebl_channels[EBL_CHANNEL_COUNT];       /* in the order of their ids */
 
 extern const uint8_t ebl_schema_hash[EBL_SCHEMA_HASH_LENGTH];
@@ -118,6 +142,8 @@ def _numbers(registry: Registry, schema_length: int) -> list[str]:
         "EVENT_HEAD_LENGTH": 5,
         "PARAMETER_COUNT": len(registry.parameters),
         "ORDER_COUNT": len(registry.orders),
+        "BAND_COUNT": len(registry.bands),
+        "RETIRED_COUNT": len(registry.retired),
         "CHANNEL_COUNT": len(registry.channels),
         "FAULT_BITS": max(fault.bit for fault in registry.faults) + 1,
         "FAULTS_ASSIST_OFF": _fault_mask(registry, "ASSIST_OFF"),

@@ -37,7 +37,8 @@ def registry_source(registry: Registry) -> str:
             f"    {{{low.image_offset}, {high.image_offset}, 0x{high.id:04x},"
             f" EBL_VIOLATION_{order.violation}}},"
         ]
-    lines += ["};", "", "const ebl_channel ebl_channels[EBL_CHANNEL_COUNT] = {"]
+    lines += ["};", "", *_bands(registry), *_retired(registry)]
+    lines += ["const ebl_channel ebl_channels[EBL_CHANNEL_COUNT] = {"]
     lines += [f"    {{{row.id}, {float_literal(row.scale)}}}," for row in registry.channels]
     lines += ["};", ""]
     for row, struct, kind, key in (
@@ -64,6 +65,32 @@ def _parameter_row(registry: Registry, parameter: Parameter) -> str:
         f"     offsetof(ebl_config, {parameter.name}),"
         f" {float_literal(low)}, {float_literal(high)}}},"
     )
+
+
+def _bands(registry: Registry) -> list[str]:
+    rows = {parameter.name: parameter for parameter in registry.parameters}
+    lines = ["const ebl_band ebl_bands[EBL_BAND_COUNT] = {"]
+    for band in registry.bands:
+        parameter, around = rows[band.parameter], rows[band.around]
+        scale = str(rows[band.times].image_offset) if band.times else "EBL_BAND_NO_SCALE"
+        lines += [
+            f"    {{0x{parameter.id:04x}, 0x{around.id:04x}, {parameter.image_offset},"
+            f" {around.image_offset}, {scale},",
+            f"     {float_literal((band.within_pct or 0.0) / 100)},"
+            f" {float_literal(band.within or 0.0)}}},",
+        ]
+    return [*lines, "};", ""]
+
+
+def _retired(registry: Registry) -> list[str]:
+    rows = {parameter.name: parameter for parameter in registry.parameters}
+    lines = ["const ebl_retired_row ebl_retired[EBL_RETIRED_COUNT] = {"]
+    lines += [
+        f"    {{0x{row.id:04x}, EBL_TYPE_{row.type.upper()}, 0x{rows[row.becomes].id:04x},"
+        f" {float_literal(row.factor)}}},"
+        for row in registry.retired
+    ]
+    return [*lines, "};", ""]
 
 
 def _config_default(registry: Registry) -> list[str]:

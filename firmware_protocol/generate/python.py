@@ -1,9 +1,20 @@
 """_generated.py: IntEnums, message classes and the tables, as plain typed Python."""
 
 from firmware_protocol.generate.registry import NOTICE, Layout, Registry, Table
-from firmware_protocol.layout import Channel, Fault, Field, Parameter
+from firmware_protocol.layout import Band, Channel, Fault, Field, Parameter
 
 FIRST_LINE = f'"""{NOTICE}"""'
+
+LAYOUT_NAMES = (
+    "Band",
+    "Channel",
+    "Fault",
+    "Field",
+    "Message",
+    "Order",
+    "Parameter",
+    "Retired",
+)
 
 
 def camel(name: str) -> str:
@@ -20,7 +31,9 @@ def module(registry: Registry, schema_hash: bytes) -> str:
         "from enum import IntEnum, IntFlag",
         "from typing import ClassVar",
         "",
-        "from firmware_protocol.layout import Channel, Fault, Field, Message, Order, Parameter",
+        "from firmware_protocol.layout import (",
+        *[f"    {name}," for name in LAYOUT_NAMES],
+        ")",
         "",
         *_numbers(registry, schema_hash),
         "",
@@ -119,6 +132,14 @@ def _tables(registry: Registry) -> list[str]:
     lines += ["PARAMETER_BY_ID = {parameter.id: parameter for parameter in PARAMETERS}", ""]
     lines += ["ORDERS: tuple[Order, ...] = ("]
     lines += [f'    Order("{o.low}", "{o.high}", "{o.violation}"),' for o in registry.orders]
+    lines += [")", "", "BANDS: tuple[Band, ...] = ("]
+    lines += [line for band in registry.bands for line in _band(band)]
+    lines += [")", "BAND_BY_NAME = {band.parameter: band for band in BANDS}", ""]
+    lines += ["RETIRED: tuple[Retired, ...] = ("]
+    lines += [
+        f'    Retired(0x{r.id:04X}, "{r.name}", "{r.type}", "{r.becomes}", {r.factor!r}),'
+        for r in registry.retired
+    ]
     lines += [")", "", "CHANNELS: tuple[Channel, ...] = ("]
     lines += [f"    {_channel(channel)}," for channel in registry.channels]
     lines += [")", "CHANNEL_BY_NAME = {channel.name: channel for channel in CHANNELS}"]
@@ -143,6 +164,17 @@ def _parameter(row: Parameter) -> list[str]:
         f" image_offset={row.image_offset},{' ratchet=True,' if row.ratchet else ''}",
         f"        default={default},",
         f"        doc={_quoted(row.doc)},",
+        "    ),",
+    ]
+
+
+def _band(row: Band) -> list[str]:
+    return [
+        "    Band(",
+        f"        {_quoted(row.parameter)},",
+        f"        around={_quoted(row.around)},",
+        f"        within_pct={row.within_pct!r}, within={row.within!r},",
+        f"        times={_quoted(row.times)}, unit={_quoted(row.unit)},",
         "    ),",
     ]
 

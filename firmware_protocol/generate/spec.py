@@ -3,6 +3,7 @@
 import re
 
 from firmware_protocol.generate.registry import Layout, Registry
+from firmware_protocol.layout import Band
 
 MARKER = "<!-- generated: {name} -->"
 END = "<!-- end generated -->"
@@ -15,6 +16,7 @@ def filled(text: str, registry: Registry) -> str:
         "messages": _messages(registry),
         "events": _events(registry),
         "parameters": _parameters(registry),
+        "retired": _retired(registry),
         "channels": _channels(registry),
         "faults": _faults(registry),
     }
@@ -64,6 +66,7 @@ def _events(registry: Registry) -> list[str]:
 
 def _parameters(registry: Registry) -> list[str]:
     access = {value: name for name, value in registry.enum("access").members.items()}
+    bands = {band.parameter: _band(band) for band in registry.bands}
     lines = []
     for row in registry.parameters:
         shape = "".join(f"[{size}]" for size in row.shape)
@@ -73,6 +76,7 @@ def _parameters(registry: Registry) -> list[str]:
             limits = "UTF-8, zero-filled"
         extra = ", increasing" if row.increasing else ""
         extra += ", ratchet" if row.ratchet else ""
+        extra += bands.get(row.name, "")
         lines += [f"### 0x{row.id:04X} {row.name}", "", row.doc, ""]
         lines += [
             f"{kind}{shape} at image byte {row.image_offset}; {limits}{extra};"
@@ -80,6 +84,21 @@ def _parameters(registry: Registry) -> list[str]:
             "",
         ]
     return lines[:-1]
+
+
+def _band(band: Band) -> str:
+    if band.within_pct is not None:
+        return f", band of {band.within_pct:g} % around {band.around}"
+    through = f" through {band.times}" if band.times else ""
+    return f", band of {band.within:g} {band.unit} around {band.around}{through}"
+
+
+def _retired(registry: Registry) -> list[str]:
+    lines = ["| id | parameter | type | is now | times |", "|---|---|---|---|---|"]
+    return lines + [
+        f"| 0x{row.id:04X} | {row.name} | {row.type} | {row.becomes} | {row.factor:.9g} |"
+        for row in registry.retired
+    ]
 
 
 def _channels(registry: Registry) -> list[str]:

@@ -16,7 +16,7 @@ def test_a_zero_is_proposed_from_the_reading_and_written(
     desk: Desk, server: SpindleServer, standing: str
 ) -> None:
     # The sensor at rest reads nothing within its noise, so a wrong zero is what can be mended.
-    body = {"parameters": {"sensor_offset_counts": -1000.0}}
+    body = {"parameters": {"sensor_offset_counts": -400.0}}
     server.ask("PATCH", f"/devices/{standing}/config", json=body)
     page = desk.open("/sensor")
     # Quoted: "not steady yet" has the word in it as well.
@@ -24,7 +24,7 @@ def test_a_zero_is_proposed_from_the_reading_and_written(
 
     page.click("text=Zero from current reading")
     offset = page.locator("input[aria-label='Sensor offset']")
-    expect(offset).not_to_have_value("-1000")
+    expect(offset).not_to_have_value("-400")
     proposed = float(offset.input_value())
     page.click("text=Review and write")
     expect(page.locator("dialog")).to_contain_text("Sensor offset")
@@ -40,13 +40,13 @@ def test_a_zero_is_proposed_from_the_reading_and_written(
 def test_torque_is_the_reading_times_the_gain_that_was_written(
     desk: Desk, server: SpindleServer, standing: str
 ) -> None:
-    body = {"parameters": {"sensor_offset_counts": -1000.0, "sensor_gain_nm_per_count": 0.02}}
+    body = {"parameters": {"sensor_offset_counts": -500.0, "sensor_gain_nm_per_count": 0.0115}}
     server.ask("PATCH", f"/devices/{standing}/config", json=body)
 
     page = desk.open("/sensor")
 
-    # (reading + 1000) x 0.02 with a reading of about nothing.
-    eventually(lambda: desk.number(TORQUE), lambda torque: abs(torque - 20.0) < 1.0)
+    # (reading + 500) x 0.0115 with a reading of about nothing.
+    eventually(lambda: desk.number(TORQUE), lambda torque: abs(torque - 5.75) < 0.5)
     assert page.inner_text(RAW) != "—"
 
 

@@ -102,12 +102,25 @@ def test_a_token_shown_to_a_riding_bike_waits_until_it_stands() -> None:
 def test_a_factory_parameter_is_asked_for_at_the_factory_s_level() -> None:
     bench = lowered(MAKER.public_key)
 
-    error = refusal(bench, {"wheel_radius_m": 0.35})
+    error = refusal(bench, {"wheel_pulses_per_turn": 18})
     assert isinstance(error, TokenNeeded)
     assert error.challenge["level"] == "FACTORY"
 
     token = MAKER.sign(challenge_of(error))
-    bench.ask(write_config(bench.ask(read_config()), {"wheel_radius_m": 0.35}, token=token))
+    bench.ask(write_config(bench.ask(read_config()), {"wheel_pulses_per_turn": 18}, token=token))
+
+
+def test_a_wheel_beyond_its_band_is_named_with_what_may_be_set_and_what_to_do() -> None:
+    bench = lowered(MAKER.public_key)
+
+    error = refusal(bench, {"wheel_circumference_m": 1.6, "torque_filter_s": 0.4})
+
+    assert isinstance(error, TokenNeeded)
+    assert error.challenge["level"] == "FACTORY"
+    assert [(f.field, f.code) for f in error.fields] == [("wheel_circumference_m", "outside_band")]
+    assert "from 1.9905131 to 2.156389 it may be set here" in error.message
+    assert "within 4 % of the factory's 2.073451" in error.message
+    assert "Measure it once more" in error.message
 
 
 def test_a_unit_without_a_key_says_that_nobody_can() -> None:

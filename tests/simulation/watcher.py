@@ -30,6 +30,7 @@ from firmware_protocol._generated import (
     StrSnapshotResponse,
     StrSubscribeResponse,
 )
+from firmware_protocol.bands import bands_left
 from firmware_protocol.codec import Event, Request, Response, Stream, decode, encode
 from firmware_protocol.framing import FrameDecoder, encode_frame
 from firmware_protocol.layout import MISSING, Message, Value
@@ -328,12 +329,13 @@ class Watcher:
 
 
 def raised_limits(before: Mapping[str, Value], after: Mapping[str, Value]) -> list[str]:
-    """The limits that went up, of those that may only go down."""
-    return [
+    """The limits that went up, of those that may only go down, and the bands that were left."""
+    raised = [
         name
         for name, row in PARAMETER_BY_NAME.items()
         if row.ratchet and float(str(after[name])) > float(str(before[name]))
     ]
+    return raised + [band.parameter for band in bands_left(before, after)]
 
 
 def boot_twin(flash: bytes) -> Generation:

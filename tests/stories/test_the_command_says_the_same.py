@@ -6,6 +6,7 @@ Exit 0 done, 1 refused with the reason, 2 wrong usage (contract, Commands).
 from __future__ import annotations
 
 import json
+import math
 import subprocess
 import sys
 from pathlib import Path
@@ -57,6 +58,22 @@ def test_a_parameter_is_set_backed_up_compared_and_restored(
     assert json.loads(value.stdout)["parameters"]["torque_filter_s"] == pytest.approx(0.5)
     assert json.loads(before.stdout)["parameters"]["torque_filter_s"] == pytest.approx(0.7)
     assert json.loads(made.stdout)["parameters"] == default_config()
+
+
+def test_a_backup_of_an_older_unit_is_restored_and_says_what_became_of_the_wheel(
+    server: SpindleServer, device: str, tmp_path: Path
+) -> None:
+    server.stand_still(device)
+    kept = tmp_path / "old.json"
+    kept.write_text(json.dumps({"parameters": {"wheel_radius_m": 0.34, "gear_ratio": 40.34}}))
+
+    restore = spindle(server, "device", "restore", kept)
+    value = spindle(server, "device", "get", "wheel_circumference_m", "--json")
+
+    assert restore.returncode == 0, restore.stderr
+    assert "wheel_radius_m 0.34 is wheel_circumference_m 2.13628 now" in restore.stdout
+    found = json.loads(value.stdout)["parameters"]["wheel_circumference_m"]
+    assert found == pytest.approx(2 * math.pi * 0.34, rel=1e-6)
 
 
 def test_a_refused_value_is_named_and_ends_with_one(server: SpindleServer, device: str) -> None:

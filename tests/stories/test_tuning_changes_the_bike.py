@@ -151,7 +151,7 @@ def test_raw_counts_become_newton_metres_by_the_calibration_that_was_written(
     server: SpindleServer, device: str
 ) -> None:
     calibration = server.get(f"/devices/{device}/calibration")
-    calibration["sensor_gain_nm_per_count"] *= 2.0
+    calibration["sensor_gain_nm_per_count"] *= 1.1
     calibration["sensor_offset_counts"] += 100.0
 
     server.ask("PUT", f"/devices/{device}/calibration", json=calibration)

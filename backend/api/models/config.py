@@ -24,6 +24,14 @@ CONFIRM_S = (
 )
 
 
+class Free(Answer):
+    """Without the maker's token a value may be set from here to there."""
+
+    min: float
+    max: float
+    around: str = Field(description="The parameter that holds what the factory measured.")
+
+
 class Parameter(Answer):
     """What a parameter is, and its value in the unit now.
 
@@ -41,6 +49,9 @@ class Parameter(Answer):
     default: ParameterValue
     access: Literal["RIDER", "DEALER", "FACTORY"]
     value: ParameterValue | None
+    free: Free | None = Field(
+        default=None, description="Only of parameters that are held near the factory's value."
+    )
     choices: list[str] | None = None
     description: str
 

@@ -63,6 +63,22 @@ class Calibration(LawModel):
     torque_filter_s: float
     torque_rate_interval_ms: int
     torque_rate_floor_nm: float
+    sensor_offset_counts_factory: float | None = Field(
+        default=None,
+        description=(
+            "What the factory measured: within 5 Nm of it `sensor_offset_counts` needs no token. "
+            "Told by the unit; not looked at when it is written."
+        ),
+        json_schema_extra={"readOnly": True},
+    )
+    sensor_gain_nm_per_count_factory: float | None = Field(
+        default=None,
+        description=(
+            "What the factory measured: within 15 % of it `sensor_gain_nm_per_count` needs no "
+            "token. Told by the unit; not looked at when it is written."
+        ),
+        json_schema_extra={"readOnly": True},
+    )
 
 
 class Limits(LawModel):

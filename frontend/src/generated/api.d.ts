@@ -902,6 +902,16 @@ export interface components {
             torque_rate_interval_ms: number;
             /** Torque Rate Floor Nm */
             torque_rate_floor_nm: number;
+            /**
+             * Sensor Offset Counts Factory
+             * @description What the factory measured: within 5 Nm of it `sensor_offset_counts` needs no token. Told by the unit; not looked at when it is written.
+             */
+            readonly sensor_offset_counts_factory?: number | null;
+            /**
+             * Sensor Gain Nm Per Count Factory
+             * @description What the factory measured: within 15 % of it `sensor_gain_nm_per_count` needs no token. Told by the unit; not looked at when it is written.
+             */
+            readonly sensor_gain_nm_per_count_factory?: number | null;
         };
         /** Change */
         Change: {
@@ -1273,6 +1283,21 @@ export interface components {
             offset_nm: number;
         };
         /**
+         * Free
+         * @description Without the maker's token a value may be set from here to there.
+         */
+        Free: {
+            /** Min */
+            min: number;
+            /** Max */
+            max: number;
+            /**
+             * Around
+             * @description The parameter that holds what the factory measured.
+             */
+            around: string;
+        };
+        /**
          * FuzzyTable
          * @description Five by five rules: `rules[speed][torque rate]`.
          */
@@ -1523,6 +1548,8 @@ export interface components {
             access: "RIDER" | "DEALER" | "FACTORY";
             /** Value */
             value: number | string | (number | string)[] | (number | string)[][] | null;
+            /** @description Only of parameters that are held near the factory's value. */
+            free: components["schemas"]["Free"] | null;
             /** Choices */
             choices: string[] | null;
             /** Description */

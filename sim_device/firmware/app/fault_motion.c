@@ -29,12 +29,11 @@
 #define HALL_SHARE 0.25f
 
 #define KMH_PER_M_PER_MIN 0.06f
-#define TWO_PI 6.2831853f
 #define STEPS_PER_MIN (60.0f * 1000000.0f / (float)EBL_CONTROL_PERIOD_US)
 
 static float wheel_kmh(const ebl_config *config, float wheel_rpm)
 {
-    return wheel_rpm * TWO_PI * config->wheel_radius_m * KMH_PER_M_PER_MIN;
+    return wheel_rpm * config->wheel_circumference_m * KMH_PER_M_PER_MIN;
 }
 
 fault_sign fault_motion_mismatch(const hal_inputs *inputs, const ebl_config *config,

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "ebl_bytes.h"  // ebl_put_u32, ebl_put_u64
+#include "ebl_values.h" // ebl_band_holds
 #include "monocypher.h" // crypto_verify64
 #include "signature.h"  // signature_is_valid
 
@@ -184,6 +185,12 @@ uint8_t unlock_level_needed(const uint8_t *active_image, const uint8_t *staged_i
         if (parameter->access == EBL_ACCESS_FACTORY) return EBL_ACCESS_FACTORY;
         if ((parameter->flags & EBL_PARAMETER_RATCHET) == 0) continue;
         if (is_raised(parameter, active, staged)) needed = EBL_ACCESS_DEALER;
+    }
+    for (size_t i = 0; i < EBL_BAND_COUNT; i++) {
+        size_t at = ebl_bands[i].offset;
+
+        if (memcmp(active_image + at, staged_image + at, sizeof(float)) == 0) continue;
+        if (!ebl_band_holds(&ebl_bands[i], staged_image)) return EBL_ACCESS_FACTORY;
     }
     return needed;
 }

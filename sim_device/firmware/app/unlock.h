@@ -45,8 +45,8 @@ int unlock_permits(const unlock *lock, uint8_t level, const uint8_t *image, uint
 /* Takes back grant and nonce. True if something was granted. */
 int unlock_drop(unlock *lock);
 
-/* The level a change needs beyond a dealer's tools: FACTORY for a factory's parameter, DEALER for
- * a ratchet that goes up, RIDER for none. */
+/* The level a change needs beyond a dealer's tools: FACTORY for a factory's parameter and for a
+ * value that leaves its band, DEALER for a ratchet that goes up, RIDER for none. */
 uint8_t unlock_level_needed(const uint8_t *active_image, const uint8_t *staged_image);
 
 #endif

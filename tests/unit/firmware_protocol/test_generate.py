@@ -29,6 +29,11 @@ def test_every_generated_file_is_what_the_registry_says() -> None:
         ('enum = "label"', 'enum = "labels"', "enum labels must exist"),
         ('low = "fixed_taper_start_kmh"', 'low = "taper"', "order of unknown parameters taper"),
         ("max = 100.0\n", "", "numbers need min and max"),
+        ("within_pct = 4.0\n", "", "within_pct or within, one of them"),
+        ('times = "sensor_gain_nm_per_count_factory"', 'times = "cog_teeth"', "single f32"),
+        ('around = "wheel_circumference_m_factory"', 'around = "torque_filter_s"', "the factory's"),
+        ('name = "wheel_radius_m"', 'name = "cog_teeth"', "never given again"),
+        ('becomes = "wheel_circumference_m"', 'becomes = "wheel"', "is no parameter"),
     ],
 )
 def test_a_registry_that_breaks_its_own_rules_is_refused(

@@ -326,6 +326,17 @@ def test_a_believable_time_far_away_cannot_fill_the_memory() -> None:
     assert len(ride.rows.times_us) <= 2_000_000
 
 
+def test_a_log_of_an_earlier_firmware_keeps_the_gear_of_its_unit() -> None:
+    # The image that ended behind assist_cutoff_extra_kmh, with a radius where the wheel is now.
+    image = bytearray(pack_image({**default_config(), "gear_ratio": 36.744})[:413])
+    image[287:291] = struct.pack("<f", 0.33)
+    payload = UID + bytes(8) + struct.pack("<II", 4, zlib.crc32(image)) + bytes(image)
+
+    data = b"".join([block(CONFIG, 0, payload), *whole_log()[1:]])
+
+    assert read_blocks(data).rides[0].context.gear_ratio == pytest.approx(36.744)
+
+
 def test_a_configuration_that_is_not_what_its_check_value_says_is_not_believed() -> None:
     image = bytearray(pack_image(default_config()))
     payload = UID + SCHEMA_HASH + struct.pack("<II", 4, zlib.crc32(image) ^ 1) + bytes(image)

@@ -60,6 +60,7 @@ function parameter(name: string): Parameter {
     access: 'DEALER',
     value,
     choices: null,
+    free: null,
     description: '',
   }
 }

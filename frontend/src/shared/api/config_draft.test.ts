@@ -19,6 +19,7 @@ const parameter = (name: string): Parameter => ({
   access: 'DEALER',
   value: 25,
   choices: null,
+    free: null,
   description: '',
 })
 

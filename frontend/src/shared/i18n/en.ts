@@ -279,6 +279,10 @@ export const en = {
   'ratchet.lowered':
     "Can be lowered freely; raising it again needs the maker's token. On trial it goes back by " +
     'itself.',
+  'band.known': "from {low} to {high} without the maker's token",
+  'band.left':
+    "Further from the factory's value than may be set here ({low} to {high}). Measure it again; " +
+    "if it is right, it needs the maker's token: the unit will ask for it.",
   'ratchet.raised': "Raising it needs the maker's token: the unit will ask for it.",
   'unlock.title': 'Token of the maker',
   'unlock.explain':

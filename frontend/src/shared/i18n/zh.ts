@@ -248,6 +248,9 @@ export const zh: Record<Key, string> = {
 
   'ratchet.known': '可自由调低；再调高需要制造商的令牌',
   'ratchet.lowered': '可自由调低；之后再调高需要制造商的令牌。若只是试用，会自动恢复。',
+  'band.known': '{low} 至 {high} 之间无需制造商的令牌',
+  'band.left':
+    '偏离出厂值过多，此处可设 {low} 至 {high}。请重新测量；若数值无误，需要制造商的令牌：写入时单元会索取。',
   'ratchet.raised': '调高需要制造商的令牌：写入时单元会索取。',
   'unlock.title': '制造商令牌',
   'unlock.explain':

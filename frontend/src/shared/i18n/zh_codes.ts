@@ -34,6 +34,7 @@ const violation = {
   not_text: '不是单元能显示的文字',
   taper_order: '必须大于衰减开始的速度',
   token_needed: '调高此限值需要制造商的令牌',
+  outside_band: '偏离出厂值过多：请重新测量；若数值无误，需要制造商的令牌',
   access_denied: '只有制造商可以修改',
   not_accepted: '不接受此值',
   shared: '两个规则表共用，请在第一规则表中修改',

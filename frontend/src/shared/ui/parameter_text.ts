@@ -1,7 +1,7 @@
 // Words for parameters: labels, elements, choices, faults and differences, in the reader's units.
 import type { DraftChange, ConfigDraft } from '../api/config_draft.svelte'
 import { faultsOf, walk, type Fault } from '../api/limits'
-import { ratchetMove, type RatchetMove } from '../api/ratchet'
+import { ratchetMove } from '../api/ratchet'
 import type { Parameter, ParameterValue } from '../api/types'
 import type { Locale } from '../i18n/locale.svelte'
 import type { Units } from '../units/units.svelte'
@@ -15,8 +15,8 @@ export interface ElementChange {
   value: string
   range: string
   fault: string | null
-  /** For a limit that only a token brings up: which way it goes. */
-  ratchet: RatchetMove | null
+  /** For what only a token changes, or changes back: what the reader should know. */
+  token: string | null
 }
 
 /** What a parameter is called; a new one is called by its name in words. */
@@ -48,6 +48,34 @@ export function rangeText(parameter: Parameter, units: Units): string {
   if (min == null || max == null) return ''
   const shown = `${shownTyped(min, unit, units)} … ${shownTyped(max, unit, units)}`
   return `${shown} ${units.label(unit)}`.trim()
+}
+
+/** From where to where a value goes without a token, or that it goes beyond. */
+export function bandText(
+  locale: Locale,
+  units: Units,
+  parameter: Parameter,
+  said: 'known' | 'left',
+): string {
+  const { free, unit } = parameter
+  const shown = (value: number) => `${shownTyped(value, unit, units)} ${units.label(unit)}`.trim()
+  return free ? locale.t(`band.${said}`, { low: shown(free.min), high: shown(free.max) }) : ''
+}
+
+/** What a token is needed for, in words; null where none is, and for what is lowered a warning. */
+function tokenText(
+  locale: Locale,
+  units: Units,
+  parameter: Parameter,
+  old: number | string | undefined,
+  value: number | string,
+): string | null {
+  const { free } = parameter
+  const left = free && typeof value === 'number' && !(value >= free.min && value <= free.max)
+  if (left && value !== old)
+    return bandText(locale, units, parameter, 'left')
+  const move = ratchetMove(parameter.name, old ?? null, value)
+  return move && locale.t(`ratchet.${move}`)
 }
 
 /** A fault in words. */
@@ -100,7 +128,7 @@ export function elementChanges(
       value: elementText(locale, units, parameter, element),
       range: rangeText(parameter, units),
       fault: fault ? faultText(locale, units, fault, parameter.unit) : null,
-      ratchet: ratchetMove(parameter.name, old ?? null, element),
+      token: tokenText(locale, units, parameter, old, element),
     })
   })
   return found
