@@ -1,12 +1,11 @@
 """Units: add one by its url, look at it, listen to it, let it go. Several at once.
 
 A device keeps the id it got when it was added: the unit's serial number if it answered by then,
-else a name made of its url. Either way it is found by its serial number too, once that is known.
+else one made of its url. Either way it is found by both: a name once written down stays good.
 """
 
 from __future__ import annotations
 
-import re
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
@@ -27,6 +26,7 @@ from backend.device.states import DeviceEvent, LinkState
 from backend.device.stream import StreamPlan
 from backend.device.upkeep import Upkeep, read_upkeep
 from backend.errors import Conflict, DeviceRefused, InvalidRequest, NotFound
+from backend.services.device_ids import canonical, id_of
 from backend.services.device_view import ConfigStamp, DeviceView, FaultView
 from backend.services.outcome import telling
 
@@ -117,7 +117,7 @@ class Devices:
         Waits up to `wait_s` for the unit to say who it is. The same url twice is the same device.
         Raises InvalidRequest for a bad url, Conflict when the unit is here by another way already.
         """
-        url = url.strip()
+        url = canonical(url)
         kind = kind_of(url)
         with self._lock:
             device = self._devices.get(url)
@@ -144,7 +144,7 @@ class Devices:
         return [_view(device) for device in devices]
 
     def get(self, device_id: str) -> DeviceView:
-        """One device by its id or its serial number. Raises NotFound."""
+        """One device by its id, its serial number or its url's id. Raises NotFound."""
         return _view(self._find(device_id))
 
     def ports(self) -> Sequence[PortInfo]:
@@ -291,7 +291,7 @@ class Devices:
             if serial_number is not None and twins:
                 return twins[0]
             if device.id is None:
-                device.id = serial_number or _name_of(device.url)
+                device.id = serial_number or id_of(device.url)
         return None
 
     def _close(self, device: _Device) -> None:
@@ -309,7 +309,7 @@ class Devices:
             if device.id == device_id:
                 return device
         for device in devices:
-            if device.id is not None and device.serial_number == device_id:
+            if device.id is not None and device_id in (device.serial_number, id_of(device.url)):
                 return device
         raise NotFound(f"There is no device {device_id}. `GET /devices` lists those there are.")
 
@@ -334,16 +334,11 @@ def _bound(watcher: Watcher, device_id: str) -> Listener:
     return lambda event: watcher(device_id, event)
 
 
-def _name_of(url: str) -> str:
-    """An id made of a url: `dev-ttyusb0`, `socket-127-0-0-1-8751`."""
-    return re.sub(r"[^a-z0-9]+", "-", url.lower()).strip("-")
-
-
 def _view(device: _Device) -> DeviceView:
     status = device.driver.status()
     identity = status.identity
     return DeviceView(
-        id=device.id or _name_of(device.url),
+        id=device.id or id_of(device.url),
         url=device.url,
         kind="simulated" if identity and identity.simulated else device.kind,
         state=status.state.value,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from typing import Any
-from urllib.parse import parse_qs
 
 from fastapi import APIRouter, Response, status
 
@@ -23,11 +22,8 @@ from backend.api.models.device import (
 )
 from backend.api.problem import refusals
 from backend.api.services import Provided
-from backend.errors import FieldError, InvalidRequest
+from backend.services.asked_url import check_asked
 from backend.services.simulate import advance, scenarios
-
-# Settings of a simulated unit that are paths.
-FILE_SETTINGS = frozenset({"flash", "unlock_key"})
 
 router = APIRouter(tags=["devices"], responses=refusals(404, 409, 503, 504))
 
@@ -52,18 +48,10 @@ async def list_devices(services: Provided) -> dict[str, Any]:
 )
 def add_device(body: DeviceRequest, services: Provided, response: Response) -> Any:
     """Opens a unit; it connects, and reconnects, in the background."""
-    refuse_files(body.url)
+    check_asked(body.url)
     device = services.devices.add(body.url)
     response.headers["location"] = f"/api/v1/devices/{device.id}"
     return device
-
-
-def refuse_files(url: str) -> None:
-    """A request may not name files of the server's machine; the command line may."""
-    named = sorted(FILE_SETTINGS & parse_qs(url.partition("?")[2], keep_blank_values=True).keys())
-    if named:
-        message = f"{named[0]} names a file of this machine: only `spindle serve --device` may."
-        raise InvalidRequest(message, fields=[FieldError("url", "not_from_here", message)])
 
 
 @router.get("/devices/{device_id}", operation_id="get_device", response_model=Device)
