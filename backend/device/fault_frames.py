@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from backend.device.faults import FAULT_BITS, KNOWN, fault_name
 from backend.device.live_values import LiveValues, values_of
 from backend.device.operation import Operation, ask, attempt, expect
 from firmware_protocol._generated import (
@@ -13,7 +14,6 @@ from firmware_protocol._generated import (
     EvtFaultFreezeResponse,
     EvtFaultListRequest,
     EvtFaultListResponse,
-    FaultFlags,
     Status,
 )
 
@@ -38,11 +38,13 @@ def fault_frames() -> Operation[list[FaultFrame]]:
     """The faults that are active or were, by their bit. Raises NoAnswer, DeviceRefused."""
     listed = yield from ask(EvtFaultListRequest(), EvtFaultListResponse)
     found = []
-    for flag in FaultFlags:
-        active = bool(listed.fault_flags & flag)
-        request = EvtFaultFreezeRequest(flag.bit_length() - 1)
+    for bit in range(FAULT_BITS):
+        active = bool(listed.fault_flags >> bit & 1)
+        if bit not in KNOWN and not active:
+            continue  # what a newer firmware has besides is asked for only while it is there
+        request = EvtFaultFreezeRequest(bit)
         response = yield from attempt(request)
-        name = flag.name or f"FAULT_{request.fault_bit}"
+        name = fault_name(bit)
         if response.status in (Status.NOT_FOUND, Status.UNKNOWN_MSG):
             if active:
                 found.append(FaultFrame(name, True, 1, None))

@@ -2,9 +2,22 @@
 
 from __future__ import annotations
 
-from firmware_protocol._generated import FAULT_BY_NAME, Severity
+from firmware_protocol._generated import FAULT_BY_NAME, FaultFlags, Severity
+
+FAULT_BITS = 32
+KNOWN = {flag.bit_length() - 1: flag.name for flag in FaultFlags}
 
 UNKNOWN = "This Spindle does not know this fault; the unit's firmware is newer."
+
+
+def fault_name(bit: int) -> str:
+    """The fault of a bit; one of a newer firmware is `FAULT_n`."""
+    return KNOWN.get(bit) or f"FAULT_{bit}"
+
+
+def fault_names(flags: int) -> tuple[str, ...]:
+    """The faults of a set of flags, by their bit."""
+    return tuple(fault_name(bit) for bit in range(FAULT_BITS) if flags >> bit & 1)
 
 
 def fault_description(name: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from backend.device.config_trial import TrialStatus
+from backend.device.faults import fault_names
 from backend.device.handshake import Acquaintance
 from backend.device.states import UnitEvent
 from backend.device.statistics import LinkStatistics
@@ -13,14 +14,11 @@ from firmware_protocol._generated import (
     ConfigProvisionalEvent,
     ConfigRolledBackEvent,
     FaultClearedEvent,
-    FaultFlags,
     FaultSetEvent,
     StreamCountsEvent,
 )
 from firmware_protocol._generated import Event as EventCode
 from firmware_protocol.codec import Event
-
-FAULT_BITS = 32
 
 
 class UnitNotes:
@@ -42,7 +40,7 @@ class UnitNotes:
     @property
     def faults_active(self) -> tuple[str, ...]:
         """Names of the active faults; one of a newer firmware is `FAULT_n`."""
-        return tuple(_fault_name(bit) for bit in range(FAULT_BITS) if self.fault_flags >> bit & 1)
+        return fault_names(self.fault_flags)
 
     def begin(self, acquaintance: Acquaintance, now_s: float) -> None:
         """Start from what the handshake found."""
@@ -102,8 +100,3 @@ class UnitNotes:
             self.fault_flags |= message.fault_flags
         else:
             self.fault_flags &= ~message.fault_flags
-
-
-def _fault_name(bit: int) -> str:
-    known = {flag.value: flag.name for flag in FaultFlags}
-    return known.get(1 << bit) or f"FAULT_{bit}"

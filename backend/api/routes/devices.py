@@ -98,7 +98,9 @@ def list_faults(device_id: str, services: Provided) -> Any:
     "/devices/{device_id}/faults/clear", operation_id="clear_faults", response_model=FaultList
 )
 def clear_faults(device_id: str, services: Provided) -> Any:
-    """Forgets the faults that are over; one that is active stays. Lists what is left."""
+    """Ends latched faults whose cause has been gone for a second, if the bike stands still, and
+    forgets those that are over. Lists what is left: whatever still has its cause, and all that is
+    active while the bike moves."""
     return {"items": services.devices.clear_faults(device_id)}
 
 

@@ -180,7 +180,9 @@ export interface paths {
         put?: never;
         /**
          * Clear Faults
-         * @description Forgets the faults that are over; one that is active stays. Lists what is left.
+         * @description Ends latched faults whose cause has been gone for a second, if the bike stands still, and
+         *     forgets those that are over. Lists what is left: whatever still has its cause, and all that is
+         *     active while the bike moves.
          */
         post: operations["clear_faults"];
         delete?: never;

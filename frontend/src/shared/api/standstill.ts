@@ -10,7 +10,28 @@ export interface Pause {
   wait: (ms: number) => Promise<void>
 }
 
+// What the unit itself takes for standing still.
+const SPEED_KMH_MAX = 0.5
+const MOTOR_SPEED_RPM_MAX = 30
+
+/** Whether wheel and motor rest; stands is null where the unit does not tell both. */
+export interface Standstill {
+  stands: boolean | null
+  speed_kmh: number | null
+}
+
 const browser: Pause = { wait: (ms) => new Promise((resolve) => setTimeout(resolve, ms)) }
+
+/** What a row of channels says about standing still. */
+export function standstillOf(channels: Record<string, number | null>): Standstill {
+  const { speed_kmh = null, motor_speed_rpm = null } = channels
+  const turns = (value: number | null, most: number) =>
+    value === null ? null : Math.abs(value) >= most
+  const wheel = turns(speed_kmh, SPEED_KMH_MAX)
+  const motor = turns(motor_speed_rpm, MOTOR_SPEED_RPM_MAX)
+  if (wheel || motor) return { stands: false, speed_kmh }
+  return { stands: wheel === null || motor === null ? null : true, speed_kmh }
+}
 
 /** Stops the simulated rider, acts once the bike stands, and lets the rider go on. */
 export async function whileStanding<T>(
@@ -38,9 +59,9 @@ async function actOnceStanding<T>(
   pause: Pause,
 ): Promise<T> {
   for (let waited_ms = 0; ; waited_ms += POLL_MS) {
-    const { speed_kmh, motor_speed_rpm } = await server.channels(id)
-    const standing = Math.abs(speed_kmh ?? 0) < 0.05 && Math.abs(motor_speed_rpm ?? 0) < 1
-    if (standing || waited_ms >= WAIT_MS_MAX) {
+    const { stands } = standstillOf(await server.channels(id))
+    // A unit that does not tell its speed is not waited for: it says itself whether it moves.
+    if (stands !== false || waited_ms >= WAIT_MS_MAX) {
       try {
         return await act()
       } catch (error) {

@@ -1,8 +1,11 @@
-// English: the words of the pages. What the unit speaks of (parameters, channels) is in en_unit.ts.
+// English: the words of the pages. What the unit speaks of (parameters, channels) is in en_unit.ts,
+// how things stand (faults) in en_state.ts.
+import { enState } from './en_state'
 import { enUnit } from './en_unit'
 
 export const en = {
   ...enUnit,
+  ...enState,
   'app.choose_unit': 'Choose a unit',
   'app.dismiss': 'Dismiss',
   'app.loading': 'Loading…',
@@ -419,7 +422,6 @@ export const en = {
   'service.active': 'active now',
   'service.over': 'over',
   'service.times': 'came {count} times since the unit was switched on',
-  'service.clear': 'Clear the faults that are over',
   'service.frozen': 'What the bike did then ({time} after switch-on)',
   'service.unknown': 'The unit does not answer; its faults are unknown.',
   'service.rider_reads': 'The rider reads: “{words}”',

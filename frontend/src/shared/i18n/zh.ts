@@ -1,9 +1,11 @@
 // 中文：页面用语。缺少任何一个词，类型检查都会失败。
 import type { Key } from './en'
+import { zhState } from './zh_state'
 import { zhUnit } from './zh_unit'
 
 export const zh: Record<Key, string> = {
   ...zhUnit,
+  ...zhState,
   'app.choose_unit': '选择驱动单元',
   'app.dismiss': '关闭',
   'app.loading': '正在载入…',
@@ -384,7 +386,6 @@ export const zh: Record<Key, string> = {
   'service.active': '当前存在',
   'service.over': '已消失',
   'service.times': '开机以来出现 {count} 次',
-  'service.clear': '清除已消失的故障',
   'service.frozen': '故障发生时的状态（开机后 {time}）',
   'service.unknown': '单元没有应答，故障未知。',
   'service.rider_reads': '骑手看到：“{words}”',

@@ -1,0 +1,40 @@
+// English: how things stand. Faults of the unit and how they end.
+export const enState = {
+  'faults.one': '1 fault',
+  'faults.many': '{count} faults',
+  'faults.warning_one': '1 warning',
+  'faults.warning_many': '{count} warnings',
+  'faults.no_assist': 'no assist',
+  'faults.title': 'What is wrong with the unit',
+  'faults.newer': '{name}, unknown to this Spindle',
+  'faults.newer_text':
+    "The unit's firmware is newer than this Spindle and does not say more. A Spindle that goes " +
+    'with it knows what this fault means.',
+  'faults.old': 'This is how it was when the unit was last seen.',
+  'faults.check': 'What to check',
+  'faults.told': 'Fault of the unit: {names}.',
+  'faults.told_over': 'Over: {names}.',
+  'faults.by_itself': 'It goes by itself a second after its cause.',
+  'faults.clear_one': 'Clear the fault',
+  'faults.clear_many': 'Clear the faults',
+  'faults.forget': 'Clear the faults that are over',
+  'faults.clearing': 'Clearing…',
+  'faults.standing':
+    'The bike stands still, so it can be cleared once its cause has been gone for a second. The ' +
+    'unit decides.',
+  'faults.moving':
+    'The bike moves ({speed}). The unit clears a fault only at standstill: stop first, motor too.',
+  'faults.speed_unknown':
+    'Whether the bike stands still is not known. The unit clears a fault only at standstill.',
+  'faults.cleared': 'Cleared: {names}.',
+  'faults.forgotten': 'The faults that were over are cleared.',
+  'faults.not_cleared_moving':
+    'Not cleared, because the bike moves: {names}. Stop and clear again.',
+  'faults.not_cleared_cause':
+    'Not cleared: {names}. The bike stands still, so the cause is still there, or has been gone ' +
+    'for less than a second. Mend it, wait a second, clear again. Switching off and on clears it ' +
+    'too, but it comes back as long as its cause is there.',
+  'faults.not_asked': 'Nothing was cleared:',
+  'faults.stop_clear': 'Stop the simulated rider and clear',
+  'faults.stopping': 'The simulated rider stops; the fault is cleared when the bike stands still.',
+}

@@ -1,0 +1,35 @@
+// 中文：现状。单元的故障，以及如何结束。
+import type { enState } from './en_state'
+
+export const zhState: Record<keyof typeof enState, string> = {
+  'faults.one': '1 个故障',
+  'faults.many': '{count} 个故障',
+  'faults.warning_one': '1 条提示',
+  'faults.warning_many': '{count} 条提示',
+  'faults.no_assist': '没有助力',
+  'faults.title': '单元有什么问题',
+  'faults.newer': '{name}（此 Spindle 不认识）',
+  'faults.newer_text':
+    '单元的固件比此 Spindle 新，没有更多说明。与该固件配套的 Spindle 知道此故障的含义。',
+  'faults.old': '这是最后一次见到单元时的情况。',
+  'faults.check': '检查什么',
+  'faults.told': '单元故障：{names}。',
+  'faults.told_over': '已消失：{names}。',
+  'faults.by_itself': '原因消失一秒后自行结束。',
+  'faults.clear_one': '清除故障',
+  'faults.clear_many': '清除故障',
+  'faults.forget': '清除已消失的故障',
+  'faults.clearing': '正在清除…',
+  'faults.standing': '车已停稳：原因消失满一秒后即可清除。由单元决定。',
+  'faults.moving': '车在移动（{speed}）。单元只在停稳时清除故障：请先停车，电机也要停下。',
+  'faults.speed_unknown': '不知车是否停稳。单元只在停稳时清除故障。',
+  'faults.cleared': '已清除：{names}。',
+  'faults.forgotten': '已消失的故障已清除。',
+  'faults.not_cleared_moving': '没有清除，因为车在移动：{names}。请停车后再清除。',
+  'faults.not_cleared_cause':
+    '没有清除：{names}。车已停稳，说明原因仍在，或消失不到一秒。请排除原因，等一秒后再清除。' +
+    '关机再开机也能清除，但只要原因还在，故障会再次出现。',
+  'faults.not_asked': '没有清除任何故障：',
+  'faults.stop_clear': '让模拟骑手停下并清除',
+  'faults.stopping': '模拟骑手正在停下；停稳后清除故障。',
+}

@@ -1,0 +1,32 @@
+/* Goal: every fault has words and a way to end, one of a newer firmware too, and a fault that takes
+   the assist is never shown as a mere warning. */
+import { FAULTS } from '$generated/registry'
+import { expect, it } from 'vitest'
+import type { Device } from '../api/types'
+import { Locale } from '../i18n/locale.svelte'
+import { faultCount, faultLabel, faultTone, riderText, severityOf } from './fault_text'
+
+const locale = new Locale()
+const unit = (...faults_active: string[]) => ({ faults_active }) as Partial<Device> as Device
+
+it('has words for every fault of the registry', () => {
+  for (const name of Object.keys(FAULTS)) {
+    expect(faultLabel(locale, name)).not.toContain(name)
+    expect(riderText(locale, name).length).toBeGreaterThan(10)
+  }
+})
+
+it('takes a fault it does not know for one that stays, and says that the firmware is newer', () => {
+  expect(severityOf('FAULT_29')).toBe('latched')
+  expect(faultLabel(locale, 'FAULT_29')).toContain('FAULT_29')
+  expect(riderText(locale, 'FAULT_29')).toContain('firmware is newer')
+  expect(faultTone(unit('FAULT_29'))).toBe('bad')
+})
+
+it('counts warnings as warnings only while there is nothing worse', () => {
+  expect([faultTone(null), faultTone(unit())]).toEqual([null, null])
+  expect(faultTone(unit('CONFIG_DEFAULTED'))).toBe('warn')
+  expect(faultCount(locale, unit('CONFIG_DEFAULTED'))).toBe('1 warning')
+  expect(faultTone(unit('CONFIG_DEFAULTED', 'BATTERY_LOW'))).toBe('bad')
+  expect(faultCount(locale, unit('CONFIG_DEFAULTED', 'BATTERY_LOW'))).toBe('2 faults')
+})
