@@ -22,7 +22,7 @@ MTU = 544
 MAX_OUTSTANDING = 4
 CONTROL_PERIOD_US = 10000
 IMAGE_LENGTH = 426
-SCHEMA_HASH = bytes.fromhex("0aae44fb3234b0a3")
+SCHEMA_HASH = bytes.fromhex("13e0754f9720265e")
 
 
 class Status(IntEnum):
@@ -2009,7 +2009,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0302, name="fuzzy_speed_points_kmh", group="fuzzy",
         type="f32", unit="km/h", shape=(5,),
         length=4, min=0.0, max=45.0, enum=None,
-        increasing=True, access=1, image_offset=169,
+        increasing=True, access=1, image_offset=169, least_step=0.1,
         default=(5.0, 10.0, 15.0, 20.0, 25.0),
         doc="Peaks of the five speed sets.",
     ),
@@ -2017,7 +2017,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0303, name="fuzzy_torque_rate_points", group="fuzzy",
         type="f32", unit="", shape=(5,),
         length=4, min=0.0, max=5.0, enum=None,
-        increasing=True, access=1, image_offset=189,
+        increasing=True, access=1, image_offset=189, least_step=0.001,
         default=(0.0, 0.225, 0.45, 0.675, 0.9),
         doc="Peaks of the five torque-rate sets (relative change over the rate interval).",
     ),
@@ -2025,7 +2025,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0304, name="fuzzy_gain_points", group="fuzzy",
         type="f32", unit="", shape=(5,),
         length=4, min=0.0, max=0.5, enum=None,
-        increasing=True, access=1, image_offset=209,
+        increasing=True, access=1, image_offset=209, least_step=0.001,
         default=(0.1, 0.2, 0.3, 0.4, 0.5),
         doc="Peaks of the five gain sets: what the rules add to the mode's ratio.",
     ),
@@ -2217,7 +2217,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0612, name="second_gain_points", group="second_table",
         type="f32", unit="", shape=(5,),
         length=4, min=0.0, max=0.5, enum=None,
-        increasing=True, access=1, image_offset=363,
+        increasing=True, access=1, image_offset=363, least_step=0.001,
         default=(0.1, 0.2, 0.3, 0.4, 0.5),
         doc="Peaks of the second table's five gain sets.",
     ),

@@ -133,6 +133,8 @@ class Parameter:
     doc: str
     ratchet: bool = False
     """Going down is free, going up needs a token."""
+    least_step: float = 0.0
+    """Least distance of neighbours in an increasing list, to a hundredth."""
 
     @property
     def count(self) -> int:

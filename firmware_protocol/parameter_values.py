@@ -14,6 +14,9 @@ from firmware_protocol.layout import Parameter, Value
 
 INTEGER_LIMITS = {"u8": 0xFF, "u16": 0xFFFF}
 
+STEP_SHARE = np.float32(0.99)
+"""Of the least distance of two points: decimals that are so far apart may be nearer as float32."""
+
 
 class BadValue(ValueError):
     """A value cannot be put into its parameter; `violation` says which and why."""
@@ -83,6 +86,26 @@ def problem_of_range(row: Parameter, number: float) -> tuple[str, str] | None:
     if row.max is not None and number > float32(row.max):
         return "ABOVE_MAX", f"must be at most {row.max:g}{unit}, not {shown(number)}"
     return None
+
+
+def problem_of_step(row: Parameter, before: float, number: float) -> tuple[str, str] | None:
+    """Why a number cannot follow the one before it in an increasing list, as code and words.
+
+    In float32, step by step as the unit computes it, so that both agree to the bit.
+    """
+    if not is_too_near(before, number, row.least_step):
+        return None
+    return (
+        "NOT_INCREASING",
+        f"must be at least {row.least_step:g} above {shown(before)}, the value before it",
+    )
+
+
+def is_too_near(before: float, number: float, least_step: float) -> bool:
+    """Whether a point is not far enough above the one before it; False beside what is no number."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        step = np.float32(number) - np.float32(before)
+        return bool(step < STEP_SHARE * np.float32(least_step))
 
 
 def shown(number: float) -> str:

@@ -26,7 +26,7 @@ from firmware_protocol.parameter_values import (
     float32,
     problem_of_form,
     problem_of_range,
-    shown,
+    problem_of_step,
     unknown_parameter,
     violation_at,
 )
@@ -142,11 +142,8 @@ def _violations_of(row: Parameter, value: Value) -> Iterator[ParameterViolation]
             continue
         number = float32(element)
         problem = problem_of_range(row, number)
-        if problem is None and row.increasing and before is not None and number <= before:
-            problem = (
-                "NOT_INCREASING",
-                f"must be greater than {shown(before)}, the value before it",
-            )
+        if problem is None and row.increasing and before is not None:
+            problem = problem_of_step(row, before, number)
         if problem is not None:
             yield violation_at(row, index, *problem)
         before = number

@@ -16,7 +16,7 @@ MEANING = {
     Violation.NOT_FINITE: "is not a finite number",
     Violation.BELOW_MIN: "is below its minimum",
     Violation.ABOVE_MAX: "is above its maximum",
-    Violation.NOT_INCREASING: "must be greater than the value before it",
+    Violation.NOT_INCREASING: "must be greater than the value before it, by its least step",
     Violation.NOT_A_CHOICE: "is none of its choices",
     Violation.NOT_TEXT: "is no text the unit can show",
     Violation.TAPER_ORDER: "must be greater than where the taper starts",

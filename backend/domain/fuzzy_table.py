@@ -27,6 +27,17 @@ RANGES = {
 """What the unit takes, as in the registry. The gain's is the thesis' universe: it protects the
 rider from a table that triples the torque."""
 
+LEAST_STEPS = {
+    "speed_points_kmh": 0.1,
+    "torque_rate_points": 0.001,
+    "gain_points": 0.001,
+}
+"""Least distance of neighbouring points, as in the registry: nearer than that the law would divide
+by next to nothing, and neither sensor nor rider could tell the points apart."""
+
+STEP_SHARE = np.float32(0.99)
+"""Of that distance, compared in float32 as in the unit: decimals a step apart may be nearer."""
+
 NAME_BYTES_MAX = 24
 
 POINT_FIELDS = tuple(RANGES)
@@ -60,8 +71,8 @@ SHARED_FIELDS = ("speed_points_kmh", "torque_rate_points")
 class FuzzyTable:
     """One table, checked. Raises InvalidRequest naming every field at fault.
 
-    name: at most 24 bytes. inference: one of INFERENCES. The points: five each, finite, increasing
-    as float32, within RANGES. rules: rules[speed][torque rate], labels of LABELS.
+    name: at most 24 bytes. inference: one of INFERENCES. The points: five each, finite, within
+    RANGES, LEAST_STEPS apart as float32. rules: rules[speed][torque rate], labels of LABELS.
     """
 
     name: str
@@ -118,8 +129,7 @@ class FuzzyTable:
 
         which: `first` or `second` of the unit's tables.
         """
-        value = {field: parameters[name] for field, name in PARAMETERS_OF[which].items()}
-        return cls.from_json({**value, "inference": str(value["inference"]).lower()})
+        return cls.from_json(stored_json(parameters, which))
 
     def to_parameters(self, which: str = "first") -> dict[str, Any]:
         """The six parameters this table is in a unit's configuration, as its first or second."""
@@ -129,6 +139,15 @@ class FuzzyTable:
     def label_indices(self) -> np.ndarray[Any, np.dtype[np.int64]]:
         """The rules as int64 (5, 5), 0 for NB to 4 for PB."""
         return np.array([[LABELS.index(label) for label in row] for row in self.rules])
+
+
+def stored_json(parameters: Mapping[str, Any], which: str = "first") -> dict[str, Any]:
+    """The contract's `fuzzy_table` object of a configuration, whatever it holds.
+
+    What an older unit took stays readable where this one would refuse it.
+    """
+    value = {field: parameters[name] for field, name in PARAMETERS_OF[which].items()}
+    return {**value, "inference": str(value["inference"]).lower()}
 
 
 def _frozen(value: Any) -> tuple[Any, ...]:
@@ -162,10 +181,11 @@ def _point_faults(field: str, points: Sequence[Any]) -> Iterable[FieldError]:
         if not np.isfinite(point):
             yield FieldError(where, "not_finite", f"{where} is not a finite number")
             continue
-        if not _narrow(point) > _narrow(previous):
-            yield FieldError(
-                where, "not_increasing", f"{where} is {point:g} and not above {previous:g}"
+        if _narrow(point) - _narrow(previous) < STEP_SHARE * np.float32(LEAST_STEPS[field]):
+            message = (
+                f"{where} is {point:g} and not at least {LEAST_STEPS[field]:g} above {previous:g}"
             )
+            yield FieldError(where, "not_increasing", message)
         low, high = RANGES[field]
         if not low <= point <= high:
             yield FieldError(

@@ -10,7 +10,7 @@ from typing import Any, cast
 from backend.control import cutoff_of
 from backend.device.parameters import Value, group, is_factory
 from backend.domain.assist_mode import AssistModes
-from backend.domain.fuzzy_table import PARAMETERS_OF, SHARED_FIELDS, FuzzyTable
+from backend.domain.fuzzy_table import PARAMETERS_OF, SHARED_FIELDS, FuzzyTable, stored_json
 from backend.errors import FieldError, InvalidRequest
 
 # Parameter of the slots -> where its element `{index}` is in the modes' JSON.
@@ -79,7 +79,7 @@ def _fuzzy_table(which: str) -> ConfigPart:
     names = PARAMETERS_OF[which]
 
     def read(parameters: Mapping[str, Value]) -> dict[str, Any]:
-        return FuzzyTable.from_parameters(parameters, which).to_json()
+        return stored_json(parameters, which)
 
     def changes(value: Mapping[str, Any]) -> dict[str, Value]:
         return cast("dict[str, Value]", FuzzyTable.from_json(value).to_parameters(which))

@@ -24,7 +24,7 @@
 #define EBL_FAULTS_ASSIST_OFF 32759
 #define EBL_FAULTS_LATCHED 29683
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 4692
+#define EBL_SCHEMA_LENGTH 4709
 
 enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */
 
@@ -411,6 +411,7 @@ typedef struct {
     uint16_t config_offset; /* bytes from the start of ebl_config */
     float min;             /* no meaning for texts */
     float max;
+    float least_step;      /* between neighbours that increase */
 } ebl_parameter;
 
 /* The value of `low` must be less than that of `high`; both are single floats. */

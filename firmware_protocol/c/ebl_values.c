@@ -4,6 +4,7 @@
 #include "ebl_bytes.h" // ebl_get_f32
 
 #define NO_VIOLATION 0
+#define STEP_SHARE 0.99f /* decimals a least step apart may be nearer as float32 */
 
 static int is_finite(float value) { return value - value == 0.0f; }
 
@@ -113,7 +114,7 @@ static void parameter_check(const ebl_parameter *parameter, const uint8_t *bytes
         float value = number(parameter, element);
         uint8_t code = range_violation(parameter, value);
         int rises = (parameter->flags & EBL_PARAMETER_INCREASING) != 0 && index > 0;
-        if (code == NO_VIOLATION && rises && value <= before) {
+        if (code == NO_VIOLATION && rises && value - before < STEP_SHARE * parameter->least_step) {
             code = EBL_VIOLATION_NOT_INCREASING;
         }
         if (code != NO_VIOLATION) {

@@ -41,6 +41,7 @@ typedef struct {
     uint16_t config_offset; /* bytes from the start of ebl_config */
     float min;             /* no meaning for texts */
     float max;
+    float least_step;      /* between neighbours that increase */
 } ebl_parameter;
 
 /* The value of `low` must be less than that of `high`; both are single floats. */

@@ -63,7 +63,7 @@ def _parameter_row(registry: Registry, parameter: Parameter) -> str:
         f"    {{0x{parameter.id:04x}, {parameter.image_offset}, EBL_TYPE_{parameter.type.upper()},"
         f" {parameter.count}, {parameter.length}, EBL_ACCESS_{access}, {flags},\n"
         f"     offsetof(ebl_config, {parameter.name}),"
-        f" {float_literal(low)}, {float_literal(high)}}},"
+        f" {float_literal(low)}, {float_literal(high)}, {float_literal(parameter.least_step)}}},"
     )
 
 

@@ -161,7 +161,8 @@ def _parameter(row: Parameter) -> list[str]:
         f"        type={_quoted(row.type)}, unit={_quoted(row.unit)}, shape={row.shape!r},",
         f"        length={row.length}, min={row.min}, max={row.max}, enum={_quoted(row.enum)},",
         f"        increasing={row.increasing}, access={row.access},"
-        f" image_offset={row.image_offset},{' ratchet=True,' if row.ratchet else ''}",
+        f" image_offset={row.image_offset},{' ratchet=True,' if row.ratchet else ''}"
+        f"{f' least_step={row.least_step},' if row.increasing else ''}",
         f"        default={default},",
         f"        doc={_quoted(row.doc)},",
         "    ),",

@@ -208,7 +208,10 @@ def _parameters(rows: list[dict[str, Any]], enums: tuple[Table, ...]) -> tuple[P
             image_offset=offset,
             doc=row["doc"],
             ratchet=row.get("ratchet", False),
+            least_step=row.get("least_step", 0.0),
         )
+        if parameter.increasing != (parameter.least_step > 0):
+            raise BadRegistry(f"{parameter.name}: increasing values need a least_step, others none")
         if parameter.ratchet and (parameter.type == "text" or enum is not None):
             raise BadRegistry(f"{parameter.name}: only numbers can be a ratchet")
         limits = [limit is not None for limit in (parameter.min, parameter.max)]

@@ -74,7 +74,7 @@ def _parameters(registry: Registry) -> list[str]:
         limits = f"{row.min} to {row.max} {row.unit}".strip() if row.enum is None else row.enum
         if row.type == "text":
             limits = "UTF-8, zero-filled"
-        extra = ", increasing" if row.increasing else ""
+        extra = f", increasing by {row.least_step} at least" if row.increasing else ""
         extra += ", ratchet" if row.ratchet else ""
         extra += bands.get(row.name, "")
         lines += [f"### 0x{row.id:04X} {row.name}", "", row.doc, ""]

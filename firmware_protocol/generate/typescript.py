@@ -23,6 +23,8 @@ export interface ParameterRow {
   readonly max: number | null;
   readonly enum: string | null;
   readonly increasing: boolean;
+  /** Least distance of neighbours that increase, to a hundredth; 0 for all others. */
+  readonly least_step: number;
   /** Going down is free, going up needs a token. */
   readonly ratchet: boolean;
   readonly default: ParameterValue;
@@ -67,6 +69,7 @@ def module(registry: Registry) -> str:
             "max": row.max,
             "enum": row.enum,
             "increasing": row.increasing,
+            "least_step": row.least_step,
             "ratchet": row.ratchet,
             "default": row.default,
             "access": access[row.access],

@@ -83,6 +83,11 @@ def _number_rows(row: Parameter, at: int, last: int) -> Iterator[Row]:
         before = at - row.length
         flat = [(row.id, last, "NOT_INCREASING")]
         yield f"{row.name}: flat", {before: most, at: most}, flat
+        near = struct.pack(code, row.max - 0.98 * row.least_step)
+        yield f"{row.name}: too near", {before: near, at: most}, flat
+        apart = struct.pack(code, row.max - row.least_step)
+        yield f"{row.name}: as near as may be", {before: apart, at: most}, []
+        yield f"{row.name}: denormal steps", *_denormal_points(row)
         yield f"{row.name}: least", {row.image_offset: least}, []
     else:
         yield f"{row.name}: least", {at: least}, []
@@ -92,6 +97,13 @@ def _number_rows(row: Parameter, at: int, last: int) -> Iterator[Row]:
         for value in (float("nan"), float("inf"), float("-inf")):
             not_finite = [(row.id, last, "NOT_FINITE")]
             yield f"{row.name}: {value}", {at: struct.pack("<f", value)}, not_finite
+
+
+def _denormal_points(row: Parameter) -> tuple[dict[int, bytes], list[Violation]]:
+    """Every point the next float after the one before: increasing, and nothing to divide by."""
+    points = [struct.pack("<i", index) for index in range(row.count)]
+    changes = {row.image_offset: b"".join(points)}
+    return changes, [(row.id, index, "NOT_INCREASING") for index in range(1, row.count)]
 
 
 def _stepped(code: str, data: bytes, direction: int) -> bytes:

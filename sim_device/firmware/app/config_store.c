@@ -51,17 +51,22 @@ static uint32_t slot_crc(const uint8_t *header, const uint8_t *image)
     return ebl_crc32(crc, image, EBL_IMAGE_LENGTH);
 }
 
-static int slot_is_whole(const uint8_t *head, const uint8_t *image)
+/* A table that an earlier firmware took gets its points moved apart here, and not on the flash. */
+static int slot_is_whole(const uint8_t *head, uint8_t *image)
 {
-    return ebl_get_u32(head + AT_MAGIC) == SLOT_MAGIC &&
-           ebl_get_u32(head + AT_LAYOUT) == parameters_layout_crc32() &&
-           ebl_get_u16(head + AT_LENGTH) == EBL_IMAGE_LENGTH &&
-           ebl_get_u32(head + AT_CRC) == slot_crc(head, image) && parameters_image_is_valid(image);
+    if (ebl_get_u32(head + AT_MAGIC) != SLOT_MAGIC ||
+        ebl_get_u32(head + AT_LAYOUT) != parameters_layout_crc32() ||
+        ebl_get_u16(head + AT_LENGTH) != EBL_IMAGE_LENGTH ||
+        ebl_get_u32(head + AT_CRC) != slot_crc(head, image)) {
+        return 0;
+    }
+    (void)parameters_points_spread(image);
+    return parameters_image_is_valid(image);
 }
 
 /* A state word that was cut in half says as little as one that was never written, but for void:
  * whoever began to take a slot back meant it. */
-static uint8_t slot_state(const uint8_t *head, const uint8_t *image)
+static uint8_t slot_state(const uint8_t *head, uint8_t *image)
 {
     if (ebl_get_u32(head + AT_MAGIC) == WORD_ERASED) return EBL_SLOT_STATE_EMPTY;
     if (!slot_is_whole(head, image)) return EBL_SLOT_STATE_DAMAGED;

@@ -52,7 +52,7 @@ fault_sign fault_motion_mismatch(const hal_inputs *inputs, const ebl_config *con
 static float chain_rpm(float before_rpm, const hal_inputs *inputs, const ebl_config *config,
                        const fault_law *law)
 {
-    float now_rpm = float32_max(inputs->motor_speed_rpm, inputs->cadence_rpm * config->gear_ratio);
+    float now_rpm = float32_max(inputs->cadence_rpm * config->gear_ratio, inputs->motor_speed_rpm);
 
     if (!(law->motor_torque_nm > DRIVING_TORQUE_NM) || !(now_rpm > 0.0f)) return 0.0f;
     if (!(before_rpm > 0.0f)) return now_rpm;

@@ -10,6 +10,7 @@
 #define MS_PER_S 1000.0f
 #define PCT_PER_WHOLE 100.0f
 #define US_PER_S 1000000.0f
+#define SPREAD_POINTS_MAX 32 /* more than all lists of points together */
 
 typedef struct {
     const ebl_parameter *parameter;
@@ -199,6 +200,46 @@ uint8_t parameters_get(const uint8_t *image, const uint8_t *ids, size_t ids_leng
     }
     *detail = 0;
     return EBL_STATUS_OK;
+}
+
+static size_t row_spread(const ebl_parameter *row, uint8_t *bytes)
+{
+    size_t moved = 0;
+
+    for (size_t i = 1; i < row->count; i++) {
+        float least = ebl_get_f32(bytes + (i - 1) * row->length) + row->least_step;
+
+        if (ebl_get_f32(bytes + i * row->length) >= least) continue;
+        ebl_put_f32(bytes + i * row->length, least);
+        moved++;
+    }
+    for (size_t i = row->count; i-- > 0;) {
+        float most = row->max - row->least_step * (float)(row->count - 1 - i);
+
+        if (ebl_get_f32(bytes + i * row->length) <= most) break;
+        ebl_put_f32(bytes + i * row->length, most);
+        moved++;
+    }
+    return moved;
+}
+
+size_t parameters_points_spread(uint8_t *image)
+{
+    ebl_refusal found[SPREAD_POINTS_MAX];
+    size_t count = ebl_image_violations(image, found, SPREAD_POINTS_MAX);
+    size_t moved = 0;
+
+    if (count > SPREAD_POINTS_MAX) return 0;
+    for (size_t i = 0; i < count; i++) {
+        if (found[i].code != EBL_VIOLATION_NOT_INCREASING) return 0;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const ebl_parameter *row = ebl_parameter_find(found[i].id);
+
+        if (i > 0 && found[i].id == found[i - 1].id) continue;
+        moved += row_spread(row, image + row->image_offset);
+    }
+    return moved;
 }
 
 int parameters_image_is_valid(const uint8_t *image)

@@ -17,6 +17,11 @@ void parameters_default_image(uint8_t *image);
 /* Tells images apart whose bytes mean other parameters: a slot of another layout is not read. */
 uint32_t parameters_layout_crc32(void);
 
+/* An image whose only fault is that points are nearer than their least step, as firmware without
+ * that rule took them: moves each just far enough from the one before it, and back from the end of
+ * the range. Any other image stays as it is. Returns how many points were moved. */
+size_t parameters_points_spread(uint8_t *image);
+
 /* True if every value is within its range and the law accepts the whole. */
 int parameters_image_is_valid(const uint8_t *image);
 

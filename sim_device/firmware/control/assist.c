@@ -2,7 +2,7 @@
 #include "assist.h"
 
 #include "assist_steps.h" // apply_law to apply_limits
-#include "float32.h"      // float32_abs, float32_missing
+#include "float32.h"      // float32_abs, float32_is_finite, float32_missing
 
 /* No sensor of the bike reads beyond this; it keeps every later sum and product finite. */
 static const float READING_MAX = 1.0e6f;
@@ -28,13 +28,39 @@ static void output_clear(const assist_state *state, assist_output *output)
     output->limit_flags = 0;
 }
 
-static int refuse(assist_state *state, assist_output *output)
+void assist_interrupted(assist_state *state)
 {
     state->assist_torque_nm = 0.0f;
-    state->pedal_steps_left = 0; /* nobody saw whether the rider still pedals */
+    state->pedal_steps_left = 0;
     walk_refuse(state);
+}
+
+static int refuse(assist_state *state, assist_output *output)
+{
+    assist_interrupted(state);
     output->limit_flags = ASSIST_LIMIT_INPUT_REFUSED;
     return ASSIST_INPUT_REFUSED;
+}
+
+static int lose(assist_state *state, assist_output *output)
+{
+    const assist_state at_rest = {0};
+
+    *state = at_rest;
+    output_clear(state, output);
+    output->limit_flags = ASSIST_LIMIT_FAULT;
+    return ASSIST_RESULT_LOST;
+}
+
+/* A sum is finite where all its terms are: none of these comes near the end of a float. The history
+ * holds what was the filtered torque of a step that passed here. */
+static int remembers_numbers(const assist_state *state)
+{
+    return float32_is_finite(state->torque_filtered_nm + state->assist_torque_nm +
+                             state->walk_integral_nm + state->push_peak_nm[0] +
+                             state->push_peak_nm[1] + state->motor_power_mean_w +
+                             state->battery_spared + state->battery_power_w +
+                             state->battery_torque_nm + state->battery_trim_w);
 }
 
 static float apply_sensor(const assist_config *config, assist_state *state,
@@ -79,12 +105,18 @@ int assist_step(const assist_config *config, assist_state *state, const assist_i
 
     earlier_torque_nm = apply_sensor(config, state, input, output);
     demand_nm = apply_mode(config, state, input, earlier_torque_nm, output);
+    if (!float32_is_finite(demand_nm + output->assist_ratio)) return lose(state, output);
     demand_nm = apply_cutoff_band(config, input, demand_nm, output);
+    if (!float32_is_finite(demand_nm)) return lose(state, output);
     demand_nm = apply_ramps(config, input, state->assist_torque_nm, demand_nm, output);
+    if (!float32_is_finite(demand_nm)) return lose(state, output);
     demand_nm = apply_cutoffs(config, state, input, demand_nm, output);
+    if (!float32_is_finite(demand_nm)) return lose(state, output);
     demand_nm = apply_limits(config, state, input, demand_nm, output);
+    if (!float32_is_finite(demand_nm)) return lose(state, output);
     output->motor_torque_nm = apply_market(config, state, input, demand_nm, output);
     state->assist_torque_nm = output->motor_torque_nm * config->gear_ratio;
+    if (!remembers_numbers(state)) return lose(state, output);
     return ASSIST_OK;
 }
 

@@ -30,7 +30,7 @@
 #define ASSIST_LIMIT_INPUT_REFUSED 0x0400
 #define ASSIST_LIMIT_MODE_OFF 0x0800
 #define ASSIST_LIMIT_TEMPERATURE 0x1000
-#define ASSIST_LIMIT_FAULT 0x2000 /* inhibited from outside, or no fresh torque reading */
+#define ASSIST_LIMIT_FAULT 0x2000 /* inhibited, no fresh torque reading, or a result lost */
 #define ASSIST_LIMIT_MARKET 0x4000
 
 typedef enum { ASSIST_LAW_OFF = 0, ASSIST_LAW_FIXED = 1, ASSIST_LAW_FUZZY = 2 } assist_law;
@@ -124,15 +124,28 @@ typedef struct {
     float battery_trim_w;     /* loss learned, less than what is assumed; at rest nothing is */
 } assist_state;
 
-enum { ASSIST_OK = 0, ASSIST_INPUT_REFUSED = -1, ASSIST_CONFIG_REFUSED = -2 };
+enum {
+    ASSIST_OK = 0,
+    ASSIST_INPUT_REFUSED = -1,
+    ASSIST_CONFIG_REFUSED = -2,
+    ASSIST_RESULT_LOST = -3
+};
 
 /* One control step. A NaN, an infinity, a number no sensor can give (beyond a million) or an
  * unknown mode gives zero torque, sets INPUT_REFUSED and leaves the filter as it was.
- * Returns ASSIST_OK or ASSIST_INPUT_REFUSED; the output is valid either way. `config` must have
- * passed assist_config_check: a step does not check it again. A torque reading that is too old is
- * NaN in the output, and the assist goes down on a ramp of its own. */
+ * `config` must have passed assist_config_check: a step does not check it again. A torque reading
+ * that is too old is NaN in the output, and the assist goes down on a ramp of its own.
+ *
+ * Returns ASSIST_OK, ASSIST_INPUT_REFUSED, or ASSIST_RESULT_LOST where a step of the pipeline or
+ * what it remembers is no number. No configuration that passed the check and no input does that:
+ * it is memory that was damaged. It gives zero torque, sets FAULT and starts the state anew, so
+ * that the next step computes again. The output is valid in any case. */
 int assist_step(const assist_config *config, assist_state *state, const assist_input *input,
                 assist_output *output);
+
+/* The steps since the one before were not run and the motor was let go: nobody saw whether the
+ * rider still pedals, and the ramps begin at nothing. What was averaged and learned stays. */
+void assist_interrupted(assist_state *state);
 
 /* `count` steps in a row: exactly `count` calls of assist_step. Returns how many were refused. */
 size_t assist_run(const assist_config *config, assist_state *state, const assist_input *inputs,

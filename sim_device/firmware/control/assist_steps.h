@@ -1,9 +1,11 @@
 /* The steps of the pipeline in assist.c, one file each. Every step takes the demand as the step
- * before left it and lowers it or leaves it; none raises it after the law. */
+ * before left it and lowers it or leaves it; none raises it after the law. A NaN goes through all
+ * of them as a NaN: assist_step looks for one after each. */
 #ifndef SPINDLE_ASSIST_STEPS_H
 #define SPINDLE_ASSIST_STEPS_H
 
-#include "assist.h" // assist_config, assist_state, assist_input, assist_output
+#include "assist.h"  // assist_config, assist_state, assist_input, assist_output
+#include "float32.h" // float32_missing
 
 /* sensor.c */
 float sensor_torque_nm(const assist_config *config, float torque_raw_counts);
@@ -58,12 +60,13 @@ float apply_market(const assist_config *config, assist_state *state, const assis
                    float motor_nm, assist_output *output);
 
 /* Lowers the demand to the limit and says so. Whatever lowers it after the ramps decides in their
- * place, so their bits go. */
+ * place, so their bits go. Where demand or limit is no number, nothing is left to give: NaN. */
 static inline float held_at(float limit_nm, float demand_nm, unsigned flag, assist_output *output)
 {
     unsigned ramps = ASSIST_LIMIT_RAMP_UP | ASSIST_LIMIT_RAMP_DOWN;
 
     if (demand_nm <= limit_nm) return demand_nm;
+    if (!(demand_nm > limit_nm)) return float32_missing();
     output->limit_flags = (uint16_t)((output->limit_flags & ~ramps) | flag);
     return limit_nm;
 }

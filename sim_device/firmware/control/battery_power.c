@@ -92,6 +92,6 @@ float battery_torque_nm(const assist_config *config, assist_state *state, const 
     motor_w = float32_max(state->battery_power_w - ASSUMED_LOSS_W + state->battery_trim_w, 0.0f);
     sum_v = back_emf_v + float32_sqrt(back_emf_v * back_emf_v + 4.0f * resistance_ohm * motor_w);
     state->battery_torque_nm =
-        sum_v > 0.0f ? config->motor_torque_constant_nm_per_a * (2.0f * motor_w / sum_v) : 0.0f;
+        sum_v == 0.0f ? 0.0f : config->motor_torque_constant_nm_per_a * (2.0f * motor_w / sum_v);
     return state->battery_torque_nm;
 }

@@ -14,6 +14,9 @@
 static const float GAIN_MIN = 0.0f; /* the thesis' universe of the gain; protects the rider */
 static const float GAIN_MAX = 0.5f;
 
+static const float STEP_SHARE =
+    0.99f; /* of the least distance: room for the rounding of decimals */
+
 #define BLOCK 64 /* points a batch works on at once: their levels stay in the first cache */
 
 typedef struct {
@@ -201,13 +204,16 @@ static size_t blank_refused(const float *speeds_kmh, const float *torque_rates, 
     return refused;
 }
 
-static int points_check(const float *points)
+/* As the protocol's check has it (ebl_values.c): the two must agree to the bit. */
+static int points_check(const float *points, float least_step)
 {
     unsigned index;
 
     for (index = 0; index < FUZZY_SETS; ++index) {
         if (!float32_is_finite(points[index])) return FUZZY_TABLE_REFUSED;
-        if (index > 0 && !(points[index] > points[index - 1])) return FUZZY_TABLE_REFUSED;
+        if (index > 0 && !(points[index] - points[index - 1] >= STEP_SHARE * least_step)) {
+            return FUZZY_TABLE_REFUSED;
+        }
     }
     return FUZZY_OK;
 }
@@ -217,9 +223,9 @@ int fuzzy_table_check(const fuzzy_table *table)
     unsigned row;
     unsigned column;
 
-    if (points_check(table->speed_points_kmh)) return FUZZY_TABLE_REFUSED;
-    if (points_check(table->torque_rate_points)) return FUZZY_TABLE_REFUSED;
-    if (points_check(table->gain_points)) return FUZZY_TABLE_REFUSED;
+    if (points_check(table->speed_points_kmh, FUZZY_SPEED_STEP_KMH)) return FUZZY_TABLE_REFUSED;
+    if (points_check(table->torque_rate_points, FUZZY_TORQUE_RATE_STEP)) return FUZZY_TABLE_REFUSED;
+    if (points_check(table->gain_points, FUZZY_GAIN_STEP)) return FUZZY_TABLE_REFUSED;
     if (table->gain_points[0] < GAIN_MIN) return FUZZY_TABLE_REFUSED;
     if (table->gain_points[FUZZY_SETS - 1] > GAIN_MAX) return FUZZY_TABLE_REFUSED;
     if (table->inference > FUZZY_WEIGHTED_AVERAGE) return FUZZY_TABLE_REFUSED;

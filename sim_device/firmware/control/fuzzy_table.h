@@ -7,6 +7,15 @@
 
 #define FUZZY_SETS 5
 
+/* Least distances of neighbouring points, as `least_step` in the registry. Nearer than that a set
+ * is narrower than what its input can tell apart: a speed is a tenth of a km/h late within one turn
+ * of the wheel, the sensor's noise alone moves the rate by a thousandth, and nobody feels a
+ * thousandth of gain. No gap is then so small that its square is lost in a float. A hundredth less
+ * is accepted, so that decimals that are so far apart still are as float32. */
+#define FUZZY_SPEED_STEP_KMH 0.1f
+#define FUZZY_TORQUE_RATE_STEP 0.001f
+#define FUZZY_GAIN_STEP 0.001f
+
 typedef enum { FUZZY_MAMDANI_CENTROID = 0, FUZZY_WEIGHTED_AVERAGE = 1 } fuzzy_inference;
 
 typedef struct {
@@ -19,8 +28,8 @@ typedef struct {
 
 enum { FUZZY_OK = 0, FUZZY_INPUT_REFUSED = -1, FUZZY_TABLE_REFUSED = -2 };
 
-/* FUZZY_OK, or FUZZY_TABLE_REFUSED if points are not finite and increasing, a gain is outside
- * [0, 0.5] or a label or the inference is unknown. */
+/* FUZZY_OK, or FUZZY_TABLE_REFUSED if points are not finite, not increasing or nearer than their
+ * least distance, a gain is outside [0, 0.5] or a label or the inference is unknown. */
 int fuzzy_table_check(const fuzzy_table *table);
 
 /* Gain at one point, inputs clamped to the table. A non-finite input is refused and gain set to 0.

@@ -1,6 +1,6 @@
 /* The relative change of torque over the rate interval (thesis eq. 4.16, thesis_checks I-15). */
 #include "assist_steps.h" // torque_history_swap, torque_rate_of
-#include "float32.h"      // float32_clamp
+#include "float32.h"      // float32_clamp, float32_is_finite
 
 #define RING_MASK (ASSIST_RATE_HISTORY - 1u) /* the length is a power of two */
 
@@ -27,7 +27,7 @@ float torque_rate_of(const assist_config *config, float torque_nm, float earlier
     float last = config->table.torque_rate_points[FUZZY_SETS - 1];
     float rise_nm = torque_nm - earlier_torque_nm;
 
-    if (rise_nm <= 0.0f) return first;
+    if (!(rise_nm > 0.0f && float32_is_finite(rise_nm))) return first;
     if (earlier_torque_nm < config->torque_rate_floor_nm) {
         return rise_nm < START_RISE_NM ? first : last;
     }

@@ -147,7 +147,7 @@ class AssistLaw:
 
         Raises LawRefused if a parameter is missing or the unit would refuse the configuration.
         """
-        self._config = _native_config(config, step_s)
+        self._config = native_config(config, step_s)
         self._state = ffi.new("assist_state *")
 
     def run(self, inputs: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
@@ -256,7 +256,8 @@ def _fill_table(native: Any, table: Config) -> None:
         raise LawRefused(f"fuzzy table: {wrong}") from wrong
     if lib.fuzzy_table_check(ffi.addressof(native[0])) != lib.FUZZY_OK:
         raise LawRefused(
-            "fuzzy table: points must be finite and increasing, gains between 0 and 0.5"
+            "fuzzy table: points must be finite and increasing, speeds by 0.1 km/h, torque rates "
+            "and gains by 0.001 at least, gains between 0 and 0.5"
         )
 
 
@@ -280,7 +281,8 @@ def _fill_modes(native: Any, config: Config) -> None:
     native.mode_torque_share = [pct / 100 for pct in config["mode_torque_pct"]]
 
 
-def _native_config(config: Config, step_s: float) -> Any:
+def native_config(config: Config, step_s: float = STEP_S) -> Any:
+    """The assist_config of a configuration, as AssistLaw takes it. Raises LawRefused."""
     defaults = default_config()
     later = {row.name: defaults[row.name] for row in PARAMETERS if row.id >= FIRST_LATER_ID}
     config = {**later, **config}

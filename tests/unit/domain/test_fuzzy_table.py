@@ -8,7 +8,14 @@ from typing import Any
 
 import pytest
 
-from backend.domain.fuzzy_table import PARAMETER_NAMES, RANGES, THESIS_TABLE, FuzzyTable
+from backend.domain.fuzzy_table import (
+    LEAST_STEPS,
+    PARAMETER_NAMES,
+    RANGES,
+    THESIS_TABLE,
+    FuzzyTable,
+    stored_json,
+)
 from backend.errors import InvalidRequest
 from firmware_protocol._generated import PARAMETER_BY_NAME
 from firmware_protocol.parameters import default_config
@@ -27,6 +34,10 @@ CONTRACT_EXAMPLE: dict[str, Any] = {
         ["NB", "NB", "NS", "NS", "NS"],
     ],
 }
+
+
+DENORMAL_POINTS = [0, 1.4e-45, 2.8e-45, 4.2e-45, 5.6e-45]
+"""Five floats in a row from zero: increasing, and nothing to divide by."""
 
 
 def changed(**fields: Any) -> dict[str, Any]:
@@ -80,6 +91,10 @@ def with_rule(row: int, column: int, label: Any) -> list[list[Any]]:
         ({"speed_points_kmh": [5, 10, 10 + 1e-9, 20, 25]}, "speed_points_kmh[2]", "not_increasing"),
         ({"torque_rate_points": [0, 0.2, float("nan"), 0.6, 0.9]}, "torque_rate_points[2]", None),
         ({"torque_rate_points": [0, 0.2, "x", 0.6, 0.9]}, "torque_rate_points[2]", "not_a_number"),
+        ({"speed_points_kmh": [5, 10, 10.09, 20, 25]}, "speed_points_kmh[2]", "not_increasing"),
+        ({"torque_rate_points": DENORMAL_POINTS}, "torque_rate_points[1]", "not_increasing"),
+        ({"gain_points": DENORMAL_POINTS}, "gain_points[1]", "not_increasing"),
+        ({"gain_points": [0.1, 0.2, 0.2009, 0.4, 0.5]}, "gain_points[2]", "not_increasing"),
         ({"gain_points": [0.1, 0.2, 0.3, 0.4, 0.51]}, "gain_points[4]", "out_of_range"),
         ({"speed_points_kmh": [5, 10, 15, 20, 1e60]}, "speed_points_kmh[4]", "out_of_range"),
         ({"gain_points": [-0.1, 0.2, 0.3, 0.4, 0.5]}, "gain_points[0]", "out_of_range"),
@@ -107,7 +122,31 @@ def test_the_ranges_are_the_registrys() -> None:
         if field in RANGES
     }
 
+    least_steps = {
+        field: PARAMETER_BY_NAME[name].least_step
+        for field, name in PARAMETER_NAMES.items()
+        if field in RANGES
+    }
+
     assert registry == RANGES
+    assert least_steps == LEAST_STEPS
+
+
+def test_points_a_least_step_apart_are_taken_however_they_round() -> None:
+    for hundredth in range(0, 4450, 7):
+        speeds = [(hundredth + 10 * k) / 100 for k in range(5)]
+        table = FuzzyTable.from_json(changed(speed_points_kmh=speeds))
+        assert table.to_json()["speed_points_kmh"] == speeds
+
+
+def test_a_stored_table_that_would_be_refused_today_is_shown_as_it_is() -> None:
+    config = {**default_config(), "fuzzy_gain_points": DENORMAL_POINTS}
+
+    shown = stored_json(config)
+
+    assert shown == {**CONTRACT_EXAMPLE, "gain_points": DENORMAL_POINTS}
+    with pytest.raises(InvalidRequest):
+        FuzzyTable.from_parameters(config)
 
 
 def test_all_faults_are_told_at_once() -> None:

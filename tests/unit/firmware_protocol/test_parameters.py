@@ -93,7 +93,7 @@ def test_two_configurations_share_nothing() -> None:
             {"fuzzy_speed_points_kmh": [5, 10, 10, 20, 25]},
             2,
             "NOT_INCREASING",
-            "fuzzy_speed_points_kmh[2] must be greater than 10",
+            "fuzzy_speed_points_kmh[2] must be at least 0.1 above 10",
         ),
         ({"fuzzy_table_name": "x" * 25}, 0, "TOO_LONG", "at most 24 bytes in UTF-8, not 25"),
         ({"fuzzy_table_name": "a\nb"}, 0, "NOT_TEXT", "control characters"),

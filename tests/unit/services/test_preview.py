@@ -37,6 +37,32 @@ def test_a_table_that_cannot_exist_is_a_lint_answer_with_every_fault() -> None:
     assert report.warnings == report.notes == ()
 
 
+@pytest.mark.parametrize("name", ["speed_points_kmh", "torque_rate_points", "gain_points"])
+def test_a_table_that_the_unit_would_refuse_is_refused_by_every_question(name: str) -> None:
+    table = {**TABLE, name: [0, 1.4e-45, 2.8e-45, 4.2e-45, 5.6e-45]}
+
+    for question in (
+        lambda: PREVIEW.surface(table, [5.0], [0.0]),
+        lambda: PREVIEW.points(table, [(5.0, 0.0)]),
+        lambda: PREVIEW.replay(default_config(), ride(), fuzzy_table=table),
+    ):
+        with pytest.raises(InvalidRequest, match=r"at least 0\.1|at least 0\.001"):
+            question()
+    assert [finding.where for finding in PREVIEW.lint(table).errors] == [
+        f"{name}[{index}]" for index in (1, 2, 3, 4)
+    ]
+
+
+def test_a_ride_whose_own_table_is_refused_today_says_why_and_replays_with_another() -> None:
+    recorded = {**default_config(), "fuzzy_gain_points": [0.1, 0.2, 0.2001, 0.3, 0.4]}
+
+    with pytest.raises(InvalidRequest, match=r"0\.001 at least"):
+        PREVIEW.replay(recorded, ride())
+
+    replayed = PREVIEW.replay(recorded, ride(), fuzzy_table=TABLE)
+    assert np.isfinite(replayed.motor_torque_nm).all()
+
+
 def test_wrong_modes_are_lint_errors_beside_the_tables_findings() -> None:
     modes = AssistModes.from_parameters(default_config()).to_json()
     modes["modes"][2]["law"] = "turbo"

@@ -33,6 +33,7 @@ from firmware_protocol._generated import (
     EvtFaultListRequest,
     EvtFaultListResponse,
     FaultFlags,
+    LiveSetRequest,
     Status,
     Violation,
 )
@@ -213,6 +214,37 @@ def test_validation_lists_everything_that_is_wrong(unit: BenchUnit) -> None:
     ]
     staged = crc32(unit.read_image(Bank.STAGED)[1])
     assert unit.ask(CfgCommitRequest(transaction, staged, 0, 0)).status == Status.STATE
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "fuzzy_speed_points_kmh",
+        "fuzzy_torque_rate_points",
+        "fuzzy_gain_points",
+        "second_gain_points",
+    ],
+)
+def test_points_nearer_than_their_least_step_never_become_active(
+    unit: BenchUnit, name: str
+) -> None:
+    before = unit.read_image()
+    transaction = unit.begin()
+    points = struct.pack("<5I", *range(5))  # zero and the four floats after it
+    header = struct.pack("<HBB", PARAMETER_BY_NAME[name].id, 0, 5)
+    assert unit.ask(CfgSetRequest(transaction, header + points)).status == Status.OK
+
+    response = unit.ask(CfgValidateRequest(transaction))
+    staged = crc32(unit.read_image(Bank.STAGED)[1])
+    live = unit.ask(LiveSetRequest(10, header + points))
+
+    assert response.status == Status.INVALID_CONFIG
+    assert list(struct.iter_unpack("<HBB", response.payload)) == [
+        (PARAMETER_BY_NAME[name].id, index, Violation.NOT_INCREASING) for index in (1, 2, 3, 4)
+    ]
+    assert unit.ask(CfgCommitRequest(transaction, staged, 0, 0)).status == Status.STATE
+    assert live.status == Status.INVALID_CONFIG
+    assert unit.read_image() == before
 
 
 def test_what_was_validated_and_then_changed_must_be_validated_again(unit: BenchUnit) -> None:

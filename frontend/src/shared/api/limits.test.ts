@@ -34,6 +34,20 @@ it('finds points that do not increase', () => {
   expect(faults.map((f) => [f.path, f.fault.code])).toEqual([[[2], 'not_increasing']])
 })
 
+it('takes points a least step apart, however they round, and none that are nearer', () => {
+  for (let tenth = 0; tenth <= 446; tenth++) {
+    const points = [0, 1, 2, 3, 4].map((k) => (tenth + k) / 10)
+    expect(faultsOf(parameter('fuzzy_speed_points_kmh', 'f32', 0, 45), points)).toEqual([])
+  }
+  const near = faultsOf(parameter('fuzzy_speed_points_kmh', 'f32', 0, 45), [0, 10, 10.09, 20, 30])
+  const denormal = [0, 1.4e-45, 2.8e-45, 4.2e-45, 5.6e-45]
+
+  expect(near.map((f) => [f.path, f.fault])).toEqual([
+    [[2], { code: 'not_increasing', bound: 0.1 }],
+  ])
+  expect(faultsOf(parameter('fuzzy_gain_points'), denormal)).toHaveLength(4)
+})
+
 it('finds what is not a number', () => {
   expect(faultsOf(parameter('assist_cutoff_kmh'), NaN)[0]?.fault.code).toBe('not_a_number')
 })

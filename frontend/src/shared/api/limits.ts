@@ -3,8 +3,8 @@ import { PARAMETERS, type ParameterRow } from '$generated/registry'
 import type { Parameter, ParameterValue } from './types'
 
 export type Fault =
-  | { code: 'not_a_number' | 'not_increasing' | 'not_text' }
-  | { code: 'below_min' | 'above_max'; bound: number }
+  | { code: 'not_a_number' | 'not_text' }
+  | { code: 'below_min' | 'above_max' | 'not_increasing'; bound: number }
 
 export interface FieldFault {
   name: string
@@ -22,13 +22,22 @@ export function faultsOf(parameter: Parameter, value: ParameterValue): FieldFaul
     const fault = elementFault(parameter, element)
     if (fault) at(path, fault)
   })
-  if (rows[parameter.name]?.increasing && Array.isArray(value) && found.length === 0) {
+  const step = rows[parameter.name]?.least_step ?? 0
+  if (step > 0 && Array.isArray(value) && found.length === 0) {
     const points = value as number[]
     points.forEach((point, i) => {
-      if (i > 0 && point <= (points[i - 1] ?? -Infinity)) at([i], { code: 'not_increasing' })
+      const before = points[i - 1]
+      if (before !== undefined && isTooNear(before, point, step))
+        at([i], { code: 'not_increasing', bound: step })
     })
   }
   return found
+}
+
+/** As the unit computes it, in float32 throughout: a hundredth is for the decimals' rounding. */
+function isTooNear(before: number, point: number, step: number): boolean {
+  const f = Math.fround
+  return f(f(point) - f(before)) < f(f(0.99) * f(step))
 }
 
 function elementFault(parameter: Parameter, element: number | string): Fault | null {

@@ -457,7 +457,7 @@ export const en = {
   'keys.numbers_text': 'Arrow up and down nudge; with Shift five times as far.',
 
   'fault.not_a_number': 'is not a number',
-  'fault.not_increasing': 'must be greater than the one before',
+  'fault.not_increasing': 'must be at least {bound} above the one before',
   'fault.not_text': 'is too long',
   'fault.below_min': 'is below the least allowed value, {bound}',
   'fault.above_max': 'is above the greatest allowed value, {bound}',

@@ -419,7 +419,7 @@ export const zh: Record<Key, string> = {
   'keys.numbers_text': '上下方向键微调；按住 Shift 为五倍。',
 
   'fault.not_a_number': '不是数字',
-  'fault.not_increasing': '必须大于前一个',
+  'fault.not_increasing': '必须比前一个至少大 {bound}',
   'fault.not_text': '过长',
   'fault.below_min': '低于允许的最小值 {bound}',
   'fault.above_max': '高于允许的最大值 {bound}',

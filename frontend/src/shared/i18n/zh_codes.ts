@@ -29,7 +29,7 @@ const violation = {
   not_finite: '不是有效数字',
   below_min: '低于允许的最小值',
   above_max: '高于允许的最大值',
-  not_increasing: '必须大于前一个值',
+  not_increasing: '必须比前一个值至少大一个最小间距',
   not_a_choice: '不在可选范围内',
   not_text: '不是单元能显示的文字',
   taper_order: '必须大于衰减开始的速度',
