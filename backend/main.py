@@ -40,7 +40,7 @@ from backend.services.tune import Tuning
 from backend.services.upload import Uploads, UploadSettings
 from backend.services.watch import Watch
 from backend.settings import CHECKOUT, Settings
-from backend.store import open_store
+from backend.store import Store, open_store
 from backend.store.schemas import SchemaFiles
 
 LOG = logging.getLogger(__name__)
@@ -86,7 +86,7 @@ def open_services(settings: Settings) -> Iterator[Services]:
         devices.watch(recorder.watch)
         dashboards = Dashboards()
         devices.watch(dashboards.follow)
-        closing.enter_context(housekeeping(partial(tidy, recorder, uploads)))
+        closing.enter_context(housekeeping(partial(tidy, recorder, uploads, store)))
         for url in settings.device:
             in_background(url, partial(devices.add, url))
         preview = Preview()
@@ -104,10 +104,12 @@ def open_services(settings: Settings) -> Iterator[Services]:
         )
 
 
-def tidy(recorder: Recorder, uploads: Uploads) -> None:
-    """Ends what has been silent too long; fills rides that are over."""
-    recorder.tick(time.time_ns() // 1000)
+def tidy(recorder: Recorder, uploads: Uploads, store: Store) -> None:
+    """Ends what has been silent too long; fills rides that are over; removes what has expired."""
+    now_us = time.time_ns() // 1000
+    recorder.tick(now_us)
     uploads.look_again()
+    store.sweep(now_us)
 
 
 def in_background(name: str, work: Callable[[], object]) -> None:

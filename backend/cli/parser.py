@@ -125,6 +125,10 @@ def _add_ride(verbs: Any) -> None:
     command.add_argument("--table", type=Path, help="a fuzzy_table as JSON")
     command.add_argument("--modes", type=Path, help="assist_modes as JSON")
     _asking(group, "delete", ride.delete, help="delete a ride").add_argument("ride", type=int)
+    command = _asking(group, "files", ride.list_files, help="files that came, and what became")
+    command.add_argument("--limit", type=int, default=50)
+    command = _asking(group, "remove-file", ride.remove_file, help="one that no ride came from")
+    command.add_argument("file", help="its id in `ride files`")
 
 
 def _add_law(verbs: Any) -> None:

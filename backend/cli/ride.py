@@ -123,8 +123,31 @@ def replay(options: Namespace) -> int:
     return 0
 
 
+def list_files(options: Namespace) -> int:
+    """Files that came, the latest first: also those that were refused and can be removed."""
+    answer = server_of(options).ask("GET", "/uploads", params={"limit": options.limit})
+    if options.json:
+        print_json(answer)
+        return 0
+    rows = []
+    for upload in answer["items"]:
+        rides = ", ".join(map(str, upload["ride_ids"])) or None
+        facts = [upload[key] for key in ("id", "name", "length", "state")]
+        rows.append([*facts, rides, upload["expires_at"]])
+    print_table(rows, ["file", "name", "bytes", "state", "rides", "goes by itself"])
+    return 0
+
+
+def remove_file(options: Namespace) -> int:
+    """Removes a file that no ride came from, and its bytes."""
+    server_of(options).ask("DELETE", f"/uploads/{options.file}")
+    if options.json:
+        print_json({"removed": options.file})
+    return 0
+
+
 def delete(options: Namespace) -> int:
-    """Deletes a ride, its samples and its original file."""
+    """Deletes a ride and its samples; with the last ride of a file, the file too."""
     server_of(options).ask("DELETE", f"/rides/{options.ride}")
     if options.json:
         print_json({"deleted": options.ride})

@@ -42,11 +42,14 @@ class Room:
     to_us: int
 
 
-def fill(rides: RideStore, found: Sequence[Ride], imported: ImportedRide) -> int:
+def fill(
+    rides: RideStore, found: Sequence[Ride], imported: ImportedRide, upload_id: str | None = None
+) -> int:
     """Fill the rides that a log belongs to; how many rows got samples.
 
-    found: those rides, finished, in order of time. Raises StoreError, Conflict, and then the rides
-    are as they were, or some of them already filled; safe to repeat.
+    found: those rides, finished, in order of time. upload_id: where the log came from. Raises
+    StoreError, Conflict, and then the rides are as they were, or some of them already filled; safe
+    to repeat.
     """
     rows = 0
     start_us, stop_us = imported_span_us(imported)
@@ -56,7 +59,7 @@ def fill(rides: RideStore, found: Sequence[Ride], imported: ImportedRide) -> int
         after_us = stop_us if number == len(found) - 1 else own[1]
         filling = plan(ride, imported, Room(max(before_us, start_us), after_us))
         if filling is not None:
-            rides.fill(ride, filling)
+            rides.fill(ride, filling, upload_id)
             rows += len(filling.places)
     return rows
 

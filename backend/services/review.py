@@ -64,8 +64,12 @@ class Rides:
         return self._store.rides.patch(ride_id, name, notes).as_json()
 
     def delete(self, ride_id: int) -> None:
-        """Delete a ride; the original file it came from is kept. Raises NotFound, Conflict."""
-        self._store.rides.delete(ride_id)
+        """Delete a ride; with the last ride of an original file this goes too, on the disk as well.
+
+        Raises NotFound, Conflict while the ride is being recorded.
+        """
+        with self._store.deciding:
+            self._store.rides.delete(ride_id)
 
     def series(
         self,

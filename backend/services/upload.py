@@ -1,14 +1,16 @@
 """Files become rides: whole ones, resumable ones, damaged ones; the same bytes only once.
 
 A file arrives piece by piece (`create`, `append`), or at once (`receive_file`). With its last byte
-it is kept for ever under its hash, looked at in a child process, and concluded: `complete`,
-`partial` or `rejected`, with a stable code, a sentence, and the rides it became.
+it is kept under its hash, looked at in a child process, and concluded: `complete`, `partial` or
+`rejected`, with a stable code, a sentence, and the rides it became. It is kept as long as one of
+these rides; without any it can be removed, and goes by itself when its time is over.
 """
 
 from __future__ import annotations
 
 import logging
 import threading
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,7 +22,7 @@ from backend.ingest import ImportedRide, Outcome, read_in_child
 from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED
 from backend.services.fill import fill
 from backend.services.same_ride import same_rides
-from backend.store import Store, Upload
+from backend.store import Store, Upload, Verdict
 
 LOG = logging.getLogger(__name__)
 
@@ -41,7 +43,7 @@ class Reader(Protocol):
 
 @dataclass(frozen=True)
 class UploadSettings:
-    """length_max: largest file in bytes. expires_s: how long an unfinished upload is kept."""
+    """length_max: largest file in bytes. expires_s: how long an upload without rides is kept."""
 
     length_max: int = UPLOAD_BYTES_MAX
     expires_s: int = 7 * 86_400
@@ -105,13 +107,22 @@ class Uploads:
         """Where an upload stands. Raises NotFound."""
         return self._store.uploads.get(upload_id)
 
-    def terminate(self, upload_id: str) -> None:
-        """Give an unfinished upload up. Raises NotFound, Conflict once it has arrived."""
-        self._store.uploads.remove(upload_id)
+    def list(self, limit: int = 50, before: str | None = None) -> dict[str, object]:
+        """One page, the latest first: {items, next}. before: `next` of the page before."""
+        found = self._store.uploads.list(limit + 1, before)
+        more = len(found) > limit
+        return {"items": found[:limit], "next": found[limit - 1].id if more else None}
+
+    def remove(self, upload_id: str) -> None:
+        """Give an upload up and free its space, whatever became of it but rides.
+
+        Raises NotFound; Conflict, naming the rides, when some came from it.
+        """
+        with self._store.deciding:
+            self._store.uploads.remove(upload_id, now_us())
 
     def recover(self) -> Sequence[Upload]:
-        """Look at the files a crash left waiting, and forget unfinished ones that expired."""
-        self._store.uploads.remove_expired()
+        """Look at the files a crash left waiting."""
         return [self._process(upload.id) for upload in self._store.uploads.waiting()]
 
     def look_again(self) -> None:
@@ -130,59 +141,76 @@ class Uploads:
         uploads = self._store.uploads
         upload = uploads.keep_original(upload_id)
         if upload.declared_sha256 and upload.declared_sha256 != upload.sha256:
-            return uploads.conclude(
-                upload_id,
-                "rejected",
-                "hash_mismatch",
-                f"The bytes that arrived hash to {upload.sha256}, not to what was declared.",
-                completeness=0.0,
-            )
-        if (twin := self._twin(upload)) is not None:
-            return twin
+            told = f"The bytes that arrived hash to {upload.sha256}, not to what was declared."
+            return self._conclude(upload_id, REJECTED, "hash_mismatch", told, 0.0)
+        with self._store.deciding:
+            if (twin := self._twin(upload)) is not None:
+                return twin
         outcome = self._read(upload)
-        fresh: list[ImportedRide] = []
-        known: list[Ride] = []
-        rows_filled = 0
         try:
-            for imported in outcome.rides:
-                twins = same_rides(self._store.rides, imported, upload.id)
-                if live := next((ride for ride in twins if ride.state == "live"), None):
-                    return self._wait_for(upload, live)
-                rows_filled += fill(self._store.rides, twins, imported)
-                known += twins
-                fresh += [] if twins else [imported]
-            for number, imported in enumerate(fresh):
-                if number < len(upload.ride_ids):
-                    # A crash came between this ride and the conclusion.
-                    continue
-                self._store.rides.add(
-                    ride_of(upload, imported, number, len(fresh), outcome.completeness),
-                    imported.rows,
-                    upload_id,
-                )
+            with self._store.deciding:
+                return self._keep(self.get(upload_id), outcome)
         except StoreError as error:
             # The original is kept and the upload waits: the next start looks at it again.
             LOG.warning("Upload %s is kept but not read: %s", upload_id, error.message)
             raise
+
+    def _keep(self, upload: Upload, outcome: Outcome) -> Upload:
+        """Make rides of what was read, or fill those that are here, and say so."""
+        rides = self._store.rides
+        fresh: list[ImportedRide] = []
+        known: list[Ride] = []
+        rows_filled = 0
+        for imported in outcome.rides:
+            twins = same_rides(rides, imported, upload.id)
+            if live := next((ride for ride in twins if ride.state == "live"), None):
+                return self._wait_for(upload, live)
+            rows_filled += fill(rides, twins, imported, upload.id)
+            known += twins
+            fresh += [] if twins else [imported]
+        for number, imported in enumerate(fresh):
+            if number < len(upload.ride_ids):
+                # A crash came between this ride and the conclusion.
+                continue
+            ride = ride_of(upload, imported, number, len(fresh), outcome.completeness)
+            rides.add(ride, imported.rows, upload.id)
         if known and not fresh:
-            return uploads.conclude(
-                upload_id,
+            return self._conclude(
+                upload.id,
                 outcome.state,
                 "filled" if rows_filled else "duplicate",
                 told_of_known(known, rows_filled),
                 outcome.completeness,
-                duplicate_of=known[0].id,
+                known[0].id,
+                [ride.id for ride in known],
             )
-        return uploads.conclude(
-            upload_id, outcome.state, outcome.code, outcome.detail, outcome.completeness
+        return self._conclude(
+            upload.id,
+            outcome.state,
+            outcome.code,
+            outcome.detail,
+            outcome.completeness,
+            beside=[ride.id for ride in known],
         )
+
+    def _conclude(
+        self,
+        upload_id: str,
+        state: str,
+        code: str | None,
+        detail: str | None,
+        completeness: float | None,
+        duplicate_of: int | None = None,
+        beside: Sequence[int] = (),
+    ) -> Upload:
+        over_us = now_us() + self._settings.expires_s * 1_000_000
+        verdict = Verdict(state, code, detail, completeness, duplicate_of, over_us)
+        return self._store.uploads.conclude(upload_id, verdict, beside)
 
     def _wait_for(self, upload: Upload, live: Ride) -> Upload:
         """Leave a file until the ride it belongs to is over: only then is known what it lacks."""
         detail = f"This is ride {live.id}, which is being recorded; what it lacks is filled later."
-        return self._store.uploads.conclude(
-            upload.id, "queued", WAITS, detail, duplicate_of=live.id
-        )
+        return self._conclude(upload.id, "queued", WAITS, detail, None, live.id)
 
     def _read(self, upload: Upload) -> Outcome:
         if upload.object_key is None:
@@ -195,14 +223,15 @@ class Uploads:
         if first is None or first.id == upload.id:
             return None
         ride = self._store.rides.get(first.ride_ids[0])
-        return self._store.uploads.conclude(
-            upload.id,
-            first.state,
-            "duplicate",
-            f"The same file is here already: ride {ride.id} of {iso_utc(ride.started_us)[:10]}.",
-            first.completeness,
-            duplicate_of=ride.id,
+        told = f"The same file is here already: ride {ride.id} of {iso_utc(ride.started_us)[:10]}."
+        return self._conclude(
+            upload.id, first.state, "duplicate", told, first.completeness, ride.id
         )
+
+
+def now_us() -> int:
+    """Wall time in microseconds since 1970."""
+    return time.time_ns() // 1000
 
 
 def ride_of(

@@ -5,7 +5,7 @@ from backend.store.revisions import RevisionLog
 from backend.store.rides import RidePage, RideStore
 from backend.store.store import Store, open_store
 from backend.store.trouble import Trouble, WriteWatch
-from backend.store.uploads import Upload, UploadStore
+from backend.store.uploads import Upload, UploadStore, Verdict
 
 __all__ = [
     "RevisionLog",
@@ -16,6 +16,7 @@ __all__ = [
     "Trouble",
     "Upload",
     "UploadStore",
+    "Verdict",
     "WriteWatch",
     "open_store",
 ]

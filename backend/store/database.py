@@ -7,6 +7,8 @@ PostgreSQL has its own writers: there the same calls run on the caller's thread.
 
 from __future__ import annotations
 
+import logging
+import sqlite3
 import threading
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -20,15 +22,18 @@ from sqlalchemy.exc import SQLAlchemyError
 from backend.errors import StoreError
 from backend.store.trouble import QUEUE_FULL, WriteWatch
 
+LOG = logging.getLogger(__name__)
 Result = TypeVar("Result")
 
 # The newest migration; a test holds it against the files in migrations/versions.
-HEAD_REVISION = "0003"
+HEAD_REVISION = "0004"
 # Bounds the memory of writes that wait for a slow disk: about 256 one-second tails.
 WRITES_WAITING_MAX = 256
 BUSY_TIMEOUT_MS = 10_000
 # The database's name among the parts of the store that may refuse to be written.
 PART = "database"
+# Some milliseconds of the writing thread.
+PAGES_AT_ONCE = 500
 
 
 class Database:
@@ -45,6 +50,8 @@ class Database:
         self._waiting = threading.BoundedSemaphore(WRITES_WAITING_MAX)
         try:
             migrate(self.engine, url)
+            if self.one_writer:
+                make_shrinkable(self.engine)
         except (SQLAlchemyError, OSError) as error:
             self.close()
             raise StoreError(f"The database {shown(url)} cannot be opened: {error}") from error
@@ -80,6 +87,22 @@ class Database:
                 return work(connection)
         except SQLAlchemyError as error:
             raise StoreError(f"The database could not be read: {error}") from error
+
+    def give_back(self) -> bool:
+        """Give the disk some of what deleted rows took; False once there is nothing left.
+
+        SQLite's file shrinks by a piece at a time, so that a recording hardly waits for it.
+        PostgreSQL does so by itself.
+        """
+        if not self.one_writer:
+            return False
+        before = self.read(free_pages)
+        left = self.write(shrink) if before else 0
+        if 0 < left < before:
+            return True
+        # The log of changes still holds what was deleted; a reader in it only postpones this.
+        outside_transaction(self.engine, "PRAGMA wal_checkpoint(TRUNCATE)")
+        return False
 
     def close(self) -> None:
         """Finish what waits, then close every connection."""
@@ -138,9 +161,11 @@ def prepare_sqlite(connection: Any, _record: object) -> None:
     """WAL with FULL: a commit that returned survives kill -9 and a power cut.
 
     Auto-commit off in the driver: SQLAlchemy sends BEGIN itself, so DDL is transactional too.
+    Incremental vacuum has to be chosen before the first table; it lets the file shrink.
     """
     connection.isolation_level = None
     for pragma in (
+        "auto_vacuum=INCREMENTAL",
         "journal_mode=WAL",
         "synchronous=FULL",
         "foreign_keys=ON",
@@ -151,6 +176,38 @@ def prepare_sqlite(connection: Any, _record: object) -> None:
 
 def begin_sqlite(connection: Connection) -> None:
     connection.exec_driver_sql("BEGIN")
+
+
+def free_pages(connection: Connection) -> int:
+    """Pages of the file that hold nothing any more."""
+    return int(connection.exec_driver_sql("PRAGMA freelist_count").scalar_one())
+
+
+def shrink(connection: Connection) -> int:
+    """Cut some free pages off the file; how many are left."""
+    # SQLite frees a page at each step of this, and SQLAlchemy sees no rows to step through.
+    cursor: Any = connection.connection.cursor()
+    cursor.execute(f"PRAGMA incremental_vacuum({PAGES_AT_ONCE})").fetchall()
+    return free_pages(connection)
+
+
+def make_shrinkable(engine: Engine) -> None:
+    """Lets a file of before this rule shrink too: it is written anew, once. A full disk may not."""
+    if outside_transaction(engine, "PRAGMA auto_vacuum") == 0:
+        outside_transaction(engine, "VACUUM")
+
+
+def outside_transaction(engine: Engine, statement: str) -> object:
+    """The first value a statement of SQLite gives that must not stand in a transaction."""
+    connection = engine.raw_connection()
+    try:
+        row = connection.cursor().execute(statement).fetchone()
+        return None if row is None else row[0]
+    except sqlite3.Error as error:
+        LOG.warning("The database's file did not shrink: %s. Deleted rows are reused.", error)
+        return None
+    finally:
+        connection.close()
 
 
 def migrate(engine: Engine, url: str) -> None:

@@ -1,7 +1,7 @@
 """Objects the store gave up: noted in the transaction that gives them up, removed afterwards.
 
 Only what is noted here is ever unlinked. A crash between the two leaves the note, and the next
-opening removes the object; an object without a note is somebody's and is kept.
+sweep removes the object; an object without a note is somebody's and is kept.
 """
 
 from __future__ import annotations
@@ -11,8 +11,7 @@ from collections.abc import Iterable
 from sqlalchemy import Connection, delete, insert, select
 
 from backend.store import tables as t
-from backend.store.database import Database
-from backend.store.objects import Objects, sidecar_key
+from backend.store.objects import sidecar_key
 
 
 def with_sidecar(ride_key: str) -> tuple[str, str]:
@@ -20,11 +19,17 @@ def with_sidecar(ride_key: str) -> tuple[str, str]:
     return ride_key, sidecar_key(ride_key)
 
 
-def note_discarded(connection: Connection, keys: Iterable[str]) -> None:
-    """Say that nobody needs these objects any more."""
+def note_discarded(
+    connection: Connection, keys: Iterable[str], due_us: int, ride_id: int | None = None
+) -> None:
+    """Say that nobody needs these objects any more, and from when on they may go.
+
+    ride_id: whose object it was before it got another; it goes at once with that ride.
+    """
     for key in keys:
         take_back(connection, [key])
-        connection.execute(insert(t.discarded_object).values(key=key))
+        body = {"key": key, "due_us": due_us, "ride_id": ride_id}
+        connection.execute(insert(t.discarded_object).values(body))
 
 
 def take_back(connection: Connection, keys: Iterable[str]) -> None:
@@ -36,12 +41,3 @@ def take_back(connection: Connection, keys: Iterable[str]) -> None:
 def discarded_keys(connection: Connection) -> set[str]:
     """Every object that was given up and may still be there."""
     return set(connection.execute(select(t.discarded_object.c.key)).scalars())
-
-
-def remove_discarded(database: Database, objects: Objects, keys: Iterable[str]) -> None:
-    """Remove objects that were given up, then their notes. Raises StoreError; safe to repeat."""
-    gone = list(keys)
-    for key in gone:
-        objects.remove(key)
-    if gone:
-        database.write(lambda connection: take_back(connection, gone))

@@ -18,7 +18,9 @@ import json
 import os
 import re
 import secrets
-from collections.abc import Iterator, Mapping
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any, Protocol
 from urllib.parse import urlsplit
@@ -71,6 +73,8 @@ class Objects(Protocol):
     def read_json(self, key: str) -> dict[str, Any] | None: ...
     def local_path(self, key: str) -> Path: ...
     def remove(self, key: str) -> None: ...
+    def holding(self) -> AbstractContextManager[None]: ...
+    def unless_held(self, work: Callable[[], bool]) -> bool: ...
     def keys(self) -> Iterator[str]: ...
     def clear_staging(self) -> int: ...
 
@@ -81,6 +85,8 @@ class FileObjects:
     def __init__(self, root: Path, disk: Disk | None = None) -> None:
         self.root = root
         self.disk = disk or Disk()
+        self._turn = threading.Lock()
+        self._holders = 0
 
     def prepare(self) -> None:
         """Make the folder and our own places in it."""
@@ -134,11 +140,30 @@ class FileObjects:
         return path
 
     def remove(self, key: str) -> None:
-        """Remove an object; one that is not there is no error."""
+        """Remove an object, for good once this returns; one that is not there is no error."""
+        path = self.root / key
         try:
-            self.disk.remove(self.root / key)
+            self.disk.remove(path)
+            if path.parent.is_dir():
+                self.disk.flush_folder(path.parent)
         except OSError as error:
             raise StoreError(f"The object {key} was not removed: {error}") from error
+
+    @contextmanager
+    def holding(self) -> Iterator[None]:
+        """From publishing an object until SQL knows it: nothing is removed meanwhile."""
+        with self._turn:
+            self._holders += 1
+        try:
+            yield
+        finally:
+            with self._turn:
+                self._holders -= 1
+
+    def unless_held(self, work: Callable[[], bool]) -> bool:
+        """Do what removes objects, and give its answer; False and nothing while one is held."""
+        with self._turn:
+            return self._holders == 0 and work()
 
     def keys(self) -> Iterator[str]:
         """Every object's key, sidecars too."""

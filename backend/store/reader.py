@@ -131,6 +131,7 @@ class ReaderCache:
     def __init__(self) -> None:
         self._readers: OrderedDict[int, RideReader] = OrderedDict()
         self._lock = threading.Lock()
+        self._forgotten = 0
 
     def get(self, ride_id: int, open_reader: Callable[[], RideReader]) -> RideReader:
         """The reader of a ride, opened when it is not there; live rides are never kept."""
@@ -138,10 +139,13 @@ class ReaderCache:
             if ride_id in self._readers:
                 self._readers.move_to_end(ride_id)
                 return self._readers[ride_id]
+            forgotten = self._forgotten
         reader = open_reader()
         if reader.ride.state == "done":
             with self._lock:
-                self._readers[ride_id] = reader
+                # One that changed or went while it was opened is not kept.
+                if self._forgotten == forgotten:
+                    self._readers[ride_id] = reader
                 while len(self._readers) > READERS_KEPT:
                     self._readers.popitem(last=False)
         return reader
@@ -149,4 +153,5 @@ class ReaderCache:
     def forget(self, ride_id: int) -> None:
         """Drop a ride's reader."""
         with self._lock:
+            self._forgotten += 1
             self._readers.pop(ride_id, None)

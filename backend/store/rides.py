@@ -10,6 +10,7 @@ tail, and at worst an object nobody knows; finishing again gives the same bytes 
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import asdict, dataclass
@@ -17,7 +18,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from sqlalchemy import Connection, Select, case, delete, func, insert, select, update
+from sqlalchemy import Connection, Select, case, delete, insert, select, update
 
 from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.pyramid import Level
@@ -26,7 +27,16 @@ from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
 from backend.store import tables as t
 from backend.store.blobs import Rows16, decode_level, decode_tail, encode_tail
 from backend.store.database import Database
-from backend.store.discard import note_discarded, remove_discarded, with_sidecar
+from backend.store.deletion import (
+    FILLED,
+    MADE,
+    READING_US,
+    Deletions,
+    forget_ride,
+    is_needed,
+    join_source,
+)
+from backend.store.discard import note_discarded, with_sidecar
 from backend.store.filling import Filling, filled_chunks, grown
 from backend.store.finish import WrittenObject, digest, write_object
 from backend.store.objects import Objects
@@ -63,9 +73,10 @@ class RidePage:
 class RideStore:
     """Every ride there is."""
 
-    def __init__(self, database: Database, objects: Objects) -> None:
+    def __init__(self, database: Database, objects: Objects, deletions: Deletions) -> None:
         self._database = database
         self._objects = objects
+        self._deletions = deletions
         self._readers = ReaderCache()
         self._finisher = ThreadPoolExecutor(1, thread_name_prefix="store-finisher")
 
@@ -135,8 +146,9 @@ class RideStore:
             return None
         middle = max(0, ride.row_count // 2 - SAMPLE_ROWS // 2)
         sample = joined(ride.channels, list(self._tail_chunks(ride, middle, SAMPLE_ROWS)))
-        written = write_object(self._objects, ride, self._tail_chunks(ride), sample)
-        return self._publish(ride, written)
+        with self._objects.holding():
+            written = write_object(self._objects, ride, self._tail_chunks(ride), sample)
+            return self._publish(ride, written)
 
     def finish_later(self, ride_id: int) -> Future[Ride | None]:
         """`finish` on the store's own thread, after every tail handed over before this call."""
@@ -158,7 +170,6 @@ class RideStore:
         """
         middle = max(0, len(rows.times_us) // 2 - SAMPLE_ROWS // 2)
         sample = sliced(rows, middle, middle + SAMPLE_ROWS)
-        written = write_object(self._objects, ride, [rows], sample)
         body = ride_row(
             "live",
             ride.origin,
@@ -169,22 +180,27 @@ class RideStore:
             ride.name,
         )
         body |= {"notes": ride.notes, "completeness": ride.completeness}
-        found = digest(self._objects.local_path(written.key), ride)
+        with self._objects.holding():
+            written = write_object(self._objects, ride, [rows], sample)
+            found = digest(self._objects.local_path(written.key), ride)
 
-        def work(connection: Connection) -> int:
-            key = upload_key(connection, upload_id)
-            ride_id = inserted(connection, body | {"upload_id": key})
-            finish_row(connection, ride_id, written, found, ride.completeness)
-            return ride_id
+            def work(connection: Connection) -> int:
+                key = upload_key(connection, upload_id)
+                ride_id = inserted(connection, body | {"upload_id": key})
+                finish_row(connection, ride_id, written, found, ride.completeness)
+                if key is not None:
+                    join_source(connection, ride_id, key, MADE)
+                return ride_id
 
-        return self.get(self._database.write(work))
+            return self.get(self._database.write(work))
 
-    def fill(self, ride: Ride, filling: Filling) -> Ride:
+    def fill(self, ride: Ride, filling: Filling, upload_id: str | None = None) -> Ride:
         """Put rows from elsewhere into a finished ride; name, notes and number stay.
 
-        The object is written before the ride points to it. The one before is left for the next
-        opening of the store to collect, since somebody may be reading it. Raises StoreError and
-        Conflict, when the ride became another meanwhile; then it is as it was.
+        upload_id: where the rows are from; its original lives as long as the ride. The object is
+        written before the ride points to it; the one before goes an hour later, since somebody may
+        be reading it. Raises StoreError and Conflict, when the ride became another meanwhile; then
+        it is as it was.
         """
         if ride.object_key is None or ride.period_us is None:
             raise Conflict(f"Ride {ride.id} cannot be filled: it is being recorded.")
@@ -194,18 +210,22 @@ class RideStore:
         middle = max(0, new.row_count // 2 - SAMPLE_ROWS // 2)
         around = filled_chunks(file, ride, filling, middle, middle + SAMPLE_ROWS)
         sample = joined(ride.channels, list(around))
-        written = write_object(self._objects, new, filled_chunks(file, ride, filling), sample)
-        found = digest(self._objects.local_path(written.key), new)
-        completeness = 1.0 - found.rows_empty / written.row_count
+        with self._objects.holding():
+            written = write_object(self._objects, new, filled_chunks(file, ride, filling), sample)
+            found = digest(self._objects.local_path(written.key), new)
+            completeness = 1.0 - found.rows_empty / written.row_count
 
-        def work(connection: Connection) -> None:
-            if not refill_row(connection, new, key):
-                raise Conflict(f"Ride {ride.id} is another since it was looked at.")
-            finish_row(connection, ride.id, written, found, completeness)
-            if key != written.key:
-                note_discarded(connection, with_sidecar(key))
+            def work(connection: Connection) -> None:
+                if not refill_row(connection, new, key):
+                    raise Conflict(f"Ride {ride.id} is another since it was looked at.")
+                finish_row(connection, ride.id, written, found, completeness)
+                if (source := upload_key(connection, upload_id)) is not None:
+                    join_source(connection, ride.id, source, FILLED)
+                if not is_needed(connection, key):
+                    due_us = time.time_ns() // 1000 + READING_US
+                    note_discarded(connection, with_sidecar(key), due_us, ride.id)
 
-        self._database.write(work)
+            self._database.write(work)
         self._readers.forget(ride.id)
         return self.get(ride.id)
 
@@ -269,23 +289,27 @@ class RideStore:
         return self.get(ride_id)
 
     def delete(self, ride_id: int) -> None:
-        """Remove a finished ride and its object. Raises NotFound, Conflict while it is live."""
-        ride = self.get(ride_id)
-        if ride.state == "live":
+        """Remove a finished ride, and what only it needed: its object, originals without a ride.
+
+        It is gone once this returns, whatever happens; a file that cannot go now goes later.
+        Raises NotFound, Conflict while it is live.
+        """
+        now_us = time.time_ns() // 1000
+
+        def work(connection: Connection) -> str | None:
+            state = select(t.ride.c.state).where(t.ride.c.id == ride_id)
+            found: str | None = connection.execute(state).scalar()
+            if found == "done":
+                forget_ride(connection, ride_id, now_us)
+            return found
+
+        found = self._database.write(work)
+        if found is None:
+            raise NotFound(f"There is no ride {ride_id}.")
+        if found != "done":
             raise Conflict(f"Ride {ride_id} is being recorded: it can be deleted when it is over.")
-
-        def work(connection: Connection) -> tuple[str, ...]:
-            remove_ride(connection, ride_id)
-            left = select(func.count()).where(t.ride.c.object_key == ride.object_key)
-            if ride.object_key is None or connection.execute(left).scalar_one():
-                return ()
-            unused = with_sidecar(ride.object_key)
-            note_discarded(connection, unused)
-            return unused
-
-        unused = self._database.write(work)
         self._readers.forget(ride_id)
-        remove_discarded(self._database, self._objects, unused)
+        self._deletions.sweep(now_us)
 
     def reader(self, ride_id: int) -> RideReader:
         """Rows and overview of a ride. Raises NotFound, StoreError when the object is damaged."""

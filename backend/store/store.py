@@ -6,12 +6,14 @@ look (nothing is written) -> lock database, lock folder -> migrate, adopt -> rec
 from __future__ import annotations
 
 import logging
+import threading
 from contextlib import ExitStack
 from types import TracebackType
 
 from backend.errors import StoreError
 from backend.store.database import Database, shown, sqlite_path
-from backend.store.discard import discarded_keys, remove_discarded
+from backend.store.deletion import Deletions
+from backend.store.discard import discarded_keys
 from backend.store.identity import belonging, new_id, require, write_identity
 from backend.store.locks import lock_database_file, lock_folder
 from backend.store.look import look_at
@@ -37,10 +39,15 @@ class Store:
         self.watch = database.watch
         self.objects = objects
         self.server_id = server_id
-        self.rides = RideStore(database, objects)
+        self.deletions = Deletions(database, objects)
+        self.rides = RideStore(database, objects, self.deletions)
         self.revisions = RevisionLog(database)
-        self.uploads = UploadStore(database, objects, objects.root / SPOOL)
+        self.uploads = UploadStore(database, objects, objects.root / SPOOL, self.deletions)
         self.unfinished: dict[int, str] = {}
+        # Held by what decides which rides an upload becomes, and by what deletes either.
+        self.deciding = threading.RLock()
+        self._files_gone = 0
+        self._shrinks = False
         self._closing = closing
 
     def recover(self) -> list[int]:
@@ -58,13 +65,17 @@ class Store:
             except StoreError as error:
                 self.unfinished[ride_id] = error.message
         known = self.rides.object_keys() | self.uploads.object_keys()
-        given_up = self.database.read(discarded_keys) - known
-        try:
-            remove_discarded(self.database, self.objects, given_up)
-        except StoreError as error:
-            LOG.warning("%s It is tried again at the next start.", error.message)
-        self._put_aside(known | given_up)
+        self.deletions.sweep(None)
+        self._put_aside(known | self.database.read(discarded_keys))
         return finished
+
+    def sweep(self, now_us: int) -> None:
+        """Remove what is over at `now_us`: expired uploads, and files that are to go."""
+        self.uploads.remove_expired(now_us)
+        self.deletions.sweep(now_us)
+        if self._shrinks or self.deletions.files_gone != self._files_gone:
+            self._files_gone = self.deletions.files_gone
+            self._shrinks = self.database.give_back()
 
     def close(self) -> None:
         """Finish what is being written and let go of database and folder."""

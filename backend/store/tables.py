@@ -51,11 +51,14 @@ store_identity = Table(
     Column("created_us", BigInteger, nullable=False),
 )
 
-# Objects that the store itself gave up: a deleted ride's, one that a fuller one replaced.
+# Objects that the store itself gave up: a deleted ride's, one that a fuller one replaced. ride_id:
+# whose it was before that. due_us: from when on nobody reads it any more.
 discarded_object = Table(
     "discarded_object",
     metadata,
     Column("key", String(160), primary_key=True),
+    Column("ride_id", KEY),
+    Column("due_us", BigInteger, nullable=False, server_default="0"),
 )
 
 device = Table(
@@ -134,6 +137,18 @@ ride = Table(
     Column("server_id", String(32)),
     Column("heartbeat_us", BigInteger),
     Column("cut_short", Boolean),
+)
+
+# Whose bytes a ride lives on: it was `made` of an upload, `filled` from it, or is `beside` it, the
+# same ride in another file. The original lives as long as one of its rides.
+ride_source = Table(
+    "ride_source",
+    metadata,
+    key(),
+    Column("ride_id", KEY, ForeignKey("ride.id"), nullable=False),
+    Column("upload_id", KEY, ForeignKey("upload.id"), nullable=False, index=True),
+    Column("part", String(8), nullable=False),
+    UniqueConstraint("ride_id", "upload_id"),
 )
 
 # Real columns, one for each figure of domain.ride.RideSummary: they are searched and summed.

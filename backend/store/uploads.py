@@ -12,15 +12,19 @@ import re
 import secrets
 import threading
 import time
-from dataclasses import dataclass
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import Connection, Row, delete, insert, select, update
+from sqlalchemy import Connection, Row, insert, select, update
 
+from backend.domain.ride import iso_utc
 from backend.errors import Conflict, NotFound, StoreError
 from backend.store import tables as t
 from backend.store.database import Database
+from backend.store.deletion import BESIDE, Deletions, forget_upload, join_source
 from backend.store.objects import Objects, content_key, file_sha256
 
 RECEIVING = "receiving"
@@ -50,13 +54,33 @@ class Upload:
     expires_us: int | None
     ride_ids: tuple[int, ...]
 
+    @property
+    def expires_at(self) -> str | None:
+        """When it goes by itself, as ISO 8601 in UTC; None when it does not."""
+        return None if self.expires_us is None else iso_utc(self.expires_us)
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What became of an upload. expires_us: when it goes, if no ride keeps it."""
+
+    state: str
+    code: str | None = None
+    detail: str | None = None
+    completeness: float | None = None
+    duplicate_of: int | None = None
+    expires_us: int | None = None
+
 
 class UploadStore:
     """Every upload there is, and the spool folder of those that still arrive."""
 
-    def __init__(self, database: Database, objects: Objects, spool: Path) -> None:
+    def __init__(
+        self, database: Database, objects: Objects, spool: Path, deletions: Deletions
+    ) -> None:
         self._database = database
         self._objects = objects
+        self._deletions = deletions
         self._spool = spool
         # Two clients with the same piece must not write over one another.
         self._appending = threading.Lock()
@@ -117,37 +141,56 @@ class UploadStore:
         return self.get(token)
 
     def keep_original(self, token: str) -> Upload:
-        """Move the whole file among the objects, where it stays, and note its hash."""
+        """Move the whole file among the objects, and note its hash.
+
+        It stays as long as a ride that comes from it; without one it goes with its upload.
+        """
         upload = self.get(token)
         if upload.object_key is not None:
             return upload
         staged = self._path(token)
-        with staged.open("r+b") as file:
-            file.truncate(upload.received)
-        sha256 = file_sha256(staged)
-        key = content_key("originals", sha256)
-        self._objects.publish(staged, key)
-        self._set(token, sha256=sha256, object_key=key, state="queued")
+        with self._objects.holding():
+            if staged.exists():
+                with staged.open("r+b") as file:
+                    file.truncate(upload.received)
+                sha256 = file_sha256(staged)
+                # The hash is known before the file moves: a crash in between is made good from it.
+                self._set(token, sha256=sha256)
+                self._objects.publish(staged, content_key("originals", sha256))
+            elif upload.sha256 is None:
+                raise StoreError(f"The bytes of upload {token} are gone: send the file again.")
+            else:
+                sha256 = upload.sha256
+            key = content_key("originals", sha256)
+            self._objects.local_path(key)
+            self._set(token, sha256=sha256, object_key=key, state="queued")
         return self.get(token)
 
-    def conclude(
-        self,
-        token: str,
-        state: str,
-        code: str | None = None,
-        detail: str | None = None,
-        completeness: float | None = None,
-        duplicate_of: int | None = None,
-    ) -> Upload:
-        """Say what became of an upload."""
-        self._set(
-            token,
-            state=state,
-            code=code,
-            detail=detail,
-            completeness=completeness,
-            duplicate_of=duplicate_of,
-        )
+    def conclude(self, token: str, verdict: Verdict, beside: Sequence[int] = ()) -> Upload:
+        """Say what became of an upload, and which rides it is beside of.
+
+        One without any ride to live with goes by itself when its time is over.
+        """
+
+        def work(connection: Connection) -> None:
+            mine = t.upload.c.token == token
+            key = connection.execute(select(t.upload.c.id).where(mine)).scalar()
+            if key is None:
+                raise NotFound(f"There is no upload {token}.")
+            there = select(t.ride.c.id).where(t.ride.c.id.in_(beside))
+            for ride_id in connection.execute(there).scalars().all():
+                join_source(connection, ride_id, key, BESIDE)
+            links = select(t.ride_source.c.id).where(t.ride_source.c.upload_id == key).limit(1)
+            stays = connection.execute(links).first() is not None or verdict.state == "queued"
+            body = {
+                field.name: getattr(verdict, field.name)
+                for field in fields(Verdict)
+                if field.name != "expires_us"
+            }
+            body["expires_us"] = None if stays else verdict.expires_us
+            connection.execute(update(t.upload).where(mine).values(body))
+
+        self._database.write(work)
         return self.get(token)
 
     def get(self, token: str) -> Upload:
@@ -180,30 +223,67 @@ class UploadStore:
 
     def waiting(self) -> tuple[Upload, ...]:
         """Uploads that have arrived and whose contents nobody has looked at yet."""
-        query = select(t.upload.c.token).where(t.upload.c.state == "queued").order_by(t.upload.c.id)
+        arrived = (t.upload.c.state == RECEIVING) & (t.upload.c.received == t.upload.c.length)
+        query = (
+            select(t.upload.c.token)
+            .where((t.upload.c.state == "queued") | arrived)
+            .order_by(t.upload.c.id)
+        )
         tokens = self._database.read(lambda c: c.execute(query).scalars().all())
         return tuple(self.get(token) for token in tokens)
 
-    def remove(self, token: str) -> None:
-        """Forget an upload that has not arrived. Raises NotFound, Conflict once it has."""
-        upload = self.get(token)
-        if upload.state != RECEIVING:
-            raise Conflict(f"Upload {token} has arrived: delete its rides instead.")
-        self._database.write(lambda c: c.execute(delete(t.upload).where(t.upload.c.token == token)))
-        self._path(token).unlink(missing_ok=True)
+    def remove(self, token: str, now_us: int) -> None:
+        """Forget an upload that no ride came from, and its bytes.
 
-    def remove_expired(self) -> int:
-        """Forget uploads whose time is over; returns how many."""
-        now_us = time.time_ns() // 1000
+        Raises NotFound; Conflict, naming the rides, when there are some.
+        """
+
+        def work(connection: Connection) -> None:
+            mine = t.upload.c.token == token
+            key = connection.execute(select(t.upload.c.id).where(mine)).scalar()
+            if key is None:
+                raise NotFound(f"There is no upload {token}.")
+            link = t.ride_source.c
+            query = select(link.ride_id).where(link.upload_id == key, link.part != BESIDE)
+            rides = connection.execute(query.order_by(link.ride_id)).scalars().all()
+            if rides:
+                raise Conflict(told_of_rides(token, rides), code="has_rides")
+            forget_upload(connection, key, f"{self._spool.name}/{token}", now_us)
+
+        self._database.write(work)
+        self._deletions.sweep(now_us)
+
+    def remove_expired(self, now_us: int) -> int:
+        """Forget uploads whose time is over at `now_us`; returns how many."""
+        with_rides = select(t.ride_source.c.upload_id)
+        arrived = (t.upload.c.state == RECEIVING) & (t.upload.c.received == t.upload.c.length)
         query = select(t.upload.c.token).where(
-            t.upload.c.state == RECEIVING, t.upload.c.expires_us < now_us
+            t.upload.c.state != "queued",
+            ~arrived,
+            t.upload.c.expires_us < now_us,
+            t.upload.c.id.not_in(with_rides),
         )
         tokens = self._database.read(lambda c: c.execute(query).scalars().all())
+        removed = 0
         for token in tokens:
-            self.remove(token)
-        return len(tokens)
+            with suppress(NotFound, Conflict):
+                self.remove(token, now_us)
+                removed += 1
+        return removed
 
-    def unknown_spooled(self) -> list[Path]:
+    def list(self, limit: int = 50, before: str | None = None) -> tuple[Upload, ...]:
+        """Uploads, the latest first, from the one before `before` on. Raises NotFound."""
+        query = select(t.upload.c.token).order_by(t.upload.c.id.desc()).limit(limit)
+        if before is not None:
+            last = select(t.upload.c.id).where(t.upload.c.token == before)
+            key = self._database.read(lambda c: c.execute(last).scalar())
+            if key is None:
+                raise NotFound(f"There is no upload {before}.")
+            query = query.where(t.upload.c.id < key)
+        tokens = self._database.read(lambda c: c.execute(query).scalars().all())
+        return tuple(self.get(token) for token in tokens)
+
+    def unknown_spooled(self) -> Sequence[Path]:
         """Spooled files that no upload knows; empty ones, which a crash leaves, are removed."""
         query = select(t.upload.c.token).where(t.upload.c.object_key.is_(None))
         known = set(self._database.read(lambda c: c.execute(query).scalars().all()))
@@ -218,9 +298,11 @@ class UploadStore:
         return unknown
 
     def object_keys(self) -> set[str]:
-        """Keys of every original."""
-        query = select(t.upload.c.object_key).where(t.upload.c.object_key.is_not(None))
-        return set(self._database.read(lambda c: c.execute(query).scalars().all()))
+        """Keys of every original, and of those that a crash kept from being noted."""
+        columns = (t.upload.c.object_key, t.upload.c.sha256)
+        query = select(*columns).where(t.upload.c.sha256.is_not(None))
+        rows = self._database.read(lambda c: c.execute(query).all())
+        return {key or content_key("originals", sha256) for key, sha256 in rows}
 
     def _path(self, token: str) -> Path:
         return self._spool / token
@@ -229,6 +311,16 @@ class UploadStore:
         self._database.write(
             lambda c: c.execute(update(t.upload).where(t.upload.c.token == token).values(values))
         )
+
+
+def told_of_rides(token: str, rides: Sequence[int]) -> str:
+    """Why an upload stays, in words."""
+    if len(rides) == 1:
+        return (
+            f"Ride {rides[0]} came from upload {token}: delete the ride, and the file goes with it."
+        )
+    named = ", ".join(str(ride) for ride in rides)
+    return f"Rides {named} came from upload {token}: delete them, and the file goes with the last."
 
 
 def upload_from_row(row: Row[Any], ride_ids: tuple[int, ...]) -> Upload:

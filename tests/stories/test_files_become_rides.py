@@ -92,16 +92,21 @@ def test_a_file_cut_short_gives_what_can_be_saved_and_says_so(server: SpindleSer
     assert ride["row_count"] == 150
 
 
+def imported_rides(server: SpindleServer) -> list[int]:
+    """Rides that came from files; the unit may record one of its own meanwhile."""
+    return [r["id"] for r in server.get("/rides")["items"] if r["origin"] == "imported"]
+
+
 @pytest.mark.parametrize("content", [b"", b"not a ride at all", bytes(5000)])
 def test_what_is_no_ride_is_rejected_with_a_reason(server: SpindleServer, content: bytes) -> None:
-    before = len(server.get("/rides")["items"])
+    before = imported_rides(server)
 
     upload = imported(server, "thing.fit", content)
 
     assert upload["state"] == "rejected"
     assert upload["detail"]
     assert upload["ride_ids"] == []
-    assert len(server.get("/rides")["items"]) == before
+    assert imported_rides(server) == before
 
 
 def begin_upload(server: SpindleServer, name: str, length: int) -> str:
@@ -163,6 +168,30 @@ def test_an_upload_given_up_is_gone(server: SpindleServer) -> None:
 
     assert ended.status_code == 204
     assert server.client.head(path, headers=TUS).status_code == 404
+
+
+def test_a_rejected_file_is_listed_and_can_be_removed(server: SpindleServer) -> None:
+    upload = imported(server, "no ride.fit", b"rejected and removed")
+    assert upload["expires_at"]
+    assert upload["id"] in [item["id"] for item in server.get("/uploads")["items"]]
+
+    removed = server.client.delete(f"/uploads/{upload['id']}")
+
+    assert removed.status_code == 204
+    assert server.client.get(f"/uploads/{upload['id']}").status_code == 404
+    assert server.client.delete(f"/uploads/{upload['id']}").status_code == 404
+
+
+def test_a_file_goes_with_its_ride(server: SpindleServer) -> None:
+    upload = imported(server, "to be deleted.fit", steady_ride(minutes=8))
+    (ride_id,) = upload["ride_ids"]
+
+    kept = server.client.delete(f"/uploads/{upload['id']}")
+    server.ask("DELETE", f"/rides/{ride_id}")
+
+    assert (kept.status_code, kept.json()["code"]) == (409, "has_rides")
+    assert str(ride_id) in kept.json()["detail"]
+    assert server.client.get(f"/uploads/{upload['id']}").status_code == 404
 
 
 def test_another_version_of_tus_is_told_which_one_we_speak(server: SpindleServer) -> None:

@@ -190,7 +190,10 @@ class Replay(Answer):
 
 
 class Upload(Answer):
-    """Where a file stands. `code` and `detail` say why it is not a whole ride."""
+    """Where a file stands. `code` and `detail` say why it is not a whole ride.
+
+    A file that rides came from lives as long as one of them; any other can be removed.
+    """
 
     id: str
     name: str
@@ -202,3 +205,11 @@ class Upload(Answer):
     ride_ids: list[int]
     completeness: float | None
     duplicate_of: int | None = Field(description="The ride the same bytes became before.")
+    expires_at: datetime | None = Field(
+        description="When it goes by itself; null while a ride lives on it or it waits to be read."
+    )
+
+
+class UploadList(Answer):
+    items: list[Upload]
+    next: str | None

@@ -67,7 +67,7 @@ def patch_ride(ride_id: RideId, body: RidePatch, services: Provided) -> Any:
 
 @router.delete("/{ride_id}", operation_id="delete_ride", status_code=status.HTTP_204_NO_CONTENT)
 def delete_ride(ride_id: RideId, services: Provided) -> None:
-    """Deletes a ride, its samples and its original file."""
+    """Deletes a ride and its samples; with the last ride that came from a file, the file too."""
     services.rides.delete(ride_id)
 
 

@@ -16,7 +16,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Header, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
 
-from backend.api.models.ride import Upload
+from backend.api.models.ride import Upload, UploadList
 from backend.api.problem import problem_response, refusals
 from backend.api.services import Provided, Services
 from backend.errors import InvalidRequest
@@ -113,6 +113,16 @@ async def append_upload(
     return _tus_response(204, upload_offset=str(offset))
 
 
+@router.get("/uploads", operation_id="list_uploads", response_model=UploadList)
+def list_uploads(
+    services: Provided,
+    limit: Annotated[int, Query(ge=1, le=500)] = 50,
+    cursor: Annotated[str | None, Query(max_length=64)] = None,
+) -> Any:
+    """Every file that came, the latest first: also those that were refused and can be removed."""
+    return services.uploads.list(limit, cursor)
+
+
 @router.get("/uploads/{upload_id}", operation_id="get_upload", response_model=Upload)
 async def get_upload(upload_id: str, services: Provided) -> Any:
     """Where a file stands, and which rides it became."""
@@ -121,8 +131,12 @@ async def get_upload(upload_id: str, services: Provided) -> Any:
 
 @router.delete("/uploads/{upload_id}", operation_id="delete_upload", status_code=204)
 async def delete_upload(upload_id: str, services: Provided) -> Response:
-    """Gives an unfinished upload up and frees its space; rides made of it stay."""
-    await run_in_threadpool(services.uploads.terminate, upload_id)
+    """Removes an upload that no ride came from, and its bytes: unfinished, rejected or a copy.
+
+    An original lives as long as a ride that came from it: 409 names these rides, and the file goes
+    with the last of them. Uploads without rides also go by themselves when their time is over.
+    """
+    await run_in_threadpool(services.uploads.remove, upload_id)
     return _tus_response(204)
 
 

@@ -665,7 +665,7 @@ export interface paths {
         post?: never;
         /**
          * Delete Ride
-         * @description Deletes a ride, its samples and its original file.
+         * @description Deletes a ride and its samples; with the last ride that came from a file, the file too.
          */
         delete: operations["delete_ride"];
         options?: never;
@@ -784,7 +784,11 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        get?: never;
+        /**
+         * List Uploads
+         * @description Every file that came, the latest first: also those that were refused and can be removed.
+         */
+        get: operations["list_uploads"];
         put?: never;
         /**
          * Create Upload
@@ -817,7 +821,10 @@ export interface paths {
         post?: never;
         /**
          * Delete Upload
-         * @description Gives an unfinished upload up and frees its space; rides made of it stay.
+         * @description Removes an upload that no ride came from, and its bytes: unfinished, rejected or a copy.
+         *
+         *     An original lives as long as a ride that came from it: 409 names these rides, and the file goes
+         *     with the last of them. Uploads without rides also go by themselves when their time is over.
          */
         delete: operations["delete_upload"];
         options?: never;
@@ -2253,6 +2260,8 @@ export interface components {
         /**
          * Upload
          * @description Where a file stands. `code` and `detail` say why it is not a whole ride.
+         *
+         *     A file that rides came from lives as long as one of them; any other can be removed.
          */
         Upload: {
             /** Id */
@@ -2281,6 +2290,18 @@ export interface components {
              * @description The ride the same bytes became before.
              */
             duplicate_of: number | null;
+            /**
+             * Expires At
+             * @description When it goes by itself; null while a ride lives on it or it waits to be read.
+             */
+            expires_at: string | null;
+        };
+        /** UploadList */
+        UploadList: {
+            /** Items */
+            items: components["schemas"]["Upload"][];
+            /** Next */
+            next: string | null;
         };
         /**
          * Problem
@@ -5899,6 +5920,83 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Upload"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Precondition Failed */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unsupported Media Type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_uploads: {
+        parameters: {
+            query?: {
+                limit?: number;
+                cursor?: string | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UploadList"];
                 };
             };
             /** @description Not Found */

@@ -139,24 +139,14 @@ def test_a_file_too_large_is_refused_before_a_byte_moves(store: Store) -> None:
         uploads.create("a.fit", 1001)
 
 
-def test_an_unfinished_upload_can_be_given_up_and_a_finished_one_not(uploads: Uploads) -> None:
+def test_an_unfinished_upload_can_be_given_up_and_one_with_a_ride_not(uploads: Uploads) -> None:
     upload = uploads.create("a.fit", 100)
-    uploads.terminate(upload.id)
+    uploads.remove(upload.id)
 
     with pytest.raises(NotFound):
         uploads.get(upload.id)
     with pytest.raises(Conflict):
-        uploads.terminate(uploads.receive_file("a.fit", SOUND).id)
-
-
-def test_unfinished_uploads_are_forgotten_when_their_time_is_over(store: Store) -> None:
-    uploads = Uploads(store, UploadSettings(expires_s=-1))
-    upload = uploads.create("a.fit", 100)
-
-    uploads.recover()
-
-    with pytest.raises(NotFound):
-        uploads.get(upload.id)
+        uploads.remove(uploads.receive_file("a.fit", SOUND).id)
 
 
 def test_a_file_that_arrived_before_a_crash_is_looked_at_afterwards(store: Store) -> None:

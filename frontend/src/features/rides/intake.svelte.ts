@@ -37,6 +37,11 @@ export class Intake {
     this.busy = false
   }
 
+  /** Takes a file off the list. */
+  forget(id: number): void {
+    this.arrivals = this.arrivals.filter((arrival) => arrival.id !== id)
+  }
+
   private async one({ id, file }: { id: number; file: File }): Promise<void> {
     try {
       const upload = await this.send(file, (share) => this.change(id, { share }))

@@ -191,6 +191,12 @@ export class Server {
     await body(this.http.DELETE('/api/v1/rides/{ride_id}', this.rideAt(id)))
   }
 
+  /** Removes a file that became no ride, and its bytes. */
+  async removeUpload(upload_id: string): Promise<void> {
+    const params = { path: { upload_id } }
+    await body(this.http.DELETE('/api/v1/uploads/{upload_id}', { params }))
+  }
+
   /** Least and greatest value per bin, exact at any zoom. */
   async series(
     id: number,

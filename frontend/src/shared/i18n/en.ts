@@ -327,6 +327,8 @@ export const en = {
   'rides.none': 'No rides yet. Ride a bike, or drop a file here.',
   'rides.more': 'Show older rides',
   'rides.open': 'Open the ride',
+  'rides.remove': 'Remove the file',
+  'rides.remove_named': 'Remove {name} from the server',
   'rides.duplicate': 'Already here: the same bytes were read before.',
   'rides.filled': 'This ride was here with stretches missing; the file has filled them.',
   'rides.saved': '{share} % of the rows were saved.',
@@ -404,7 +406,9 @@ export const en = {
   'ride.rename': 'Rename',
   'ride.keep': 'Keep',
   'ride.delete': 'Delete',
-  'ride.delete_sure': 'Delete this ride with all its samples? This cannot be undone.',
+  'ride.delete_sure':
+    'Delete this ride with all its samples, and its file if no other ride came from it? ' +
+    'This cannot be undone.',
   'export.csv': 'CSV',
   'export.parquet': 'Parquet',
   'export.original': 'Original file',

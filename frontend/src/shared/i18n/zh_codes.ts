@@ -104,6 +104,7 @@ const refusal = {
   part_unreadable: '文件有一部分无法读取；其余内容已保存。',
   duplicate: '内容相同的骑行已保存在此。',
   filled: '已用此文件补上缺失的部分。',
+  has_rides: '有骑行来自此文件：删除这些骑行，文件随最后一个一并删除。',
   ride_is_live: '同一骑行正在记录；结束后再处理此文件。',
   unknown_format: '无法识别的文件格式。',
   no_records: '文件中没有骑行数据。',
