@@ -20,13 +20,16 @@ def changed_table(desk: Desk) -> Page:
     return page
 
 
-def answer_writes(desk: Desk, status: int, code: str, detail: str) -> None:
+def answer_writes(
+    desk: Desk, status: int, code: str, detail: str, outcome: str | None = None
+) -> None:
     """Every write is answered like this and none reaches the unit."""
 
     def answer(route: Route) -> None:
         if route.request.method != "PATCH":
             return route.fallback()
         problem = {"status": status, "code": code, "detail": detail, "title": code, "type": code}
+        problem |= {"outcome": outcome}
         return route.fulfill(
             status=status, body=json.dumps(problem), content_type="application/problem+json"
         )
@@ -36,22 +39,28 @@ def answer_writes(desk: Desk, status: int, code: str, detail: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("status", "code", "outcome"),
-    [(504, "commit_unanswered", "unknown"), (504, "no_answer", "silent")],
+    ("found", "shown", "words"),
+    [
+        ("unknown", "unknown", "It is not known whether the change was written."),
+        ("unchanged", "silent", "Nothing was written"),
+        ("changed", "changed", "the unit was asked again and has the change"),
+        (None, "unknown", "It is not known whether the change was written."),
+    ],
 )
-def test_nothing_was_written_is_said_only_where_it_is_known(
-    desk: Desk, standing: str, status: int, code: str, outcome: str
+def test_what_became_of_a_write_is_said_as_far_as_it_is_known(
+    desk: Desk, standing: str, found: str | None, shown: str, words: str
 ) -> None:
-    answer_writes(desk, status, code, "The unit fell silent.")
+    answer_writes(desk, 504, "no_answer", "The unit fell silent.", found)
     page = changed_table(desk)
 
     page.get_by_role("button", name="Review and write…").click()
     page.get_by_role("button", name="Write to the unit").click()
 
     told = page.get_by_role("dialog").get_by_role("alert")
-    expect(told).to_have_attribute("data-outcome", outcome)
+    expect(told).to_have_attribute("data-outcome", shown)
     expect(told).to_contain_text("The unit fell silent.")
-    assert ("Nothing was written" in told.inner_text()) == (outcome == "silent")
+    expect(told).to_contain_text(words)
+    assert ("Nothing was written" in told.inner_text()) == (found == "unchanged")
 
 
 def background(button: Locator) -> str:

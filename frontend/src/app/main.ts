@@ -2,6 +2,7 @@
 import { Drafts } from '$shared/api/config_draft.svelte'
 import { openHttp } from '$shared/api/client'
 import { DeviceWatch } from '$shared/api/device_watch.svelte'
+import { HealthWatch } from '$shared/api/health_watch.svelte'
 import { Server } from '$shared/api/server'
 import { Locale } from '$shared/i18n/locale.svelte'
 import '$shared/ui/base.css'
@@ -23,9 +24,11 @@ const locale = new Locale()
 await locale.speak(chosen.language).catch(() => undefined)
 const router = new Router()
 const devices = new DeviceWatch(server, chosen.device_id)
+const health = new HealthWatch(server)
 const desk: Desk = {
   server,
   devices,
+  health,
   drafts: new Drafts(server),
   locale,
   units: new Units(locale, chosen.units),
@@ -35,6 +38,7 @@ const desk: Desk = {
 }
 router.start()
 devices.start()
+health.start()
 
 const target = document.getElementById('app')
 if (target) mount(App, { target, props: { desk, router } })

@@ -12,6 +12,8 @@ export class Refusal extends Error {
     readonly errors: FieldProblem[] = [],
     /** What the maker has to sign, when a token would do. */
     readonly challenge: TokenChallenge | null = null,
+    /** What became of a change whose answer was lost, where the server found it out. */
+    readonly outcome: Problem['outcome'] = null,
   ) {
     super(detail)
   }
@@ -51,8 +53,8 @@ export async function bodyAndTag<T>(asked: Promise<Answer<T>>): Promise<[T, stri
 /** A Refusal from a status and whatever body came with it. */
 export function refusal(status: number, content: unknown): Refusal {
   if (content && typeof content === 'object' && 'detail' in content) {
-    const { code = 'error', detail, errors, challenge } = content as Partial<Problem>
-    return new Refusal(status, code, String(detail), errors, challenge)
+    const { code = 'error', detail, errors, challenge, outcome } = content as Partial<Problem>
+    return new Refusal(status, code, String(detail), errors, challenge, outcome)
   }
   return new Refusal(status, 'error', `The server answered with status ${status}.`)
 }

@@ -8,6 +8,7 @@ import type {
   Device,
   Fault,
   FuzzyTable,
+  Health,
   Limits,
   LintReport,
   LintRequest,
@@ -33,6 +34,11 @@ export class Server {
 
   private rideAt(ride_id: number) {
     return { params: { path: { ride_id } } }
+  }
+
+  /** Whether everything that is to be kept is kept. */
+  health(): Promise<Health> {
+    return body(this.http.GET('/api/v1/health'))
   }
 
   async devices(): Promise<Device[]> {

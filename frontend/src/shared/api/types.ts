@@ -5,6 +5,8 @@ type Schemas = components['schemas']
 
 export type Dashboard = Schemas['Dashboard']
 export type Device = Schemas['Device']
+export type Health = Schemas['Health']
+export type RecorderHealth = Schemas['RecorderHealth']
 export type Port = Schemas['Port']
 export type Simulation = Schemas['Simulation']
 export type Scenario = Schemas['Scenario']

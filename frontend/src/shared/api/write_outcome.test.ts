@@ -8,12 +8,22 @@ const outcome = (status: number, code: string) => writeOutcome(new Refusal(statu
 it('does not know what became of a change whose last answer is missing', () => {
   expect(outcome(504, 'commit_unanswered')).toBe('unknown')
   expect(outcome(504, 'no_result')).toBe('unknown')
+  expect(outcome(504, 'no_answer')).toBe('unknown')
   expect(outcome(0, 'unreachable')).toBe('unknown')
   expect(outcome(500, 'error')).toBe('unknown')
 })
 
+it('believes the server where it asked the unit again', () => {
+  const told = (outcome: Refusal['outcome']) =>
+    writeOutcome(new Refusal(504, 'commit_unanswered', '', [], null, outcome))
+
+  expect(told('changed')).toBe('changed')
+  expect(told('unchanged')).toBe('silent')
+  expect(told('unknown')).toBe('unknown')
+})
+
 it('tells a silent unit from one that refuses', () => {
-  expect(outcome(504, 'no_answer')).toBe('silent')
+  expect(outcome(503, 'not_connected')).toBe('silent')
   expect(outcome(422, 'out_of_range')).toBe('refused')
   expect(outcome(409, 'not_standing_still')).toBe('moving')
   expect(outcome(412, 'config_changed')).toBe('conflict')

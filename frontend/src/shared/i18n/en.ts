@@ -247,6 +247,9 @@ export const en = {
   'review.unknown':
     'It is not known whether the change was written. Once the unit answers, the column "In the ' +
     'unit" says what it has:',
+  'review.changed':
+    'It is written: the answer was lost, but the unit was asked again and has the change, as the ' +
+    'column "In the unit" shows.',
   'review.differs': 'What the unit holds now is not what was meant:',
   'review.not_connected':
     'The unit is not connected, so nothing can be written. Your edits are kept.',

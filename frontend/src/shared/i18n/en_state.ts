@@ -1,4 +1,4 @@
-// English: how things stand. Faults of the unit and how they end.
+// English: how things stand. Faults of the unit, what is not saved, what became of a change.
 export const enState = {
   'faults.one': '1 fault',
   'faults.many': '{count} faults',
@@ -37,4 +37,15 @@ export const enState = {
   'faults.not_asked': 'Nothing was cleared:',
   'faults.stop_clear': 'Stop the simulated rider and clear',
   'faults.stopping': 'The simulated rider stops; the fault is cleared when the bike stands still.',
+
+  'health.degraded': 'Not everything that is recorded can be saved now.',
+  'health.was_degraded': 'Not everything could be saved.',
+  'live.recorder': 'Recorder: {saved} rows saved, {lost} lost',
+  'live.recorder_waiting': ', {waiting} waiting',
+
+  'outcome.unchanged': 'The unit has what it had before.',
+  'outcome.changed':
+    'The answer was lost, but the unit was asked again: it has the change.',
+  'outcome.unknown':
+    'Whether the unit has the change is not known. It is shown as soon as the unit answers.',
 }

@@ -224,6 +224,8 @@ export const zh: Record<Key, string> = {
   'review.refused': '没有写入：',
   'review.silent': '没有写入，单元没有应答：',
   'review.unknown': '不确定修改是否已写入。单元应答后，“单元中”一列显示其现有内容：',
+  'review.changed':
+    '已经写入：应答丢失，但再次询问后确认修改已在单元中，见“单元中”一列。',
   'review.differs': '单元现有的内容与预期不符：',
   'review.not_connected': '单元未连接，无法写入。您的修改已保留。',
 

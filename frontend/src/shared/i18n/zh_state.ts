@@ -1,4 +1,4 @@
-// 中文：现状。单元的故障，以及如何结束。
+// 中文：现状。单元的故障、未保存的数据、修改的结果。
 import type { enState } from './en_state'
 
 export const zhState: Record<keyof typeof enState, string> = {
@@ -32,4 +32,13 @@ export const zhState: Record<keyof typeof enState, string> = {
   'faults.not_asked': '没有清除任何故障：',
   'faults.stop_clear': '让模拟骑手停下并清除',
   'faults.stopping': '模拟骑手正在停下；停稳后清除故障。',
+
+  'health.degraded': '现在记录的数据不能全部保存。',
+  'health.was_degraded': '有数据未能保存。',
+  'live.recorder': '记录：已保存 {saved} 行，丢失 {lost} 行',
+  'live.recorder_waiting': '，等待 {waiting} 行',
+
+  'outcome.unchanged': '单元保持原来的内容。',
+  'outcome.changed': '应答丢失，但再次询问后确认：修改已在单元中。',
+  'outcome.unknown': '不知单元是否已有此修改；单元应答后即会显示。',
 }

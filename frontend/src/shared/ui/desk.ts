@@ -2,6 +2,7 @@
 import { getContext, setContext } from 'svelte'
 import type { Drafts } from '../api/config_draft.svelte'
 import type { DeviceWatch } from '../api/device_watch.svelte'
+import type { HealthWatch } from '../api/health_watch.svelte'
 import type { Server } from '../api/server'
 import type { Locale } from '../i18n/locale.svelte'
 import type { Units } from '../units/units.svelte'
@@ -11,6 +12,7 @@ import type { Toasts } from './toasts.svelte'
 export interface Desk {
   server: Server
   devices: DeviceWatch
+  health: HealthWatch
   drafts: Drafts
   locale: Locale
   units: Units
