@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from backend import __version__
-from backend.cli import device, device_live, device_log, law, ride, serve, unlock
+from backend.cli import device, device_live, device_log, law, ride, serve, store, unlock
 
 
 def build_parser() -> argparse.ArgumentParser:
@@ -24,6 +24,7 @@ def build_parser() -> argparse.ArgumentParser:
     verbs.add_parser("scenario", help="list or run scenarios in virtual time", add_help=False)
     _add_device(verbs)
     _add_ride(verbs)
+    _add_store(verbs)
     _add_law(verbs)
     _add_unlock(verbs)
     return parser
@@ -129,6 +130,19 @@ def _add_ride(verbs: Any) -> None:
     command.add_argument("--limit", type=int, default=50)
     command = _asking(group, "remove-file", ride.remove_file, help="one that no ride came from")
     command.add_argument("file", help="its id in `ride files`")
+
+
+def _add_store(verbs: Any) -> None:
+    group = _group(verbs, "store", "what is kept here: check, rebuild (without a server)")
+    words = "what is in database and folder; changes nothing"
+    for name, run, said in (
+        ("check", store.check, words),
+        ("rebuild", store.rebuild, "every ride of the folder back into an empty database"),
+    ):
+        command = group.add_parser(name, help=said)
+        command.add_argument("--data", type=Path, help="the folder of `spindle serve --data`")
+        command.add_argument("--json", action="store_true", help="one JSON object")
+        command.set_defaults(run=run)
 
 
 def _add_law(verbs: Any) -> None:

@@ -110,7 +110,8 @@ class Ride:
     state: `live` while it is recorded, `done` when its object is written. origin: `recorded` or
     `imported`. period_us: spacing of the rows, None when they are irregular. completeness: share
     of the rows that should be there (0..1), None when nobody can say; a stretch filled from a log
-    counts as there. filled: those stretches. events: what happened.
+    counts as there. filled: those stretches. events: what happened. cut_short: the recording ended
+    while the bike moved, or with its server, so that nobody knows what came after.
     """
 
     id: int
@@ -133,6 +134,7 @@ class Ride:
     object_key: str | None = None
     object_bytes: int | None = None
     summary: RideSummary | None = None
+    cut_short: bool = False
 
     @property
     def offered(self) -> tuple[ChannelSpec, ...]:
@@ -159,6 +161,7 @@ class Ride:
             "filled": [asdict(span) for span in self.filled],
             "events": [asdict(event) for event in self.events],
             "completeness": self.completeness,
+            "cut_short": self.cut_short,
             "upload_id": self.upload_id,
             "object_bytes": self.object_bytes,
             "summary": asdict(self.summary) if self.summary else None,

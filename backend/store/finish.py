@@ -1,172 +1,113 @@
-"""From rows to a finished ride: write the object, read it back, draw its overview and figures.
+"""From rows to a finished ride's object: a draft, the figures, the file, and the file read back.
 
-Reading back is on purpose: what the ride shows from now on was really on the disk, with every
-page's checksum verified. One column is in memory at a time, so a day's ride needs no more than
-an hour's.
+The file says of the ride what its rows say, so the rows come first, as a draft that is quick to
+write and to read. Reading the file back is on purpose: what the ride shows from now on was really
+on the disk, with every page's checksum verified.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass
-from itertools import pairwise
-from pathlib import Path
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 
-import numpy as np
+from backend.domain.channels import ChannelSpec, Counts
+from backend.domain.ride import Ride, RideRows, TimesUs
+from backend.store.digest import Digest, digest
+from backend.store.facts import facts_of
+from backend.store.objects import RIDE_SUFFIX, Objects, content_key, file_sha256
+from backend.store.parquet import ROW_GROUP_ROWS, RideFile, write_rows
+from backend.store.reader import RowSource
 
-from backend.domain.channels import ChannelSpec, Counts, Values
-from backend.domain.energy import FACTORS, derivable, derive
-from backend.domain.filled import filled_mask, filled_seconds
-from backend.domain.pyramid import STEPS, Level, first_level, reduce_groups
-from backend.domain.ride import Gap, Ride, RideRows, RideSummary, find_gaps, summarise
-from backend.domain.ride_events import RideEvent, events_of_rows, merged
-from backend.store.objects import Objects, content_key, file_sha256
-from backend.store.parquet import ROW_GROUP_ROWS, RideFile, release_memory, write_rows
-
-# A row of a log is up to so much later than what it shows.
-SAME_EVENT_S = 0.2
-PIECE_ROWS = 4 * ROW_GROUP_ROWS
+# Rows by which a ride's encodings are chosen.
+SAMPLE_ROWS = ROW_GROUP_ROWS
 
 
 @dataclass(frozen=True)
 class WrittenObject:
-    """A ride's object, safely on the disk."""
+    """A ride's object, safely on the disk, and what is computed from it."""
 
     key: str
     sha256: str
     size_bytes: int
     row_count: int
+    found: Digest
+    completeness: float | None
 
 
-@dataclass(frozen=True)
-class Digest:
-    """What is computed once from the finished object and kept in SQL."""
+class RowsInMemory:
+    """Rows as a source of rows."""
 
-    levels: tuple[Level, ...]
-    summary: RideSummary
-    gaps: tuple[Gap, ...]
-    events: tuple[RideEvent, ...]
-    rows_empty: int
+    def __init__(self, rows: RideRows) -> None:
+        self._rows = rows
+
+    @property
+    def row_count(self) -> int:
+        return len(self._rows.times_us)
+
+    def times_us(self, start: int, stop: int) -> TimesUs:
+        return self._rows.times_us[start:stop]
+
+    def counts(self, names: Sequence[str], start: int, stop: int) -> dict[str, Counts]:
+        return {name: self._rows.counts[name][start:stop] for name in names}
+
+
+@contextmanager
+def drafted(
+    objects: Objects, channels: tuple[ChannelSpec, ...], chunks: Iterable[RideRows]
+) -> Iterator[RideFile]:
+    """Rows that come once, in a file beside the objects that can be read again and again."""
+    staged = objects.stage()
+    try:
+        write_rows(staged, channels, chunks, {}, draft=True)
+        yield RideFile(staged, channels)
+    finally:
+        staged.unlink(missing_ok=True)
 
 
 def write_object(
-    objects: Objects, ride: Ride, chunks: Iterable[RideRows], sample: RideRows
+    objects: Objects, ride: Ride, source: RowSource, counted: bool, more: Mapping[str, object]
 ) -> WrittenObject:
-    """Write a ride's rows as an object under its content's hash. Safe to repeat.
+    """Write a ride's rows as an object under its content's hash. Safe to repeat: the same rows and
+    the same facts are the same object.
 
-    sample: a stretch from the middle of the ride.
+    counted: the rows tell how complete the ride is, else the ride does. more: facts that neither
+    the ride nor its rows tell. Raises StoreError.
     """
+    found = digest(source, ride)
+    completeness = 1.0 - found.rows_empty / source.row_count if counted else ride.completeness
+    middle = max(0, source.row_count // 2 - SAMPLE_ROWS // 2)
+    sample = rows_of(source, ride.channels, middle, middle + SAMPLE_ROWS)
+    told = replace(
+        ride,
+        gaps=found.gaps,
+        events=found.events,
+        summary=found.summary,
+        completeness=completeness,
+    )
+    facts = {**facts_of(told), **more}
     staged = objects.stage()
     try:
-        facts: dict[str, object] = {
-            "started_us": ride.started_us,
-            "period_us": ride.period_us,
-            "gear_ratio": ride.context.gear_ratio,
-            "device_serial": ride.context.device_serial,
-        }
-        if ride.filled:
-            facts["filled"] = [asdict(span) for span in ride.filled]
-        rows = write_rows(staged, ride.channels, chunks, facts, sample)
+        rows = write_rows(staged, ride.channels, chunks_of(source, ride.channels), facts, sample)
+        RideFile(staged, ride.channels).verify()
         sha256, size = file_sha256(staged), staged.stat().st_size
-        key = content_key("rides", sha256, ".parquet")
+        key = content_key("rides", sha256, RIDE_SUFFIX)
         objects.publish(staged, key)
     finally:
         staged.unlink(missing_ok=True)
-    return WrittenObject(key, sha256, size, rows)
+    return WrittenObject(key, sha256, size, rows, found, completeness)
 
 
-def digest(path: Path, ride: Ride) -> Digest:
-    """Overview, figures and gaps of a ride from its object."""
-    file = RideFile(path, ride.channels)
-    columns = FileColumns(file, ride.channels, ride.context.gear_ratio)
-    times = file.times_us(0, file.row_count)
-    empty = np.ones(file.row_count, dtype=bool)
-    pairs: dict[str, list[tuple[Counts, Counts]]] = {}
-    seen: list[RideEvent] = []
-    for channel in ride.channels:
-        counts = columns.counts(channel)
-        empty &= counts == channel.missing
-        seen += events_of_rows(channel, counts, times)
-        pairs[channel.name] = pyramid(counts)
-    for channel in columns.derived:
-        pairs[channel.name] = pyramid(columns.counts(channel))
-    seconds = None
-    if ride.filled and ride.period_us is not None:
-        seconds = filled_seconds(ride.filled, empty, ride.period_us)
-        empty &= ~filled_mask(ride.filled, file.row_count, ride.period_us)
-    offered = ride.channels + columns.derived
-    found = Digest(
-        levels=tuple(
-            Level(
-                step,
-                offered,
-                {name: levels[depth][0] for name, levels in pairs.items()},
-                {name: levels[depth][1] for name, levels in pairs.items()},
-            )
-            for depth, step in enumerate(STEPS)
-        ),
-        summary=summarise(columns, times, ride.period_us, seconds),
-        gaps=find_gaps(times, empty, ride.period_us),
-        events=tuple(merged(seen, ride.events, SAME_EVENT_S)),
-        rows_empty=int(np.sum(empty)),
-    )
-    release_memory()
-    return found
+def rows_of(
+    source: RowSource, channels: tuple[ChannelSpec, ...], start: int, stop: int
+) -> RideRows:
+    """Rows [start, stop), or up to the end."""
+    end = min(stop, source.row_count)
+    counts = source.counts([channel.name for channel in channels], start, end)
+    return RideRows(channels, source.times_us(start, end), counts)
 
 
-def pyramid(counts: Counts) -> list[tuple[Counts, Counts]]:
-    """Minimum and maximum of every level of `STEPS`, the finer feeding the coarser."""
-    levels = [first_level(counts, STEPS[0])]
-    for finer, step in pairwise(STEPS):
-        low, high = levels[-1]
-        levels.append(reduce_groups(low, high, np.arange(0, len(low), step // finer)))
-    return levels
-
-
-class FileColumns(Mapping[str, Values]):
-    """A ride's channels by name as physical values (n,), read or derived when asked for."""
-
-    def __init__(
-        self, file: RideFile, channels: tuple[ChannelSpec, ...], gear_ratio: float | None
-    ) -> None:
-        self._file = file
-        self._recorded = {channel.name: channel for channel in channels}
-        self._gear_ratio = gear_ratio
-        self.derived = derivable(self._recorded.keys(), gear_ratio)
-
-    def __getitem__(self, name: str) -> Values:
-        if name not in self._recorded and all(name != c.name for c in self.derived):
-            raise KeyError(name)
-        values = np.empty(self._file.row_count)
-        for start, stop in self._pieces():
-            values[start:stop] = self._values(name, start, stop)
-        return values
-
-    def __iter__(self) -> Iterator[str]:
-        yield from self._recorded
-        yield from (channel.name for channel in self.derived)
-
-    def __len__(self) -> int:
-        return len(self._recorded) + len(self.derived)
-
-    def counts(self, channel: ChannelSpec) -> Counts:
-        """Counts (n,) of a recorded or derived channel."""
-        if channel.name in self._recorded:
-            return self._file.counts([channel.name], 0, self._file.row_count)[channel.name]
-        counts = np.empty(self._file.row_count, channel.dtype)
-        for start, stop in self._pieces():
-            counts[start:stop] = channel.to_counts(self._values(channel.name, start, stop))
-        return counts
-
-    def _values(self, name: str, start: int, stop: int) -> Values:
-        """Physical values of rows [start, stop) of a recorded or derived channel."""
-        if name in self._recorded:
-            counts = self._file.counts([name], start, stop)[name]
-            return self._recorded[name].to_values(counts)
-        factors = {factor: self._values(factor, start, stop) for factor in FACTORS[name]}
-        return derive(name, factors, self._gear_ratio)
-
-    def _pieces(self) -> Iterator[tuple[int, int]]:
-        """Stretches of the ride: physical values take four times the room of counts."""
-        rows = self._file.row_count
-        return ((start, min(start + PIECE_ROWS, rows)) for start in range(0, rows, PIECE_ROWS))
+def chunks_of(source: RowSource, channels: tuple[ChannelSpec, ...]) -> Iterator[RideRows]:
+    """All rows, a row group at a time."""
+    for start in range(0, source.row_count, ROW_GROUP_ROWS):
+        yield rows_of(source, channels, start, start + ROW_GROUP_ROWS)

@@ -8,10 +8,12 @@ holds its own (`advisory.py`).
 from __future__ import annotations
 
 import os
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, BinaryIO
 
 from backend.errors import StoreError
+from backend.store.database import sqlite_path
 from backend.store.objects import FileObjects
 
 FOLDER_LOCK = ".lock"
@@ -97,3 +99,15 @@ def lock_database_file(path: Path) -> FileLock:
         )
     path.parent.mkdir(parents=True, exist_ok=True)
     return FileLock(path.with_name(path.name + SUFFIX), str(path))
+
+
+def hold(closing: ExitStack, db_url: str, objects: FileObjects) -> None:
+    """Lock the database, then the folder, until the stack is closed. Raises StoreError."""
+    path = sqlite_path(db_url)
+    if path is not None:
+        closing.callback(lock_database_file(path).release)
+    try:
+        objects.prepare()
+    except OSError as error:
+        raise StoreError(f"The folder {objects.root} cannot be used: {error}.") from error
+    closing.callback(lock_folder(objects).release)

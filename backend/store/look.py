@@ -15,7 +15,7 @@ from sqlalchemy.exc import DatabaseError, OperationalError, SQLAlchemyError
 
 from backend.errors import StoreError
 from backend.store.database import shown, sqlite_path
-from backend.store.objects import sidecar_key
+from backend.store.objects import content_key, sidecar_key
 
 MISSING, EMPTY, DAMAGED, FOREIGN, OK = "missing", "empty", "damaged", "foreign", "ok"
 # Tables whose rows somebody would miss.
@@ -96,6 +96,8 @@ def view_of(connection: Connection) -> DatabaseView:
     rides = values("SELECT object_key FROM ride WHERE object_key IS NOT NULL")
     originals = values("SELECT object_key FROM upload WHERE object_key IS NOT NULL")
     objects = frozenset(rides) | frozenset(originals)
+    arrived = values("SELECT sha256 FROM upload WHERE sha256 IS NOT NULL")
+    known = objects | {content_key("originals", sha256) for sha256 in arrived}
     discarded: list[str] = []
     identity, rebuilding = None, False
     if "store_identity" in tables:
@@ -110,7 +112,7 @@ def view_of(connection: Connection) -> DatabaseView:
         rebuilding=rebuilding,
         rides=int(connection.execute(text("SELECT count(*) FROM ride")).scalar_one()),
         object_keys=objects,
-        known_keys=objects | {sidecar_key(key) for key in rides} | frozenset(discarded),
+        known_keys=known | {sidecar_key(key) for key in rides} | frozenset(discarded),
         live=live_recordings(connection, "heartbeat_us" in names),
     )
 

@@ -200,8 +200,7 @@ class FileObjects:
 
     def set_identity(self, store_id: str) -> None:
         """Write the store's id into the folder. Raises StoreError."""
-        if self.identity() != store_id:
-            self.publish_json(IDENTITY, {"id": store_id, "format": 1})
+        self.publish_json(IDENTITY, {"id": store_id, "format": 1})
 
     def clear_staging(self) -> int:
         """Remove what a crash left half written; returns how many files."""

@@ -26,7 +26,9 @@ ROW_GROUP_ROWS = 16384
 COMPRESSION_LEVEL = 9
 ENCODINGS = ("DELTA_BINARY_PACKED", "PLAIN", "BYTE_STREAM_SPLIT")
 TIME_COLUMN = "t_us"
-SCHEMA_VERSION = 1
+# 1: start, period, gear ratio, serial number. 2: everything of `facts.facts_of`.
+SCHEMA_VERSION = 2
+FACTS_KEY = b"spindle"
 
 
 @dataclass(frozen=True)
@@ -56,12 +58,14 @@ def write_rows(
     chunks: Iterable[RideRows],
     facts: Mapping[str, object],
     sample: RideRows | None = None,
+    draft: bool = False,
 ) -> int:
     """Write rows to a new Parquet file, one row group at a time; returns the number of rows.
 
     facts: plain JSON kept in the file's metadata, so that a file alone tells what it is. sample:
     rows typical of the ride, by which each channel's encoding is chosen. The same rows, facts and
-    sample give the same bytes. Raises StoreError when the disk refuses.
+    sample give the same bytes. draft: quick rather than small. Raises StoreError when the disk
+    refuses.
     """
     pa, pq = arrow()
     encodings = dict.fromkeys([TIME_COLUMN, *(c.name for c in channels)], ENCODINGS[0])
@@ -73,8 +77,8 @@ def write_rows(
         with pq.ParquetWriter(
             path,
             schema,
-            compression="zstd",
-            compression_level=COMPRESSION_LEVEL,
+            compression="none" if draft else "zstd",
+            compression_level=None if draft else COMPRESSION_LEVEL,
             use_dictionary=False,
             column_encoding=encodings,
             write_page_checksum=True,
@@ -126,7 +130,32 @@ def ride_schema(channels: Sequence[ChannelSpec], facts: Mapping[str, object]) ->
         about = {"unit": channel.unit, "scale": repr(channel.scale)}
         fields.append(pa.field(channel.name, kind, metadata=about))
     text = json.dumps({"schema_version": SCHEMA_VERSION, **facts}, sort_keys=True)
-    return pa.schema(fields, metadata={"spindle": text})
+    return pa.schema(fields, metadata={FACTS_KEY: text})
+
+
+def read_facts(path: Path) -> tuple[dict[str, Any], tuple[ChannelSpec, ...], int]:
+    """What a ride's file says of itself: its facts, its columns as channels, its rows.
+
+    Raises StoreError when it is no ride's file.
+    """
+    pa, pq = arrow()
+    try:
+        footer = pq.read_metadata(path)
+        schema = footer.schema.to_arrow_schema()
+        facts = json.loads(footer.metadata[FACTS_KEY])
+        channels = tuple(
+            ChannelSpec(
+                field.name,
+                field.metadata[b"unit"].decode(),
+                float(field.metadata[b"scale"]),
+                wide=field.type == pa.int32(),
+            )
+            for field in schema
+            if field.name != TIME_COLUMN
+        )
+    except (OSError, pa.ArrowException, KeyError, TypeError, ValueError) as error:
+        raise StoreError(f"{path.name} is no ride's file: {error}") from error
+    return facts, channels, int(footer.num_rows)
 
 
 def regrouped(channels: Sequence[ChannelSpec], chunks: Iterable[RideRows]) -> Iterable[RideRows]:
@@ -205,6 +234,12 @@ class RideFile:
                 column = column.fill_null(self._channels[name].missing)
             found[name] = column.to_numpy()
         return found
+
+    def verify(self) -> None:
+        """Read every page. Raises StoreError when one is damaged."""
+        columns = [TIME_COLUMN, *self._channels]
+        for start in range(0, self.row_count, ROW_GROUP_ROWS):
+            self._read(columns, start, start + ROW_GROUP_ROWS)
 
     def _read(self, columns: list[str], start: int, stop: int) -> Any:
         """The table of rows [start, stop); every page's checksum is verified."""

@@ -18,7 +18,7 @@ from backend.errors import FieldError, InvalidRequest
 from backend.store import tables as t
 from backend.store.blobs import channel_list, encode_level
 from backend.store.discard import take_back, with_sidecar
-from backend.store.finish import Digest, WrittenObject
+from backend.store.finish import WrittenObject
 
 NAME_LENGTH_MAX = 200
 # The largest whole number SQL holds.
@@ -67,6 +67,7 @@ def ride_from_row(row: Row[Any]) -> Ride:
         object_key=body["object_key"],
         object_bytes=body["object_bytes"],
         summary=RideSummary(**figures) if figures["duration_s"] is not None else None,
+        cut_short=bool(body["cut_short"]),
     )
 
 
@@ -122,13 +123,14 @@ def upload_key(connection: Connection, token: str | None) -> int | None:
     return connection.execute(select(t.upload.c.id).where(t.upload.c.token == token)).scalar()
 
 
-def finish_row(
-    connection: Connection,
-    ride_id: int,
-    written: WrittenObject,
-    found: Digest,
-    completeness: float | None,
-) -> None:
+def upload_file(connection: Connection, token: str | None) -> dict[str, str] | None:
+    """Hash and name of the file that an upload brought."""
+    columns = (t.upload.c.sha256, t.upload.c.name)
+    row = connection.execute(select(*columns).where(t.upload.c.token == token)).first()
+    return None if row is None or row.sha256 is None else {"sha256": row.sha256, "name": row.name}
+
+
+def finish_row(connection: Connection, ride_id: int, written: WrittenObject) -> None:
     """Make a ride `done`, with everything that belongs to a finished one."""
     take_back(connection, with_sidecar(written.key))
     connection.execute(
@@ -140,19 +142,21 @@ def finish_row(
             object_key=written.key,
             object_sha256=written.sha256,
             object_bytes=written.size_bytes,
-            gaps=[asdict(gap) for gap in found.gaps],
-            events=[asdict(event) for event in found.events],
-            completeness=completeness,
+            gaps=[asdict(gap) for gap in written.found.gaps],
+            events=[asdict(event) for event in written.found.events],
+            completeness=written.completeness,
         )
     )
     connection.execute(delete(t.ride_summary).where(t.ride_summary.c.ride_id == ride_id))
-    connection.execute(insert(t.ride_summary).values(ride_id=ride_id, **asdict(found.summary)))
+    connection.execute(
+        insert(t.ride_summary).values(ride_id=ride_id, **asdict(written.found.summary))
+    )
     connection.execute(delete(t.ride_lod).where(t.ride_lod.c.ride_id == ride_id))
     connection.execute(
         insert(t.ride_lod),
         [
             {"ride_id": ride_id, "step": level.step, "payload": encode_level(level)}
-            for level in found.levels
+            for level in written.found.levels
         ],
     )
 

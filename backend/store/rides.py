@@ -15,6 +15,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from functools import partial
+from pathlib import PurePosixPath
 from typing import Any
 
 import numpy as np
@@ -38,9 +39,9 @@ from backend.store.deletion import (
 )
 from backend.store.discard import note_discarded, with_sidecar
 from backend.store.filling import Filling, filled_chunks, grown
-from backend.store.finish import WrittenObject, digest, write_object
+from backend.store.finish import RowsInMemory, drafted, write_object
 from backend.store.objects import Objects
-from backend.store.parquet import ROW_GROUP_ROWS, RideFile, joined, sliced
+from backend.store.parquet import RideFile, read_facts
 from backend.store.reader import LiveRows, ReaderCache, RideReader
 from backend.store.ride_table import (
     NAME_LENGTH_MAX,
@@ -51,15 +52,15 @@ from backend.store.ride_table import (
     remove_ride,
     ride_from_row,
     ride_row,
+    upload_file,
     upload_key,
     whole_ride,
 )
+from backend.store.sidecar import keep_words, tell_for_old_file
 
 PAGE_MAX = 500
 NOTES_LENGTH_MAX = 20_000
 TAILS_AT_ONCE = 64
-# Rows by which a ride's encodings are chosen.
-SAMPLE_ROWS = ROW_GROUP_ROWS
 
 
 @dataclass(frozen=True)
@@ -144,11 +145,19 @@ class RideStore:
         if ride.row_count == 0:
             self._database.write(lambda c: remove_ride(c, ride_id))
             return None
-        middle = max(0, ride.row_count // 2 - SAMPLE_ROWS // 2)
-        sample = joined(ride.channels, list(self._tail_chunks(ride, middle, SAMPLE_ROWS)))
-        with self._objects.holding():
-            written = write_object(self._objects, ride, self._tail_chunks(ride), sample)
-            return self._publish(ride, written)
+        with (
+            drafted(self._objects, ride.channels, self._tail_chunks(ride)) as rows,
+            self._objects.holding(),
+        ):
+            written = write_object(self._objects, ride, rows, counted=True, more={})
+
+            def work(connection: Connection) -> None:
+                finish_row(connection, ride.id, written)
+                connection.execute(delete(t.ride_tail).where(t.ride_tail.c.ride_id == ride.id))
+                keep_words(connection, self._objects, ride.id)
+
+            self._database.write(work)
+        return self.get(ride.id)
 
     def finish_later(self, ride_id: int) -> Future[Ride | None]:
         """`finish` on the store's own thread, after every tail handed over before this call."""
@@ -168,8 +177,9 @@ class RideStore:
 
         The object is written before the ride is known, so a failure leaves no half ride.
         """
-        middle = max(0, len(rows.times_us) // 2 - SAMPLE_ROWS // 2)
-        sample = sliced(rows, middle, middle + SAMPLE_ROWS)
+        more: dict[str, object] = {"name": ride.name[:NAME_LENGTH_MAX], "notes": ride.notes}
+        if file := self._database.read(lambda c: upload_file(c, upload_id)):
+            more["original"] = file
         body = ride_row(
             "live",
             ride.origin,
@@ -181,13 +191,13 @@ class RideStore:
         )
         body |= {"notes": ride.notes, "completeness": ride.completeness}
         with self._objects.holding():
-            written = write_object(self._objects, ride, [rows], sample)
-            found = digest(self._objects.local_path(written.key), ride)
+            source = RowsInMemory(rows)
+            written = write_object(self._objects, ride, source, counted=False, more=more)
 
             def work(connection: Connection) -> int:
                 key = upload_key(connection, upload_id)
                 ride_id = inserted(connection, body | {"upload_id": key})
-                finish_row(connection, ride_id, written, found, ride.completeness)
+                finish_row(connection, ride_id, written)
                 if key is not None:
                     join_source(connection, ride_id, key, MADE)
                 return ride_id
@@ -207,18 +217,18 @@ class RideStore:
         key = ride.object_key
         file = RideFile(self._objects.local_path(key), ride.channels)
         new = grown(ride, filling)
-        middle = max(0, new.row_count // 2 - SAMPLE_ROWS // 2)
-        around = filled_chunks(file, ride, filling, middle, middle + SAMPLE_ROWS)
-        sample = joined(ride.channels, list(around))
-        with self._objects.holding():
-            written = write_object(self._objects, new, filled_chunks(file, ride, filling), sample)
-            found = digest(self._objects.local_path(written.key), new)
-            completeness = 1.0 - found.rows_empty / written.row_count
+        more = self._told_before(ride, key, upload_id)
+        with (
+            drafted(self._objects, ride.channels, filled_chunks(file, ride, filling)) as rows,
+            self._objects.holding(),
+        ):
+            written = write_object(self._objects, new, rows, counted=True, more=more)
 
             def work(connection: Connection) -> None:
                 if not refill_row(connection, new, key):
                     raise Conflict(f"Ride {ride.id} is another since it was looked at.")
-                finish_row(connection, ride.id, written, found, completeness)
+                finish_row(connection, ride.id, written)
+                keep_words(connection, self._objects, ride.id)
                 if (source := upload_key(connection, upload_id)) is not None:
                     join_source(connection, ride.id, source, FILLED)
                 if not is_needed(connection, key):
@@ -281,10 +291,13 @@ class RideStore:
                 f"its notes {NOTES_LENGTH_MAX}."
             )
         self.get(ride_id)
+
+        def work(connection: Connection) -> None:
+            connection.execute(update(t.ride).where(t.ride.c.id == ride_id).values(changes))
+            keep_words(connection, self._objects, ride_id, even_if_empty=True)
+
         if changes:
-            self._database.write(
-                lambda c: c.execute(update(t.ride).where(t.ride.c.id == ride_id).values(changes))
-            )
+            self._database.write(work)
         self._readers.forget(ride_id)
         return self.get(ride_id)
 
@@ -315,11 +328,36 @@ class RideStore:
         """Rows and overview of a ride. Raises NotFound, StoreError when the object is damaged."""
         return self._readers.get(ride_id, lambda: self._open_reader(self.get(ride_id)))
 
+    def tell_for_old_files(self) -> None:
+        """Write beside every object of an older version what only the database knows of its ride.
+
+        Raises StoreError; safe to repeat.
+        """
+        query = select(t.ride.c.id).where(t.ride.c.object_key.is_not(None)).order_by(t.ride.c.id)
+        for ride_id in self._database.read(lambda c: c.execute(query).scalars().all()):
+            ride = self.get(ride_id)
+            token = ride.upload_id
+            original = self._database.read(partial(upload_file, token=token))
+            tell_for_old_file(self._objects, ride, original)
+
     def object_keys(self) -> set[str]:
         """Keys of every object a ride needs, sidecars too."""
         query = select(t.ride.c.object_key).where(t.ride.c.object_key.is_not(None))
         keys = self._database.read(lambda c: c.execute(query).scalars().all())
         return {part for key in keys for part in with_sidecar(key)}
+
+    def _told_before(self, ride: Ride, key: str, upload_id: str | None) -> dict[str, object]:
+        """Facts of a ride that is filled which neither it nor its rows tell."""
+        facts, _, _ = read_facts(self._objects.local_path(key))
+        more: dict[str, object] = {
+            "filled_from": facts.get("filled_from", []),
+            "replaces": [PurePosixPath(key).stem, *facts.get("replaces", [])],
+        }
+        if original := self._database.read(lambda c: upload_file(c, ride.upload_id)):
+            more["original"] = original
+        if file := self._database.read(lambda c: upload_file(c, upload_id)):
+            more["filled_from"] = [*facts.get("filled_from", []), file]
+        return more
 
     def _open_reader(self, ride: Ride) -> RideReader:
         if ride.object_key is not None:
@@ -363,12 +401,10 @@ class RideStore:
                 return
             next_start = found[-1][0] + 1
 
-    def _tail_chunks(
-        self, ride: Ride, start: int = 0, rows: int | None = None
-    ) -> Iterable[RideRows]:
-        """The tail's blocks from row `start` on, until there are at least `rows`."""
-        stop = None if rows is None else start + rows
-        for block in self._tail_blocks(ride, start):
+    def _tail_chunks(self, ride: Ride) -> Iterable[RideRows]:
+        """The tail's blocks, in order."""
+        start = 0
+        for block in self._tail_blocks(ride):
             times_us = np.arange(start, start + len(block), dtype=np.int64) * (ride.period_us or 1)
             counts = {
                 channel.name: np.ascontiguousarray(block[:, index])
@@ -376,19 +412,6 @@ class RideStore:
             }
             yield RideRows(ride.channels, times_us, counts)
             start += len(block)
-            if stop is not None and start >= stop:
-                return
-
-    def _publish(self, ride: Ride, written: WrittenObject) -> Ride:
-        found = digest(self._objects.local_path(written.key), ride)
-        completeness = 1.0 - found.rows_empty / written.row_count
-
-        def work(connection: Connection) -> None:
-            finish_row(connection, ride.id, written, found, completeness)
-            connection.execute(delete(t.ride_tail).where(t.ride_tail.c.ride_id == ride.id))
-
-        self._database.write(work)
-        return self.get(ride.id)
 
 
 def fetched(query: Select[Any], connection: Connection) -> list[tuple[int, int, bytes]]:

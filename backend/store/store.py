@@ -11,11 +11,11 @@ from contextlib import ExitStack
 from types import TracebackType
 
 from backend.errors import StoreError
-from backend.store.database import Database, shown, sqlite_path
+from backend.store.database import Database, shown
 from backend.store.deletion import Deletions
 from backend.store.discard import discarded_keys
 from backend.store.identity import belonging, new_id, require, write_identity
-from backend.store.locks import lock_database_file, lock_folder
+from backend.store.locks import hold
 from backend.store.look import look_at
 from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
 from backend.store.revisions import RevisionLog
@@ -132,25 +132,14 @@ def open_store(db_url: str, objects_url: str, disk: Disk | None = None) -> Store
         store_id = require(found, shown(db_url), objects)
         database = Database(db_url)
         closing.callback(database.close)
-        if found.adopted:
-            objects.set_identity(store_id)
-        database.write(lambda c: write_identity(c, store_id, server_id, rebuilding=False))
         store = Store(database, objects, closing, server_id)
         closing.callback(store.rides.close)
+        if found.adopted:
+            store.rides.tell_for_old_files()
+            objects.set_identity(store_id)
+        database.write(lambda c: write_identity(c, store_id, server_id, rebuilding=False))
         store.recover()
     except BaseException:
         closing.close()
         raise
     return store
-
-
-def hold(closing: ExitStack, db_url: str, objects: FileObjects) -> None:
-    """Lock the database, then the folder, until the stack is closed. Raises StoreError."""
-    path = sqlite_path(db_url)
-    if path is not None:
-        closing.callback(lock_database_file(path).release)
-    try:
-        objects.prepare()
-    except OSError as error:
-        raise StoreError(f"The folder {objects.root} cannot be used: {error}.") from error
-    closing.callback(lock_folder(objects).release)

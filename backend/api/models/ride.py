@@ -110,6 +110,11 @@ class Ride(Answer):
         description="Share of the rows that should be there, 0 to 1; what was filled from a log "
         "counts as there. Null when nobody can say."
     )
+    cut_short: bool = Field(
+        description="The recording ended while the bike moved, or with the server that recorded "
+        "it: nobody knows what came after the last row. False for a ride that stood still at its "
+        "end, was imported, is still being recorded, or was filled from the unit's own log since."
+    )
     upload_id: str | None
     object_bytes: int | None
     summary: RideSummary | None

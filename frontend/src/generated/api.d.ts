@@ -1761,6 +1761,11 @@ export interface components {
              * @description Share of the rows that should be there, 0 to 1; what was filled from a log counts as there. Null when nobody can say.
              */
             completeness: number | null;
+            /**
+             * Cut Short
+             * @description The recording ended while the bike moved, or with the server that recorded it: nobody knows what came after the last row. False for a ride that stood still at its end, was imported, is still being recorded, or was filled from the unit's own log since.
+             */
+            cut_short: boolean;
             /** Upload Id */
             upload_id: string | null;
             /** Object Bytes */

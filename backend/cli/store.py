@@ -1,0 +1,82 @@
+"""`spindle store ...`: asks no server, since a store that needs this has none."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from typing import Any
+
+from backend.cli.client import print_json, text_of
+
+# So many of a list are shown to people; `--json` shows all.
+SHOWN_MAX = 20
+
+
+def urls(options: Namespace) -> tuple[str, str]:
+    """Database and objects as the server would find them."""
+    from backend.settings import load
+
+    settings = load({"data": options.data})
+    return settings.db, settings.objects
+
+
+def check(options: Namespace) -> int:
+    """Says what is in database and folder; 1 if anything is wrong."""
+    from backend.store.check import check_store
+
+    found = check_store(*urls(options))
+    if options.json:
+        print_json(found.as_json())
+    else:
+        print_check(found.as_json())
+    return 0 if found.is_fine else 1
+
+
+def print_check(found: dict[str, Any]) -> None:
+    """The check as a person reads it."""
+    database, folder, objects = found["database"], found["folder"], found["objects"]
+    lines = {
+        "database": database["url"],
+        "database state": database["state"],
+        "database of store": database["identity"],
+        "rides in it": database["rides"],
+        "folder": folder["path"],
+        "folder of store": folder["identity"],
+        "objects whole": objects["whole"],
+        "bytes": objects["bytes"],
+    }
+    for name, value in lines.items():
+        print(f"{name:20} {text_of(value)}")
+    for ride in database["live"]:
+        print(f"ride {ride['ride_id']}: {ride['state']}, {ride['row_count']} rows so far")
+    print_keys("missing", objects["missing"])
+    print_keys("damaged", [f"{each['key']}: {each['reason']}" for each in objects["damaged"]])
+    print_keys("not known to the database", objects["unknown"])
+    print_keys("in lost+found", objects["lost_found"])
+    if found["reason"]:
+        print(f"Database and folder are not one store: {found['reason']}.")
+        print("`spindle store rebuild` brings every ride of the folder into an empty database.")
+    elif found["ok"]:
+        print("Everything is there.")
+
+
+def print_keys(words: str, keys: list[str]) -> None:
+    """A list of files, the first of them named."""
+    if keys:
+        print(f"{words}: {len(keys)}")
+    for key in keys[:SHOWN_MAX]:
+        print(f"  {key}")
+    if len(keys) > SHOWN_MAX:
+        print(f"  ... {len(keys) - SHOWN_MAX} more")
+
+
+def rebuild(options: Namespace) -> int:
+    """Brings every ride of the folder into an empty database; 1 if files were not taken."""
+    from backend.store.rebuild import rebuild_store, told
+
+    report = rebuild_store(*urls(options))
+    if options.json:
+        print_json(report.as_json())
+    else:
+        for line in told(report):
+            print(line)
+    return 1 if report.not_taken else 0

@@ -1,0 +1,145 @@
+"""What is there: database, folder, and how the one fits the other. Writes nothing.
+
+Every object is read and hashed against its name. Works beside a running server, and with a
+database that is damaged or gone.
+"""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import PurePosixPath
+
+from backend.domain.ride import iso_utc
+from backend.errors import StoreError
+from backend.store.database import shown
+from backend.store.identity import belonging
+from backend.store.look import DatabaseView, LiveRecording, look_at
+from backend.store.objects import SIDECAR_SUFFIX, FileObjects, file_sha256, open_objects
+
+# A recording commits once a second; one that has not for so long has no server any more.
+HEARTBEAT_LATE_US = 30_000_000
+OBJECT_NAME = re.compile(
+    r"(rides/([0-9a-f]{2})/(\2[0-9a-f]{62})\.(parquet|json))|"
+    r"(originals/([0-9a-f]{2})/(\6[0-9a-f]{62}))"
+)
+
+
+@dataclass(frozen=True)
+class Damage:
+    """A file that is not what its name says. reason: for people."""
+
+    key: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class StoreCheck:
+    """What `check_store` found.
+
+    reason: why database and folder are not one store, None when they are. whole: objects that are
+    what their name says, known or not. missing: the database names them and they are not there.
+    """
+
+    database_url: str
+    database: DatabaseView
+    folder: str
+    folder_id: str | None
+    reason: str | None
+    whole: int
+    bytes: int
+    missing: tuple[str, ...]
+    damaged: tuple[Damage, ...]
+    unknown: tuple[str, ...]
+    lost_found: tuple[str, ...]
+
+    @property
+    def is_fine(self) -> bool:
+        """Whether a server would start and find everything."""
+        return not (self.reason or self.missing or self.damaged or self.unknown)
+
+    def as_json(self) -> dict[str, object]:
+        """The check as plain JSON."""
+        view = self.database
+        return {
+            "ok": self.is_fine,
+            "belongs": self.reason is None,
+            "reason": self.reason,
+            "database": {
+                "url": self.database_url,
+                "state": view.state,
+                "detail": view.detail,
+                "identity": view.identity,
+                "rides": view.rides,
+                "live": [live_json(recording) for recording in view.live],
+            },
+            "folder": {"path": self.folder, "identity": self.folder_id},
+            "objects": {
+                "whole": self.whole,
+                "bytes": self.bytes,
+                "missing": list(self.missing),
+                "damaged": [asdict(damage) for damage in self.damaged],
+                "unknown": list(self.unknown),
+                "lost_found": list(self.lost_found),
+            },
+        }
+
+
+def check_store(db_url: str, objects_url: str) -> StoreCheck:
+    """Look at everything. Raises StoreError when the database's server cannot be reached."""
+    objects = open_objects(objects_url)
+    view = look_at(db_url)
+    try:
+        folder_id = objects.identity()
+    except StoreError:
+        folder_id = None
+    keys = set(objects.keys())
+    whole, size, damaged = 0, 0, []
+    for key in sorted(keys):
+        reason = damage_of(objects, key)
+        if reason is None:
+            whole += 1
+            size += objects.local_path(key).stat().st_size
+        else:
+            damaged.append(Damage(key, reason))
+    return StoreCheck(
+        database_url=shown(db_url),
+        database=view,
+        folder=str(objects.root),
+        folder_id=folder_id,
+        reason=belonging(view, objects).reason,
+        whole=whole,
+        bytes=size,
+        missing=tuple(sorted(view.object_keys - keys)),
+        damaged=tuple(damaged),
+        unknown=tuple(sorted(keys - view.known_keys)),
+        lost_found=tuple(objects.lost_keys()),
+    )
+
+
+def damage_of(objects: FileObjects, key: str) -> str | None:
+    """Why a file is not what its name says, None when it is."""
+    if OBJECT_NAME.fullmatch(key) is None:
+        return "it has no name that Spindle gives"
+    try:
+        if key.endswith(SIDECAR_SUFFIX):
+            objects.read_json(key)
+        elif file_sha256(objects.local_path(key)) != PurePosixPath(key).name.split(".")[0]:
+            return "its bytes do not hash to its name"
+    except (OSError, StoreError) as error:
+        return error.message if isinstance(error, StoreError) else str(error)
+    return None
+
+
+def live_json(recording: LiveRecording) -> Mapping[str, object]:
+    """A ride without an object: whether somebody records it now."""
+    beat_us = recording.heartbeat_us
+    late = beat_us is None or time.time_ns() // 1000 - beat_us > HEARTBEAT_LATE_US
+    return {
+        "ride_id": recording.ride_id,
+        "row_count": recording.row_count,
+        "state": "orphan" if late else "recording",
+        "heartbeat_at": None if beat_us is None else iso_utc(beat_us),
+    }

@@ -1,0 +1,141 @@
+"""What a ride's file says of the ride beside its rows, so that a lost database can be made again.
+
+Version 2 says everything that is not in the rows or in a sidecar. Version 1 had the start, the
+period, the gear ratio, the serial number and what was filled; the channels it has always had in
+its columns. A sidecar may hold the facts that a file of version 1 lacks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields
+from typing import Any, TypeVar
+
+from backend.domain.channels import ChannelSpec, channel_to_json
+from backend.domain.energy import derivable
+from backend.domain.filled import Filled
+from backend.domain.ride import Gap, Ride, RideContext
+from backend.domain.ride_events import RideEvent
+
+Item = TypeVar("Item", Filled, Gap, RideContext, RideEvent)
+
+# What every file of version 2 says, and what else only such a one can: a ride that was recorded
+# here came from no file and has no words but those of its sidecar.
+SAID = ("origin", "context", "gaps", "events", "completeness", "cut_short")
+WORDS = ("name", "notes")
+ORIGINS = ("recorded", "imported")
+
+
+@dataclass(frozen=True)
+class Original:
+    """The file a ride came from."""
+
+    sha256: str
+    name: str
+
+
+@dataclass(frozen=True)
+class KeptRide:
+    """A ride as its file and sidecar tell it.
+
+    lacks: what neither says. filled_from: files that filled it. replaces: hashes of the objects it
+    is a fuller version of.
+    """
+
+    ride: Ride
+    lacks: tuple[str, ...]
+    gaps: tuple[Gap, ...] | None
+    events: tuple[RideEvent, ...] | None
+    original: Original | None
+    filled_from: tuple[Original, ...]
+    replaces: tuple[str, ...]
+
+
+def facts_of(ride: Ride) -> dict[str, object]:
+    """The facts of a ride with its figures, as plain JSON for its file."""
+    return {
+        "started_us": ride.started_us,
+        "period_us": ride.period_us,
+        "gear_ratio": ride.context.gear_ratio,
+        "device_serial": ride.context.device_serial,
+        "origin": ride.origin,
+        "channels": [
+            {
+                **channel_to_json(channel),
+                "kind": channel.dtype.name,
+                "missing": channel.missing,
+            }
+            for channel in ride.channels
+        ],
+        "context": asdict(ride.context),
+        "gaps": [asdict(gap) for gap in ride.gaps],
+        "filled": [asdict(span) for span in ride.filled],
+        "events": [asdict(event) for event in ride.events],
+        "summary": asdict(ride.summary) if ride.summary else None,
+        "completeness": ride.completeness,
+        "cut_short": ride.cut_short,
+    }
+
+
+def kept_ride(
+    facts: Mapping[str, Any],
+    sidecar: Mapping[str, Any],
+    channels: tuple[ChannelSpec, ...],
+    row_count: int,
+    key: str,
+) -> KeptRide:
+    """A ride from the facts of its file, completed by its sidecar.
+
+    channels: as the file's columns have them. Raises KeyError, TypeError or ValueError when the
+    facts make no sense.
+    """
+    known = {**sidecar.get("facts", {}), **facts}
+    words = {**known, **{name: sidecar[name] for name in WORDS if name in sidecar}}
+    lacks = [name for name in SAID if name not in known]
+    if "origin" in lacks:
+        lacks += [name for name in (*WORDS, "original") if name not in words]
+        # What has a unit's number was nearly always recorded here.
+        known["origin"] = ORIGINS[known.get("device_serial") is None]
+    context = known_fields(RideContext, known.get("context") or known)
+    ride = Ride(
+        id=0,
+        state="done",
+        origin=ORIGINS[ORIGINS.index(known["origin"])],
+        name=str(words.get("name", "")),
+        notes=str(words.get("notes", "")),
+        started_us=int(known["started_us"]),
+        row_count=row_count,
+        period_us=None if known.get("period_us") is None else int(known["period_us"]),
+        channels=channels,
+        derived=derivable([channel.name for channel in channels], context.gear_ratio),
+        context=context,
+        filled=tuple(known_fields(Filled, span) for span in known.get("filled", ())),
+        completeness=known.get("completeness"),
+        object_key=key,
+        cut_short=bool(known.get("cut_short", False)),
+    )
+    return KeptRide(
+        ride=ride,
+        lacks=tuple(lacks),
+        gaps=items(Gap, known.get("gaps")),
+        events=items(RideEvent, known.get("events")),
+        original=original_of(known.get("original")),
+        filled_from=tuple(
+            found for found in map(original_of, known.get("filled_from", ())) if found
+        ),
+        replaces=tuple(str(sha256) for sha256 in known.get("replaces", ())),
+    )
+
+
+def known_fields(kind: type[Item], body: Mapping[str, Any]) -> Item:
+    """A dataclass from the members it has; a newer version's file may tell more."""
+    names = {field.name for field in fields(kind)}
+    return kind(**{name: value for name, value in body.items() if name in names})
+
+
+def items(kind: type[Item], bodies: Any) -> tuple[Item, ...] | None:
+    return None if bodies is None else tuple(known_fields(kind, body) for body in bodies)
+
+
+def original_of(body: Mapping[str, Any] | None) -> Original | None:
+    return None if body is None else Original(str(body["sha256"]), str(body["name"]))

@@ -1,0 +1,74 @@
+"""What a person wrote about a ride, beside its object: `rides/ab/<sha256>.json`.
+
+    {"schema_version": 1, "name": "...", "notes": "...", "facts": {...}}
+
+It is written in the transaction that changes the ride, so that SQL and file say the same, and only
+for rides that have something to say. `facts` is there for an object from before files told them.
+"""
+
+from __future__ import annotations
+
+import logging
+from typing import Any
+
+from sqlalchemy import Connection, select
+
+from backend.domain.ride import Ride
+from backend.errors import StoreError
+from backend.store import tables as t
+from backend.store.facts import facts_of
+from backend.store.objects import Objects, sidecar_key
+from backend.store.parquet import read_facts
+
+LOG = logging.getLogger(__name__)
+
+SIDECAR_VERSION = 1
+# From this version on an object's file tells everything itself.
+FACTS_VERSION = 2
+
+
+def read_sidecar(objects: Objects, ride_key: str) -> dict[str, Any]:
+    """The sidecar of a ride's object, empty if it has none. Raises StoreError if it is damaged."""
+    return objects.read_json(sidecar_key(ride_key)) or {}
+
+
+def write_sidecar(
+    objects: Objects, ride_key: str, name: str, notes: str, facts: dict[str, Any] | None = None
+) -> None:
+    """Write what a person wrote; facts that are there stay. Raises StoreError."""
+    try:
+        body = read_sidecar(objects, ride_key)
+    except StoreError as error:
+        LOG.warning("%s It is written anew.", error.message)
+        body = {}
+    body |= {"schema_version": SIDECAR_VERSION, "name": name, "notes": notes}
+    if facts is not None:
+        body["facts"] = facts
+    objects.publish_json(sidecar_key(ride_key), body)
+
+
+def tell_for_old_file(objects: Objects, ride: Ride, original: dict[str, str] | None) -> None:
+    """Write what the database knows of a finished ride and its object, of version 1, does not tell.
+
+    An object that is newer, gone or damaged is left alone. Raises StoreError.
+    """
+    key = str(ride.object_key)
+    try:
+        version = int(read_facts(objects.local_path(key))[0].get("schema_version", 1))
+        is_told = "facts" in read_sidecar(objects, key)
+    except StoreError as error:
+        LOG.warning("%s", error.message)
+        return
+    if version < FACTS_VERSION and not is_told:
+        facts = facts_of(ride) | ({"original": original} if original else {})
+        write_sidecar(objects, key, ride.name, ride.notes, facts)
+
+
+def keep_words(
+    connection: Connection, objects: Objects, ride_id: int, even_if_empty: bool = False
+) -> None:
+    """Write a finished ride's sidecar as the transaction has it, when there is something to say."""
+    columns = (t.ride.c.name, t.ride.c.notes, t.ride.c.object_key)
+    row = connection.execute(select(*columns).where(t.ride.c.id == ride_id)).first()
+    if row is not None and row.object_key and (row.name or row.notes or even_if_empty):
+        write_sidecar(objects, row.object_key, row.name, row.notes)
