@@ -106,9 +106,10 @@ class TwoHosts(RuleBasedStateMachine):
     # ------------------------------------------------------------------ asking
 
     def ask(self, host: Host, message: Message) -> codec.Response:
-        frame = codec.encode(codec.Request(host.tid(), message))
-        response = self.unit.ask_frame(frame)
-        assert self.unit.ask_frame(frame) == response, "a repetition was done again"
+        tid = host.tid()
+        response = self.unit.ask_frame(codec.encode(codec.Request(tid, message)))
+        repeated = codec.encode(codec.Request(tid, message, retransmit=True))
+        assert self.unit.ask_frame(repeated) == response, "a repetition was done again"
         return response
 
     def knows(self, host: Host) -> bool:

@@ -133,6 +133,11 @@ class BenchUnit:
         assert (response.tid, response.message_id) == (self._tid, message.MESSAGE_ID)
         return response
 
+    def ask_again(self, message: Message) -> codec.Response:
+        """The latest request once more, as a host repeats one whose answer it did not hear."""
+        repeated = codec.Request(self._tid, message, retransmit=True)
+        return self.ask_frame(codec.encode(repeated))
+
     def hello(self, host_mtu: int = 544, nonce: bytes = bytes(8)) -> HelloResponse:
         """A session."""
         message = self.ask(HelloRequest(1, 1, 0, host_mtu, nonce)).message

@@ -159,7 +159,8 @@ class FakeUnit:
     def _answer(self, request: Request, frame: bytes) -> bytes:
         original = encode(replace(request, retransmit=False)) if request.retransmit else frame
         key = (request.tid, zlib.crc32(original))
-        if key not in self._cache:
+        if key not in self._cache or not request.retransmit:
+            self._cache.pop(key, None)
             self._cache[key] = encode_frame(self._respond(request))
             if len(self._cache) > CACHE_SIZE:
                 self._cache.popitem(last=False)

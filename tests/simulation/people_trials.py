@@ -97,6 +97,10 @@ class Trials:
     def _give_up(self, intent: Intent) -> None:
         people, world = self._people, self._world
         intent.return_asked = True
+        # The request names no trial: whatever is on trial now is given up, somebody else's too.
+        current = world.watcher.trials.current
+        if current is not None:
+            world.watcher.intents[current.marker].return_asked = True
         self._perhaps_brown_out_in_the_word()
 
         def done(found: ConfigImage) -> None:

@@ -148,6 +148,7 @@ void app_poll(app *unit)
     unit->counters.log_erases += unit->ride_log.store.erases;
     unit->ride_log.store.erases = 0;
     link_transmit(&unit->link, unit->board);
+    dispatch_answers_left(unit);
 }
 
 static uint8_t mode_select(const app *unit, const hal_inputs *inputs)

@@ -29,6 +29,7 @@
 /* A response the host may ask for again because it was lost: executing twice is not an option. */
 typedef struct {
     uint8_t tid; /* 0: nothing here */
+    uint8_t new; /* executed in this poll: no answer to it has left yet */
     uint32_t request_crc32;
     uint16_t length;
     uint8_t frame[LINK_MTU];

@@ -125,14 +125,22 @@ static uint32_t request_crc(const uint8_t *frame, size_t length)
     return ebl_crc32(ebl_crc32(0, &first, 1), frame + 1, length - 1);
 }
 
-static const answered_request *answered_find(const app *unit, uint8_t tid, uint32_t crc32)
+static answered_request *answered_find(app *unit, uint8_t tid, uint32_t crc32)
 {
     for (size_t i = 0; i < EBL_MAX_OUTSTANDING; i++) {
-        const answered_request *answered = &unit->answered[i];
+        answered_request *answered = &unit->answered[i];
 
         if (answered->tid == tid && answered->request_crc32 == crc32) return answered;
     }
     return NULL;
+}
+
+/* Whether the frame asks again for this answer: it says so, or it came before the answer could have
+ * left, so that it is the line that doubled it. Anything else is a new request under a number that
+ * is used again, and what was answered before is old. */
+static int is_repetition(const ebl_header *request, const answered_request *answered)
+{
+    return (request->flags & EBL_FLAG_RETRANSMIT) || answered->new;
 }
 
 static answered_request *answered_take_oldest(app *unit)
@@ -145,8 +153,8 @@ static answered_request *answered_take_oldest(app *unit)
 }
 
 /* Executes a request once and remembers the response. */
-static const answered_request *request_answer(app *unit, const ebl_header *request, int readable,
-                                              uint32_t crc32)
+static answered_request *request_answer(app *unit, const ebl_header *request, int readable,
+                                        uint32_t crc32)
 {
     answered_request *answered = answered_take_oldest(unit);
     reply answer = {answered->frame + EBL_HEADER_LENGTH, 0, 0};
@@ -161,6 +169,7 @@ static const answered_request *request_answer(app *unit, const ebl_header *reque
     }
     ebl_header_put(answered->frame, EBL_KIND_RESPONSE, 0, request->tag, request->word);
     answered->tid = request->tag;
+    answered->new = 1;
     answered->request_crc32 = crc32;
     answered->length = (uint16_t)(EBL_HEADER_LENGTH + answer.length);
     return answered;
@@ -177,13 +186,19 @@ void dispatch_answer_later(app *unit, uint8_t tid, uint16_t message_id, const re
     for (size_t i = 0; i < EBL_MAX_OUTSTANDING; i++) {
         answered_request *answered = &unit->answered[i];
 
-        if (answered->tid != tid || memcmp(answered->frame, frame, EBL_HEADER_LENGTH) != 0) {
+        if (answered->tid != tid || memcmp(answered->frame, frame, EBL_HEADER_LENGTH) != 0 ||
+            answered->frame[EBL_HEADER_LENGTH] != EBL_STATUS_PENDING) {
             continue;
         }
         memcpy(answered->frame, frame, length);
         answered->length = (uint16_t)length;
     }
     (void)link_send(&unit->link, LINK_RESPONSE, frame, length);
+}
+
+void dispatch_answers_left(app *unit)
+{
+    for (size_t i = 0; i < EBL_MAX_OUTSTANDING; i++) unit->answered[i].new = 0;
 }
 
 void dispatch_forget(app *unit, uint16_t message_id)
@@ -221,7 +236,7 @@ void dispatch_frame(app *unit, const uint8_t *frame, size_t length)
 {
     ebl_header request;
     int readable = ebl_header_get(&request, frame, length);
-    const answered_request *answered;
+    answered_request *answered;
     uint32_t crc32;
 
     if (readable != EBL_OK && readable != EBL_ERROR_VERSION) return;
@@ -235,6 +250,10 @@ void dispatch_frame(app *unit, const uint8_t *frame, size_t length)
     if (request.tag == 0) return;
     crc32 = request_crc(frame, length);
     answered = answered_find(unit, request.tag, crc32);
+    if (answered != NULL && !is_repetition(&request, answered)) {
+        answered->tid = 0;
+        answered = NULL;
+    }
     if (answered == NULL) answered = request_answer(unit, &request, readable, crc32);
     (void)link_send(&unit->link, LINK_RESPONSE, answered->frame, answered->length);
 }

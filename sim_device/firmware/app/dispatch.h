@@ -53,6 +53,9 @@ request_handler requests_log(const app *unit, uint16_t message_id);
 /* The response that a PENDING promised; it is remembered in its place. At most 8 bytes. */
 void dispatch_answer_later(app *unit, uint8_t tid, uint16_t message_id, const reply *answer);
 
+/* What was answered in this poll has been given to the line. */
+void dispatch_answers_left(app *unit);
+
 /* Answers of this message are not given again: a repeated request is executed anew. */
 void dispatch_forget(app *unit, uint16_t message_id);
 

@@ -85,7 +85,8 @@ def test_an_answer_that_promised_a_rate_given_back_is_not_given_again() -> None:
     unit.advance(0.3)
     assert rate(unit) == 115200
 
-    assert unit.ask_frame(request).status == Status.OK
+    repeated = bytes([request[0] | codec.FLAG_RETRANSMIT]) + request[1:]
+    assert unit.ask_frame(repeated).status == Status.OK
     unit.advance(0.02)
 
     assert rate(unit) == 1_000_000

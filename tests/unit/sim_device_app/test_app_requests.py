@@ -11,6 +11,7 @@ from sim_device.firmware.python._native import lib
 
 from firmware_protocol import codec, framing
 from firmware_protocol._generated import (
+    CHANNEL_BY_NAME,
     REQUEST_BY_ID,
     SCHEMA_HASH,
     CfgBeginResponse,
@@ -18,6 +19,7 @@ from firmware_protocol._generated import (
     CfgStagedCrcRequest,
     HelloRequest,
     HelloResponse,
+    LogCrcRequest,
     MessageId,
     PingRequest,
     SchemaReadRequest,
@@ -26,6 +28,7 @@ from firmware_protocol._generated import (
     StatsResponse,
     Status,
 )
+from tests.fakes.bench_logs import logs, ride, unit_with_log
 from tests.fakes.bench_unit import BenchUnit
 
 GOLDEN_HELLO = bytes.fromhex("0004200101030101010102020c010203040506072c8a749000")
@@ -34,6 +37,11 @@ BOARD_MESSAGES = {MessageId.SIM_GET, MessageId.SIM_SET}
 
 def frame(message_id: int, payload: bytes = b"", tid: int = 9, first: int = 0x20) -> bytes:
     return bytes([first, tid]) + message_id.to_bytes(2, "little") + payload
+
+
+def again(request: bytes) -> bytes:
+    """The same request, marked as sent before."""
+    return bytes([request[0] | codec.FLAG_RETRANSMIT]) + request[1:]
 
 
 def test_the_specifications_hello_is_answered_with_the_units_identity() -> None:
@@ -180,11 +188,23 @@ def test_every_hello_starts_another_session() -> None:
 
 def test_a_repeated_hello_is_the_same_session() -> None:
     unit = BenchUnit()
+    (hello,) = framing.FrameDecoder().feed(GOLDEN_HELLO)
 
-    unit.say(GOLDEN_HELLO + GOLDEN_HELLO)
-    first, second = unit.hear()
+    first = unit.ask_frame(hello)
+    second = unit.ask_frame(again(hello))
 
     assert first == second
+
+
+def test_a_hello_that_is_no_repetition_is_another_session() -> None:
+    unit = BenchUnit()
+    (hello,) = framing.FrameDecoder().feed(GOLDEN_HELLO)
+
+    first, second = unit.ask_frame(hello).message, unit.ask_frame(hello).message
+
+    assert isinstance(first, HelloResponse)
+    assert isinstance(second, HelloResponse)
+    assert second.session_id == first.session_id + 1
 
 
 def test_a_retry_is_answered_alike_and_executed_once() -> None:
@@ -198,12 +218,65 @@ def test_a_retry_is_answered_alike_and_executed_once() -> None:
     )
 
     first = unit.ask_frame(begin)
-    second = unit.ask_frame(begin)
-    flagged = unit.ask_frame(bytes([begin[0] | 2]) + begin[1:])
+    repeated = [unit.ask_frame(again(begin)) for _ in range(2)]
 
     assert first.status == Status.OK
-    assert first == second == flagged
+    assert repeated == [first, first]
     assert unit.ask_frame(frame(MessageId.CFG_BEGIN, begin[4:], tid=78)).status == Status.BUSY
+
+
+def test_a_number_used_again_is_another_request_and_not_an_old_answer() -> None:
+    unit = BenchUnit()
+    snapshot = frame(MessageId.STR_SNAPSHOT, bytes([CHANNEL_BY_NAME["speed_kmh"].id]))
+    unit.inputs(speed_kmh=5.0)
+    unit.advance(0.02)
+    old = unit.ask_frame(snapshot)
+    unit.inputs(speed_kmh=25.0)
+    unit.advance(1.0)
+
+    fresh = unit.ask_frame(snapshot)
+
+    speeds = [int.from_bytes(answer.payload[8:10], "little") for answer in (old, fresh)]
+    assert speeds == [500, 2500]
+    assert unit.ask_frame(again(snapshot)) == fresh
+
+
+def test_a_repetition_whose_original_never_came_is_a_request() -> None:
+    unit = BenchUnit()
+
+    response = unit.ask_frame(again(frame(MessageId.CFG_INFO, tid=3)))
+
+    assert isinstance(response.message, CfgInfoResponse)
+
+
+def test_a_frame_that_the_line_doubled_is_executed_once() -> None:
+    unit = BenchUnit()
+    generation, image = unit.read_image()
+    fields = generation.to_bytes(4, "little") + zlib.crc32(image).to_bytes(4, "little")
+    begin = framing.encode_frame(frame(MessageId.CFG_BEGIN, fields))
+
+    unit.say(begin + begin)
+    first, second = unit.hear()
+
+    assert (first.status, second) == (Status.OK, first)
+
+
+def test_a_late_answer_reaches_nobody_who_was_refused_under_the_same_number() -> None:
+    """Two hosts, or one that breaks the rules: LOG_CRC waits, and its number is used again."""
+    unit = unit_with_log(4096, 65536)
+    ride(unit, 10.0)
+    (log,) = logs(unit)
+    whole, head = (
+        frame(MessageId.LOG_CRC, LogCrcRequest(log.log_id, log.generation, 0, length).to_bytes())
+        for length in (log.length, 512)
+    )
+
+    assert unit.ask_frame(whole).status == Status.PENDING
+    assert unit.ask_frame(head).status == Status.BUSY
+    unit.advance(1.0)
+
+    assert unit.ask_frame(again(whole)).status == Status.OK
+    assert unit.ask_frame(again(head)).status == Status.BUSY
 
 
 def test_another_hosts_request_is_not_taken_for_a_retry_of_the_one_before() -> None:
@@ -216,7 +289,7 @@ def test_another_hosts_request_is_not_taken_for_a_retry_of_the_one_before() -> N
     unit.ask_frame(begin)
 
     unit.hello(nonce=b"another!")
-    response = unit.ask_frame(begin)
+    response = unit.ask_frame(again(begin))
 
     assert isinstance(response.message, CfgBeginResponse)
     staged = unit.ask(CfgStagedCrcRequest(response.message.transaction))
@@ -228,9 +301,9 @@ def test_the_last_four_answers_are_remembered_whatever_their_order() -> None:
     requests = [frame(MessageId.CFG_INFO, tid=tid) for tid in (1, 2, 3, 4)]
 
     first = [unit.ask_frame(request) for request in requests]
-    again = [unit.ask_frame(request) for request in reversed(requests)]
+    repeated = [unit.ask_frame(again(request)) for request in reversed(requests)]
 
-    assert first == again[::-1]
+    assert first == repeated[::-1]
 
 
 def test_the_same_tid_with_another_question_is_another_request() -> None:
