@@ -103,7 +103,7 @@ class UnitRecorder:
         rides: RideStore,
         settings: RecordSettings,
         context_of: ContextOf,
-        finish: Callable[[int], Future[Ride | None]],
+        finish: Callable[[int, bool], Future[Ride | None]],
     ) -> None:
         self._device_id = device_id
         self._rides = rides
@@ -326,7 +326,8 @@ class UnitRecorder:
             context = replace(self._context(), unit_t0_us=ride.t0_us)
             if context.gear_ratio is not None:
                 self._tell_context(ride_id, context)
-        self._finishing = self._finish(ride_id)
+        # Still rows are at the end: without any the bike moved when the recording ended.
+        self._finishing = self._finish(ride_id, ride.still_rows == 0)
         return self._finishing
 
     def _tell_context(self, ride_id: int, context: RideContext) -> None:
@@ -350,8 +351,8 @@ class Recorder:
         self._settings = settings or RecordSettings()
         self._units: dict[str, UnitRecorder] = {}
         self._lock = threading.Lock()
-        # Rides that could not be finished, by when to try again; Unix time.
-        self._unfinished: dict[int, int] = {}
+        # Rides that could not be finished: when to try again (Unix time), and how they ended.
+        self._unfinished: dict[int, tuple[int, bool]] = {}
 
     def listener(self, device_id: str) -> Callable[[DeviceEvent], None]:
         """What to subscribe to a unit's events; the same for the same unit."""
@@ -386,22 +387,26 @@ class Recorder:
         for unit in self._all():
             unit.end_if_lost(now_us)
             unit.look_again()
-        for ride_id, due_us in list(self._unfinished.items()):
+        self._rides.beat(now_us)
+        for ride_id, (due_us, cut_short) in list(self._unfinished.items()):
             if due_us <= now_us:
-                self._unfinished[ride_id] = now_us + round(FINISH_AGAIN_S * 1e6)
-                self.finish(ride_id)
+                self._unfinished[ride_id] = now_us + round(FINISH_AGAIN_S * 1e6), cut_short
+                self.finish(ride_id, cut_short)
 
-    def finish(self, ride_id: int) -> Future[Ride | None]:
-        """Finish a ride on the store's thread; tried again, by `tick`, as long as that fails."""
+    def finish(self, ride_id: int, cut_short: bool) -> Future[Ride | None]:
+        """Finish a ride on the store's thread; tried again, by `tick`, as long as that fails.
+
+        cut_short: the bike moved when the recording ended.
+        """
 
         def told(future: Future[Ride | None]) -> None:
             if future.exception() is None:
                 self._unfinished.pop(ride_id, None)
             elif ride_id not in self._unfinished:
-                self._unfinished[ride_id] = 0
+                self._unfinished[ride_id] = 0, cut_short
                 tell_trouble(ride_id, future)
 
-        finished: Future[Ride | None] = self._rides.finish_later(ride_id)
+        finished: Future[Ride | None] = self._rides.finish_later(ride_id, cut_short)
         finished.add_done_callback(told)
         return finished
 

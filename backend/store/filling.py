@@ -43,6 +43,8 @@ def grown(ride: Ride, filling: Filling) -> Ride:
         context=replace(ride.context, unit_t0_us=None if t0_us is None else t0_us - earlier_us),
         filled=filling.filled,
         events=filling.events,
+        # The unit's own log has the end that the recording may have lacked.
+        cut_short=False,
     )
 
 

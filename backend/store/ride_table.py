@@ -170,6 +170,7 @@ def refill_row(connection: Connection, ride: Ride, object_key: str) -> bool:
             started_us=ride.started_us,
             context=asdict(ride.context),
             filled=[asdict(span) for span in ride.filled],
+            cut_short=ride.cut_short,
         )
     )
     return changed.rowcount == 1

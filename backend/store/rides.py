@@ -2,7 +2,7 @@
 
     start_live -> append_tail ... -> finish        recording; a tail is safe when its future is done
     add                                            a whole ride from a file
-    live_ids                                       at open: what a crash left to be finished
+    orphans                                        at open: what a crash left to be finished
 finish(): object first, then ONE transaction that makes the ride `done`, stores overview and
 figures and deletes the tail. A crash before the transaction leaves a live ride with its whole
 tail, and at worst an object nobody knows; finishing again gives the same bytes and so the same key.
@@ -13,6 +13,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import PurePosixPath
@@ -61,6 +62,17 @@ from backend.store.sidecar import keep_words, tell_for_old_file
 PAGE_MAX = 500
 NOTES_LENGTH_MAX = 20_000
 TAILS_AT_ONCE = 64
+# How often a server says of a recording that it lives, when no rows come that say it.
+HEARTBEAT_US = 10_000_000
+
+
+@dataclass(frozen=True)
+class Orphan:
+    """A ride whose server died. heartbeat_us: when that was last known to live."""
+
+    ride_id: int
+    row_count: int
+    heartbeat_us: int | None
 
 
 @dataclass(frozen=True)
@@ -74,7 +86,12 @@ class RidePage:
 class RideStore:
     """Every ride there is."""
 
-    def __init__(self, database: Database, objects: Objects, deletions: Deletions) -> None:
+    def __init__(
+        self, database: Database, objects: Objects, deletions: Deletions, server_id: str
+    ) -> None:
+        self._server_id = server_id
+        self._recording: set[int] = set()
+        self._beaten_us = 0
         self._database = database
         self._objects = objects
         self._deletions = deletions
@@ -96,7 +113,10 @@ class RideStore:
         if any(channel.wide for channel in channels) or period_us <= 0:
             raise InvalidRequest("A live ride needs 16 bit channels and a period above 0.")
         body = ride_row("live", "recorded", channels, period_us, started_us, context, name)
-        return self._database.write(lambda c: inserted(c, body))
+        body |= {"server_id": self._server_id, "heartbeat_us": time.time_ns() // 1000}
+        ride_id = self._database.write(lambda c: inserted(c, body))
+        self._recording.add(ride_id)
+        return ride_id
 
     def append_tail(self, ride_id: int, row_start: int, rows: Rows16) -> Future[None]:
         """Add rows [row_start, row_start + n) of a live ride, int16 (n, channels).
@@ -115,10 +135,12 @@ class RideStore:
             # A second that failed may be tried again after later ones: the count never shrinks.
             stop = row_start + len(rows)
             count = case((t.ride.c.row_count < stop, stop), else_=t.ride.c.row_count)
+            mine = (t.ride.c.state == "live") & (t.ride.c.server_id == self._server_id)
+            now_us = time.time_ns() // 1000
             grown = connection.execute(
                 update(t.ride)
-                .where(t.ride.c.id == ride_id, t.ride.c.state == "live")
-                .values(row_count=count)
+                .where(t.ride.c.id == ride_id, mine)
+                .values(row_count=count, heartbeat_us=now_us)
             )
             if grown.rowcount != 1:
                 raise StoreError(f"Ride {ride_id} is not being recorded: rows were not saved.")
@@ -159,11 +181,35 @@ class RideStore:
             self._database.write(work)
         return self.get(ride.id)
 
-    def finish_later(self, ride_id: int) -> Future[Ride | None]:
+    def end(self, ride_id: int, cut_short: bool) -> None:
+        """Note how a recording ended, unless that is noted; it is still live. Raises StoreError."""
+        self._recording.discard(ride_id)
+        unknown = (t.ride.c.state == "live") & t.ride.c.cut_short.is_(None)
+        body = {"cut_short": cut_short}
+        self._database.write(
+            lambda c: c.execute(update(t.ride).where(t.ride.c.id == ride_id, unknown).values(body))
+        )
+
+    def beat(self, now_us: int) -> None:
+        """Say of the rides that are being recorded here that their server lives; now_us: Unix time.
+
+        A store that refuses it has told so elsewhere.
+        """
+        if not self._recording or now_us - self._beaten_us < HEARTBEAT_US:
+            return
+        self._beaten_us = now_us
+        mine = t.ride.c.id.in_(sorted(self._recording))
+        with suppress(StoreError):
+            self._database.write(
+                lambda c: c.execute(update(t.ride).where(mine).values(heartbeat_us=now_us))
+            )
+
+    def finish_later(self, ride_id: int, cut_short: bool = False) -> Future[Ride | None]:
         """`finish` on the store's own thread, after every tail handed over before this call."""
 
         def work() -> Ride | None:
             self._database.settle()
+            self.end(ride_id, cut_short)
             return self.finish(ride_id)
 
         return self._finisher.submit(work)
@@ -240,9 +286,16 @@ class RideStore:
         return self.get(ride.id)
 
     def live_ids(self) -> list[int]:
-        """Rides that are being recorded, or were when the process died."""
+        """Rides that are being recorded, or were when their server died."""
         query = select(t.ride.c.id).where(t.ride.c.state == "live").order_by(t.ride.c.id)
         return list(self._database.read(lambda c: c.execute(query).scalars().all()))
+
+    def orphans(self) -> list[Orphan]:
+        """Live rides of another server. It is dead, since this one has the database's lock."""
+        columns = (t.ride.c.id, t.ride.c.row_count, t.ride.c.heartbeat_us)
+        other = t.ride.c.server_id.is_(None) | (t.ride.c.server_id != self._server_id)
+        query = select(*columns).where(t.ride.c.state == "live", other).order_by(t.ride.c.id)
+        return self._database.read(lambda c: [Orphan(*row) for row in c.execute(query)])
 
     def get(self, ride_id: int) -> Ride:
         """One ride. Raises NotFound."""

@@ -10,6 +10,7 @@ import threading
 from contextlib import ExitStack
 from types import TracebackType
 
+from backend.domain.ride import Ride, iso_utc
 from backend.errors import StoreError
 from backend.store.database import Database, shown
 from backend.store.deletion import Deletions
@@ -19,7 +20,7 @@ from backend.store.locks import hold
 from backend.store.look import look_at
 from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
 from backend.store.revisions import RevisionLog
-from backend.store.rides import RideStore
+from backend.store.rides import Orphan, RideStore
 from backend.store.uploads import UploadStore
 
 LOG = logging.getLogger(__name__)
@@ -40,7 +41,7 @@ class Store:
         self.objects = objects
         self.server_id = server_id
         self.deletions = Deletions(database, objects)
-        self.rides = RideStore(database, objects, self.deletions)
+        self.rides = RideStore(database, objects, self.deletions, server_id)
         self.revisions = RevisionLog(database)
         self.uploads = UploadStore(database, objects, objects.root / SPOOL, self.deletions)
         self.unfinished: dict[int, str] = {}
@@ -51,19 +52,23 @@ class Store:
         self._closing = closing
 
     def recover(self) -> list[int]:
-        """Finish what a crash left: half written files, live rides, objects nobody knows.
+        """Finish what a crash left: half written files, other servers' rides, unknown objects.
 
         Returns the ids of the rides that were finished. One that cannot be (a full disk) stays
-        live and whole, and `unfinished` says why. Safe to repeat.
+        live and whole, and `unfinished` says why. Safe to repeat; what this server records stays.
         """
         self.objects.clear_staging()
         finished = []
-        for ride_id in self.rides.live_ids():
+        for orphan in self.rides.orphans():
             try:
-                if self.rides.finish(ride_id) is not None:
-                    finished.append(ride_id)
+                self.rides.end(orphan.ride_id, cut_short=True)
+                ride = self.rides.finish(orphan.ride_id)
             except StoreError as error:
-                self.unfinished[ride_id] = error.message
+                self.unfinished[orphan.ride_id] = error.message
+                continue
+            if ride is not None:
+                finished.append(ride.id)
+                tell_of_orphan(orphan, ride)
         known = self.rides.object_keys() | self.uploads.object_keys()
         self.deletions.sweep(None)
         self._put_aside(known | self.database.read(discarded_keys))
@@ -112,6 +117,18 @@ class Store:
                 len(unknown),
                 self.objects.root / LOST_FOUND,
             )
+
+
+def tell_of_orphan(orphan: Orphan, ride: Ride) -> None:
+    """Say in the log that a ride may lack its end."""
+    if ride.cut_short:
+        beat_us = orphan.heartbeat_us
+        LOG.warning(
+            "Ride %d was cut short after %d rows: its server stopped without ending it%s.",
+            ride.id,
+            ride.row_count,
+            "" if beat_us is None else f", later than {iso_utc(beat_us)}",
+        )
 
 
 def open_store(db_url: str, objects_url: str, disk: Disk | None = None) -> Store:

@@ -383,3 +383,16 @@ def test_a_crash_anywhere_leaves_the_old_ride_or_the_new_and_the_next_start_the_
     assert sum(span.rows_filled for span in new.filled) == 30
     assert bench.store.objects.local_path(str(new.object_key)).is_file()
     bench.store.close()
+
+
+def test_a_ride_cut_short_is_not_any_more_once_the_log_told_its_end(tmp_path: Path) -> None:
+    truth = true_ride(3_000)
+    bench = Bench(tmp_path)
+    (cut,) = bench.record(truth[:1_000])
+
+    bench.fetch(log_of(truth))
+
+    (ride,) = bench.store.rides.list().items
+    assert (cut.cut_short, ride.cut_short) == (True, False)
+    assert ride.row_count > cut.row_count
+    bench.store.close()

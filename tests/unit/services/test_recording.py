@@ -137,6 +137,17 @@ def test_a_ride_that_begins_while_the_last_one_ends_takes_no_row_twice(
     assert len(rows_of(store, first)) == 1_500
 
 
+def test_a_recording_that_ends_while_the_bike_moves_says_that_it_was_cut_short(
+    store: Store, recorder: Recorder
+) -> None:
+    stood = np.concatenate((riding(10), standing(6)))
+    feed(recorder, *blocks(stood), *blocks(riding(10), t0_us=60_000_000))
+
+    whole, cut = rides(store, recorder)
+
+    assert (whole.cut_short, cut.cut_short) == (False, True)
+
+
 def test_a_bike_that_stands_makes_no_ride(store: Store, recorder: Recorder) -> None:
     feed(recorder, *blocks(standing(60)))
 

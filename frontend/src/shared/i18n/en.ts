@@ -364,6 +364,9 @@ export const en = {
   'ride.live_title': 'Ride being recorded',
   'ride.recording': 'recording',
   'ride.incomplete': 'Share of the rows that should be there',
+  'ride.cut_short': 'cut short',
+  'ride.cut_short_why':
+    'The recording ended while the bike moved, or with its server: what came after is not here',
   'ride.started': 'Started',
   'ride.time': 'Time',
   'ride.moving': 'Moving',

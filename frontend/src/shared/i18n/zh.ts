@@ -329,6 +329,8 @@ export const zh: Record<Key, string> = {
   'ride.live_title': '正在记录的骑行',
   'ride.recording': '记录中',
   'ride.incomplete': '应有数据行的占比',
+  'ride.cut_short': '提前中断',
+  'ride.cut_short_why': '车辆仍在行驶时或服务器停止时记录结束：之后的数据不在此处',
   'ride.started': '开始',
   'ride.time': '用时',
   'ride.moving': '移动时间',
