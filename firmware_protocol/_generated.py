@@ -1375,7 +1375,7 @@ class LogCrcResponse(Message):
 
 @dataclass(frozen=True, slots=True)
 class LogEraseRequest(Message):
-    """Frees a log that a host has confirmed; STATE for any other. `erases`: blocks of the logs' flash erased in its life. Answers PENDING first."""
+    """Frees a log that a host has confirmed; STATE for any other, BUSY while it is being sent. `erases`: blocks of the logs' flash erased in its life. Answers PENDING first."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_ERASE
     LAYOUT: ClassVar[tuple[Field, ...]] = (
@@ -1390,7 +1390,7 @@ class LogEraseRequest(Message):
 
 @dataclass(frozen=True, slots=True)
 class LogEraseResponse(Message):
-    """Frees a log that a host has confirmed; STATE for any other. `erases`: blocks of the logs' flash erased in its life. Answers PENDING first."""
+    """Frees a log that a host has confirmed; STATE for any other, BUSY while it is being sent. `erases`: blocks of the logs' flash erased in its life. Answers PENDING first."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_ERASE
     LAYOUT: ClassVar[tuple[Field, ...]] = (

@@ -6,8 +6,8 @@ import struct
 from dataclasses import dataclass
 
 from backend.device.log_download import LogReceiver
-from backend.device.operation import Operation, ask, attempt
-from backend.errors import NoAnswer, PeerProtocolError, SpindleError
+from backend.device.operation import Operation, ask, attempt, expect
+from backend.errors import DeviceRefused, NoAnswer, PeerProtocolError, SpindleError
 from firmware_protocol._generated import (
     LogCloseRequest,
     LogConfirmRequest,
@@ -21,6 +21,7 @@ from firmware_protocol._generated import (
     LogListResponse,
     LogOpenRequest,
     LogOpenResponse,
+    Status,
 )
 
 ENTRY = struct.Struct("<IIIQQIB7x")
@@ -90,10 +91,20 @@ def confirm_log(log: RideLog, crc32: int) -> Operation[None]:
 def erase_log(log: RideLog) -> Operation[int]:
     """Have the unit free a confirmed log; blocks of its flash erased so far in its life.
 
-    Raises DeviceRefused, with STATE for a log that is being written or is not confirmed.
+    Raises DeviceRefused, with STATE for a log that is being written or is not confirmed, and BUSY
+    while it is being fetched.
     """
     request = LogEraseRequest(log.log_id, log.generation)
-    return (yield from ask(request, LogEraseResponse)).erases
+    response = yield from attempt(request)
+    if response.status == Status.BUSY:
+        raise DeviceRefused(
+            f"Ride log {log.log_id} is being fetched from the unit, or another log is being "
+            f"checked. Erase it when that is done, in {response.detail} s at the earliest. "
+            "Nothing was erased.",
+            status=Status.BUSY.name,
+            detail=response.detail,
+        )
+    return expect(request, response, LogEraseResponse).erases
 
 
 def settle_erase(log: RideLog) -> Operation[None]:

@@ -49,7 +49,7 @@ DETAILS = {
     "UNKNOWN_MSG": "message id",
     "LENGTH": "bytes needed, or the parameter id of the cut item",
     "VERSION": "the unit's major",
-    "BUSY": "seconds until the other transaction's lease ends",
+    "BUSY": "seconds until the other transaction's lease or log session ends",
     "RANGE": "parameter, channel or the limit that was passed",
     "TYPE": "parameter id",
     "UNKNOWN_ID": "parameter or channel id",

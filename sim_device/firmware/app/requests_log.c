@@ -10,6 +10,7 @@
 /* What LOG_CRC and LOG_CONFIRM are told to expect: 2 ms for each of the check's pieces. */
 #define CHECK_BYTES_PER_MS 1024u
 #define CHECK_MS_MIN 10u
+#define ERASE_S 1 /* a block takes less */
 
 static uint64_t now_us(const app *unit) { return unit->board->now_us(unit->board->context); }
 
@@ -76,6 +77,15 @@ static int find(const app *unit, uint32_t log_id, uint32_t generation, uint8_t *
     return 0;
 }
 
+/* Whether the log's first block is being erased, or is about to be. */
+static int is_going(const app *unit, uint8_t place)
+{
+    const ride_log_check *check = &unit->log_check;
+
+    return unit->ride_log.victim == place ||
+           (check->tid != 0 && check->message_id == EBL_MSG_LOG_ERASE && check->place == place);
+}
+
 static void open(app *unit, const ebl_header *request, reply *answer)
 {
     const ride_log_store *store = &unit->ride_log.store;
@@ -90,6 +100,10 @@ static void open(app *unit, const ebl_header *request, reply *answer)
         return;
     }
     if (!find(unit, asked.log_id, asked.generation, &place, answer)) return;
+    if (is_going(unit, place)) {
+        reply_refuse(answer, EBL_STATUS_BUSY, ERASE_S);
+        return;
+    }
     response.length = ride_log_store_length(store, place);
     response.chunk = ride_log_bulk_chunk(unit->tx_mtu);
     response.window =
@@ -99,6 +113,7 @@ static void open(app *unit, const ebl_header *request, reply *answer)
         reply_refuse(answer, EBL_STATUS_RANGE, response.chunk);
         return;
     }
+    unit->ride_log.store.fetched = place;
     ride_log_bulk_open(&unit->bulk, store, place, asked.offset, response.chunk, response.window,
                        asked.session, now_us(unit));
     put =
@@ -197,6 +212,7 @@ static void confirm(app *unit, const ebl_header *request, reply *answer)
 static void erase(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_log_erase_request asked;
+    uint16_t fetched_s;
     uint8_t place;
 
     if (ebl_log_erase_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
@@ -206,6 +222,11 @@ static void erase(app *unit, const ebl_header *request, reply *answer)
     if (!find(unit, asked.log_id, asked.generation, &place, answer)) return;
     if (!(unit->ride_log.store.logs[place].flags & EBL_LOG_CONFIRMED)) {
         reply_refuse(answer, EBL_STATUS_STATE, (uint16_t)asked.log_id);
+        return;
+    }
+    fetched_s = place == unit->bulk.place ? ride_log_bulk_left_s(&unit->bulk, now_us(unit)) : 0;
+    if (fetched_s != 0) {
+        reply_refuse(answer, EBL_STATUS_BUSY, fetched_s);
         return;
     }
     check_begin(unit, request, place, 0, 0, answer);
@@ -269,6 +290,7 @@ void requests_log_poll(app *unit)
     int state;
 
     ride_log_bulk_poll(&unit->bulk, &unit->ride_log.store, now_us(unit));
+    if (unit->bulk.session == 0) unit->ride_log.store.fetched = RIDE_LOG_NONE;
     if (check->tid == 0) return;
     state = ride_log_check_poll(check, &unit->ride_log.store, unit->board);
     if (state == RIDE_LOG_CHECK_RUNNING) return;

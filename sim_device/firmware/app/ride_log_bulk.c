@@ -5,7 +5,8 @@
 #include "ebl_bytes.h" // ebl_put_u32
 #include "ebl_frame.h" // ebl_header_put
 
-#define SESSION_SILENCE_US 10000000u
+#define US_PER_S 1000000u
+#define SESSION_SILENCE_US (10 * US_PER_S)
 #define ROUND_TRIP_FIRST_US 100000u /* before one was measured */
 #define ROUND_TRIPS_OF_SILENCE 3
 #define CHUNK_MIN 64
@@ -37,6 +38,14 @@ void ride_log_bulk_open(ride_log_bulk *bulk, const ride_log_store *store, uint8_
 }
 
 void ride_log_bulk_end(ride_log_bulk *bulk) { bulk->session = 0; }
+
+uint16_t ride_log_bulk_left_s(const ride_log_bulk *bulk, uint64_t now_us)
+{
+    uint64_t silent_us = now_us - bulk->heard_us;
+
+    if (bulk->session == 0 || silent_us >= SESSION_SILENCE_US) return 0;
+    return (uint16_t)((SESSION_SILENCE_US - (uint32_t)silent_us + US_PER_S - 1) / US_PER_S);
+}
 
 /* Only chunks sent once tell a round trip. */
 static void round_trip_measure(ride_log_bulk *bulk, uint64_t now_us)

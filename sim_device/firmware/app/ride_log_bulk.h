@@ -47,6 +47,9 @@ int ride_log_bulk_ack(ride_log_bulk *bulk, uint32_t base, uint64_t bitmap, uint6
 
 void ride_log_bulk_end(ride_log_bulk *bulk);
 
+/* Seconds, rounded up, until a session ends by itself if nothing is acknowledged; 0 without one. */
+uint16_t ride_log_bulk_left_s(const ride_log_bulk *bulk, uint64_t now_us);
+
 /* Ends a session nobody listens to, or whose log is gone. */
 void ride_log_bulk_poll(ride_log_bulk *bulk, const ride_log_store *store, uint64_t now_us);
 

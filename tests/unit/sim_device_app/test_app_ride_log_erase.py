@@ -7,8 +7,26 @@ from sim_device.firmware.python._native import lib
 
 from backend.ingest.ride_logs import read_blocks
 from firmware_protocol import codec
-from firmware_protocol._generated import Event, LogEraseRequest, LogEraseResponse, Status
-from tests.fakes.bench_logs import Entry, confirm, fetch, late_answer, logs, ride, unit_with_log
+from firmware_protocol._generated import (
+    Event,
+    LogCloseRequest,
+    LogEraseRequest,
+    LogEraseResponse,
+    LogOpenRequest,
+    Status,
+)
+from tests.fakes.bench_logs import (
+    SESSION,
+    Entry,
+    acknowledge,
+    begin,
+    confirm,
+    fetch,
+    late_answer,
+    logs,
+    ride,
+    unit_with_log,
+)
 from tests.fakes.bench_unit import BenchUnit
 
 BLOCK_BYTES = 2048
@@ -53,6 +71,76 @@ def test_a_log_that_is_being_written_is_not_erased() -> None:
 
     assert erase(unit, log).status == Status.STATE
     assert logs(unit)[0].log_id == log.log_id
+
+
+def test_a_log_that_a_host_is_fetching_is_not_erased_under_it() -> None:
+    unit = unit_with_room()
+    ride(unit, 3.0)
+    (log,) = logs(unit)
+    whole = fetch(unit, log)
+    confirm(unit, log, whole)
+    begin(unit, log, window=1)
+    unit.advance(3.0)
+
+    refused = erase(unit, log)
+
+    assert (refused.status, refused.detail) == (Status.BUSY, 7)
+    unit.ask(LogCloseRequest(SESSION))
+    assert fetch(unit, log) == whole
+    assert erase(unit, log).status == Status.OK
+
+
+def test_a_fetch_that_nobody_goes_on_with_stands_in_the_way_for_ten_seconds() -> None:
+    unit = unit_with_room()
+    ride(unit, 3.0)
+    (log,) = logs(unit)
+    confirm(unit, log, fetch(unit, log))
+    begin(unit, log, window=1)
+
+    unit.advance(10.0)
+
+    assert erase(unit, log).status == Status.OK
+
+
+def test_a_log_whose_erasing_waits_for_the_flash_is_not_given_out() -> None:
+    unit = unit_with_room()
+    ride(unit, 3.0)
+    (log,) = logs(unit)
+    confirm(unit, log, fetch(unit, log))
+    unit.inputs(speed_kmh=18.0)
+    unit.advance(3.0)
+    lib.bench_log_stuck(unit.board, 1)
+    unit.advance(3.0)
+    assert unit.ask(LogEraseRequest(log.log_id, log.generation)).status == Status.PENDING
+
+    opened = unit.ask(LogOpenRequest(log.log_id, log.generation, 0, 32, SESSION))
+
+    assert (opened.status, opened.detail) == (Status.BUSY, 1)
+
+
+def test_room_is_made_of_other_logs_while_one_is_being_fetched() -> None:
+    unit = unit_with_log(BLOCK_BYTES, 32 * BLOCK_BYTES)
+    for _ in range(2):
+        ride(unit, 3.0)
+    fetched, other = logs(unit)
+    whole = fetch(unit, fetched)
+    confirm(unit, fetched, whole)
+    begin(unit, fetched, window=1)
+
+    def goes_on() -> None:
+        """Says every second that the first piece is still missing."""
+        for _ in range(24):
+            unit.advance(1.0)
+            acknowledge(unit, 0)
+
+    while other in logs(unit):
+        unit.inputs(speed_kmh=18.0)
+        unit.advance(3.0)
+        unit.inputs(speed_kmh=0.0)
+        goes_on()
+
+    assert fetched.generation in [entry.generation for entry in logs(unit)]
+    assert fetch(unit, fetched) == whole
 
 
 def test_every_erase_of_a_block_is_counted_and_the_count_outlives_a_restart() -> None:

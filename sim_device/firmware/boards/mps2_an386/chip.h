@@ -51,6 +51,10 @@ typedef struct {
 
 static inline void chip_interrupts_off(void) { __asm volatile("cpsid i" ::: "memory"); }
 static inline void chip_interrupts_on(void) { __asm volatile("cpsie i" ::: "memory"); }
+/* What was read and written before is done before what follows: to stand between the bytes of a
+ * ring and the count that hands them over. `volatile` orders the counts among themselves only. */
+static inline void chip_hand_over(void) { __asm volatile("dmb" ::: "memory"); }
+
 static inline void chip_sleep(void) { __asm volatile("wfi" ::: "memory"); }
 
 #endif

@@ -25,6 +25,7 @@ static void receive(ring_pair *line, uint32_t state)
     if ((state & CHIP_UART_RX_FULL) == 0) return;
     if (line->received_in - line->received_out == RECEIVE_BYTES) return;
     line->received[line->received_in % RECEIVE_BYTES] = (uint8_t)line->port->data;
+    chip_hand_over();
     line->received_in++;
 }
 
@@ -32,6 +33,7 @@ static void send(ring_pair *line, uint32_t state)
 {
     while ((state & CHIP_UART_TX_FULL) == 0 && line->sent_in != line->sent_out) {
         line->port->data = line->sent[line->sent_out % SEND_BYTES];
+        chip_hand_over();
         line->sent_out++;
         state = line->port->state;
     }
@@ -72,6 +74,7 @@ void uart_open(uart_line line, uint32_t baud)
     lines[line].port = port;
     uart_baud_set(line, baud);
     port->control = CHIP_UART_CONTROL_ALL;
+    chip_hand_over();
     CHIP_INTERRUPT_ENABLE = CHIP_UART_INTERRUPTS;
 }
 
@@ -81,7 +84,9 @@ size_t uart_read(uart_line line, uint8_t *bytes, size_t capacity)
     size_t taken = 0;
 
     while (taken < capacity && ring->received_in != ring->received_out) {
+        chip_hand_over();
         bytes[taken++] = ring->received[ring->received_out % RECEIVE_BYTES];
+        chip_hand_over();
         ring->received_out++;
     }
     /* A byte that found the ring full waits in the port and interrupts no more. */
@@ -105,6 +110,7 @@ size_t uart_write(uart_line line, const uint8_t *bytes, size_t length)
     for (size_t i = 0; i < taken; i++) {
         ring->sent[(ring->sent_in + i) % SEND_BYTES] = bytes[i];
     }
+    chip_hand_over();
     chip_interrupts_off();
     ring->sent_in += (uint32_t)taken;
     send(ring, ring->port->state);
