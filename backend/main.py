@@ -91,7 +91,7 @@ def open_services(settings: Settings) -> Iterator[Services]:
             in_background(url, partial(devices.add, url))
         preview = Preview()
         yield Services(
-            health=Health(__version__, devices, recorder, store.watch),
+            health=Health(__version__, devices, recorder, store.watch, store.database.ask),
             devices=devices,
             watch=Watch(devices),
             dashboards=dashboards,

@@ -54,6 +54,7 @@ def create_app(settings: ApiSettings, services: Services | None = None) -> FastA
     for module in (health, devices, logs, config, law, rides, uploads, live):
         api.include_router(module.router)
     app.include_router(api)
+    app.include_router(health.probes)
     errors.install(app)
     docs.install(app)
     pages.install(app, settings.frontend)

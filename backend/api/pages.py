@@ -1,4 +1,8 @@
-"""The browser's pages: the built frontend, every unknown path its entry page (it routes itself)."""
+"""The browser's pages: the built frontend, which routes itself.
+
+A path without a file is a page only for who asks for one (a browser names text/html); a script that
+asks for what is not there gets 404 and a problem, as everywhere.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +10,7 @@ from pathlib import Path
 
 from fastapi import FastAPI
 from fastapi.responses import HTMLResponse, Response
+from starlette.datastructures import Headers
 from starlette.exceptions import HTTPException
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
@@ -19,11 +24,20 @@ is missing. Run <code>make setup</code> in the checkout, then load this page aga
 """
 
 
-class Pages(StaticFiles):
-    """Files of the built frontend; a path without a file gets the entry page.
+# First parts of paths that are no page, even to a browser.
+NO_PAGES = frozenset({"api", "healthz", "readyz", "metrics"})
 
-    Paths below `api/` and paths that look like files stay 404: a script that is asked for and
-    missing must not arrive as HTML.
+
+def asks_for_a_page(scope: Scope) -> bool:
+    """Whether the request is a browser's for something to show."""
+    return "text/html" in Headers(scope=scope).get("accept", "").lower()
+
+
+class Pages(StaticFiles):
+    """Files of the built frontend; a page that is no file gets the entry page.
+
+    Paths below `api/`, those that machines ask for and those that look like files stay 404: a
+    script that is asked for and missing must not arrive as HTML.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -31,7 +45,8 @@ class Pages(StaticFiles):
 
     async def get_response(self, path: str, scope: Scope) -> Response:
         """The file at `path`, or the entry page with no caching."""
-        is_page = not path.startswith("api") and "." not in path.rsplit("/", 1)[-1]
+        first, last = path.split("/", 1)[0], path.rsplit("/", 1)[-1]
+        is_page = first not in NO_PAGES and "." not in last and asks_for_a_page(scope)
         try:
             response = await super().get_response(path, scope)
         except HTTPException as error:

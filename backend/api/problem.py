@@ -85,11 +85,16 @@ def refusals(*statuses: int) -> dict[int | str, dict[str, Any]]:
     422 is always in it, because every route can be asked wrongly, and FastAPI would otherwise
     describe its own shape for it.
     """
+    return refusals_only(422, *statuses)
+
+
+def refusals_only(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """The same for a route that takes nothing and so cannot be asked wrongly."""
     schema = {"$ref": "#/components/schemas/Problem"}
     return {
         status: {
             "description": HTTPStatus(status).phrase,
             "content": {MEDIA_TYPE: {"schema": schema}},
         }
-        for status in sorted({422, *statuses})
+        for status in sorted(set(statuses))
     }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
@@ -86,6 +87,10 @@ class RevisionLog(Protocol):
         ...
 
 
+# Entity tags of a list, a weak one with its mark. A comma may stand inside the quotes.
+ENTITY_TAGS = re.compile(r'(?:W/)?"[^"]*"')
+
+
 def etag(generation: int, crc32: int) -> str:
     """Names one configuration: it changes with every commit and with the content."""
     return f'"{generation}-{crc32:08x}"'
@@ -94,13 +99,13 @@ def etag(generation: int, crc32: int) -> str:
 def check_base(config: ConfigImage, if_match: str | None) -> None:
     """Raise ConfigConflict when the change was made for another configuration.
 
-    if_match: an ETag or several as HTTP writes them, `*` or None for any.
+    if_match: an ETag or several as HTTP writes them, `*` or None for any. One that is marked weak
+    never matches, as for every method that changes something (RFC 9110, 13.1.1).
     """
-    if if_match is None:
+    if if_match is None or if_match.strip() == "*":
         return
-    wanted = [tag.strip().removeprefix("W/") for tag in if_match.split(",")]
     found = etag(config.generation, config.crc32)
-    if "*" not in wanted and found not in wanted and found.strip('"') not in wanted:
+    if found not in ENTITY_TAGS.findall(if_match) and if_match.strip() != found.strip('"'):
         raise ConfigConflict(
             f"The change was made for configuration {if_match}, but the unit has {found} now: "
             "somebody else changed it. Read it again, look at the difference, and write once more."

@@ -6,7 +6,7 @@ among the reasons until the unit's next ride begins, so that nobody misses it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -60,15 +60,28 @@ class HealthView:
 
 
 class Health:
-    """Looks at everything that may be wrong; never waits. For any thread."""
+    """Looks at everything that may be wrong; `look` never waits. For any thread.
+
+    answers: asks the database for nothing in particular. Raises StoreError.
+    """
 
     def __init__(
-        self, version: str, devices: Devices, recorder: Recorder, watch: WriteWatch
+        self,
+        version: str,
+        devices: Devices,
+        recorder: Recorder,
+        watch: WriteWatch,
+        answers: Callable[[], None],
     ) -> None:
         self._version = version
         self._devices = devices
         self._recorder = recorder
         self._watch = watch
+        self._answers = answers
+
+    def ready(self) -> None:
+        """Whether requests can be answered: raises StoreError while the database does not."""
+        self._answers()
 
     def look(self) -> HealthView:
         """How things are now."""

@@ -104,6 +104,10 @@ class Database:
         outside_transaction(self.engine, "PRAGMA wal_checkpoint(TRUNCATE)")
         return False
 
+    def ask(self) -> None:
+        """Ask for nothing in particular. Raises StoreError when there is no answer."""
+        self.read(lambda connection: connection.execute(text("SELECT 1")))
+
     def close(self) -> None:
         """Finish what waits, then close every connection."""
         self._writer.shutdown(wait=True)

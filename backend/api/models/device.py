@@ -19,6 +19,10 @@ DynoConvention = Literal["physical", "thesis"]
 MotorModel = Literal["average", "foc"]
 
 
+class Alive(Answer):
+    status: Literal["ok"]
+
+
 class RecorderHealth(Answer):
     """Rows of rides since the server started; those that never came from the unit are no rows."""
 

@@ -31,7 +31,10 @@ router = APIRouter(
 )
 IfMatch = Annotated[
     str | None,
-    Header(description="The ETag of the configuration the change was made for.", max_length=80),
+    Header(
+        description="The ETag of the configuration the change was made for, several, or `*`.",
+        max_length=400,
+    ),
 ]
 Reason = Annotated[
     str, Query(max_length=400, description="Why; kept with the revision for later readers.")

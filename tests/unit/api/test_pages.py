@@ -29,7 +29,7 @@ def built(tmp_path: Path) -> TestClient:
 
 @pytest.mark.parametrize("path", ["/", "/tune", "/rides/7", "/rides/7?from=3"])
 def test_every_page_of_the_app_is_its_entry_page_never_cached(built: TestClient, path: str) -> None:
-    response = built.get(path)
+    response = built.get(path, headers={"accept": "text/html,application/xhtml+xml,*/*;q=0.8"})
 
     assert response.status_code == 200
     assert "<title>Spindle</title>" in response.text
@@ -43,9 +43,25 @@ def test_hashed_files_are_cached_for_good(built: TestClient) -> None:
     assert "immutable" in response.headers["cache-control"]
 
 
-@pytest.mark.parametrize("path", ["/assets/app-old.js", "/missing.css", "/api/v1/nothing"])
-def test_what_is_missing_is_a_problem_and_not_a_page(built: TestClient, path: str) -> None:
-    response = built.get(path)
+@pytest.mark.parametrize("accept", ["*/*", "text/html"])
+@pytest.mark.parametrize(
+    "path", ["/assets/app-old.js", "/missing.css", "/api/v1/nothing", "/metrics", "/api", "/apis.x"]
+)
+def test_what_is_missing_is_a_problem_and_not_a_page(
+    built: TestClient, path: str, accept: str
+) -> None:
+    response = built.get(path, headers={"accept": accept})
+
+    assert response.status_code == 404
+    assert response.headers["content-type"] == "application/problem+json"
+
+
+@pytest.mark.parametrize("path", ["/tune", "/wp-login", "/metrics/x"])
+@pytest.mark.parametrize("accept", ["*/*", "application/json", ""])
+def test_who_does_not_ask_for_a_page_gets_none_for_a_path_that_is_not_there(
+    built: TestClient, path: str, accept: str
+) -> None:
+    response = built.get(path, headers={"accept": accept})
 
     assert response.status_code == 404
     assert response.headers["content-type"] == "application/problem+json"
