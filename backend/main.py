@@ -22,6 +22,7 @@ from fastapi import FastAPI
 
 from backend import __version__
 from backend.api.app import ApiSettings, create_app
+from backend.api.connections import PatientProtocol
 from backend.api.safety import AllowedHosts
 from backend.api.services import Services
 from backend.errors import LinkError, SpindleError
@@ -209,6 +210,7 @@ def server_config(app: FastAPI) -> uvicorn.Config:
         app,
         log_level="warning",
         lifespan="off",
+        http=PatientProtocol,
         # Compressing 20 small frames a second costs more than it saves on loopback.
         ws_per_message_deflate=False,
         # Browsers send nothing larger; whatever does is not a browser.

@@ -1,0 +1,92 @@
+"""Connections that do not talk are let go, and there are never too many.
+
+uvicorn waits for the first request of a connection, and for the rest of a body, as long as the
+other end likes. A thousand sockets that say nothing would use up the process's file descriptors,
+and with them the units' ports and the database.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any
+
+import h11
+from uvicorn.protocols.http.h11_impl import H11Protocol
+
+# A browser sends its request's head in one piece; a person typing one is not served.
+HEAD_S = 15.0
+# Between pieces of a body; a phone in a cellar may be slow, not silent for a minute.
+BODY_S = 60.0
+LOOK_EVERY_S = 5.0
+# Half of the file descriptors that a process has by default. A browser holds seven at most.
+CONNECTIONS_MAX = 512
+
+
+class PatientProtocol(H11Protocol):
+    """uvicorn's connection with an end to its patience."""
+
+    head_s = HEAD_S
+    body_s = BODY_S
+    look_every_s = LOOK_EVERY_S
+    connections_max = CONNECTIONS_MAX
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__(*arguments, **named)
+        self._look_again: asyncio.TimerHandle | None = None
+        # Since when the head of the next request is awaited, and which request was the last.
+        self.silent_since_s = self.loop.time()
+        self._last: object = None
+        self._heard_s = self.silent_since_s
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        """Take the connection; where there are too many, the one that waited longest goes."""
+        super().connection_made(transport)
+        self.silent_since_s = self._heard_s = self.loop.time()
+        if len(self.connections) > self.connections_max:
+            silent = [one for one in self.connections if _is_silent(one)]
+            min(silent, key=_silent_since_s, default=self).transport.close()
+        self._look_again = self.loop.call_later(self.look_every_s, self._look)
+
+    def data_received(self, data: bytes) -> None:
+        """Note that the other end is alive."""
+        self._heard_s = self.loop.time()
+        super().data_received(data)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Forget the timer."""
+        if self._look_again is not None:
+            self._look_again.cancel()
+        super().connection_lost(exc)
+
+    @property
+    def is_silent(self) -> bool:
+        """Whether no request is under way."""
+        return self.conn.their_state is h11.IDLE
+
+    def _look(self) -> None:
+        now_s = self.loop.time()
+        if self.transport.is_closing() or self.transport.get_protocol() is not self:
+            # Gone, or a WebSocket by now, which has pings of its own.
+            return
+        if not self.is_silent or self.scope is not self._last:
+            self._last = self.scope
+            self.silent_since_s = now_s
+        if self.flow.read_paused:
+            # It is we who do not listen.
+            self._heard_s = now_s
+        waits_for_body = self.conn.their_state is h11.SEND_BODY
+        if now_s - self.silent_since_s >= self.head_s or (
+            waits_for_body and now_s - self._heard_s >= self.body_s
+        ):
+            self.transport.close()
+            return
+        self._look_again = self.loop.call_later(self.look_every_s, self._look)
+
+
+def _is_silent(connection: object) -> bool:
+    return isinstance(connection, PatientProtocol) and connection.is_silent
+
+
+def _silent_since_s(connection: Any) -> float:
+    since_s: float = connection.silent_since_s
+    return since_s
