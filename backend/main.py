@@ -25,7 +25,7 @@ from backend.api.app import ApiSettings, create_app
 from backend.api.connections import PatientProtocol
 from backend.api.safety import AllowedHosts
 from backend.api.services import Services
-from backend.errors import LinkError, SpindleError
+from backend.errors import LinkError, SpindleError, StoreError
 from backend.link import kind_of
 from backend.services.collect import Collect
 from backend.services.connect import Devices
@@ -59,11 +59,12 @@ FRONTENDS = (CHECKOUT / "frontend" / "dist", Path(__file__).resolve().parent / "
 def open_services(settings: Settings) -> Iterator[Services]:
     """Everything behind the API, opened; closed again in the other order, whatever happens.
 
-    Raises StoreError if the store cannot be opened, InvalidRequest for a device's bad url.
+    Raises StoreError if the store cannot be opened, InvalidRequest for a bad url of a device or the
+    database.
     """
     for url in settings.device:
         kind_of(url)
-    settings.data.mkdir(parents=True, exist_ok=True)
+    make_data_folder(settings.data)
     with contextlib.ExitStack() as closing:
         store = open_store(settings.db, settings.objects)
         closing.callback(store.close)
@@ -103,6 +104,17 @@ def open_services(settings: Settings) -> Iterator[Services]:
             uploads=uploads,
             collect=collect,
         )
+
+
+def make_data_folder(folder: Path) -> None:
+    """The folder of everything that is kept. Raises StoreError where it cannot be."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise StoreError(
+            f"The data folder {folder} cannot be made: {error.strerror or error}. Choose another "
+            "with --data DIR or SPINDLE_DATA."
+        ) from None
 
 
 def tidy(recorder: Recorder, uploads: Uploads, store: Store) -> None:
@@ -163,9 +175,10 @@ def listening_socket(host: str, port: int) -> socket.socket:
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     try:
         return socket.create_server((host, port), family=family, backlog=BACKLOG)
-    except OSError as error:
+    except (OSError, UnicodeError) as error:
+        reason = getattr(error, "strerror", None) or error
         raise LinkError(
-            f"{host} port {port} cannot be listened on: {error.strerror or error}. Stop what uses "
+            f"{host} port {port} cannot be listened on: {reason}. Stop what uses "
             "it, or choose another with --port (0 takes a free one)."
         ) from None
 

@@ -124,11 +124,14 @@ def combine(
 def read_file(*candidates: Path) -> dict[str, Any]:
     """The first of the files that exists, as a table. Raises InvalidRequest if it is not TOML."""
     for path in candidates:
-        if path.is_file():
-            try:
+        try:
+            if path.is_file():
                 return tomllib.loads(path.read_text(encoding="utf-8"))
-            except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-                raise InvalidRequest(f"{path}: {error}") from None
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise InvalidRequest(f"{path}: {error}") from None
+        except (OSError, ValueError) as error:
+            reason = error.strerror if isinstance(error, OSError) else error
+            raise InvalidRequest(f"{path} cannot be read: {reason}.") from None
     return {}
 
 

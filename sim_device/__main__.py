@@ -215,8 +215,21 @@ def _print(result: dict[str, Any], as_json: bool) -> None:
 def main(words: Sequence[str] | None = None) -> int:
     """Does what the words ask for; what it returns is the process's exit code.
 
-    `--as NAME` in front: the command people typed, for messages and usage.
+    `--as NAME` in front: the command people typed, for messages and usage. A reader that has enough
+    (`spindle scenario list | head`) ends it quietly.
     """
+    try:
+        try:
+            return _run(words)
+        finally:
+            sys.stdout.flush()
+    except BrokenPipeError:
+        # At exit Python flushes once more, with a trace where there is nobody.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+
+
+def _run(words: Sequence[str] | None) -> int:
     given = list(sys.argv[1:] if words is None else words)
     program = PROGRAM
     if given[:1] == ["--as"] and len(given) > 1:
@@ -230,6 +243,8 @@ def main(words: Sequence[str] | None = None) -> int:
     except ScenarioError as error:
         print(f"{program}: {error}", file=sys.stderr)
         return 2
+    except BrokenPipeError:
+        raise
     except (OSError, ValueError, MemoryError, EmulatorError) as error:
         print(f"{program}: {error}", file=sys.stderr)
         return 1

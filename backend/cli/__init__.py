@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from backend.cli.client import print_json
 from backend.cli.parser import build_parser
+from backend.cli.pipe import until_nobody_reads
 from backend.errors import InvalidRequest, NoAnswer, Outcome, SpindleError, TokenNeeded
 
 # Of a change whose answer did not come, below the message.
@@ -19,6 +20,11 @@ OUTCOMES: dict[Outcome, str] = {
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs one command line; what it returns is the process's exit code."""
+    return until_nobody_reads(lambda: run(arguments))
+
+
+def run(arguments: Sequence[str] | None) -> int:
+    """As `main`, for somebody who reads to the end."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     if given[:1] in (["sim"], ["scenario"]):
         # The simulator has its own command line; this one only saves people from knowing its name.
@@ -41,8 +47,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2 if isinstance(error, InvalidRequest) else 1
     except KeyboardInterrupt:
         return 1
-    except BrokenPipeError:
-        # `spindle ride list | head`: the reader has enough.
-        sys.stderr.close()
-        return 0
     return code

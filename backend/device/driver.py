@@ -70,6 +70,10 @@ class LinkOpener(Protocol):
 
     def open(self) -> Link: ...
 
+    def give_up(self) -> None:
+        """Let an `open` that is under way fail soon; for any thread."""
+        ...
+
 
 class Driver:
     """A device's thread.
@@ -103,6 +107,8 @@ class Driver:
         self.connected = threading.Event()
         self._wake = threading.Event()
         self._stop = threading.Event()
+        # From here on nobody takes commands but who gives them.
+        self._ended = threading.Event()
         self._lock = threading.Lock()
         self._thread = threading.Thread(target=self._run, name=f"unit {opener.url}", daemon=True)
 
@@ -110,10 +116,15 @@ class Driver:
         """Begin to open the port."""
         self._thread.start()
 
-    def close(self) -> None:
-        """Say goodbye to the unit, give the port back and end the thread."""
+    def stop(self) -> None:
+        """Begin to close, without waiting: so several close side by side."""
         self._stop.set()
         self._wake.set()
+        self._opener.give_up()
+
+    def close(self) -> None:
+        """Say goodbye to the unit, give the port back and end the thread."""
+        self.stop()
         self._thread.join(CLOSE_TIMEOUT_S)
         if self._thread.is_alive():
             LOG.error("The thread of %s does not end; its port stays open.", self._opener.url)
@@ -166,6 +177,9 @@ class Driver:
                 f"{self._opener.url}: too much is asked at once; try again in a moment."
             ) from None
         self._wake.set()
+        if self._ended.is_set():
+            with self._lock:
+                self._begin_commands()
 
     # ------------------------------------------------------------------ the thread
 
@@ -300,6 +314,7 @@ class Driver:
             if self._link is not None:
                 self._send(self._link)
             self._close_link()
+            self._ended.set()
             self._begin_commands()
             events = self._session.next_events()
         for event in events:

@@ -10,6 +10,7 @@ A pseudo-terminal and TCP have no rate, unless `?baud=` says that what is behind
 
 from __future__ import annotations
 
+import threading
 from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 
@@ -57,11 +58,16 @@ class Opener:
         self._flash_folder = flash_folder
         self._kind = kind_of(url)
         self._usb_serial_number: str | None = None
+        self._given_up = threading.Event()
+
+    def give_up(self) -> None:
+        """Let an `open` that waits for a simulated unit's start fail soon; for any thread."""
+        self._given_up.set()
 
     def open(self) -> Link:
         """Open the link; raises LinkError with cause and remedy."""
         if self._kind == "simulated":
-            return SimulatedLink(self.url, self._flash_folder)
+            return SimulatedLink(self.url, self._flash_folder, given_up=self._given_up)
         if self._kind == "socket":
             host, port = _host_and_port(self.url)
             return SocketLink(host, port, url=self.url)

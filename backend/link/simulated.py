@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import zlib
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -26,6 +27,7 @@ from backend.link.serial_port import BAUD_DEFAULT, SerialPort, baud_of
 # A cold start of Python and numpy on a loaded machine takes about 2 s.
 READY_TIMEOUT_S = 15.0
 STOP_TIMEOUT_S = 2.0
+LOOK_EVERY_S = 0.1
 NAME_DEFAULT = "unit"
 SETTINGS = ("seed", "speed", "clock", "scenario", "flash", "market", "unlock_key", "baud")
 CLOCKS = ("real", "virtual")
@@ -109,7 +111,8 @@ class SimulatedLink:
     """The child process and the serial port on its pseudo-terminal.
 
     flash_folder: where units without a flash of their own keep their configuration, None for
-    nowhere. Raises LinkError with the child's own words when it does not get ready.
+    nowhere. given_up: set by who no longer waits for its start. Raises LinkError with the child's
+    own words when it does not get ready.
     """
 
     def __init__(
@@ -117,6 +120,7 @@ class SimulatedLink:
         url: str,
         flash_folder: Path | None = None,
         ready_timeout_s: float = READY_TIMEOUT_S,
+        given_up: threading.Event | None = None,
     ) -> None:
         if os.name != "posix":
             raise LinkError(
@@ -131,6 +135,7 @@ class SimulatedLink:
             remembered = flash_folder / f"unit-{address.seed}{made_for}.flash"
             address = replace(address, flash=str(remembered))
         self._url = url
+        self._given_up = given_up or threading.Event()
         self._folder = Path(tempfile.mkdtemp(prefix="spindle-sim-"))
         self._complaints = (self._folder / "stderr").open("w+b")
         self._child = self._start(address.command(self._folder / "port"))
@@ -200,10 +205,17 @@ class SimulatedLink:
         threading.Thread(
             target=lambda: lines.put(stream.readline()), name=f"{self._url} ready", daemon=True
         ).start()
-        try:
-            words = lines.get(timeout=timeout_s).decode("utf-8", "replace").split(maxsplit=1)
-        except queue.Empty:
-            raise self._not_ready(f"not ready after {timeout_s:g} s") from None
+        until_s = time.monotonic() + timeout_s
+        while True:
+            try:
+                line = lines.get(timeout=LOOK_EVERY_S)
+                break
+            except queue.Empty:
+                if self._given_up.is_set():
+                    raise self._not_ready("nobody waits for it any more") from None
+                if time.monotonic() >= until_s:
+                    raise self._not_ready(f"not ready after {timeout_s:g} s") from None
+        words = line.decode("utf-8", "replace").split(maxsplit=1)
         if len(words) != 2 or words[0] != "ready":
             with contextlib.suppress(subprocess.TimeoutExpired):
                 self._child.wait(STOP_TIMEOUT_S)

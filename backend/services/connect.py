@@ -156,6 +156,9 @@ class Devices:
         with self._lock:
             devices = list(self._devices.values())
         for device in devices:
+            # Each takes its time to end a simulated unit or to save the end of a ride.
+            device.driver.stop()
+        for device in devices:
             self._close(device)
 
     # ------------------------------------------------------------------ what they tell

@@ -17,7 +17,7 @@ from backend.device.config_transaction import ConfigImage, read_config
 from backend.device.parameters import PARAMETER_ROWS
 from backend.device.states import DeviceEvent, LinkState, StateChanged, UnitEvent
 from backend.domain.ride import Ride, RideContext
-from backend.errors import SpindleError
+from backend.errors import NoAnswer, NotFound, SpindleError
 from backend.services.connect import Devices
 from backend.store import RevisionLog
 
@@ -99,6 +99,9 @@ class UnitMemory:
                 self._configs[device_id] = config
             if connected:
                 self._keep(device_id, config)
+        except (NotFound, NoAnswer) as error:
+            # Gone meanwhile; it is read when it is here again.
+            LOG.debug("%s: its configuration was not remembered: %s", device_id, error.message)
         except SpindleError as error:
             LOG.warning("%s: its configuration was not remembered: %s", device_id, error.message)
 

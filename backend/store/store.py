@@ -7,12 +7,14 @@ from __future__ import annotations
 
 import logging
 import threading
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from types import TracebackType
 
 from backend.domain.ride import Ride, iso_utc
 from backend.errors import StoreError
 from backend.store.database import Database, shown
+from backend.store.database_url import check_url
 from backend.store.deletion import Deletions
 from backend.store.discard import discarded_keys
 from backend.store.identity import belonging, new_id, require, write_identity
@@ -21,6 +23,7 @@ from backend.store.look import look_at
 from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
 from backend.store.revisions import RevisionLog
 from backend.store.rides import Orphan, RideStore
+from backend.store.trouble import code_of
 from backend.store.uploads import UploadStore
 
 LOG = logging.getLogger(__name__)
@@ -135,10 +138,32 @@ def open_store(db_url: str, objects_url: str, disk: Disk | None = None) -> Store
     """Open the store and finish what a crash left behind.
 
     db_url: `sqlite:///path` or `postgresql+psycopg://...`. objects_url: `file:///folder`.
-    disk: the disk's steps, for tests. Raises StoreError, and then nothing was changed if the two do
-    not belong together or another server has them.
+    disk: the disk's steps, for tests. Raises InvalidRequest for a database's url that cannot be
+    used; StoreError, and then nothing was changed if the two do not belong together or another
+    server has them.
     """
+    check_url(db_url)
     objects = open_objects(objects_url, disk)
+    with saying_where():
+        return opened_store(db_url, objects)
+
+
+@contextmanager
+def saying_where() -> Iterator[None]:
+    """Turn what the system refuses into a StoreError that says where and what to do."""
+    try:
+        yield
+    except OSError as error:
+        where = error.filename or "the folder of the data"
+        raise StoreError(
+            f"The store cannot be opened: {where}: {error.strerror or error}. Give this user the "
+            "right to write there, or choose another folder with --data DIR.",
+            code_of(error),
+        ) from error
+
+
+def opened_store(db_url: str, objects: FileObjects) -> Store:
+    """As `open_store`, over open objects. Raises OSError where the system refuses a path."""
     require(belonging(look_at(db_url), objects), shown(db_url), objects)
     server_id = new_id()
     closing = ExitStack()

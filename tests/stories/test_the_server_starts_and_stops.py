@@ -133,3 +133,21 @@ def test_a_unit_that_is_not_there_keeps_nobody_waiting(tmp_path: Path) -> None:
     assert "/dev/no-such-port" in unit["reason"]
     assert answer.status_code in (503, 504)
     assert answer.json()["detail"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("wait_for_all", [True, False], ids=["ready", "starting"])
+def test_thirty_two_simulated_units_end_with_the_server(tmp_path: Path, wait_for_all: bool) -> None:
+    server = SpindleServer(tmp_path, [f"sim:unit{number}" for number in range(32)]).start()
+    if wait_for_all:
+        server.ready_device(31)
+    simulators = simulators_of(server.pid)
+
+    said = server.stop(signal.SIGTERM)
+
+    assert server.exit_code == 0
+    assert "Traceback" not in said
+    assert "does not end" not in said
+    eventually(
+        lambda: [pid for pid in simulators if Path(f"/proc/{pid}").exists()], lambda x: not x
+    )

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import json
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import pytest
 
+from backend.device.config_transaction import read_config
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock
 from backend.errors import Conflict, InvalidRequest, NoAnswer, NotFound
@@ -19,6 +20,7 @@ from firmware_protocol._generated import FaultSetEvent, MessageId, Status
 from tests.fakes.unit import FakeUnit
 from tests.fakes.unit_link import Heard, UnitOpener
 
+PATIENCE_S = 4.0
 LEFT, RIGHT = "socket://left:1", "socket://right:1"
 
 
@@ -245,3 +247,34 @@ def test_a_real_unit_has_no_simulation(devices: Devices, workshop: Workshop) -> 
 
 def test_the_ports_are_listed_with_the_simulated_unit(devices: Devices) -> None:
     assert "sim" in [port.url for port in devices.ports()]
+
+
+def test_units_are_let_go_side_by_side(devices: Devices, workshop: Workshop) -> None:
+    together = threading.Barrier(2)
+    for url in (LEFT, RIGHT):
+        devices.add(url)
+        link = workshop.openers[url].links[-1]
+
+        def close(close: Callable[[], None] = link.close) -> None:
+            together.wait(timeout=PATIENCE_S)
+            close()
+
+        link.close = close  # type: ignore[method-assign]
+
+    devices.close()
+
+    assert not together.broken
+    assert list(devices.list()) == []
+
+
+def test_a_unit_that_was_let_go_answers_at_once_that_it_is_gone(
+    devices: Devices, workshop: Workshop
+) -> None:
+    devices.add(LEFT)
+    driver = devices._find(b"LEFT-UNIT-01".hex()).driver
+    devices.remove(b"LEFT-UNIT-01".hex())
+
+    with pytest.raises(NoAnswer) as caught:
+        driver.run(read_config(), PATIENCE_S)
+
+    assert caught.value.code == "not_connected"
