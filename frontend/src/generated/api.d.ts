@@ -840,10 +840,58 @@ export interface paths {
         patch: operations["append_upload"];
         trace?: never;
     };
+    "/healthz": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Healthz
+         * @description The process answers. Says nothing of disk or units; `/api/v1/health` does.
+         */
+        get: operations["get_healthz"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/readyz": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Readyz
+         * @description Requests can be answered; 503 while the database does not answer.
+         */
+        get: operations["get_readyz"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /** Alive */
+        Alive: {
+            /**
+             * Status
+             * @constant
+             */
+            status: "ok";
+        };
         /**
          * AssistMode
          * @description One of the five slots the rider's switch selects.
@@ -3834,7 +3882,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description The ETag of the configuration the change was made for. */
+                /** @description The ETag of the configuration the change was made for, several, or `*`. */
                 "if-match"?: string | null;
             };
             path: {
@@ -4555,7 +4603,7 @@ export interface operations {
                 token?: string | null;
             };
             header?: {
-                /** @description The ETag of the configuration the change was made for. */
+                /** @description The ETag of the configuration the change was made for, several, or `*`. */
                 "if-match"?: string | null;
             };
             path: {
@@ -4748,7 +4796,7 @@ export interface operations {
                 token?: string | null;
             };
             header?: {
-                /** @description The ETag of the configuration the change was made for. */
+                /** @description The ETag of the configuration the change was made for, several, or `*`. */
                 "if-match"?: string | null;
             };
             path: {
@@ -4941,7 +4989,7 @@ export interface operations {
                 token?: string | null;
             };
             header?: {
-                /** @description The ETag of the configuration the change was made for. */
+                /** @description The ETag of the configuration the change was made for, several, or `*`. */
                 "if-match"?: string | null;
             };
             path: {
@@ -5134,7 +5182,7 @@ export interface operations {
                 token?: string | null;
             };
             header?: {
-                /** @description The ETag of the configuration the change was made for. */
+                /** @description The ETag of the configuration the change was made for, several, or `*`. */
                 "if-match"?: string | null;
             };
             path: {
@@ -6505,6 +6553,55 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_healthz: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Alive"];
+                };
+            };
+        };
+    };
+    get_readyz: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Alive"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
                 headers: {
                     [name: string]: unknown;
                 };
