@@ -78,12 +78,14 @@ def open_desk(browser: Browser, server: SpindleServer) -> Iterator[OpenDesk]:
         language: str = "en-GB",
         within: Browser = browser,
         address: str = server.url,
+        touch: bool = False,
     ) -> Desk:
         context = within.new_context(
             viewport={"width": width, "height": height},
             color_scheme=theme,
             locale=language,
             timezone_id="Europe/Berlin",
+            has_touch=touch,
         )
         context.grant_permissions(["clipboard-read", "clipboard-write"])
         desk = Desk(context.new_page(), address)

@@ -40,13 +40,13 @@ def test_a_zero_is_proposed_from_the_reading_and_written(
 def test_torque_is_the_reading_times_the_gain_that_was_written(
     desk: Desk, server: SpindleServer, standing: str
 ) -> None:
-    body = {"parameters": {"sensor_offset_counts": -500.0, "sensor_gain_nm_per_count": 0.0115}}
+    body = {"parameters": {"sensor_offset_counts": -500.0, "sensor_gain_nm_per_count": 0.011}}
     server.ask("PATCH", f"/devices/{standing}/config", json=body)
 
     page = desk.open("/sensor")
 
-    # (reading + 500) x 0.0115 with a reading of about nothing.
-    eventually(lambda: desk.number(TORQUE), lambda torque: abs(torque - 5.75) < 0.5)
+    # (reading + 500) x 0.011 with a reading of about nothing.
+    eventually(lambda: desk.number(TORQUE), lambda torque: abs(torque - 5.5) < 0.5)
     assert page.inner_text(RAW) != "—"
 
 

@@ -7,6 +7,7 @@ import { Server } from '$shared/api/server'
 import { Locale } from '$shared/i18n/locale.svelte'
 import '$shared/ui/base.css'
 import type { Desk } from '$shared/ui/desk'
+import { Foot } from '$shared/ui/foot.svelte'
 import { readPreferences } from '$shared/ui/preferences'
 import { Theme } from '$shared/ui/theme.svelte'
 import { Toasts } from '$shared/ui/toasts.svelte'
@@ -34,6 +35,7 @@ const desk: Desk = {
   units: new Units(locale, chosen.units),
   theme,
   toasts: new Toasts(),
+  foot: new Foot(),
   go: router.go,
 }
 router.start()

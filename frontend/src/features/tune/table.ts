@@ -56,6 +56,13 @@ export function blockOf(a: Cell, b: Cell): Block {
   }
 }
 
+/** The labels of a block, row by row. */
+export function inBlock(rules: Rules, block: Block): RuleLabel[] {
+  return rules
+    .slice(block.top, block.bottom + 1)
+    .flatMap((cells) => cells.slice(block.left, block.right + 1))
+}
+
 /** The rules with every cell of a block replaced. */
 export function mapBlock(
   rules: Rules,

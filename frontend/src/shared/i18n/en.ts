@@ -183,6 +183,13 @@ export const en = {
   'tune.keys':
     'Arrows move · 1–5 set NB–PB · + and − nudge · Shift selects · Ctrl+C/V as text · ' +
     'Delete restores · Ctrl+Z undoes',
+  'tune.strip': 'Set the chosen rules',
+  'tune.step_down': 'One label down',
+  'tune.step_up': 'One label up',
+  'tune.restore': 'As in the unit',
+  'tune.chosen': 'Chosen: {speed}, torque rate {rate}, {label}. Tap another cell to choose it.',
+  'tune.chosen_changed': 'Chosen: {speed}, torque rate {rate}, {label}; in the unit {old}.',
+  'tune.chosen_many': 'Chosen: {count} rules.',
   'tune.paste_not_labels':
     'Nothing pasted: only the labels NB, NS, ZO, PS, PB or the numbers 1 to 5 go into ' +
     'the rules.',

@@ -172,6 +172,13 @@ export const zh: Record<Key, string> = {
   'tune.cell_changed': '{label} {gain}，增益，速度 {speed}，扭矩变化率 {rate}；原为 {old}',
   'tune.keys':
     '方向键移动 · 1–5 设为 NB–PB · + − 微调 · Shift 选择 · Ctrl+C/V 复制粘贴 · Delete 还原 · Ctrl+Z 撤销',
+  'tune.strip': '设定所选规则',
+  'tune.step_down': '降一级',
+  'tune.step_up': '升一级',
+  'tune.restore': '恢复为单元中的值',
+  'tune.chosen': '所选：{speed}，扭矩变化率 {rate}，{label}。点按其他格即可选择。',
+  'tune.chosen_changed': '所选：{speed}，扭矩变化率 {rate}，{label}；单元中为 {old}。',
+  'tune.chosen_many': '所选：{count} 条规则。',
   'tune.paste_not_labels': '未粘贴：规则只接受 NB、NS、ZO、PS、PB 或数字 1 至 5。',
   'tune.paste_too_large': '未粘贴：文本的行数或列数超出了此格之后的范围。',
   'group.assist': '助力模式与斜率',

@@ -6,6 +6,7 @@ import type { HealthWatch } from '../api/health_watch.svelte'
 import type { Server } from '../api/server'
 import type { Locale } from '../i18n/locale.svelte'
 import type { Units } from '../units/units.svelte'
+import type { Foot } from './foot.svelte'
 import type { Theme } from './theme.svelte'
 import type { Toasts } from './toasts.svelte'
 
@@ -18,6 +19,7 @@ export interface Desk {
   units: Units
   theme: Theme
   toasts: Toasts
+  foot: Foot
   /** Goes to another page of this application. */
   go: (path: string) => void
 }
