@@ -22,7 +22,7 @@ MTU = 544
 MAX_OUTSTANDING = 4
 CONTROL_PERIOD_US = 10000
 IMAGE_LENGTH = 426
-SCHEMA_HASH = bytes.fromhex("13e0754f9720265e")
+SCHEMA_HASH = bytes.fromhex("44a0d8536627f80c")
 
 
 class Status(IntEnum):
@@ -109,6 +109,17 @@ class RollbackCause(IntEnum):
     ASKED = 1
     TIME_OUT = 2
     RESTART = 3
+
+
+class ResetCause(IntEnum):
+    """Why the unit started: switched on, or the supply came back; or it stopped itself, because nothing kicked its watchdog, the processor met a fault, or control steps no longer came while the rest ran; or it was told to."""
+
+    POWER_ON = 0
+    BROWN_OUT = 1
+    WATCHDOG = 2
+    FAULT_HANDLER = 3
+    DEADLINE = 4
+    SOFTWARE = 5
 
 
 class Violation(IntEnum):
@@ -272,6 +283,8 @@ class FaultFlags(IntFlag):
     SPEED_MISMATCH = 4096
     SPEED_STUCK = 8192
     MOTOR_HALL = 16384
+    LAW_RESULT = 131072
+    SAFE_STOP = 262144
 
 
 class MessageId(IntEnum):
@@ -285,6 +298,7 @@ class MessageId(IntEnum):
     BYE = 0x0007
     COUNTERS = 0x0008
     ALIVE = 0x0009
+    START_INFO = 0x000A
     CFG_INFO = 0x0100
     CFG_READ = 0x0101
     PARAM_GET = 0x0102
@@ -562,6 +576,30 @@ class AliveResponse(Message):
     bits_per_second: int
     events_waiting: int
     events_pushed_out: int
+
+
+@dataclass(frozen=True, slots=True)
+class StartInfoRequest(Message):
+    """Why the unit started (reset_cause), and how many control steps it has missed since, because the computer was busy or stood still; the motor was let go meanwhile."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.START_INFO
+
+
+@dataclass(frozen=True, slots=True)
+class StartInfoResponse(Message):
+    """Why the unit started (reset_cause), and how many control steps it has missed since, because the computer was busy or stood still; the motor was let go meanwhile."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.START_INFO
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("boot_id", "u32"),
+        Field("reset_cause", "u8"),
+        Field("steps_missed", "u32"),
+    )
+    LENGTH: ClassVar[int] = 9
+
+    boot_id: int
+    reset_cause: int
+    steps_missed: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -1754,6 +1792,7 @@ REQUEST_BY_ID: dict[int, type[Message]] = {
     0x0007: ByeRequest,
     0x0008: CountersRequest,
     0x0009: AliveRequest,
+    0x000A: StartInfoRequest,
     0x0100: CfgInfoRequest,
     0x0101: CfgReadRequest,
     0x0102: ParamGetRequest,
@@ -1802,6 +1841,7 @@ RESPONSE_BY_ID: dict[int, type[Message]] = {
     0x0007: ByeResponse,
     0x0008: CountersResponse,
     0x0009: AliveResponse,
+    0x000A: StartInfoResponse,
     0x0100: CfgInfoResponse,
     0x0101: CfgReadResponse,
     0x0102: ParamGetResponse,
@@ -1864,6 +1904,7 @@ ENUM_BY_NAME: dict[str, type[IntEnum]] = {
     "config_state": ConfigState,
     "slot_state": SlotState,
     "rollback_cause": RollbackCause,
+    "reset_cause": ResetCause,
     "violation": Violation,
     "law": Law,
     "taper": Taper,
@@ -2412,6 +2453,16 @@ FAULTS: tuple[Fault, ...] = (
         14, "MOTOR_HALL", 2,
         "No assist: the motor does not tell its position. You can pedal home; see your dealer.",
         "The motor's speed was missing, or under a quarter of what the cranks demand while it should push, for half a second. Check plug, supply and signals of the Hall sensors, then the phases, and whether the motor turns freely.",
+    ),
+    Fault(
+        17, "LAW_RESULT", 2,
+        "No assist: the drive unit could not compute it. Switch the bike off and on at standstill; if it comes back, see your dealer.",
+        "A control step gave no number, or one beyond the motor's limit, and the motor got none. No configuration does that: the unit's memory or program is damaged. Read it out for the maker and replace the unit.",
+    ),
+    Fault(
+        18, "SAFE_STOP", 2,
+        "No assist: the drive unit stopped and started again by itself. Switch the bike off and on at standstill; if it comes back, see your dealer.",
+        "The program hung, met a processor fault or missed its control steps, and the motor was switched off by hardware. START_INFO tells which. Check the supply and the board for water first, then ask the maker.",
     ),
 )
 FAULT_BY_NAME = {fault.name: fault for fault in FAULTS}

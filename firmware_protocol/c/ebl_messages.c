@@ -266,6 +266,30 @@ int ebl_alive_response_put(const ebl_alive_response *message, uint8_t *bytes, si
     return EBL_OK;
 }
 
+int ebl_start_info_response_get(ebl_start_info_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 9) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->boot_id = ebl_get_u32(bytes + 0);
+    message->reset_cause = ebl_get_u8(bytes + 4);
+    message->steps_missed = ebl_get_u32(bytes + 5);
+    return EBL_OK;
+}
+
+int ebl_start_info_response_put(const ebl_start_info_response *message, uint8_t *bytes, size_t capacity,
+                               size_t *length)
+{
+    if (capacity < 9) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->boot_id);
+    ebl_put_u8(bytes + 4, message->reset_cause);
+    ebl_put_u32(bytes + 5, message->steps_missed);
+    *length = 9;
+    return EBL_OK;
+}
+
 int ebl_cfg_info_response_get(ebl_cfg_info_response *message, const uint8_t *bytes, size_t length)
 {
     if (length < 11) {

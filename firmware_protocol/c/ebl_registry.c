@@ -10,6 +10,7 @@ const ebl_message ebl_messages[EBL_MESSAGE_COUNT] = {
     {0x0007, 0, 0},
     {0x0008, 0, 16},
     {0x0009, 0, 23},
+    {0x000a, 0, 9},
     {0x0100, 0, 11},
     {0x0101, 5, 6},
     {0x0102, 0, 0},

@@ -12,7 +12,7 @@
 #define EBL_MAX_OUTSTANDING 4
 #define EBL_CONTROL_PERIOD_US 10000
 #define EBL_IMAGE_LENGTH 426
-#define EBL_MESSAGE_COUNT 45
+#define EBL_MESSAGE_COUNT 46
 #define EBL_EVENT_COUNT 12
 #define EBL_EVENT_HEAD_LENGTH 5
 #define EBL_PARAMETER_COUNT 50
@@ -20,11 +20,11 @@
 #define EBL_BAND_COUNT 3
 #define EBL_RETIRED_COUNT 1
 #define EBL_CHANNEL_COUNT 21
-#define EBL_FAULT_BITS 15
-#define EBL_FAULTS_ASSIST_OFF 32759
-#define EBL_FAULTS_LATCHED 29683
+#define EBL_FAULT_BITS 19
+#define EBL_FAULTS_ASSIST_OFF 425975
+#define EBL_FAULTS_LATCHED 422899
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 4709
+#define EBL_SCHEMA_LENGTH 4811
 
 enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */
 
@@ -106,6 +106,16 @@ typedef enum {
     EBL_ROLLBACK_CAUSE_TIME_OUT = 2,
     EBL_ROLLBACK_CAUSE_RESTART = 3,
 } ebl_rollback_cause;
+
+/* Why the unit started: switched on, or the supply came back; or it stopped itself, because nothing kicked its watchdog, the processor met a fault, or control steps no longer came while the rest ran; or it was told to. */
+typedef enum {
+    EBL_RESET_CAUSE_POWER_ON = 0,
+    EBL_RESET_CAUSE_BROWN_OUT = 1,
+    EBL_RESET_CAUSE_WATCHDOG = 2,
+    EBL_RESET_CAUSE_FAULT_HANDLER = 3,
+    EBL_RESET_CAUSE_DEADLINE = 4,
+    EBL_RESET_CAUSE_SOFTWARE = 5,
+} ebl_reset_cause;
 
 /* Why a parameter's value is refused. */
 typedef enum {
@@ -253,6 +263,8 @@ enum {
     EBL_FAULT_SPEED_MISMATCH = 4096,
     EBL_FAULT_SPEED_STUCK = 8192,
     EBL_FAULT_MOTOR_HALL = 16384,
+    EBL_FAULT_LAW_RESULT = 131072,
+    EBL_FAULT_SAFE_STOP = 262144,
 };
 
 enum {
@@ -264,6 +276,7 @@ enum {
     EBL_MSG_BYE = 0x0007,
     EBL_MSG_COUNTERS = 0x0008,
     EBL_MSG_ALIVE = 0x0009,
+    EBL_MSG_START_INFO = 0x000a,
     EBL_MSG_CFG_INFO = 0x0100,
     EBL_MSG_CFG_READ = 0x0101,
     EBL_MSG_PARAM_GET = 0x0102,
@@ -636,6 +649,16 @@ typedef struct {
 int ebl_alive_response_get(ebl_alive_response *message, const uint8_t *bytes, size_t length);
 int ebl_alive_response_put(const ebl_alive_response *message, uint8_t *bytes, size_t capacity,
                           size_t *length);
+
+#define EBL_START_INFO_RESPONSE_LENGTH 9
+typedef struct {
+    uint32_t boot_id;
+    uint8_t reset_cause;
+    uint32_t steps_missed;
+} ebl_start_info_response;
+int ebl_start_info_response_get(ebl_start_info_response *message, const uint8_t *bytes, size_t length);
+int ebl_start_info_response_put(const ebl_start_info_response *message, uint8_t *bytes, size_t capacity,
+                               size_t *length);
 
 #define EBL_CFG_INFO_RESPONSE_LENGTH 11
 typedef struct {

@@ -16,6 +16,7 @@ FIELD_TABLES = {
     "access": "access",
     "bank": "bank",
     "rollback_cause": "rollback_cause",
+    "reset_cause": "reset_cause",
     "fault_flags": "fault_flags",
     "fault_flags_high": "fault_flags_high",
     "level": "access",

@@ -16,6 +16,7 @@ local EBL = {
         ["config_state"] = { [0] = "IDLE", [1] = "STAGING", [2] = "VALID", [3] = "PROVISIONAL" },
         ["slot_state"] = { [0] = "EMPTY", [1] = "CONFIRMED", [2] = "PROVISIONAL", [3] = "VOID", [4] = "DAMAGED" },
         ["rollback_cause"] = { [0] = "NONE", [1] = "ASKED", [2] = "TIME_OUT", [3] = "RESTART" },
+        ["reset_cause"] = { [0] = "POWER_ON", [1] = "BROWN_OUT", [2] = "WATCHDOG", [3] = "FAULT_HANDLER", [4] = "DEADLINE", [5] = "SOFTWARE" },
         ["violation"] = { [1] = "NOT_FINITE", [2] = "BELOW_MIN", [3] = "ABOVE_MAX", [4] = "NOT_INCREASING", [5] = "NOT_A_CHOICE", [6] = "NOT_TEXT", [7] = "TAPER_ORDER" },
         ["law"] = { [0] = "OFF", [1] = "FIXED", [2] = "FUZZY" },
         ["taper"] = { [0] = "TAPER_SPEEDS", [1] = "NONE", [2] = "JAPAN_1_TO_1", [3] = "JAPAN_2_TO_1" },
@@ -33,7 +34,7 @@ local EBL = {
         ["baud_rates"] = { [0] = "BAUD_115200", [1] = "BAUD_230400", [2] = "BAUD_460800", [3] = "BAUD_921600", [4] = "BAUD_1000000", [5] = "BAUD_2000000" },
         ["log_flags"] = { [0] = "RECORDING", [1] = "CONFIRMED", [2] = "ENDED" },
         ["fault_flags"] = { [0] = "TORQUE_SENSOR", [1] = "SPEED_SENSOR", [2] = "BATTERY_LOW", [3] = "CONFIG_DEFAULTED", [4] = "OVER_CURRENT", [5] = "UNDER_VOLTAGE", [6] = "BATTERY_CUT", [7] = "MOTOR_TEMPERATURE", [8] = "CONTROLLER_TEMPERATURE", [9] = "TORQUE_STUCK", [10] = "TORQUE_DRIFT", [11] = "TORQUE_LINK", [12] = "SPEED_MISMATCH", [13] = "SPEED_STUCK", [14] = "MOTOR_HALL" },
-        ["fault_flags_high"] = {  },
+        ["fault_flags_high"] = { [1] = "LAW_RESULT", [2] = "SAFE_STOP" },
     },
     details = {
         ["PENDING"] = "ms until the answer",
@@ -62,6 +63,7 @@ local EBL = {
         [7] = { ["name"] = "BYE", ["request"] = {  }, ["response"] = {  } },
         [8] = { ["name"] = "COUNTERS", ["request"] = {  }, ["response"] = { { ["name"] = "distance_m", ["type"] = "u32", ["count"] = 1, ["unit"] = "m" }, { ["name"] = "operating_s", ["type"] = "u32", ["count"] = 1, ["unit"] = "s" }, { ["name"] = "saved_distance_m", ["type"] = "u32", ["count"] = 1, ["unit"] = "m" }, { ["name"] = "saved_operating_s", ["type"] = "u32", ["count"] = 1, ["unit"] = "s" } } },
         [9] = { ["name"] = "ALIVE", ["request"] = {  }, ["response"] = { { ["name"] = "boot_id", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "session_id", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "uptime_us", ["type"] = "u64", ["count"] = 1, ["unit"] = "us" }, { ["name"] = "bits_per_second", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "events_waiting", ["type"] = "u8", ["count"] = 1 }, { ["name"] = "events_pushed_out", ["type"] = "u16", ["count"] = 1 } } },
+        [10] = { ["name"] = "START_INFO", ["request"] = {  }, ["response"] = { { ["name"] = "boot_id", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "reset_cause", ["type"] = "u8", ["count"] = 1, ["enum"] = "reset_cause" }, { ["name"] = "steps_missed", ["type"] = "u32", ["count"] = 1 } } },
         [256] = { ["name"] = "CFG_INFO", ["request"] = {  }, ["response"] = { { ["name"] = "generation", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "crc32", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "image_length", ["type"] = "u16", ["count"] = 1 }, { ["name"] = "state", ["type"] = "u8", ["count"] = 1, ["enum"] = "config_state" } } },
         [257] = { ["name"] = "CFG_READ", ["request"] = { { ["name"] = "bank", ["type"] = "u8", ["count"] = 1, ["enum"] = "bank" }, { ["name"] = "offset", ["type"] = "u16", ["count"] = 1 }, { ["name"] = "length", ["type"] = "u16", ["count"] = 1 } }, ["response"] = { { ["name"] = "generation", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "total_length", ["type"] = "u16", ["count"] = 1 }, { ["name"] = "data", ["type"] = "bytes", ["count"] = 1, ["tail"] = "image" } } },
         [258] = { ["name"] = "PARAM_GET", ["request"] = { { ["name"] = "ids", ["type"] = "bytes", ["count"] = 1, ["tail"] = "parameter_ids" } }, ["response"] = { { ["name"] = "items", ["type"] = "bytes", ["count"] = 1, ["tail"] = "items" } } },
@@ -101,7 +103,7 @@ local EBL = {
         [28674] = { ["name"] = "SIM_SET", ["request"] = { { ["name"] = "text", ["type"] = "bytes", ["count"] = 1, ["tail"] = "text" } }, ["response"] = { { ["name"] = "text", ["type"] = "bytes", ["count"] = 1, ["tail"] = "text" } } },
     },
     events = {
-        [1] = { ["name"] = "BOOT", ["fields"] = { { ["name"] = "boot_id", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "reset_cause", ["type"] = "u8", ["count"] = 1 } } },
+        [1] = { ["name"] = "BOOT", ["fields"] = { { ["name"] = "boot_id", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "reset_cause", ["type"] = "u8", ["count"] = 1, ["enum"] = "reset_cause" } } },
         [2] = { ["name"] = "FAULT_SET", ["fields"] = { { ["name"] = "fault_flags", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags" }, { ["name"] = "fault_flags_high", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags_high", ["high"] = true } } },
         [3] = { ["name"] = "FAULT_CLEARED", ["fields"] = { { ["name"] = "fault_flags", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags" }, { ["name"] = "fault_flags_high", ["type"] = "u16", ["count"] = 1, ["flags"] = "fault_flags_high", ["high"] = true } } },
         [4] = { ["name"] = "CONFIG_COMMITTED", ["fields"] = { { ["name"] = "generation", ["type"] = "u32", ["count"] = 1 }, { ["name"] = "crc32", ["type"] = "u32", ["count"] = 1 } } },

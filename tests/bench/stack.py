@@ -41,12 +41,18 @@ CALLERS = {
     "main_count": {COUNTED},
     "requests_*": {HAL},
     "ride_log*": {HAL},
+    "step_watch": {HAL},
     "unlock*": {HAL},
 }
 
-# What interrupts what: the board leaves all its interrupts at one priority, above them are faults.
+# What interrupts what: the board leaves all its interrupts at one priority, above them are faults,
+# and above those the watchdog's NMI.
 RESET = "reset_handler"
-LEVELS = (("tick_handler", "uart_interrupt_host", "uart_interrupt_plant"), ("fault_handler",))
+LEVELS = (
+    ("board_tick", "uart_interrupt_host", "uart_interrupt_plant"),
+    ("board_fault",),
+    ("board_watchdog_bites",),
+)
 
 # Armv7-M, B1.5.6: eight words, eighteen of the floating-point unit, and one for alignment.
 EXCEPTION_BYTES = 4 * (8 + 18 + 1)

@@ -21,8 +21,9 @@ from tests.bench.call_graph import (
     said_by,
 )
 
-# Of the Cortex-M4F's image. It may shrink; what makes it grow has to be worth it.
-STACK_BYTES_MAX = 2688
+# Of the Cortex-M4F's image. It may shrink; what makes it grow has to be worth it: the last was a
+# level more of interrupts, the NMI of the watchdog above a fault, 140 bytes.
+STACK_BYTES_MAX = 2816
 
 OWN = {at: Source("ride", False) for at in (0x100, 0x200, 0x300)}
 

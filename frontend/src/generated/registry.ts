@@ -113,6 +113,14 @@ export const ENUMS = {
     TIME_OUT: 2,
     RESTART: 3,
   },
+  reset_cause: {
+    POWER_ON: 0,
+    BROWN_OUT: 1,
+    WATCHDOG: 2,
+    FAULT_HANDLER: 3,
+    DEADLINE: 4,
+    SOFTWARE: 5,
+  },
   violation: {
     NOT_FINITE: 1,
     BELOW_MIN: 2,
@@ -234,6 +242,8 @@ export const FLAGS = {
     SPEED_MISMATCH: 12,
     SPEED_STUCK: 13,
     MOTOR_HALL: 14,
+    LAW_RESULT: 17,
+    SAFE_STOP: 18,
   },
 } as const;
 
@@ -1384,6 +1394,18 @@ export const FAULTS = {
     severity: "LATCHED",
     rider_text: "No assist: the motor does not tell its position. You can pedal home; see your dealer.",
     mechanic_text: "The motor's speed was missing, or under a quarter of what the cranks demand while it should push, for half a second. Check plug, supply and signals of the Hall sensors, then the phases, and whether the motor turns freely.",
+  },
+  LAW_RESULT: {
+    bit: 17,
+    severity: "LATCHED",
+    rider_text: "No assist: the drive unit could not compute it. Switch the bike off and on at standstill; if it comes back, see your dealer.",
+    mechanic_text: "A control step gave no number, or one beyond the motor's limit, and the motor got none. No configuration does that: the unit's memory or program is damaged. Read it out for the maker and replace the unit.",
+  },
+  SAFE_STOP: {
+    bit: 18,
+    severity: "LATCHED",
+    rider_text: "No assist: the drive unit stopped and started again by itself. Switch the bike off and on at standstill; if it comes back, see your dealer.",
+    mechanic_text: "The program hung, met a processor fault or missed its control steps, and the motor was switched off by hardware. START_INFO tells which. Check the supply and the board for water first, then ask the maker.",
   },
 } as const satisfies Record<string, FaultRow>;
 

@@ -32,15 +32,28 @@ void app_config_changed(app *unit, uint8_t event_code)
                  unit->store.generation, unit->store.crc32);
 }
 
-static void config_defaulted(app *unit)
+/* A fault of the start itself, which no control step sees. */
+static void fault_at_start(app *unit, uint32_t flag)
 {
     uint64_t now_us = unit->board->now_us(unit->board->context);
 
-    event_config(&unit->events, &unit->link, now_us, EBL_EVENT_CONFIG_DEFAULTED,
-                 unit->store.generation, unit->store.crc32);
-    if (!faults_latch(&unit->faults, EBL_FAULT_CONFIG_DEFAULTED)) return;
-    faults_freeze(&unit->faults, EBL_FAULT_CONFIG_DEFAULTED, now_us, unit->telemetry.row);
-    event_faults_set(&unit->events, &unit->link, now_us, EBL_FAULT_CONFIG_DEFAULTED);
+    if (!faults_latch(&unit->faults, flag)) return;
+    faults_freeze(&unit->faults, flag, now_us, unit->telemetry.row);
+    event_faults_set(&unit->events, &unit->link, now_us, flag);
+}
+
+static void config_defaulted(app *unit)
+{
+    event_config(&unit->events, &unit->link, unit->board->now_us(unit->board->context),
+                 EBL_EVENT_CONFIG_DEFAULTED, unit->store.generation, unit->store.crc32);
+    fault_at_start(unit, EBL_FAULT_CONFIG_DEFAULTED);
+}
+
+/* EN 15194 4.2.13: a unit that stopped itself while it drove does not drive on by itself. */
+static int stopped_itself(uint8_t reset_cause)
+{
+    return reset_cause == EBL_RESET_CAUSE_WATCHDOG ||
+           reset_cause == EBL_RESET_CAUSE_FAULT_HANDLER || reset_cause == EBL_RESET_CAUSE_DEADLINE;
 }
 
 /* Bytes of flash that slots and counters take, from its start. */
@@ -65,13 +78,15 @@ void app_init(app *unit, const hal *board)
     ride_log_init(&unit->ride_log, board);
     unit->link.bulk = requests_log_bulk;
     unit->link.bulk_context = unit;
-    event_boot(&unit->events, &unit->link, board->now_us(board->context), board->boot_id);
+    step_watch_init(&unit->watch, board->now_us(board->context));
+    event_boot(&unit->events, &unit->link, board->now_us(board->context), board);
     if (unit->store.returned_generation != 0) {
         app_config_changed(unit, EBL_EVENT_CONFIG_ROLLED_BACK);
     } else {
         app_config_apply(unit);
     }
     if (unit->store.slot == CONFIG_STORE_NO_SLOT) config_defaulted(unit);
+    if (stopped_itself(board->reset_cause)) fault_at_start(unit, EBL_FAULT_SAFE_STOP);
 }
 
 void app_factory_config(ebl_config *config, uint8_t market_number)
@@ -149,6 +164,7 @@ void app_poll(app *unit)
     unit->ride_log.store.erases = 0;
     link_transmit(&unit->link, unit->board);
     dispatch_answers_left(unit);
+    step_watch_poll(&unit->watch, unit->board, now_us);
 }
 
 static uint8_t mode_select(const app *unit, const hal_inputs *inputs)
@@ -188,7 +204,8 @@ void app_faults_cleared(app *unit, uint32_t cleared, uint64_t now_us)
 
 static void faults_report(app *unit, const hal_inputs *inputs, uint64_t now_us)
 {
-    const fault_law law = {unit->output.motor_torque_nm, unit->assist_state.torque_filtered_nm};
+    const fault_law law = {unit->output.motor_torque_nm, unit->assist_state.torque_filtered_nm,
+                           unit->law_lost};
     uint32_t set;
     uint32_t cleared;
 
@@ -216,6 +233,17 @@ void app_inputs_prepare(hal_inputs *inputs)
     inputs->mode_selected = HAL_MODE_NOT_SELECTED;
 }
 
+/* Once more before the motor: whatever the law says, only a number within the limit goes there. */
+static void motor_drive(app *unit, int result)
+{
+    float motor_nm = unit->output.motor_torque_nm;
+    int sound = motor_nm >= 0.0f && motor_nm <= unit->assist_config.motor_torque_nm_max;
+
+    unit->law_lost = result == ASSIST_RESULT_LOST || !sound;
+    if (!sound) unit->output.motor_torque_nm = 0.0f;
+    unit->board->motor_torque_set(unit->board->context, unit->output.motor_torque_nm);
+}
+
 void app_control_step(app *unit)
 {
     uint64_t now_us = unit->board->now_us(unit->board->context);
@@ -223,6 +251,7 @@ void app_control_step(app *unit)
     assist_input input;
     telemetry_sources sources = {&inputs, &unit->output, 0, 0};
 
+    if (step_watch_begin(&unit->watch, now_us) > 0) assist_interrupted(&unit->assist_state);
     if (unit->assist_config_pending) {
         unit->assist_config = unit->assist_config_next;
         unit->assist_config_pending = 0;
@@ -232,8 +261,8 @@ void app_control_step(app *unit)
     sources.mode = mode_select(unit, &inputs);
     faults_report(unit, &inputs, now_us); /* before the law: what it finds holds in this step */
     assist_input_from(&inputs, sources.mode, faults_inhibit(&unit->faults), &input);
-    (void)assist_step(&unit->assist_config, &unit->assist_state, &input, &unit->output);
-    unit->board->motor_torque_set(unit->board->context, unit->output.motor_torque_nm);
+    motor_drive(unit,
+                assist_step(&unit->assist_config, &unit->assist_state, &input, &unit->output));
 
     counters_step(&unit->counters, inputs.speed_kmh);
     ride_log_mode_set(&unit->ride_log, sources.mode, now_us);
@@ -241,6 +270,7 @@ void app_control_step(app *unit)
     telemetry_step(&unit->telemetry, &sources, now_us, &unit->link);
     faults_freeze(&unit->faults, unit->faults_new, now_us, unit->telemetry.row);
     ride_log_step(&unit->ride_log, unit->telemetry.row, now_us, is_moving(&inputs));
+    step_watch_done(&unit->watch);
 }
 
 const assist_output *app_output(const app *unit) { return &unit->output; }

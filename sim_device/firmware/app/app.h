@@ -23,6 +23,7 @@
 #include "ride_log.h"           // ride_log
 #include "ride_log_bulk.h"      // ride_log_bulk
 #include "ride_log_check.h"     // ride_log_check
+#include "step_watch.h"         // step_watch
 #include "telemetry.h"          // telemetry
 #include "unlock.h"             // unlock
 
@@ -59,6 +60,8 @@ typedef struct {
     assist_config assist_config; /* what the law runs on */
     assist_state assist_state;
     assist_output output;
+    step_watch watch;
+    uint8_t law_lost; /* the latest control step gave no torque because there was no number */
 
     telemetry telemetry;
     fault_list faults;

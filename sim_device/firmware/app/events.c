@@ -7,7 +7,6 @@
 #include "ebl_registry.h" // ebl_boot_event_put
 
 #define EVENT_CHANNEL 0
-#define RESET_CAUSE_POWER_ON 0
 #define EVENT_HEAD_LENGTH 5 /* code u8, time u32 */
 #define EVENT_FIELDS_LENGTH_MAX 18
 
@@ -95,9 +94,9 @@ static void event_send(event_log *events, unit_link *link, uint64_t now_us, uint
     events->seq++;
 }
 
-void event_boot(event_log *events, unit_link *link, uint64_t now_us, uint32_t boot_id)
+void event_boot(event_log *events, unit_link *link, uint64_t now_us, const hal *board)
 {
-    ebl_boot_event event = {boot_id, RESET_CAUSE_POWER_ON};
+    ebl_boot_event event = {board->boot_id, board->reset_cause};
     uint8_t fields[EBL_BOOT_EVENT_LENGTH];
     size_t length;
 

@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "hal.h"  // hal
 #include "link.h" // unit_link
 
 #define EVENTS_KEPT_MAX 8
@@ -35,7 +36,7 @@ void events_acknowledge(event_log *events, uint16_t seq);
 /* Sends again what was not acknowledged. */
 void events_poll(event_log *events, unit_link *link, uint64_t now_us);
 
-void event_boot(event_log *events, unit_link *link, uint64_t now_us, uint32_t boot_id);
+void event_boot(event_log *events, unit_link *link, uint64_t now_us, const hal *board);
 
 /* `fault_flags`: only the bits that changed. */
 void event_faults_set(event_log *events, unit_link *link, uint64_t now_us, uint32_t fault_flags);

@@ -164,9 +164,7 @@ static fault_sign drift_sign(fault_watch *watch, const hal_inputs *inputs, const
 
 static void sign_set(fault_sign *signs, uint32_t flag, fault_sign sign)
 {
-    for (unsigned bit = 0; bit < FAULT_KINDS; bit++) {
-        if (flag >> bit & 1u) signs[bit] = sign;
-    }
+    signs[__builtin_ctz(flag)] = sign;
 }
 
 void fault_signs(fault_list *faults, const hal_inputs *inputs, const ebl_config *config,
@@ -199,4 +197,5 @@ void fault_signs(fault_list *faults, const hal_inputs *inputs, const ebl_config 
     sign_set(signs, EBL_FAULT_SPEED_MISMATCH, fault_motion_mismatch(inputs, config, law));
     sign_set(signs, EBL_FAULT_SPEED_STUCK, fault_motion_stuck(&faults->watch, inputs, config, law));
     sign_set(signs, EBL_FAULT_MOTOR_HALL, fault_motion_hall(inputs, config, law));
+    sign_set(signs, EBL_FAULT_LAW_RESULT, fault_sign_of(law->lost));
 }

@@ -16,6 +16,7 @@ static uint16_t bad_steps_max(uint32_t flag)
     case EBL_FAULT_TORQUE_LINK: return 20;     /* with the hold 0.25 s: the ramp is over by then */
     case EBL_FAULT_SPEED_MISMATCH: return 100; /* 1 s: a wheel that slips, a pulse that is late */
     case EBL_FAULT_MOTOR_HALL: return 50;      /* 0.5 s: a motor spins up in less */
+    case EBL_FAULT_LAW_RESULT:
     case EBL_FAULT_BATTERY_CUT:
     case EBL_FAULT_TORQUE_STUCK:
     case EBL_FAULT_TORQUE_DRIFT: return 1;

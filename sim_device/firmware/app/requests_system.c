@@ -137,6 +137,19 @@ static void counters_get(app *unit, const ebl_header *request, reply *answer)
     reply_with(answer, put, length);
 }
 
+static void start_info(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_start_info_response response = {unit->board->boot_id, unit->board->reset_cause,
+                                        unit->watch.steps_missed};
+    size_t length = 0;
+    int put;
+
+    (void)request;
+    put = ebl_start_info_response_put(&response, reply_fields(answer), reply_capacity(answer),
+                                      &length);
+    reply_with(answer, put, length);
+}
+
 static void bye(app *unit, const ebl_header *request, reply *answer)
 {
     (void)request;
@@ -157,6 +170,7 @@ request_handler requests_system(uint16_t message_id)
     case EBL_MSG_STATS: return stats;
     case EBL_MSG_BYE: return bye;
     case EBL_MSG_COUNTERS: return counters_get;
+    case EBL_MSG_START_INFO: return start_info;
     default: return NULL;
     }
 }

@@ -60,6 +60,16 @@ typedef struct {
     void (*inputs_read)(void *context, hal_inputs *inputs);
     void (*motor_torque_set)(void *context, float motor_torque_nm);
 
+    /* Safe stop. The stage lets go by itself where no new torque comes for two control periods; the
+     * watchdog, which the board starts and which takes longer than STEP_DEADLINE_US of
+     * step_watch.h, does motor_off where no kick comes in its time. motor_off:
+     * by hardware, at once, from any context, an interrupt's too; nothing but the next start of the
+     * unit ends it, and the board makes that start. `cause`, and reset_cause of the start: an
+     * ebl_reset_cause. */
+    void (*watchdog_kick)(void *context);
+    void (*motor_off)(void *context, uint8_t cause);
+    uint8_t reset_cause;
+
     /* Flash for configuration: erase sets a block to 0xFF, program can only clear bits.
      * 0 on success, negative on failure. */
     size_t flash_block_size;

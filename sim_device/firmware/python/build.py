@@ -34,6 +34,7 @@ HEADERS: tuple[str, ...] = (
     "sim_device/firmware/control/market.h",
     "sim_device/firmware/control/rotor_receiver.h",
     "sim_device/firmware/hal/hal.h",
+    "sim_device/firmware/app/step_watch.h",
     "sim_device/firmware/app/sha512.h",
     "sim_device/firmware/app/signature.h",
     "sim_device/firmware/boards/host/bench_board.h",

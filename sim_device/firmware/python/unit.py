@@ -263,6 +263,10 @@ class Unit:
         """Selects a mode slot; MODE_NOT_SELECTED leaves the choice to the configuration."""
         lib.unit_select_mode(self._unit, mode)
 
+    def hang(self, steps: bool = True, polls: bool = True) -> None:
+        """Control steps, polls or both come no more, until the watchdog starts the unit anew."""
+        lib.unit_hang(self._unit, lib.UNIT_HANG_STEPS * steps + lib.UNIT_HANG_POLLS * polls)
+
     def cut_power_after(self, flash_bytes: int) -> None:
         """Brown-out after so many more bytes erased or programmed; 0 takes the battery out now."""
         lib.unit_flash_cut_after(self._unit, flash_bytes)

@@ -125,6 +125,8 @@ export const enUnit = {
   'fault_flag.SPEED_MISMATCH': 'Speed sensor does not follow the motor',
   'fault_flag.SPEED_STUCK': 'Speed sensor always shows the same',
   'fault_flag.MOTOR_HALL': "Motor's position lost",
+  'fault_flag.LAW_RESULT': 'Assist could not be computed',
+  'fault_flag.SAFE_STOP': 'Unit stopped itself',
 
   'counter.bytes_received': 'Bytes received',
   'counter.bytes_sent': 'Bytes sent',

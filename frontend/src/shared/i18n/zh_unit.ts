@@ -127,6 +127,8 @@ export const zhUnit: Record<keyof typeof enUnit, string> = {
   'fault_flag.SPEED_MISMATCH': '速度传感器与电机不符',
   'fault_flag.SPEED_STUCK': '速度传感器读数不变',
   'fault_flag.MOTOR_HALL': '电机位置信号丢失',
+  'fault_flag.LAW_RESULT': '无法计算助力',
+  'fault_flag.SAFE_STOP': '单元自行停机',
 
   'counter.bytes_received': '接收字节',
   'counter.bytes_sent': '发送字节',

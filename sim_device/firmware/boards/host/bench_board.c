@@ -33,6 +33,9 @@ struct bench_board {
     log_flash log;
     uint8_t uid[12];
     uint8_t powered;
+    uint8_t hung; /* bits of bench_hang */
+    uint8_t motor_is_off;
+    uint32_t kicks;
 };
 
 static size_t line_write(line *queue, const uint8_t *bytes, size_t length)
@@ -90,9 +93,22 @@ static void inputs_read(void *context, hal_inputs *inputs)
     *inputs = ((const bench_board *)context)->inputs;
 }
 
+static void watchdog_kick(void *context) { ((bench_board *)context)->kicks++; }
+
+static void motor_off(void *context, uint8_t cause)
+{
+    bench_board *board = context;
+
+    board->motor_is_off = 1;
+    board->motor_torque_nm = 0.0f;
+    board->hal.reset_cause = cause;
+}
+
 static void motor_torque_set(void *context, float motor_torque_nm)
 {
-    ((bench_board *)context)->motor_torque_nm = motor_torque_nm;
+    bench_board *board = context;
+
+    board->motor_torque_nm = board->motor_is_off ? 0.0f : motor_torque_nm;
 }
 
 /* One byte of wear. False once the power is gone. */
@@ -167,6 +183,8 @@ static void hal_fill(bench_board *board, size_t flash_block_size, size_t flash_s
     door->serial_writable = serial_writable;
     door->inputs_read = inputs_read;
     door->motor_torque_set = motor_torque_set;
+    door->watchdog_kick = watchdog_kick;
+    door->motor_off = motor_off;
     door->flash_block_size = flash_block_size;
     door->flash_size = flash_size;
     door->flash_read = flash_read;
@@ -239,6 +257,9 @@ void bench_boot(bench_board *board, uint32_t boot_id)
     board->to_unit.length = 0;
     board->to_host.length = 0;
     board->motor_torque_nm = 0.0f;
+    board->motor_is_off = 0;
+    board->hung = 0;
+    board->kicks = 0;
     board->flash_steps = 0;
     board->flash_steps_left = FLASH_NEVER;
     board->flash_weak_bit_countdown = FLASH_NEVER;
@@ -261,8 +282,28 @@ void bench_advance_us(bench_board *board, uint32_t duration_us)
         uint64_t next_us = board->now_us - board->now_us % BENCH_POLL_US + BENCH_POLL_US;
 
         board->now_us = next_us < end_us ? next_us : end_us;
-        if (board->now_us % BENCH_CONTROL_US == 0) app_control_step(&board->app);
-        app_poll(&board->app);
+        if (board->now_us % BENCH_CONTROL_US == 0 && !(board->hung & BENCH_HANG_STEPS)) {
+            app_control_step(&board->app);
+        }
+        if (!(board->hung & BENCH_HANG_POLLS)) app_poll(&board->app);
+    }
+}
+
+void bench_hang(bench_board *board, int hung) { board->hung = (uint8_t)hung; }
+
+uint32_t bench_kicks(const bench_board *board) { return board->kicks; }
+
+int bench_motor_is_off(const bench_board *board) { return board->motor_is_off; }
+
+void bench_reset_cause(bench_board *board, uint8_t cause) { board->hal.reset_cause = cause; }
+
+void bench_hurt_law(bench_board *board, int which)
+{
+    switch (which) {
+    case 0: board->app.assist_state.torque_filtered_nm = __builtin_nanf(""); break;
+    case 1: board->app.assist_config.table.gain_points[4] = __builtin_nanf(""); break;
+    case 2: board->app.assist_config.motor_torque_nm_max = __builtin_nanf(""); break;
+    default: board->app.assist_config.gear_ratio = __builtin_nanf("");
     }
 }
 
@@ -352,7 +393,11 @@ uint32_t bench_bulk_sent(const bench_board *board) { return board->app.bulk.fram
 
 uint32_t bench_bulk_repeated(const bench_board *board) { return board->app.bulk.frames_repeated; }
 
-void bench_skip_us(bench_board *board, uint64_t duration_us) { board->now_us += duration_us; }
+void bench_skip_us(bench_board *board, uint64_t duration_us)
+{
+    board->now_us += duration_us;
+    board->app.watch.step_us += duration_us;
+}
 
 uint32_t bench_unlock_nonces(bench_board *board, uint8_t level, uint32_t count, uint8_t *nonces)
 {

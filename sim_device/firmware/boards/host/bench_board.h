@@ -60,6 +60,21 @@ void bench_inputs_set(bench_board *board, const hal_inputs *inputs);
 void bench_board_requests(bench_board *board, int present);
 
 float bench_motor_torque_nm(const bench_board *board);
+
+/* Control steps, polls, or both (3) come no more, until 0 is said or the next boot. */
+#define BENCH_HANG_STEPS 1
+#define BENCH_HANG_POLLS 2
+void bench_hang(bench_board *board, int hung);
+
+/* Kicks of the watchdog since the boot; whether the unit switched the motor off by hardware; and
+ * what the next boot is told of its cause, an ebl_reset_cause. */
+uint32_t bench_kicks(const bench_board *board);
+int bench_motor_is_off(const bench_board *board);
+void bench_reset_cause(bench_board *board, uint8_t cause);
+
+/* Damages the law's memory: what it remembers (0), a point of its table (1), its limit (2) or its
+ * gear (3). */
+void bench_hurt_law(bench_board *board, int which);
 uint64_t bench_now_us(const bench_board *board);
 void bench_output(const bench_board *board, assist_output *output);
 
@@ -97,7 +112,7 @@ void bench_log_worn(bench_board *board, size_t address);
 uint32_t bench_bulk_sent(const bench_board *board);
 uint32_t bench_bulk_repeated(const bench_board *board);
 
-/* Time passes at once, without a poll. */
+/* Time passes at once, without a poll, and without being missed. */
 void bench_skip_us(bench_board *board, uint64_t duration_us);
 
 /* Challenges of the lock past the line, 16 bytes each; returns how many were given. */

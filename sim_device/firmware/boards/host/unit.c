@@ -46,6 +46,11 @@ struct unit {
     uint8_t uid[UNIT_UID_LENGTH];
     unit_request request;
     void *request_context;
+    uint64_t torque_us; /* when the motor was last told a torque, */
+    uint64_t kicked_us; /* and the watchdog was last kicked */
+    uint32_t boot_baud;
+    uint8_t hung; /* bits of unit_hang */
+    uint8_t motor_is_off;
 };
 
 static uint64_t board_now_us(void *context) { return ((const unit *)context)->now_us; }
@@ -105,7 +110,37 @@ void unit_drive(unit *self, const assist_output *output, uint8_t mode)
 
 static void board_motor_torque_set(void *context, float motor_torque_nm)
 {
-    ((unit *)context)->stimulus.motor_torque_nm = (double)motor_torque_nm;
+    unit *self = context;
+    self->torque_us = self->now_us;
+    self->stimulus.motor_torque_nm = self->motor_is_off ? 0.0 : (double)motor_torque_nm;
+}
+
+static void board_watchdog_kick(void *context)
+{
+    unit *self = context;
+    self->kicked_us = self->now_us;
+}
+
+static void board_motor_off(void *context, uint8_t cause)
+{
+    unit *self = context;
+    if (!self->motor_is_off) self->hal.reset_cause = cause;
+    self->motor_is_off = 1;
+    self->stimulus.motor_torque_nm = 0.0;
+}
+
+/* The hardware beside the processor: a stage that lets go, and a watchdog that starts it anew. */
+static void hardware_advance(unit *self)
+{
+    if (self->now_us >= self->torque_us + UNIT_TORQUE_HOLD_US) self->stimulus.motor_torque_nm = 0.0;
+    if (!unit_is_powered(self) || self->now_us < self->kicked_us + UNIT_WATCHDOG_US) return;
+    board_motor_off(self, EBL_RESET_CAUSE_WATCHDOG);
+    self->kicked_us = self->now_us;
+    self->motor_is_off = 0;
+    self->hung = 0;
+    self->hal.boot_id = self->hal.boot_id == UINT32_MAX ? 1 : self->hal.boot_id + 1;
+    self->hal.serial_baud = self->boot_baud;
+    app_init(&self->app, &self->hal);
 }
 
 /* Wears one byte. False once the supply has failed. */
@@ -177,6 +212,8 @@ static void connect_board(unit *self, const unit_setup *setup)
         .serial_writable = board_serial_writable,
         .inputs_read = board_inputs_read,
         .motor_torque_set = board_motor_torque_set,
+        .watchdog_kick = board_watchdog_kick,
+        .motor_off = board_motor_off,
         .flash_block_size = UNIT_FLASH_BLOCK_SIZE,
         .flash_size = UNIT_FLASH_SIZE,
         .flash_read = board_flash_read,
@@ -195,6 +232,7 @@ static void connect_board(unit *self, const unit_setup *setup)
         self->hal.serial_baud_set = board_serial_baud_set;
         self->hal.serial_drained = board_serial_drained;
         self->host_baud = setup->line_baud;
+        self->boot_baud = setup->line_baud;
         uart_line_init(&self->up, UART_LINE_BYTES);
         uart_line_init(&self->down, BYTE_QUEUE_CAPACITY);
     }
@@ -265,9 +303,12 @@ void unit_advance_us(unit *self, uint64_t duration_us)
     self->target_us += duration_us;
     while (self->now_us + PHYSICS_PERIOD_US <= self->target_us) {
         if (unit_is_powered(self) && !self->bike_alone) {
-            if (self->now_us % CONTROL_PERIOD_US == 0) app_control_step(&self->app);
-            app_poll(&self->app);
+            if (self->now_us % CONTROL_PERIOD_US == 0 && !(self->hung & UNIT_HANG_STEPS)) {
+                app_control_step(&self->app);
+            }
+            if (!(self->hung & UNIT_HANG_POLLS)) app_poll(&self->app);
         }
+        if (!self->bike_alone) hardware_advance(self);
         line_advance(self);
         physics_step(&self->bike, &self->state, &self->stimulus, PHYSICS_PERIOD_US * 1e-6);
         senses_rotor_exchange(&self->state, &self->receiver);
@@ -370,6 +411,8 @@ void unit_seed_noise(unit *self, uint64_t seed) { physics_seed(&self->state, see
 void unit_select_mode(unit *self, uint8_t mode) { self->mode_selected = mode; }
 
 void unit_hold_walk_button(unit *self, int held) { self->walk_button = held ? 1 : 0; }
+
+void unit_hang(unit *self, int hung) { self->hung = (uint8_t)hung; }
 
 void unit_flash_cut_after(unit *self, uint32_t bytes) { self->flash_bytes_left = bytes; }
 

@@ -19,6 +19,8 @@
 #define UNIT_LOG_BLOCK_SIZE 4096
 #define UNIT_LOG_SIZE 4194304 /* a serial flash beside the chip: two and a half hours of rides */
 #define UNIT_MODE_NOT_SELECTED 255
+#define UNIT_TORQUE_HOLD_US 20000 /* the motor's stage lets go where no new torque comes */
+#define UNIT_WATCHDOG_US 200000   /* without a kick: motor off, and the firmware starts anew */
 
 /* Answers board requests (SIM_GET, SIM_SET). Same meaning as hal.board_request. */
 typedef int (*unit_request)(void *context, uint16_t message_id, const uint8_t *request,
@@ -133,6 +135,11 @@ void unit_select_mode(unit *self, uint8_t mode);
 
 /* The handlebar's button for walk assist. */
 void unit_hold_walk_button(unit *self, int held);
+
+/* Control steps, polls, or both (3) come no more, until the watchdog starts the firmware anew. */
+#define UNIT_HANG_STEPS 1
+#define UNIT_HANG_POLLS 2
+void unit_hang(unit *self, int hung);
 
 const uint8_t *unit_flash(const unit *self);
 

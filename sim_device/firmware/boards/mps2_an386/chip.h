@@ -35,6 +35,19 @@ typedef struct {
 
 #define CHIP_TIMER0 ((chip_timer *)0x40000000u)
 
+/* CMSDK APB watchdog: counts down from `load`; at 0 an NMI, and once more to 0 a reset. */
+typedef struct {
+    volatile uint32_t load;
+    volatile uint32_t value;
+    volatile uint32_t control;
+    volatile uint32_t clear; /* any value: the interrupt is over, the count starts again */
+} chip_watchdog;
+
+#define CHIP_WATCHDOG ((chip_watchdog *)0x40008000u)
+#define CHIP_WATCHDOG_RUN 3u /* with interrupt and reset */
+#define CHIP_WATCHDOG_LOCK (*(volatile uint32_t *)0x40008C00u)
+#define CHIP_WATCHDOG_UNLOCK 0x1ACCE551u
+
 typedef struct {
     volatile uint32_t control;
     volatile uint32_t reload;
@@ -48,6 +61,9 @@ typedef struct {
 #define CHIP_UART_INTERRUPTS 0xFu /* 0 to 3: UART0 receive and send, UART1 receive and send */
 #define CHIP_COPROCESSOR_ACCESS (*(volatile uint32_t *)0xE000ED88u)
 #define CHIP_FPU_FULL_ACCESS 0xF00000u
+
+#define CHIP_RESET (*(volatile uint32_t *)0xE000ED0Cu)
+#define CHIP_RESET_ASK 0x05FA0004u
 
 static inline void chip_interrupts_off(void) { __asm volatile("cpsid i" ::: "memory"); }
 static inline void chip_interrupts_on(void) { __asm volatile("cpsie i" ::: "memory"); }

@@ -37,6 +37,8 @@ uint64_t clock_now_us(void)
 
 uint32_t clock_timer_us(void) { return (UINT32_MAX - CHIP_TIMER0->value) / TICKS_PER_US; }
 
+int clock_is_by_bench(void) { return now.by_bench; }
+
 void clock_stop(void)
 {
     now.by_bench = 1;

@@ -16,6 +16,9 @@ uint64_t clock_now_us(void);
 /* The timer itself, in microseconds, whoever has the clock in hand; comes round after 171 s. */
 uint32_t clock_timer_us(void);
 
+/* True while a test bench has the clock in hand. */
+int clock_is_by_bench(void);
+
 /* Back to 0, and not moving until the next grant. */
 void clock_stop(void);
 

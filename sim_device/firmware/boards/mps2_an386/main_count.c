@@ -106,6 +106,14 @@ static void motor_torque_set(void *context, float motor_torque_nm)
     (void)motor_torque_nm;
 }
 
+static void watchdog_kick(void *context) { (void)context; }
+
+static void motor_off(void *context, uint8_t cause)
+{
+    (void)context;
+    (void)cause;
+}
+
 static int flash_read(void *context, size_t address, uint8_t *bytes, size_t length)
 {
     (void)context;
@@ -139,6 +147,8 @@ static void board_connect(void)
     board.serial_writable = serial_writable;
     board.inputs_read = inputs_read;
     board.motor_torque_set = motor_torque_set;
+    board.watchdog_kick = watchdog_kick;
+    board.motor_off = motor_off;
     board.flash_block_size = 1024;
     board.flash_size = sizeof flash;
     board.flash_read = flash_read;

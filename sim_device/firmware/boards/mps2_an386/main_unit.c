@@ -1,12 +1,14 @@
 /* The drive unit on the AN386: what a product's main() is. */
 #include <stddef.h>
 
-#include "app.h"   // app_init
-#include "chip.h"  // chip_sleep
-#include "clock.h" // clock_now_us
-#include "flash.h" // flash_connect
-#include "plant.h" // plant_inputs
-#include "uart.h"  // uart_read
+#include "app.h"        // app_init
+#include "chip.h"       // chip_sleep
+#include "clock.h"      // clock_now_us
+#include "flash.h"      // flash_connect
+#include "plant.h"      // plant_inputs
+#include "safe_stop.h"  // safe_stop_kick
+#include "step_watch.h" // steps_due
+#include "uart.h"       // uart_read
 
 #define HOST_BAUD 1000000u /* where bytes take no time, as in QEMU */
 #define HOST_BAUDS                                                                                 \
@@ -14,9 +16,6 @@
      EBL_BAUD_RATES_BAUD_921600 | EBL_BAUD_RATES_BAUD_1000000)
 #define CONTROL_PERIOD_US 10000u
 #define HARDWARE_REVISION 2u
-
-/* Steps so late are given up: the computer that emulates the board was elsewhere. */
-#define CONTROL_LATE_US 1000000u
 
 static app unit;
 static hal board;
@@ -73,7 +72,19 @@ static void inputs_read(void *context, hal_inputs *inputs)
 static void motor_torque_set(void *context, float motor_torque_nm)
 {
     (void)context;
-    (void)motor_torque_nm;
+    plant_motor_set(motor_torque_nm);
+}
+
+static void watchdog_kick(void *context)
+{
+    (void)context;
+    safe_stop_kick();
+}
+
+static void motor_off(void *context, uint8_t cause)
+{
+    (void)context;
+    safe_stop_note(cause);
 }
 
 static int board_request(void *context, uint16_t message_id, const uint8_t *request, size_t length,
@@ -95,6 +106,8 @@ static void board_connect(void)
     board.serial_baud = HOST_BAUD;
     board.inputs_read = inputs_read;
     board.motor_torque_set = motor_torque_set;
+    board.watchdog_kick = watchdog_kick;
+    board.motor_off = motor_off;
     board.board_request = board_request;
     board.device_class = EBL_DEVICE_CLASS_MID_DRIVE_SIMULATED;
     board.hardware_revision = HARDWARE_REVISION;
@@ -114,8 +127,10 @@ static void board_connect(void)
 
 int main(void)
 {
-    uint64_t step_us = 0;
+    uint64_t next_step_us = 0;
+    uint64_t step_us;
 
+    board.reset_cause = safe_stop_open();
     clock_open();
     uart_open(UART_HOST, HOST_BAUD);
     chip_interrupts_on();
@@ -127,10 +142,10 @@ int main(void)
 
         plant_poll();
         round_us = clock_now_us();
-        if (round_us > step_us + CONTROL_LATE_US) step_us = round_us;
-        if (round_us >= step_us && clock_runs()) {
+        /* Halted by the bench, as by a debugger. */
+        if (!clock_runs() && !unit.watch.stopped) safe_stop_kick();
+        if (clock_runs() && plant_steps_come() && steps_due(&next_step_us, round_us, &step_us)) {
             round_us = step_us;
-            step_us += CONTROL_PERIOD_US;
             app_control_step(&unit);
             plant_step_tell(app_output(&unit), unit.config.assist_mode_at_start);
         }

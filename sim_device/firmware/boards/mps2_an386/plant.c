@@ -5,16 +5,21 @@
 #include "chip.h"         // chip_sleep
 #include "clock.h"        // clock_hand_over
 #include "ebl_registry.h" // EBL_STATUS_UNKNOWN_MSG
+#include "safe_stop.h"    // safe_stop_kick
 #include "uart.h"         // uart_read
 
 #define BENCH_BAUD 1000000u
 #define ANSWER_WAIT_US 2000000u
+#define TORQUE_HOLD_US 20000u
 
 typedef struct {
     hal_inputs inputs;
     uint8_t present;
+    uint8_t steps_broken;
     uint32_t granted_us; /* as last seen */
     uint32_t told_us;    /* of what has passed */
+    uint32_t torque_us;  /* of the timer, when the motor was last told a torque */
+    uint8_t motor_is_off;
 } plant_state;
 
 static plant_state plant;
@@ -45,20 +50,62 @@ static void look(void)
     plant.present = 1;
 }
 
+static void break_as_asked(void)
+{
+    uint32_t what = PLANT_REGISTERS->break_asked;
+
+    if (what == PLANT_BREAK_NOTHING) return;
+    PLANT_REGISTERS->break_asked = PLANT_BREAK_NOTHING;
+    if (what == PLANT_BREAK_STEPS) plant.steps_broken = 1;
+    if (what == PLANT_BREAK_INSTRUCTION) __asm volatile("udf #0");
+    if (what == PLANT_BREAK_DEAF_LOOP) chip_interrupts_off();
+    while (what == PLANT_BREAK_LOOP || what == PLANT_BREAK_DEAF_LOOP) {
+    }
+}
+
 void plant_poll(void)
 {
     uint8_t bells[16];
 
-    if (uart_read(UART_PLANT, bells, sizeof bells) > 0) look();
+    if (uart_read(UART_PLANT, bells, sizeof bells) == 0) return;
+    look();
+    break_as_asked();
 }
 
+/* After a reset the bench is there already, and what it granted before goes on. */
 void plant_open(void)
 {
     uart_open(UART_PLANT, BENCH_BAUD);
-    if (!PLANT_REGISTERS->has_clock) return;
-    clock_stop();
-    while (!plant.present) plant_poll();
+    plant.granted_us = PLANT_REGISTERS->passed_us;
+    plant.told_us = plant.granted_us;
+    if (PLANT_REGISTERS->has_clock) clock_stop();
+    look();
+    while (PLANT_REGISTERS->has_clock && !plant.present) {
+        safe_stop_kick(); /* a bench that is late hangs nothing */
+        plant_poll();
+    }
 }
+
+void plant_motor_set(float motor_torque_nm)
+{
+    plant.torque_us = clock_timer_us();
+    PLANT_REGISTERS->motor_torque_nm = plant.motor_is_off ? 0.0f : motor_torque_nm;
+}
+
+void plant_motor_off(void)
+{
+    plant.motor_is_off = 1;
+    PLANT_REGISTERS->motor_torque_nm = 0.0f;
+    PLANT_REGISTERS->motor_offs++;
+}
+
+void plant_motor_tick(void)
+{
+    if (clock_is_by_bench() || clock_timer_us() - plant.torque_us < TORQUE_HOLD_US) return;
+    PLANT_REGISTERS->motor_torque_nm = 0.0f;
+}
+
+int plant_steps_come(void) { return !plant.steps_broken; }
 
 void plant_inputs(hal_inputs *inputs)
 {
@@ -97,6 +144,7 @@ int plant_request(uint16_t message_id, const uint8_t *request, size_t length, ui
     ring();
     while (PLANT_REGISTERS->answers != number) {
         if (clock_timer_us() - begin_us > ANSWER_WAIT_US) return EBL_STATUS_INTERNAL;
+        safe_stop_kick();
         chip_sleep();
     }
     length = PLANT_REGISTERS->answer_length;

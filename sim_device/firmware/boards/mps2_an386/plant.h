@@ -37,7 +37,20 @@ typedef struct {
     hal_inputs inputs;
     uint8_t spare[256 - sizeof(hal_inputs)];
     assist_output output;
+    float motor_torque_nm; /* what the stage gives */
+    uint32_t motor_offs;   /* how often it was switched off by hardware, ever */
+    uint32_t break_asked;  /* by the bench: a plant_break, done once and set back */
 } plant_registers;
+
+/* What a test bench may break: the loop hangs, also with interrupts off; an instruction that does
+ * not exist; control steps come no more. */
+typedef enum {
+    PLANT_BREAK_NOTHING = 0,
+    PLANT_BREAK_LOOP = 1,
+    PLANT_BREAK_DEAF_LOOP = 2,
+    PLANT_BREAK_INSTRUCTION = 3,
+    PLANT_BREAK_STEPS = 4
+} plant_break;
 
 #define PLANT_REGISTERS ((volatile plant_registers *)0x21010000u)
 
@@ -54,6 +67,15 @@ void plant_inputs(hal_inputs *inputs);
 /* Tells the bench of a control step, and of granted time that has passed. */
 void plant_step_tell(const assist_output *output, uint8_t mode);
 void plant_passed_tell(void);
+
+/* The motor's stage. off: for good, from any context. tick: it lets go where no new torque came for
+ * two control periods; from the interrupt that comes every 2 ms. */
+void plant_motor_set(float motor_torque_nm);
+void plant_motor_off(void);
+void plant_motor_tick(void);
+
+/* 1 while control steps come, 0 after PLANT_BREAK_STEPS. The other breaks do not come back. */
+int plant_steps_come(void);
 
 /* As hal.board_request. Waits for the bench, which no product does. A bench that is not there is
  * UNKNOWN_MSG; one that is silent for two seconds INTERNAL. */

@@ -1,0 +1,65 @@
+#include "safe_stop.h"
+
+#include "chip.h"         // CHIP_WATCHDOG
+#include "ebl_registry.h" // EBL_RESET_CAUSE_WATCHDOG
+#include "plant.h"        // plant_motor_off
+
+#define NOTE_MAGIC 0x53544F50u
+#define WATCHDOG_TICKS (CHIP_CLOCK_HZ / 1000000u * SAFE_STOP_WATCHDOG_US)
+
+/* Kept over a reset. After power on it holds anything: a note counts with its complement alone. */
+typedef struct {
+    uint32_t cause; /* NOTE_MAGIC ^ ebl_reset_cause */
+    uint32_t complement;
+} cause_note;
+
+__attribute__((section(".kept"))) static volatile cause_note note;
+
+void board_fault(void);
+void board_watchdog_bites(void);
+void board_tick(void);
+
+uint8_t safe_stop_open(void)
+{
+    uint32_t cause = note.cause ^ NOTE_MAGIC;
+    int is_noted = note.complement == ~note.cause && cause <= EBL_RESET_CAUSE_SOFTWARE;
+
+    note.cause = 0;
+    note.complement = 0;
+    CHIP_WATCHDOG_LOCK = CHIP_WATCHDOG_UNLOCK;
+    CHIP_WATCHDOG->load = WATCHDOG_TICKS;
+    CHIP_WATCHDOG->control = CHIP_WATCHDOG_RUN;
+    CHIP_WATCHDOG_LOCK = 0;
+    return is_noted ? (uint8_t)cause : EBL_RESET_CAUSE_POWER_ON;
+}
+
+void safe_stop_kick(void)
+{
+    CHIP_WATCHDOG_LOCK = CHIP_WATCHDOG_UNLOCK;
+    CHIP_WATCHDOG->clear = 1;
+    CHIP_WATCHDOG_LOCK = 0;
+}
+
+/* What was noted first is the cause; what follows from it is not. */
+void safe_stop_note(uint8_t cause)
+{
+    plant_motor_off();
+    if (note.complement == ~note.cause) return;
+    note.cause = NOTE_MAGIC ^ cause;
+    note.complement = ~note.cause;
+}
+
+static void stop_and_start_anew(uint8_t cause)
+{
+    safe_stop_note(cause);
+    __asm volatile("dsb");
+    CHIP_RESET = CHIP_RESET_ASK;
+    for (;;) {
+    }
+}
+
+void board_fault(void) { stop_and_start_anew(EBL_RESET_CAUSE_FAULT_HANDLER); }
+
+void board_watchdog_bites(void) { stop_and_start_anew(EBL_RESET_CAUSE_WATCHDOG); }
+
+void board_tick(void) { plant_motor_tick(); }
