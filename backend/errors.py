@@ -17,7 +17,8 @@ SpindleError
 │   └── NotFound             no such device, ride, upload or port
 ├── BadFile                  a log that cannot be read; says where and what could be saved
 └── StoreError               the database or the object store
-    └── StoreFull            its disk has no room left
+    ├── StoreFull            its disk has no room left
+    └── ObjectDamaged        a file of the store is not what was written; nothing of it was sent
 """
 
 from __future__ import annotations
@@ -204,3 +205,9 @@ class StoreFull(StoreError):
     """The disk of the database or of the object store has no room left."""
 
     default_code = "disk_full"
+
+
+class ObjectDamaged(StoreError):
+    """A file of the store is missing or is not what was written; nothing of it was sent."""
+
+    default_code = "object_damaged"

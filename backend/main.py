@@ -123,6 +123,7 @@ def tidy(recorder: Recorder, uploads: Uploads, store: Store) -> None:
     recorder.tick(now_us)
     uploads.look_again()
     store.sweep(now_us)
+    store.scrub(now_us)
 
 
 def in_background(name: str, work: Callable[[], object]) -> None:

@@ -35,6 +35,7 @@ STATUS_OF: dict[type[errors.SpindleError], int] = {
     errors.BadFile: 422,
     errors.StoreError: 500,
     errors.StoreFull: 507,
+    errors.ObjectDamaged: 500,
 }
 # What the validator puts into a location for each kind of value it tries.
 KINDS = frozenset({"int", "float", "str", "bool"})

@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 
 from backend.domain.channels import ChannelSpec, Values
 from backend.domain.ride import Ride, iso_utc
 from backend.errors import InvalidRequest, NotFound
-from backend.store import RideReader, Store
+from backend.store import RideReader, Store, expected_of
 from backend.views.figure import figure
 from backend.views.trace import Trace, trace
 
@@ -27,11 +26,12 @@ Replay = Callable[[RideReader, Mapping[str, Any] | None, Mapping[str, Any] | Non
 
 @dataclass(frozen=True)
 class Export:
-    """A ride as a file; `chunks` is read once."""
+    """A ride as a file, verified; `chunks` is read once. size_bytes: where it is known before."""
 
     file_name: str
     media_type: str
     chunks: Iterator[bytes]
+    size_bytes: int | None = None
 
 
 class Rides:
@@ -51,17 +51,17 @@ class Rides:
     ) -> dict[str, object]:
         """One page, newest first: {items, next}. device: serial number."""
         page = self._store.rides.list(microseconds(begin), microseconds(end), device, limit, cursor)
-        return {"items": [ride.as_json() for ride in page.items], "next": page.next}
+        return {"items": [self._told(ride) for ride in page.items], "next": page.next}
 
     def get(self, ride_id: int) -> dict[str, object]:
         """One ride. Raises NotFound."""
-        return self._store.rides.get(ride_id).as_json()
+        return self._told(self._store.rides.get(ride_id))
 
     def patch(
         self, ride_id: int, name: str | None = None, notes: str | None = None
     ) -> dict[str, object]:
         """Change what people wrote about a ride. Raises NotFound, InvalidRequest."""
-        return self._store.rides.patch(ride_id, name, notes).as_json()
+        return self._told(self._store.rides.patch(ride_id, name, notes))
 
     def delete(self, ride_id: int) -> None:
         """Delete a ride; with the last ride of an original file this goes too, on the disk as well.
@@ -93,13 +93,21 @@ class Rides:
         ride = self._store.rides.get(ride_id)
         stem = f"spindle-ride-{ride.id}"
         if file_format == "csv":
-            rows = csv_chunks(self._store.rides.reader(ride_id), ride)
+            reader = self._store.rides.reader(ride_id)
+            if ride.object_key is not None:
+                self._store.soundness.open_ride(ride).close()
+            rows = csv_chunks(reader, ride)
             return Export(f"{stem}.csv", "text/csv; charset=utf-8", rows)
         if file_format == "parquet":
             if ride.object_key is None:
                 raise InvalidRequest(f"Ride {ride_id} is being recorded: export it when it ended.")
-            path = self._store.objects.local_path(ride.object_key)
-            return Export(f"{stem}.parquet", "application/vnd.apache.parquet", file_chunks(path))
+            file = self._store.soundness.open_ride(ride)
+            return Export(
+                f"{stem}.parquet",
+                "application/vnd.apache.parquet",
+                file_chunks(file),
+                ride.object_bytes,
+            )
         if file_format == "original":
             return self._original(ride)
         raise InvalidRequest(
@@ -124,8 +132,18 @@ class Rides:
         upload = self._store.uploads.get(ride.upload_id)
         if upload.object_key is None:
             raise NotFound(f"The original file of ride {ride.id} is not here.")
-        path = self._store.objects.local_path(upload.object_key)
-        return Export(safe_name(upload.name), "application/octet-stream", file_chunks(path))
+        file = self._store.soundness.open_original(
+            ride, upload.name, upload.object_key, upload.length
+        )
+        media_type = "application/octet-stream"
+        return Export(safe_name(upload.name), media_type, file_chunks(file), upload.length)
+
+    def _told(self, ride: Ride) -> dict[str, object]:
+        """A ride as the API tells it, with what is known to be wrong with its samples."""
+        damage = None
+        if ride.object_key is not None:
+            damage = self._store.soundness.known_damage(expected_of(ride))
+        return {**ride.as_json(), "damage": damage}
 
 
 def microseconds(moment: datetime | None) -> int | None:
@@ -143,9 +161,9 @@ def safe_name(name: str) -> str:
     return kept.strip(". ")[:120] or "ride"
 
 
-def file_chunks(path: Path) -> Iterator[bytes]:
-    """A file in pieces."""
-    with path.open("rb") as file:
+def file_chunks(file: BinaryIO) -> Iterator[bytes]:
+    """An open file in pieces; it is closed behind them."""
+    with file:
         while piece := file.read(PIECE_BYTES):
             yield piece
 

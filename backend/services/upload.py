@@ -23,6 +23,7 @@ from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED
 from backend.services.fill import fill
 from backend.services.same_ride import same_rides
 from backend.store import Store, Upload, Verdict
+from backend.store.soundness import Expected, damaged_upload
 
 LOG = logging.getLogger(__name__)
 
@@ -215,6 +216,9 @@ class Uploads:
     def _read(self, upload: Upload) -> Outcome:
         if upload.object_key is None:
             raise Conflict(f"Upload {upload.id} has not arrived.")
+        expected = Expected(upload.object_key, upload.received)
+        if found := self._store.soundness.damage(expected):
+            raise damaged_upload(upload.name, upload.object_key, found)
         return self._reader(self._store.objects.local_path(upload.object_key), upload.name)
 
     def _twin(self, upload: Upload) -> Upload | None:

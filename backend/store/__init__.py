@@ -3,6 +3,7 @@
 from backend.store.reader import RideReader
 from backend.store.revisions import RevisionLog
 from backend.store.rides import RidePage, RideStore
+from backend.store.soundness import expected_of
 from backend.store.store import Store, open_store
 from backend.store.trouble import Trouble, WriteWatch
 from backend.store.uploads import Upload, UploadStore, Verdict
@@ -18,5 +19,6 @@ __all__ = [
     "UploadStore",
     "Verdict",
     "WriteWatch",
+    "expected_of",
     "open_store",
 ]

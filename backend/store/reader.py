@@ -9,6 +9,7 @@ from __future__ import annotations
 import threading
 from collections import OrderedDict
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Protocol
 
 import numpy as np
@@ -17,7 +18,9 @@ from backend.domain.channels import ChannelSpec, Counts
 from backend.domain.energy import FACTORS, derive
 from backend.domain.pyramid import STEPS, Level
 from backend.domain.ride import Ride, RideRows, TimesUs
+from backend.errors import StoreError
 from backend.store.blobs import Rows16
+from backend.store.soundness import CHANGED, damaged_samples
 
 READERS_KEPT = 8
 
@@ -84,7 +87,8 @@ class RideReader:
         if self.ride.period_us is not None:
             return np.arange(start, stop, dtype=np.int64) * self.ride.period_us
         if self._times is None:
-            self._times = self._source.times_us(0, self.row_count)
+            with self._told():
+                self._times = self._source.times_us(0, self.row_count)
         return self._times[start:stop]
 
     def counts(self, names: Sequence[str], start: int, stop: int) -> dict[str, Counts]:
@@ -92,7 +96,8 @@ class RideReader:
         needed: dict[str, None] = {}
         for name in names:
             needed |= dict.fromkeys([name] if name in self._recorded else FACTORS[name])
-        stored = self._source.counts(list(needed), start, stop)
+        with self._told():
+            stored = self._source.counts(list(needed), start, stop)
         return {
             name: stored[name] if name in self._recorded else self._derive(name, stored)
             for name in names
@@ -116,6 +121,14 @@ class RideReader:
         if step not in self._levels:
             self._levels[step] = self._load_level(self.ride.id, step)
         return self._levels[step]
+
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        """A page whose checksum is wrong is damage of this ride."""
+        try:
+            yield
+        except StoreError as error:
+            raise damaged_samples(self.ride.id, self.ride.object_key or "", CHANGED) from error
 
     def _derive(self, name: str, stored: dict[str, Counts]) -> Counts:
         factors = {

@@ -23,6 +23,7 @@ from backend.store.look import look_at
 from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
 from backend.store.revisions import RevisionLog
 from backend.store.rides import Orphan, RideStore
+from backend.store.soundness import Soundness
 from backend.store.trouble import code_of
 from backend.store.uploads import UploadStore
 
@@ -44,7 +45,8 @@ class Store:
         self.objects = objects
         self.server_id = server_id
         self.deletions = Deletions(database, objects)
-        self.rides = RideStore(database, objects, self.deletions, server_id)
+        self.soundness = Soundness(objects.root)
+        self.rides = RideStore(database, objects, self.deletions, self.soundness, server_id)
         self.revisions = RevisionLog(database)
         self.uploads = UploadStore(database, objects, objects.root / SPOOL, self.deletions)
         self.unfinished: dict[int, str] = {}
@@ -84,6 +86,10 @@ class Store:
         if self._shrinks or self.deletions.files_gone != self._files_gone:
             self._files_gone = self.deletions.files_gone
             self._shrinks = self.database.give_back()
+
+    def scrub(self, now_us: int) -> None:
+        """Verify a few of the objects, all of them within a day."""
+        self.soundness.scrub(now_us, self.rides.expected_objects)
 
     def close(self) -> None:
         """Finish what is being written and let go of database and folder."""

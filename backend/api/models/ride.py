@@ -117,6 +117,10 @@ class Ride(Answer):
     )
     upload_id: str | None
     object_bytes: int | None
+    damage: Literal["missing", "wrong_size", "changed", "unreadable"] | None = Field(
+        description="What is wrong with the file of its samples, as far as it was looked at; then "
+        "series, figure, replay and exports answer 500 `object_damaged`. The figures here stay."
+    )
     summary: RideSummary | None
 
 

@@ -31,6 +31,10 @@ Channels = Annotated[
 ]
 # The block described on top of backend/views/trace.py.
 BINARY_MEDIA_TYPE = "application/octet-stream"
+# Whatever is made of a ride's samples is refused, whole, when they are not what was written.
+DAMAGED: dict[int | str, dict[str, Any]] = {
+    500: refusals(500)[500] | {"description": "`object_damaged`: the ride's file is not as written"}
+}
 ExportFormat = Literal["csv", "parquet", "fit", "gpx", "original"]
 
 
@@ -75,7 +79,7 @@ def delete_ride(ride_id: RideId, services: Provided) -> None:
     "/{ride_id}/series",
     operation_id="get_ride_series",
     response_model=Series,
-    responses={200: {"content": {BINARY_MEDIA_TYPE: {}}}},
+    responses={**DAMAGED, 200: {"content": {BINARY_MEDIA_TYPE: {}}}},
 )
 def get_ride_series(
     ride_id: RideId,
@@ -94,7 +98,12 @@ def get_ride_series(
     return JSONResponse(trace.to_json())
 
 
-@router.get("/{ride_id}/figure", operation_id="get_ride_figure", response_model=Figure)
+@router.get(
+    "/{ride_id}/figure",
+    operation_id="get_ride_figure",
+    response_model=Figure,
+    responses=DAMAGED,
+)
 def get_ride_figure(
     ride_id: RideId,
     services: Provided,
@@ -109,23 +118,28 @@ def get_ride_figure(
     "/{ride_id}/export",
     operation_id="export_ride",
     response_class=StreamingResponse,
-    responses={200: {"content": {"application/octet-stream": {}}}},
+    responses={**DAMAGED, 200: {"content": {"application/octet-stream": {}}}},
 )
 def export_ride(
     ride_id: RideId,
     services: Provided,
     file_format: Annotated[ExportFormat, Query(alias="format")] = "csv",
 ) -> StreamingResponse:
-    """The ride as a file; `original` is what was uploaded, byte for byte."""
+    """The ride as a file, verified before its first byte; `original` is what was uploaded."""
     export = services.rides.export(ride_id, file_format)
     chunks: Iterator[bytes] = iter(export.chunks)
-    disposition = f'attachment; filename="{export.file_name}"'
-    return StreamingResponse(
-        chunks, media_type=export.media_type, headers={"content-disposition": disposition}
-    )
+    headers = {"content-disposition": f'attachment; filename="{export.file_name}"'}
+    if export.size_bytes is not None:
+        headers["content-length"] = str(export.size_bytes)
+    return StreamingResponse(chunks, media_type=export.media_type, headers=headers)
 
 
-@router.post("/{ride_id}/replay", operation_id="replay_ride", response_model=Replay)
+@router.post(
+    "/{ride_id}/replay",
+    operation_id="replay_ride",
+    response_model=Replay,
+    responses=DAMAGED,
+)
 def replay_ride(ride_id: RideId, body: ReplayRequest, services: Provided) -> Any:
     """Runs the ride's inputs through the unit's own law with another table or other modes."""
     question = body.model_dump()

@@ -726,7 +726,7 @@ export interface paths {
         };
         /**
          * Export Ride
-         * @description The ride as a file; `original` is what was uploaded, byte for byte.
+         * @description The ride as a file, verified before its first byte; `original` is what was uploaded.
          */
         get: operations["export_ride"];
         put?: never;
@@ -1818,6 +1818,11 @@ export interface components {
             upload_id: string | null;
             /** Object Bytes */
             object_bytes: number | null;
+            /**
+             * Damage
+             * @description What is wrong with the file of its samples, as far as it was looked at; then series, figure, replay and exports answer 500 `object_damaged`. The figures here stay.
+             */
+            damage: ("missing" | "wrong_size" | "changed" | "unreadable") | null;
             summary: components["schemas"]["RideSummary"] | null;
         };
         /**
@@ -5759,6 +5764,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     get_ride_figure: {
@@ -5821,6 +5835,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     export_ride: {
@@ -5874,6 +5897,15 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5945,6 +5977,15 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
                 headers: {
                     [name: string]: unknown;
                 };

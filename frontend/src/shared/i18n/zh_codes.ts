@@ -104,6 +104,7 @@ const refusal = {
   part_unreadable: '文件有一部分无法读取；其余内容已保存。',
   duplicate: '内容相同的骑行已保存在此。',
   filled: '已用此文件补上缺失的部分。',
+  object_damaged: '此文件已损坏或丢失，没有发送任何内容：请从备份恢复，或重新导入。',
   has_rides: '有骑行来自此文件：删除这些骑行，文件随最后一个一并删除。',
   ride_is_live: '同一骑行正在记录；结束后再处理此文件。',
   unknown_format: '无法识别的文件格式。',
