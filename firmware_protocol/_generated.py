@@ -1337,7 +1337,7 @@ class LogOpenResponse(Message):
 
 @dataclass(frozen=True, slots=True)
 class LogAckRequest(Message):
-    """Everything below `base` has come; bit k of the bitmap: the chunk k chunks above has. With transaction id 0 it is not answered."""
+    """Everything below `base` has come; bit k of the bitmap: the chunk k chunks above has (bit 0 is the one at `base`). With transaction id 0 it is not answered."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_ACK
     LAYOUT: ClassVar[tuple[Field, ...]] = (
@@ -1354,7 +1354,7 @@ class LogAckRequest(Message):
 
 @dataclass(frozen=True, slots=True)
 class LogAckResponse(Message):
-    """Everything below `base` has come; bit k of the bitmap: the chunk k chunks above has. With transaction id 0 it is not answered."""
+    """Everything below `base` has come; bit k of the bitmap: the chunk k chunks above has (bit 0 is the one at `base`). With transaction id 0 it is not answered."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.LOG_ACK
 
@@ -1547,14 +1547,14 @@ class AuthDropResponse(Message):
 
 @dataclass(frozen=True, slots=True)
 class SimGetRequest(Message):
-    """Simulated units only: what rider, road and clock do now, as JSON text. A real unit answers UNKNOWN_MSG."""
+    """Simulated units only: what rider, road and clock do now, as JSON text, deflated where it is long (2.8). A real unit answers UNKNOWN_MSG."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.SIM_GET
 
 
 @dataclass(frozen=True, slots=True)
 class SimGetResponse(Message):
-    """Simulated units only: what rider, road and clock do now, as JSON text. A real unit answers UNKNOWN_MSG."""
+    """Simulated units only: what rider, road and clock do now, as JSON text, deflated where it is long (2.8). A real unit answers UNKNOWN_MSG."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.SIM_GET
     LAYOUT: ClassVar[tuple[Field, ...]] = (
@@ -1567,7 +1567,7 @@ class SimGetResponse(Message):
 
 @dataclass(frozen=True, slots=True)
 class SimSetRequest(Message):
-    """Simulated units only: changes what the JSON text names and answers like SIM_GET."""
+    """Simulated units only: changes what the JSON text names, deflated or not, and answers like SIM_GET."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.SIM_SET
     LAYOUT: ClassVar[tuple[Field, ...]] = (
@@ -1580,7 +1580,7 @@ class SimSetRequest(Message):
 
 @dataclass(frozen=True, slots=True)
 class SimSetResponse(Message):
-    """Simulated units only: changes what the JSON text names and answers like SIM_GET."""
+    """Simulated units only: changes what the JSON text names, deflated or not, and answers like SIM_GET."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.SIM_SET
     LAYOUT: ClassVar[tuple[Field, ...]] = (
