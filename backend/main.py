@@ -120,6 +120,7 @@ def make_data_folder(folder: Path) -> None:
 def tidy(recorder: Recorder, uploads: Uploads, store: Store) -> None:
     """Ends what has been silent too long; fills rides that are over; removes what has expired."""
     now_us = time.time_ns() // 1000
+    store.try_again()
     recorder.tick(now_us)
     uploads.look_again()
     store.sweep(now_us)
@@ -144,11 +145,16 @@ def housekeeping(work: Callable[[], None]) -> Iterator[None]:
     stopped = threading.Event()
 
     def run() -> None:
+        told = ""
         while not stopped.wait(HOUSEKEEPING_S):
             try:
                 work()
+                told = ""
             except SpindleError as error:
-                LOG.warning("%s", error.message)
+                # What lasts need not be said every second.
+                if error.message != told:
+                    LOG.warning("%s", error.message)
+                told = error.message
 
     thread = threading.Thread(target=run, name="housekeeping", daemon=True)
     thread.start()

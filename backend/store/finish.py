@@ -88,7 +88,9 @@ def write_object(
     facts = {**facts_of(told), **more}
     staged = objects.stage()
     try:
-        rows = write_rows(staged, ride.channels, chunks_of(source, ride.channels), facts, sample)
+        with objects.watch.writing("objects", f"Ride {ride.id} was not written"):
+            chunks = chunks_of(source, ride.channels)
+            rows = write_rows(staged, ride.channels, chunks, facts, sample)
         RideFile(staged, ride.channels).verify()
         sha256, size = file_sha256(staged), staged.stat().st_size
         key = content_key("rides", sha256, RIDE_SUFFIX)

@@ -20,13 +20,14 @@ import re
 import secrets
 import threading
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, contextmanager, suppress
 from pathlib import Path
 from typing import Any, Protocol
 from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
 from backend.errors import StoreError
+from backend.store.trouble import WriteWatch, write_a_little
 
 STAGING = ".staging"
 STAGED_NAME = re.compile(r"[0-9a-f]{16}")
@@ -64,9 +65,15 @@ class Disk:
         path.unlink(missing_ok=True)
 
 
+# The folder's name among the parts of the store that may refuse to be written.
+PART = "objects"
+
+
 class Objects(Protocol):
     """What the store needs of an object store, whatever its URL."""
 
+    @property
+    def watch(self) -> WriteWatch: ...
     def stage(self) -> Path: ...
     def publish(self, staged: Path, key: str) -> None: ...
     def publish_json(self, key: str, body: Mapping[str, object]) -> None: ...
@@ -85,6 +92,8 @@ class FileObjects:
     def __init__(self, root: Path, disk: Disk | None = None) -> None:
         self.root = root
         self.disk = disk or Disk()
+        # Told of every write to this folder; the database of the same store shares it.
+        self.watch = WriteWatch()
         self._turn = threading.Lock()
         self._holders = 0
 
@@ -101,24 +110,25 @@ class FileObjects:
 
         Raises StoreError when a step fails; then the key is absent, or whole if it was renamed.
         """
-        try:
+        with self.watch.writing(PART, f"The object {key} was not saved"):
             self.disk.flush_file(staged)
             self._put(staged, self.root / key)
-        except OSError as error:
-            raise StoreError(f"The object {key} was not saved: {error}") from error
 
     def publish_json(self, key: str, body: Mapping[str, object]) -> None:
         """Write a small JSON object under a key, in place of the one before. Raises StoreError."""
         staged = self.stage()
-        try:
+        with self.watch.writing(PART, f"The object {key} was not saved"):
             text = json.dumps(body, sort_keys=True, ensure_ascii=False, indent=1)
             staged.write_text(text + "\n", encoding="utf-8")
-        except OSError as error:
-            raise StoreError(f"The object {key} was not saved: {error}") from error
         try:
             self.publish(staged, key)
         finally:
             staged.unlink(missing_ok=True)
+
+    def try_write(self, part: str) -> None:
+        """Write a little for `part` of the store, for the watch to see how that goes."""
+        with suppress(StoreError), self.watch.writing(part, "Nothing was lost"):
+            write_a_little(self.root / STAGING)
 
     def read_json(self, key: str) -> dict[str, Any] | None:
         """A small JSON object, None when it is absent. Raises StoreError when it is damaged."""

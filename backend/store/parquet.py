@@ -94,7 +94,7 @@ def write_rows(
                     pa.Table.from_arrays(columns, schema=schema), row_group_size=ROW_GROUP_ROWS
                 )
                 written += len(rows.times_us)
-    except (OSError, pa.ArrowException) as error:
+    except pa.ArrowException as error:
         raise StoreError(f"The ride was not written to {path.name}: {error}") from error
     return written
 

@@ -56,6 +56,14 @@ class Store:
         self._shrinks = False
         self._closing = closing
 
+    def try_again(self) -> None:
+        """Write a little where writes are refused now, so that the end of the trouble is seen."""
+        for trouble in self.watch.troubles:
+            if trouble.part == self.database.part:
+                self.database.try_write()
+            else:
+                self.objects.try_write(trouble.part)
+
     def recover(self) -> list[int]:
         """Finish what a crash left: half written files, other servers' rides, unknown objects.
 
@@ -178,7 +186,7 @@ def opened_store(db_url: str, objects: FileObjects) -> Store:
         # Another server may have come and gone since the first look.
         found = belonging(look_at(db_url), objects)
         store_id = require(found, shown(db_url), objects)
-        database = Database(db_url)
+        database = Database(db_url, objects.watch)
         closing.callback(database.close)
         store = Store(database, objects, closing, server_id)
         closing.callback(store.rides.close)

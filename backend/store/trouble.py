@@ -9,11 +9,15 @@ from __future__ import annotations
 
 import errno
 import logging
+import os
+import secrets
 import sqlite3
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 
 from sqlalchemy.exc import DBAPIError
 
@@ -23,6 +27,9 @@ LOG = logging.getLogger(__name__)
 
 # Longer than a recorder waits before it tries a refused second again.
 CALM_S = 5.0
+
+# What is written to see whether there is room again.
+PROBE_BYTES = 256 * 1024
 
 DISK_FULL = "disk_full"
 READ_ONLY = "store_read_only"
@@ -41,6 +48,10 @@ OF_ERRNO = {
     errno.ENOSPC: DISK_FULL,
     errno.EDQUOT: DISK_FULL,
     errno.EFBIG: DISK_FULL,
+    errno.EIO: IO_ERROR,
+    errno.ENXIO: IO_ERROR,
+    errno.ENODEV: IO_ERROR,
+    errno.ESTALE: IO_ERROR,
     errno.EROFS: READ_ONLY,
     errno.EACCES: READ_ONLY,
     errno.EPERM: READ_ONLY,
@@ -99,6 +110,15 @@ class WriteWatch:
             return StoreFull(message)
         return StoreError(message, code)
 
+    @contextmanager
+    def writing(self, part: str, lost: str) -> Iterator[None]:
+        """Note whether what is done in here reached the disk. Raises StoreError where not."""
+        try:
+            yield
+        except OSError as error:
+            raise self.refused(part, error, lost) from error
+        self.worked(part)
+
     def note(self, part: str, code: str) -> None:
         """Note that `part` cannot be written because of `code`; in the log once a spell."""
         trouble = Trouble(part, code, f"The {part} cannot be written: {WORDS[code]}.")
@@ -125,10 +145,23 @@ class WriteWatch:
         LOG.warning("The %s can be written again, after %.0f s.", part, spell_s)
 
 
+def write_a_little(folder: Path) -> None:
+    """Write a file as large as some seconds of a ride, and remove it. Raises OSError."""
+    path = folder / f".probe-{secrets.token_hex(4)}"
+    try:
+        with path.open("wb") as file:
+            file.write(os.urandom(PROBE_BYTES))
+            file.flush()
+            os.fsync(file.fileno())
+    finally:
+        path.unlink(missing_ok=True)
+
+
 def code_of(error: BaseException) -> str | None:
-    """Why a write was refused; None for what is not the disk's or the database's trouble."""
+    """Why a write was refused; None for what is not the disk's or the database's trouble, such as a
+    file that is not there."""
     if isinstance(error, OSError):
-        return OF_ERRNO.get(error.errno or 0, IO_ERROR)
+        return OF_ERRNO.get(error.errno or 0)
     if not isinstance(error, DBAPIError):
         return None
     number = getattr(error.orig, "sqlite_errorcode", None)

@@ -72,6 +72,10 @@ class Verdict:
     expires_us: int | None = None
 
 
+# The spool's name among the parts of the store that may refuse to be written.
+PART = "uploads"
+
+
 class UploadStore:
     """Every upload there is, and the spool folder of those that still arrive."""
 
@@ -89,7 +93,10 @@ class UploadStore:
     def create(self, name: str, size: int, declared_sha256: str | None, expires_s: int) -> Upload:
         """Begin an upload of `size` bytes; nothing has arrived yet, and all must in `expires_s`."""
         token = secrets.token_hex(16)
-        with self._path(token).open("wb") as file:
+        with (
+            self._objects.watch.writing(PART, "The upload was not begun"),
+            self._path(token).open("wb") as file,
+        ):
             os.fsync(file.fileno())
         now_us = time.time_ns() // 1000
         values = {
@@ -127,15 +134,15 @@ class UploadStore:
                 "are too many.",
                 code="too_long",
             )
-        try:
-            with self._path(token).open("r+b") as file:
-                file.truncate(offset)
-                file.seek(offset)
-                file.write(data)
-                file.flush()
-                os.fsync(file.fileno())
-        except OSError as error:
-            raise StoreError(f"Upload {token} was not saved: {error}") from error
+        with (
+            self._objects.watch.writing(PART, f"Upload {token} was not saved"),
+            self._path(token).open("r+b") as file,
+        ):
+            file.truncate(offset)
+            file.seek(offset)
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
         received = offset + len(data)
         self._set(token, received=received)
         return self.get(token)

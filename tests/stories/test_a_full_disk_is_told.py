@@ -1,0 +1,80 @@
+"""Goal: a disk that is really full is seen in /health and once in the log, and so is its end.
+
+Method: the server's data on a small file system of its own (needs the right to mount), filled by
+another file while a simulated bike rides; then that file is removed.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.fakes.server import SpindleServer, eventually
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(os.name != "posix" or os.geteuid() != 0, reason="needs to mount"),
+]
+
+
+@pytest.fixture
+def small_disk(tmp_path: Path) -> Iterator[Path]:
+    mounted = subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", "size=8m", "tmpfs", tmp_path], check=False
+    )
+    if mounted.returncode:
+        pytest.skip("may not mount here")
+    yield tmp_path
+    subprocess.run(["umount", "-l", tmp_path], check=True)
+
+
+def fill(path: Path) -> None:
+    """Take all there is."""
+    with path.open("wb", buffering=0) as file:
+        try:
+            while True:
+                file.write(bytes(4096))
+        except OSError:
+            pass
+
+
+def test_a_full_disk_while_recording_is_told_and_costs_nothing_when_freed(
+    small_disk: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    # The unit's own memory is on another disk, as a real unit's is.
+    flash = tmp_path_factory.mktemp("unit") / "flash"
+    server = SpindleServer(small_disk, [f"sim?scenario=commute&flash={flash}"]).start()
+    device = server.ready_device()
+
+    def recorder() -> dict[str, Any]:
+        told: dict[str, Any] = server.get("/health")["devices"][0]["recorder"]
+        return told
+
+    eventually(recorder, lambda told: told["rows_saved"] > 0)
+    fill(small_disk / "filler")
+    full = eventually(lambda: server.get("/health"), lambda told: told["status"] == "degraded")
+    assert {reason["code"] for reason in full["reasons"]} == {"disk_full"}
+    eventually(recorder, lambda told: told["rows_waiting"] > 200)
+    upload = server.client.post(
+        "/uploads",
+        headers={"tus-resumable": "1.0.0", "upload-length": "1000", "upload-metadata": ""},
+    )
+    assert upload.status_code in (201, 507), upload.text
+    if upload.status_code == 507:
+        assert upload.headers["content-type"] == "application/problem+json"
+        assert upload.json()["code"] == "disk_full"
+
+    (small_disk / "filler").unlink()
+    eventually(lambda: server.get("/health"), lambda told: told["status"] == "ok")
+    told = eventually(recorder, lambda told: told["rows_waiting"] <= 200)
+
+    assert told["rows_lost"] == 0
+    assert server.get(f"/devices/{device}")["state"] == "ready"
+    said = server.stop()
+    assert said.count("cannot be written") == said.count("can be written again") >= 1
+    assert said.count("The database cannot be written") == 1
