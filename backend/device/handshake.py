@@ -26,6 +26,9 @@ from firmware_protocol._generated import (
     EvtFaultListResponse,
     HelloRequest,
     HelloResponse,
+    ResetCause,
+    StartInfoRequest,
+    StartInfoResponse,
     Status,
 )
 from firmware_protocol.layout import Channel
@@ -75,9 +78,21 @@ def become_acquainted(
         reason, channels = yield from _other_schema(hello, schemas)
     faults = 0
     trial = None
+    cause = None
     if reason is None:
         faults, trial = yield from unit_state()
-    return Acquaintance(hello, Identity.from_hello(hello), reason, channels, faults, trial)
+        cause = yield from _reset_cause()
+    identity = Identity.from_hello(hello, cause)
+    return Acquaintance(hello, identity, reason, channels, faults, trial)
+
+
+def _reset_cause() -> Operation[str | None]:
+    """Why the unit started, in lower case; None where its firmware has no word for it."""
+    response = yield from attempt(StartInfoRequest())
+    if not isinstance(response.message, StartInfoResponse):
+        return None
+    cause = response.message.reset_cause
+    return ResetCause(cause).name.lower() if cause in set(ResetCause) else f"cause_{cause}"
 
 
 def _other_schema(

@@ -13,7 +13,8 @@ SIMULATED_BIT = 0x80
 class Identity:
     """A unit's identity in words and hexadecimal; boot_id and session_id change at every start.
 
-    serial_number: the 12 bytes of the chip's unique id as 24 hexadecimal digits.
+    serial_number: the 12 bytes of the chip's unique id as 24 hexadecimal digits. reset_cause: why
+    the unit started, as a word of the registry's reset_cause; None for a unit that cannot tell.
     """
 
     serial_number: str
@@ -25,9 +26,10 @@ class Identity:
     simulated: bool
     boot_id: int
     session_id: int
+    reset_cause: str | None = None
 
     @classmethod
-    def from_hello(cls, hello: HelloResponse) -> Identity:
+    def from_hello(cls, hello: HelloResponse, reset_cause: str | None = None) -> Identity:
         """Read the identity out of a HELLO's answer."""
         return cls(
             serial_number=hello.uid.hex(),
@@ -39,6 +41,7 @@ class Identity:
             simulated=bool(hello.device_class & SIMULATED_BIT),
             boot_id=hello.boot_id,
             session_id=hello.session_id,
+            reset_cause=reset_cause,
         )
 
 

@@ -87,6 +87,11 @@ class Identity(Answer):
     firmware_version: str
     protocol_version: str
     schema_hash: str
+    reset_cause: str | None = Field(
+        default=None,
+        description="Why the unit started: `power_on`, `brown_out`, `watchdog`, `fault_handler`, "
+        "`deadline` or `software`; null where its firmware cannot tell.",
+    )
 
 
 class ConfigStamp(Answer):

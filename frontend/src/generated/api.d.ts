@@ -1434,6 +1434,11 @@ export interface components {
             protocol_version: string;
             /** Schema Hash */
             schema_hash: string;
+            /**
+             * Reset Cause
+             * @description Why the unit started: `power_on`, `brown_out`, `watchdog`, `fault_handler`, `deadline` or `software`; null where its firmware cannot tell.
+             */
+            reset_cause: string | null;
         };
         /**
          * Limits

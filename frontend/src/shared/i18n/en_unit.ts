@@ -127,6 +127,13 @@ export const enUnit = {
   'fault_flag.MOTOR_HALL': "Motor's position lost",
   'fault_flag.LAW_RESULT': 'Assist could not be computed',
   'fault_flag.SAFE_STOP': 'Unit stopped itself',
+  'unit.start': 'Last start',
+  'reset.power_on': 'switched on',
+  'reset.brown_out': 'supply came back',
+  'reset.watchdog': 'by its watchdog: the program hung',
+  'reset.fault_handler': 'after a processor fault',
+  'reset.deadline': 'after missed control steps',
+  'reset.software': 'asked to',
 
   'counter.bytes_received': 'Bytes received',
   'counter.bytes_sent': 'Bytes sent',

@@ -129,6 +129,13 @@ export const zhUnit: Record<keyof typeof enUnit, string> = {
   'fault_flag.MOTOR_HALL': '电机位置信号丢失',
   'fault_flag.LAW_RESULT': '无法计算助力',
   'fault_flag.SAFE_STOP': '单元自行停机',
+  'unit.start': '上次启动',
+  'reset.power_on': '开机',
+  'reset.brown_out': '供电恢复',
+  'reset.watchdog': '看门狗：程序挂起',
+  'reset.fault_handler': '处理器出错之后',
+  'reset.deadline': '错过控制步之后',
+  'reset.software': '按要求重启',
 
   'counter.bytes_received': '接收字节',
   'counter.bytes_sent': '发送字节',
