@@ -15,9 +15,11 @@ from pathlib import PurePosixPath
 from backend.domain.ride import iso_utc
 from backend.errors import StoreError
 from backend.store.database import shown
+from backend.store.database_url import check_url
 from backend.store.identity import belonging
 from backend.store.look import DatabaseView, LiveRecording, look_at
 from backend.store.objects import SIDECAR_SUFFIX, FileObjects, file_sha256, open_objects
+from backend.store.store import saying_where
 
 # A recording commits once a second; one that has not for so long has no server any more.
 HEARTBEAT_LATE_US = 30_000_000
@@ -88,8 +90,18 @@ class StoreCheck:
 
 
 def check_store(db_url: str, objects_url: str) -> StoreCheck:
-    """Look at everything. Raises StoreError when the database's server cannot be reached."""
-    objects = open_objects(objects_url)
+    """Look at everything.
+
+    Raises StoreError when the database's server cannot be reached or a file may not be read,
+    InvalidRequest for a URL that is none.
+    """
+    check_url(db_url)
+    with saying_where():
+        return checked(db_url, open_objects(objects_url))
+
+
+def checked(db_url: str, objects: FileObjects) -> StoreCheck:
+    """As `check_store`. Raises OSError where the system refuses a path."""
     view = look_at(db_url)
     try:
         folder_id = objects.identity()

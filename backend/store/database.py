@@ -40,13 +40,15 @@ PAGES_AT_ONCE = 500
 class Database:
     """One database by URL (`sqlite:///path`, `postgresql+psycopg://...`).
 
-    watch: is told of every write, whether it succeeded.
+    watch: is told of every write, whether it succeeded. fence: raises StoreError, in every
+    transaction that writes, once another server has the database; None where nobody can.
     """
 
     part = PART
 
     def __init__(self, url: str, watch: WriteWatch | None = None) -> None:
         self.watch = watch or WriteWatch()
+        self.fence: Callable[[Connection], None] | None = None
         self.engine = open_engine(url)
         self.one_writer = self.engine.dialect.name == "sqlite"
         self._writer = ThreadPoolExecutor(1, thread_name_prefix="store-writer")
@@ -129,6 +131,8 @@ class Database:
     def _transaction(self, work: Callable[[Connection], Result]) -> Result:
         try:
             with self.engine.begin() as connection:
+                if self.fence is not None:
+                    self.fence(connection)
                 result = work(connection)
         except SQLAlchemyError as error:
             lost = "The database did not save the change"
@@ -167,6 +171,11 @@ def sqlite_path(url: str) -> Path | None:
     return Path(name).resolve()
 
 
+def is_postgresql(url: str) -> bool:
+    """Whether a URL names a PostgreSQL database."""
+    return make_url(url).get_backend_name() == "postgresql"
+
+
 def shown(url: str) -> str:
     """A database's URL as it may be shown: without the password."""
     return make_url(url).render_as_string(hide_password=True)
@@ -175,7 +184,8 @@ def shown(url: str) -> str:
 def open_engine(url: str) -> Engine:
     """An engine with SQLite's durable settings, or PostgreSQL's own."""
     if not url.startswith("sqlite"):
-        return create_engine(url)
+        # A connection that a restart of the database broke is found out before it is used.
+        return create_engine(url, pool_pre_ping=True)
     path = sqlite_path(url)
     if path is not None:
         path.parent.mkdir(parents=True, exist_ok=True)

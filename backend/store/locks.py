@@ -13,7 +13,9 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from backend.errors import StoreError
-from backend.store.database import sqlite_path
+from backend.store import advisory
+from backend.store.advisory import AdvisoryLock
+from backend.store.database import is_postgresql, sqlite_path
 from backend.store.objects import FileObjects
 
 FOLDER_LOCK = ".lock"
@@ -106,6 +108,8 @@ def hold(closing: ExitStack, db_url: str, objects: FileObjects) -> None:
     path = sqlite_path(db_url)
     if path is not None:
         closing.callback(lock_database_file(path).release)
+    elif is_postgresql(db_url):
+        closing.callback(AdvisoryLock(db_url, advisory.LOOK_EVERY_S).release)
     try:
         objects.prepare()
     except OSError as error:

@@ -23,6 +23,7 @@ from backend.errors import StoreError
 from backend.store import tables as t
 from backend.store.check import damage_of
 from backend.store.database import Database, shown, sqlite_path
+from backend.store.database_url import check_url
 from backend.store.deletion import FILLED, MADE, join_source
 from backend.store.digest import digest
 from backend.store.facts import KeptRide, Original, kept_ride
@@ -42,6 +43,7 @@ from backend.store.objects import (
 from backend.store.parquet import RideFile, read_facts
 from backend.store.ride_table import finish_row, inserted, ride_row
 from backend.store.sidecar import read_sidecar
+from backend.store.store import saying_where
 
 # Where a destroyed SQLite file may have left something.
 JOURNALS = ("-wal", "-shm", "-journal")
@@ -75,11 +77,19 @@ def rebuild_store(db_url: str, objects_url: str) -> Rebuilt:
     """Bring every ride of the folder into an empty, missing or destroyed database.
 
     Repeating it adds what is not there yet. Raises StoreError when a server is running, or when the
-    database holds something and is not this folder's; then nothing was changed.
+    database holds something and is not this folder's; then nothing was changed. InvalidRequest for
+    a URL that is none.
     """
+    check_url(db_url)
     objects = open_objects(objects_url)
     if not objects.root.is_dir():
         raise StoreError(f"There is no folder {objects.root} to rebuild a database from.")
+    with saying_where():
+        return rebuilt_store(db_url, objects)
+
+
+def rebuilt_store(db_url: str, objects: FileObjects) -> Rebuilt:
+    """As `rebuild_store`, over a folder that is there. Raises OSError as the system does."""
     may_be_rebuilt(look_at(db_url), db_url, objects)
     with ExitStack() as closing:
         hold(closing, db_url, objects)

@@ -9,11 +9,13 @@ import logging
 import threading
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from functools import partial
 from types import TracebackType
 
 from backend.domain.ride import Ride, iso_utc
 from backend.errors import StoreError
-from backend.store.database import Database, shown
+from backend.store.advisory import fence
+from backend.store.database import Database, is_postgresql, shown
 from backend.store.database_url import check_url
 from backend.store.deletion import Deletions
 from backend.store.discard import discarded_keys
@@ -194,6 +196,8 @@ def opened_store(db_url: str, objects: FileObjects) -> Store:
             store.rides.tell_for_old_files()
             objects.set_identity(store_id)
         database.write(lambda c: write_identity(c, store_id, server_id, rebuilding=False))
+        if is_postgresql(db_url):
+            database.fence = partial(fence, server_id=server_id)
         store.recover()
     except BaseException:
         closing.close()
