@@ -37,12 +37,14 @@ from backend.errors import (
     PeerProtocolError,
 )
 from firmware_protocol._generated import (
+    BAND_BY_NAME,
     CHANNELS,
     PARAMETERS,
     SCHEMA_HASH,
     TimSyncRequest,
     TimSyncResponse,
 )
+from firmware_protocol.bands import band_limits
 from firmware_protocol.codec import Event, decode
 from firmware_protocol.framing import FrameDecoder, encode_frame
 from firmware_protocol.layout import Value
@@ -134,7 +136,10 @@ def test_every_parameter_a_dealer_may_write_can_be_written_and_reads_back() -> N
     changes: dict[str, Value] = {}
     for row in PARAMETERS:
         if row.access < 2 and row.type != "text" and row.enum is None and not row.increasing:
+            band = BAND_BY_NAME.get(row.name)
             low, high = row.min or 0.0, row.max or 0.0
+            if band is not None:
+                low, high = band_limits(band, base.parameters)
             value = low + 0.75 * (high - low)
             number = value if row.type == "f32" else round(value)
             changes[row.name] = [number] * row.count if row.shape else number

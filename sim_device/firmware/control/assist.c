@@ -35,9 +35,10 @@ void assist_interrupted(assist_state *state)
     walk_refuse(state);
 }
 
-static int refuse(assist_state *state, assist_output *output)
+static int refuse(const assist_config *config, assist_state *state, assist_output *output)
 {
     assist_interrupted(state);
+    market_push_note(config, state, 0.0f);
     output->limit_flags = ASSIST_LIMIT_INPUT_REFUSED;
     return ASSIST_INPUT_REFUSED;
 }
@@ -67,13 +68,15 @@ static float apply_sensor(const assist_config *config, assist_state *state,
                           const assist_input *input, assist_output *output)
 {
     float earlier_torque_nm;
+    float push_nm = 0.0f;
 
     if (torque_is_fresh(input)) {
         output->rider_torque_nm = sensor_torque_nm(config, input->torque_raw_counts);
         state->torque_filtered_nm =
             stroke_average_nm(config, state->torque_filtered_nm, output->rider_torque_nm);
-        market_push_note(config, state, output->rider_torque_nm);
+        push_nm = output->rider_torque_nm;
     }
+    market_push_note(config, state, push_nm);
     output->rider_torque_filtered_nm = state->torque_filtered_nm;
     earlier_torque_nm = torque_history_swap(config, state);
     output->torque_rate = torque_rate_of(config, state->torque_filtered_nm, earlier_torque_nm);
@@ -101,7 +104,7 @@ int assist_step(const assist_config *config, assist_state *state, const assist_i
     float demand_nm;
 
     output_clear(state, output);
-    if (input_refused(input)) return refuse(state, output);
+    if (input_refused(input)) return refuse(config, state, output);
 
     earlier_torque_nm = apply_sensor(config, state, input, output);
     demand_nm = apply_mode(config, state, input, earlier_torque_nm, output);

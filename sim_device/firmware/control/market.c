@@ -42,16 +42,17 @@ const market_profile *market_profile_of(uint8_t market_number)
     return market_number < MARKET_COUNT ? &PROFILES[market_number] : &NOWHERE;
 }
 
+/* Both fall to zero at 24 km/h: counted down from there no rounding leaves more than the law's. */
 float market_japan_ratio(float speed_kmh)
 {
     if (speed_kmh >= 24.0f) return 0.0f;
-    return speed_kmh < 10.0f ? 2.0f : 2.0f - (speed_kmh - 10.0f) / 7.0f;
+    return speed_kmh < 10.0f ? 2.0f : (24.0f - speed_kmh) / 7.0f;
 }
 
 float market_japan_ratio_before_2008(float speed_kmh)
 {
     if (speed_kmh >= 24.0f) return 0.0f;
-    return speed_kmh < 15.0f ? 1.0f : 1.0f - (speed_kmh - 15.0f) / 9.0f;
+    return speed_kmh < 15.0f ? 1.0f : (24.0f - speed_kmh) / 9.0f;
 }
 
 float market_cutoff_kmh(const assist_config *config)

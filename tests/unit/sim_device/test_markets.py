@@ -149,6 +149,24 @@ def test_japan_s_motor_does_not_outlive_the_push_by_more_than_a_second() -> None
     assert not outputs["motor_torque_nm"][402:].any()
 
 
+@pytest.mark.parametrize(
+    "unseen",
+    [{"torque_age_ms": 80}, {"torque_raw_counts": np.nan}],
+    ids=["a stale reading", "a refused reading"],
+)
+def test_japan_s_second_passes_while_the_push_is_not_measured(unseen: dict[str, float]) -> None:
+    steps = np.arange(900)
+    readings = {"torque_raw_counts": np.where(steps < 300, 3000.0, 0.0), "torque_age_ms": 0}
+    for name, value in unseen.items():
+        readings[name] = np.where((steps >= 300) & (steps < 420), value, readings[name])
+
+    outputs = run("JAPAN", 900, **readings, config={"torque_filter_s": 2.0})
+
+    assert outputs["motor_torque_nm"][299] > 0.0
+    assert outputs["rider_torque_filtered_nm"][421] > 1.0  # the average outlives the push
+    assert not outputs["motor_torque_nm"][402:].any()
+
+
 @st.composite
 def rough_rides(draw: st.DrawFn) -> tuple[dict[str, Any], dict[str, Any]]:
     random = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
