@@ -22,7 +22,7 @@ MTU = 544
 MAX_OUTSTANDING = 4
 CONTROL_PERIOD_US = 10000
 IMAGE_LENGTH = 426
-SCHEMA_HASH = bytes.fromhex("44a0d8536627f80c")
+SCHEMA_HASH = bytes.fromhex("ceb1037aa692a989")
 
 
 class Status(IntEnum):
@@ -72,6 +72,15 @@ class Access(IntEnum):
     RIDER = 0
     DEALER = 1
     FACTORY = 2
+
+
+class Record(IntEnum):
+    """Which record of the flash a parameter is kept in: the maker's choice of a market, what the factory measured, what was calibrated, what is tuned."""
+
+    MARKET = 0
+    FACTORY = 1
+    CALIBRATION = 2
+    TUNABLE = 3
 
 
 class Bank(IntEnum):
@@ -208,6 +217,7 @@ class Event(IntEnum):
     AUTH_CHANGED = 8
     CONFIG_PROVISIONAL = 16
     STREAM_COUNTS = 17
+    CONFIG_CONVERTED = 18
     LOG_CLOSED = 20
     LOG_OVERWRITTEN = 21
 
@@ -283,6 +293,7 @@ class FaultFlags(IntFlag):
     SPEED_MISMATCH = 4096
     SPEED_STUCK = 8192
     MOTOR_HALL = 16384
+    NOT_PROVISIONED = 65536
     LAW_RESULT = 131072
     SAFE_STOP = 262144
 
@@ -313,6 +324,7 @@ class MessageId(IntEnum):
     CFG_ROLLBACK = 0x0127
     CFG_ABORT = 0x0128
     CFG_STATUS = 0x0129
+    CFG_WEAR = 0x012A
     STR_SUBSCRIBE = 0x0201
     STR_UNSUBSCRIBE = 0x0202
     STR_RENEW = 0x0203
@@ -966,6 +978,28 @@ class CfgStatusResponse(Message):
     commit_wait_ms: int
     rollback_cause: int
     rolled_back_generation: int
+
+
+@dataclass(frozen=True, slots=True)
+class CfgWearRequest(Message):
+    """How often the configuration may be written: seconds of operating time until the next write, 0 now, and how many may follow at once."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.CFG_WEAR
+
+
+@dataclass(frozen=True, slots=True)
+class CfgWearResponse(Message):
+    """How often the configuration may be written: seconds of operating time until the next write, 0 now, and how many may follow at once."""
+
+    MESSAGE_ID: ClassVar[MessageId] = MessageId.CFG_WEAR
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("wait_s", "u32"),
+        Field("writes_free", "u16"),
+    )
+    LENGTH: ClassVar[int] = 6
+
+    wait_s: int
+    writes_free: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -1750,6 +1784,27 @@ class StreamCountsEvent(Message):
 
 
 @dataclass(frozen=True, slots=True)
+class ConfigConvertedEvent(Message):
+    """Fields of the event CONFIG_CONVERTED."""
+
+    CODE: ClassVar[Event] = Event.CONFIG_CONVERTED
+    LAYOUT: ClassVar[tuple[Field, ...]] = (
+        Field("generation", "u32"),
+        Field("crc32", "u32"),
+        Field("added", "u8"),
+        Field("dropped", "u8"),
+        Field("clamped", "u8"),
+    )
+    LENGTH: ClassVar[int] = 11
+
+    generation: int
+    crc32: int
+    added: int
+    dropped: int
+    clamped: int
+
+
+@dataclass(frozen=True, slots=True)
 class LogClosedEvent(Message):
     """Fields of the event LOG_CLOSED."""
 
@@ -1807,6 +1862,7 @@ REQUEST_BY_ID: dict[int, type[Message]] = {
     0x0127: CfgRollbackRequest,
     0x0128: CfgAbortRequest,
     0x0129: CfgStatusRequest,
+    0x012A: CfgWearRequest,
     0x0201: StrSubscribeRequest,
     0x0202: StrUnsubscribeRequest,
     0x0203: StrRenewRequest,
@@ -1856,6 +1912,7 @@ RESPONSE_BY_ID: dict[int, type[Message]] = {
     0x0127: CfgRollbackResponse,
     0x0128: CfgAbortResponse,
     0x0129: CfgStatusResponse,
+    0x012A: CfgWearResponse,
     0x0201: StrSubscribeResponse,
     0x0202: StrUnsubscribeResponse,
     0x0203: StrRenewResponse,
@@ -1892,6 +1949,7 @@ EVENT_BY_CODE: dict[int, type[Message]] = {
     Event.AUTH_CHANGED: AuthChangedEvent,
     Event.CONFIG_PROVISIONAL: ConfigProvisionalEvent,
     Event.STREAM_COUNTS: StreamCountsEvent,
+    Event.CONFIG_CONVERTED: ConfigConvertedEvent,
     Event.LOG_CLOSED: LogClosedEvent,
     Event.LOG_OVERWRITTEN: LogOverwrittenEvent,
 }
@@ -1900,6 +1958,7 @@ ENUM_BY_NAME: dict[str, type[IntEnum]] = {
     "status": Status,
     "device_class": DeviceClass,
     "access": Access,
+    "record": Record,
     "bank": Bank,
     "config_state": ConfigState,
     "slot_state": SlotState,
@@ -1922,7 +1981,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0100, name="sensor_offset_counts", group="sensor",
         type="f32", unit="counts", shape=(),
         length=4, min=-30000, max=30000, enum=None,
-        increasing=False, access=1, image_offset=0,
+        increasing=False, access=1, image_offset=0, record="CALIBRATION",
         default=0.0,
         doc="Raw reading of the torque sensor with no load on the pedals.",
     ),
@@ -1930,7 +1989,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0101, name="sensor_gain_nm_per_count", group="sensor",
         type="f32", unit="Nm/count", shape=(),
         length=4, min=0.001, max=0.1, enum=None,
-        increasing=False, access=1, image_offset=4,
+        increasing=False, access=1, image_offset=4, record="CALIBRATION",
         default=0.01,
         doc="Torque per raw count, found by hanging known weights on the pedal.",
     ),
@@ -2146,7 +2205,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0500, name="gear_ratio", group="drivetrain",
         type="f32", unit="", shape=(),
         length=4, min=1.0, max=100.0, enum=None,
-        increasing=False, access=2, image_offset=281,
+        increasing=False, access=2, image_offset=281, record="FACTORY",
         default=40.34,
         doc="Motor turns per crank turn (thesis text 4.10; the teeth of table 2-3 give 36.744, thesis_checks I-1).",
     ),
@@ -2154,7 +2213,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0501, name="chainring_teeth", group="drivetrain",
         type="u8", unit="", shape=(),
         length=1, min=10, max=80, enum=None,
-        increasing=False, access=2, image_offset=285,
+        increasing=False, access=2, image_offset=285, record="FACTORY",
         default=44,
         doc="Teeth of the chainring.",
     ),
@@ -2162,7 +2221,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0502, name="cog_teeth", group="drivetrain",
         type="u8", unit="", shape=(),
         length=1, min=8, max=60, enum=None,
-        increasing=False, access=2, image_offset=286,
+        increasing=False, access=2, image_offset=286, record="FACTORY",
         default=14,
         doc="Teeth of the rear cog.",
     ),
@@ -2170,7 +2229,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0504, name="wheel_circumference_m", group="drivetrain",
         type="f32", unit="m", shape=(),
         length=4, min=0.9, max=2.9, enum=None,
-        increasing=False, access=1, image_offset=287,
+        increasing=False, access=1, image_offset=287, record="CALIBRATION",
         default=2.073451,
         doc="Way of the bike in one turn of the wheel that carries the speed sensor: every speed and distance is counted with it.",
     ),
@@ -2178,7 +2237,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0510, name="motor_torque_constant_nm_per_a", group="drivetrain",
         type="f32", unit="Nm/A", shape=(),
         length=4, min=0.01, max=1.0, enum=None,
-        increasing=False, access=2, image_offset=291,
+        increasing=False, access=2, image_offset=291, record="FACTORY",
         default=0.112,
         doc="Torque per ampere, and volts per rad/s, of the motor (thesis_checks I-5).",
     ),
@@ -2186,7 +2245,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0511, name="motor_resistance_ohm", group="drivetrain",
         type="f32", unit="ohm", shape=(),
         length=4, min=0.01, max=2.0, enum=None,
-        increasing=False, access=2, image_offset=295,
+        increasing=False, access=2, image_offset=295, record="FACTORY",
         default=0.25,
         doc="Resistance of winding, bridge and lead (thesis_checks I-5).",
     ),
@@ -2274,7 +2333,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0620, name="market", group="market",
         type="u8", unit="", shape=(),
         length=1, min=None, max=None, enum="market",
-        increasing=False, access=2, image_offset=408,
+        increasing=False, access=2, image_offset=408, record="MARKET",
         default="EU_EPAC",
         doc="Whose law the bike is ridden under: lowers every other limit where it is stricter, and never raises one.",
     ),
@@ -2282,7 +2341,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0621, name="assist_cutoff_extra_kmh", group="market",
         type="f32", unit="km/h", shape=(),
         length=4, min=0.0, max=20.1, enum=None,
-        increasing=False, access=2, image_offset=409,
+        increasing=False, access=2, image_offset=409, record="MARKET",
         default=0.0,
         doc="Added to assist_cutoff_kmh for a market that allows more than 25 km/h; the market's own limit holds.",
     ),
@@ -2290,7 +2349,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0630, name="wheel_pulses_per_turn", group="drivetrain",
         type="u8", unit="", shape=(),
         length=1, min=1, max=100, enum=None,
-        increasing=False, access=2, image_offset=413,
+        increasing=False, access=2, image_offset=413, record="FACTORY",
         default=36,
         doc="Pulses of the speed sensor in one turn of its wheel: its magnets, or the teeth of its ring.",
     ),
@@ -2298,7 +2357,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0631, name="wheel_circumference_m_factory", group="drivetrain",
         type="f32", unit="m", shape=(),
         length=4, min=0.9, max=2.9, enum=None,
-        increasing=False, access=2, image_offset=414,
+        increasing=False, access=2, image_offset=414, record="FACTORY",
         default=2.073451,
         doc="Circumference of the wheel that the bike left the factory with: the middle of what a dealer may set.",
     ),
@@ -2306,7 +2365,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0632, name="sensor_gain_nm_per_count_factory", group="sensor",
         type="f32", unit="Nm/count", shape=(),
         length=4, min=0.001, max=0.1, enum=None,
-        increasing=False, access=2, image_offset=418,
+        increasing=False, access=2, image_offset=418, record="FACTORY",
         default=0.01,
         doc="Gain of this unit's torque sensor as the factory measured it: the middle of what a dealer may set.",
     ),
@@ -2314,7 +2373,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         id=0x0633, name="sensor_offset_counts_factory", group="sensor",
         type="f32", unit="counts", shape=(),
         length=4, min=-30000, max=30000, enum=None,
-        increasing=False, access=2, image_offset=422,
+        increasing=False, access=2, image_offset=422, record="FACTORY",
         default=0.0,
         doc="Reading of this unit's torque sensor without load as the factory measured it: the middle of what a dealer may set.",
     ),
@@ -2395,9 +2454,9 @@ FAULTS: tuple[Fault, ...] = (
         "The voltage stayed below battery_voltage_v_min for half a second. If the charge shows more, measure the sag under load: the pack or its contacts are worn.",
     ),
     Fault(
-        3, "CONFIG_DEFAULTED", 0,
-        "The bike runs on its factory settings. Ask your dealer to restore yours.",
-        "Neither copy of the configuration in flash was good. Restore a backup; if it comes back, the flash is worn.",
+        3, "CONFIG_DEFAULTED", 2,
+        "Walking pace only: settings of the bike were lost. See your dealer.",
+        "Part of the configuration in flash is damaged, and defaults stand in its place. Restore a backup; what the maker sets needs the maker's token. If it comes back, the flash is worn.",
     ),
     Fault(
         4, "OVER_CURRENT", 2,
@@ -2453,6 +2512,11 @@ FAULTS: tuple[Fault, ...] = (
         14, "MOTOR_HALL", 2,
         "No assist: the motor does not tell its position. You can pedal home; see your dealer.",
         "The motor's speed was missing, or under a quarter of what the cranks demand while it should push, for half a second. Check plug, supply and signals of the Hall sensors, then the phases, and whether the motor turns freely.",
+    ),
+    Fault(
+        16, "NOT_PROVISIONED", 2,
+        "No assist: this drive unit was never set up for a country. See your dealer.",
+        "The flash holds no configuration and never did: the factory's last step is missing. Only the maker can provision the unit, or write a whole configuration with a token.",
     ),
     Fault(
         17, "LAW_RESULT", 2,

@@ -135,6 +135,8 @@ class Parameter:
     """Going down is free, going up needs a token."""
     least_step: float = 0.0
     """Least distance of neighbours in an increasing list, to a hundredth."""
+    record: str = "TUNABLE"
+    """The record of the unit's flash that keeps it."""
 
     @property
     def count(self) -> int:

@@ -17,7 +17,7 @@ from sim_device.controls import SPEED_FACTOR_MAX, SPEED_FACTOR_MIN
 from sim_device.emulated import EmulatedSetup
 from sim_device.emulator import BOARD, BOARD_VARIABLE, EmulatorError
 from sim_device.flash_file import FlashFile, LogFile
-from sim_device.lockstep import LockstepUnit, uid_of
+from sim_device.lockstep import NO_MARKET, LockstepUnit, market_named, uid_of
 from sim_device.scenario import list_scenarios, run
 from sim_device.scenario_file import ScenarioError, ScenarioFile, load, load_live, names
 from sim_device.serial_line import PtyLine, SerialLine, TcpLine
@@ -89,8 +89,9 @@ def _add_unit(unit: argparse.ArgumentParser) -> None:
     unit.add_argument(
         "--market",
         default=Market.EU_EPAC.name,
-        choices=list(Market.__members__),
-        help="whose law a new unit is made for; a --flash that is there keeps its own",
+        choices=[*Market.__members__, NO_MARKET],
+        help="whose law a new unit is made for; a --flash that is there keeps its own; none: no "
+        "factory was there, and the unit gives no assist",
     )
     unit.add_argument(
         "--unlock-key", type=_unlock_key, metavar="FILE", help="the maker's public key (*.pub)"
@@ -170,7 +171,7 @@ def _serve_board(arguments: argparse.Namespace, stop: Stop) -> None:
         pty=arguments.pty,
         tcp=arguments.tcp,
         serial_rate=arguments.serial_rate,
-        market=Market[arguments.market],
+        market=market_named(arguments.market),
     ).run(_ready, stop)
 
 

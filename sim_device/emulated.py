@@ -36,7 +36,7 @@ AT_STAGE = AT_OUTPUT + ASSIST_OUTPUT_LENGTH
 STAGE = struct.Struct("<f2I")
 REGISTERS_LENGTH = AT_STAGE + STAGE.size - REGISTERS_AT
 
-IDENTITY = struct.Struct("<II12sBB2x32sI")
+IDENTITY = struct.Struct("<II12sBBBx32sI")
 MAGIC = 0x31364250
 BELL = b"\x01"
 BELLS_MAX = 256
@@ -48,13 +48,14 @@ def prepare(
     unlock_key: bytes | None,
     has_clock: bool = False,
     serial_rate: int = 0,
-    market: Market = Market.EU_EPAC,
+    market: Market | None = Market.EU_EPAC,
 ) -> None:
     """What the factory writes, serial number, market and maybe the maker's key, and registers at
     rest.
 
     has_clock: the board's clock is in the bench's hand from power on. serial_rate: that the line
-    begins with, 0 for a line where bytes take no time.
+    begins with, 0 for a line where bytes take no time. market: None leaves the unit without a
+    configuration, as no factory does.
     """
     with memory_file.open("r+b") as file:
         magic, boots, *_ = IDENTITY.unpack(file.read(IDENTITY.size))
@@ -62,7 +63,8 @@ def prepare(
         file.seek(0)
         key = unlock_key or bytes(32)
         has_key = unlock_key is not None
-        file.write(IDENTITY.pack(MAGIC, boots, uid, has_key, market, key, serial_rate))
+        number, has_market = market or 0, market is not None
+        file.write(IDENTITY.pack(MAGIC, boots, uid, has_key, number, has_market, key, serial_rate))
         file.seek(REGISTERS_AT)
         file.write(struct.pack("<2I", 0, has_clock) + bytes(REGISTERS_LENGTH - 8))
 
@@ -220,7 +222,7 @@ class EmulatedSetup:
     pty: Path | None
     tcp: tuple[str, int] | None
     serial_rate: int = 0
-    market: Market = Market.EU_EPAC
+    market: Market | None = Market.EU_EPAC
 
     def run(self, ready: Callable[[str], None], stop: Callable[[], bool]) -> None:
         """Serves until `stop()`; `ready` is called once with the address of the first line."""

@@ -42,8 +42,15 @@ def uid_of(name: str, seed: int) -> bytes:
     return hashlib.sha256(f"spindle simulated unit {name} {seed}".encode()).digest()[:UID_LENGTH]
 
 
-def market_named(name: str) -> Market:
-    """The market of this name. Raises ValueError with those there are."""
+NO_MARKET = "none"
+"""In a market's place: nobody provisioned the unit."""
+
+
+def market_named(name: str) -> Market | None:
+    """The market of this name; None for `none`, a unit that no factory has provisioned. Raises
+    ValueError with those there are."""
+    if name == NO_MARKET:
+        return None
     if name not in Market.__members__:
         raise ValueError(f"there is no market {name}; there are {', '.join(Market.__members__)}")
     return Market[name]

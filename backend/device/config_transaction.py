@@ -7,6 +7,7 @@ and what counts in the end is the image read back and compared field by field.
 
 from __future__ import annotations
 
+import math
 import zlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -52,9 +53,12 @@ from firmware_protocol._generated import (
     CfgSetRequest,
     CfgSetResponse,
     CfgValidateRequest,
+    CfgWearRequest,
+    CfgWearResponse,
     CommitFlags,
     Status,
 )
+from firmware_protocol.codec import Response
 from firmware_protocol.layout import Value
 from firmware_protocol.parameters import pack_image, set_items, unpack_image
 from firmware_protocol.unlock_token import Token
@@ -63,6 +67,7 @@ from firmware_protocol.unlock_token import Token
 MESSAGE_OVERHEAD_BYTES = 24
 # Somebody else may commit between our reading of generation and image; thrice is no accident.
 READ_ATTEMPTS = 3
+MS_PER_S, S_PER_MIN = 1000.0, 60
 # A unit that restarted, or that another tool greeted, in the middle of a commit no longer knows the
 # transaction when the commit is repeated, whether it was carried out or not.
 TRANSACTION_GONE = (Status.STATE, Status.SESSION)
@@ -281,6 +286,8 @@ def _finish(transaction: int, crc32: int, confirm_s: int) -> Operation[None]:
         raise CommitUnanswered(
             f"{error.message} Whether the change was made is not known until it answers."
         ) from error
+    if response.status == Status.RATE_LIMIT:
+        raise (yield from _spared(response))
     if response.status in TRANSACTION_GONE:
         raise CommitUnanswered(
             f"{refused(request, response).message} It was restarted or taken over while it "
@@ -292,6 +299,21 @@ def _finish(transaction: int, crc32: int, confirm_s: int) -> Operation[None]:
             f"The unit committed a configuration with checksum {done.crc32:08x} where "
             f"{crc32:08x} was meant. Read it again before riding."
         )
+
+
+def _spared(response: Response) -> Operation[DeviceRefused]:
+    """The refusal of a unit whose flash was written too often, with the time to wait."""
+    answer = yield from attempt(CfgWearRequest())
+    wait_s: float = response.detail / MS_PER_S
+    if isinstance(answer.message, CfgWearResponse):
+        wait_s = max(wait_s, answer.message.wait_s)
+    minutes = math.ceil(wait_s / S_PER_MIN)
+    return DeviceRefused(
+        "The unit spares its memory, which was written very often: the next write is possible "
+        f"after {minutes // 60} h {minutes % 60:02} min of operation. Nothing was changed.",
+        status=Status.RATE_LIMIT.name,
+        detail=response.detail,
+    )
 
 
 def _abort(transaction: int) -> Operation[bool]:

@@ -22,6 +22,8 @@ from firmware_protocol.layout import Message
 
 # The first sending and three repetitions (protocol page, 4.3).
 ATTEMPTS = 4
+# A unit that asks for longer spares its flash: whoever writes has to know.
+PATIENCE_MS = 5000
 
 Result = TypeVar("Result")
 Answer = TypeVar("Answer", bound=Message)
@@ -56,10 +58,11 @@ def attempt(
 
 
 def attempt_patiently(message: Message, waits_max: int = 3) -> Operation[Response]:
-    """Ask, and again when the unit says RATE_LIMIT, after the time it names. Raises NoAnswer."""
+    """Ask, and again when the unit says RATE_LIMIT, after the time it names; a longer one than
+    PATIENCE_MS is the answer. Raises NoAnswer."""
     response = yield from attempt(message)
     for _ in range(waits_max):
-        if response.status != Status.RATE_LIMIT:
+        if response.status != Status.RATE_LIMIT or response.detail > PATIENCE_MS:
             break
         response = yield from attempt(message, after_s=response.detail / 1000.0)
     return response

@@ -29,7 +29,7 @@ MEANING = {
     Status.EXPIRED: "too much time went by; start again",
     Status.AUTH_BAD: "the token is not for this unit and this change",
     Status.AUTH_DELAY: "a wrong token came before; wait",
-    Status.RATE_LIMIT: "its memory was written a moment ago; try again in two seconds",
+    Status.RATE_LIMIT: "its memory was written a moment ago; it says when it may be written again",
     Status.UNSUPPORTED: "its firmware does not support this yet",
     Status.SESSION: "it was restarted meanwhile",
     Status.ABORTED: "the change was given up",

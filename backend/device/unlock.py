@@ -97,6 +97,13 @@ def unlock_refused(status: int, seconds: int) -> AccessDenied:
     )
 
 
+LOST = (
+    "What the maker chose for this unit is damaged or was never there; whatever is written in its "
+    "place needs the maker's word."
+)
+"""Why a change that is no more than a dealer's is refused."""
+
+
 def access_refused(
     level: int, base: Mapping[str, Value], changes: Mapping[str, Value], image: bytes
 ) -> Operation[SpindleError]:
@@ -105,20 +112,19 @@ def access_refused(
     image: the whole configuration that was to become active.
     """
     fields = protected(base, changes)
+    said = " ".join(field.message for field in fields) or LOST
     wanted = level if level in LEVELS else Access.FACTORY
     request = AuthChallengeRequest(wanted)
     response = yield from attempt(request)
     if response.status in (Status.AUTH_DELAY, Status.NOT_FOUND, Status.UNKNOWN_MSG):
         error = unlock_refused(response.status, response.detail)
-        said = " ".join(field.message for field in fields)
         return AccessDenied(f"{said} {error.message}".strip(), error.code, fields)
     if response.status != Status.OK:
         return refused(request, response)
     asked = expect(request, response, AuthChallengeResponse)
     return TokenNeeded(
-        " ".join(field.message for field in fields)
-        + f" The unit wants a token from its maker for exactly this change within {asked.ttl_s} s; "
-        "`challenge` is what has to be signed. Nothing was changed.",
+        f"{said} The unit wants a token from its maker for exactly this change within "
+        f"{asked.ttl_s} s; `challenge` is what has to be signed. Nothing was changed.",
         {
             "uid": asked.uid.hex(),
             "nonce": asked.nonce.hex(),

@@ -743,6 +743,28 @@ int ebl_cfg_status_response_put(const ebl_cfg_status_response *message, uint8_t 
     return EBL_OK;
 }
 
+int ebl_cfg_wear_response_get(ebl_cfg_wear_response *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 6) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->wait_s = ebl_get_u32(bytes + 0);
+    message->writes_free = ebl_get_u16(bytes + 4);
+    return EBL_OK;
+}
+
+int ebl_cfg_wear_response_put(const ebl_cfg_wear_response *message, uint8_t *bytes, size_t capacity,
+                             size_t *length)
+{
+    if (capacity < 6) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->wait_s);
+    ebl_put_u16(bytes + 4, message->writes_free);
+    *length = 6;
+    return EBL_OK;
+}
+
 int ebl_str_subscribe_request_get(ebl_str_subscribe_request *message, const uint8_t *bytes, size_t length)
 {
     if (length < 6) {
@@ -1775,6 +1797,34 @@ int ebl_stream_counts_event_put(const ebl_stream_counts_event *message, uint8_t 
     ebl_put_u32(bytes + 6, message->dropped_tx);
     ebl_put_u32(bytes + 10, message->missed);
     *length = 14;
+    return EBL_OK;
+}
+
+int ebl_config_converted_event_get(ebl_config_converted_event *message, const uint8_t *bytes, size_t length)
+{
+    if (length < 11) {
+        return EBL_ERROR_LENGTH;
+    }
+    message->generation = ebl_get_u32(bytes + 0);
+    message->crc32 = ebl_get_u32(bytes + 4);
+    message->added = ebl_get_u8(bytes + 8);
+    message->dropped = ebl_get_u8(bytes + 9);
+    message->clamped = ebl_get_u8(bytes + 10);
+    return EBL_OK;
+}
+
+int ebl_config_converted_event_put(const ebl_config_converted_event *message, uint8_t *bytes, size_t capacity,
+                                  size_t *length)
+{
+    if (capacity < 11) {
+        return EBL_ERROR_SPACE;
+    }
+    ebl_put_u32(bytes + 0, message->generation);
+    ebl_put_u32(bytes + 4, message->crc32);
+    ebl_put_u8(bytes + 8, message->added);
+    ebl_put_u8(bytes + 9, message->dropped);
+    ebl_put_u8(bytes + 10, message->clamped);
+    *length = 11;
     return EBL_OK;
 }
 

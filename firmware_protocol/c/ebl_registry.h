@@ -12,8 +12,8 @@
 #define EBL_MAX_OUTSTANDING 4
 #define EBL_CONTROL_PERIOD_US 10000
 #define EBL_IMAGE_LENGTH 426
-#define EBL_MESSAGE_COUNT 46
-#define EBL_EVENT_COUNT 12
+#define EBL_MESSAGE_COUNT 47
+#define EBL_EVENT_COUNT 13
 #define EBL_EVENT_HEAD_LENGTH 5
 #define EBL_PARAMETER_COUNT 50
 #define EBL_ORDER_COUNT 1
@@ -21,10 +21,10 @@
 #define EBL_RETIRED_COUNT 1
 #define EBL_CHANNEL_COUNT 21
 #define EBL_FAULT_BITS 19
-#define EBL_FAULTS_ASSIST_OFF 425975
-#define EBL_FAULTS_LATCHED 422899
+#define EBL_FAULTS_ASSIST_OFF 491519
+#define EBL_FAULTS_LATCHED 488443
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 4811
+#define EBL_SCHEMA_LENGTH 4934
 
 enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */
 
@@ -73,6 +73,14 @@ typedef enum {
     EBL_ACCESS_DEALER = 1,
     EBL_ACCESS_FACTORY = 2,
 } ebl_access;
+
+/* Which record of the flash a parameter is kept in: the maker's choice of a market, what the factory measured, what was calibrated, what is tuned. */
+typedef enum {
+    EBL_RECORD_MARKET = 0,
+    EBL_RECORD_FACTORY = 1,
+    EBL_RECORD_CALIBRATION = 2,
+    EBL_RECORD_TUNABLE = 3,
+} ebl_record;
 
 /* Which copy of the configuration is meant. */
 typedef enum {
@@ -194,6 +202,7 @@ typedef enum {
     EBL_EVENT_AUTH_CHANGED = 8,
     EBL_EVENT_CONFIG_PROVISIONAL = 16,
     EBL_EVENT_STREAM_COUNTS = 17,
+    EBL_EVENT_CONFIG_CONVERTED = 18,
     EBL_EVENT_LOG_CLOSED = 20,
     EBL_EVENT_LOG_OVERWRITTEN = 21,
 } ebl_event;
@@ -263,6 +272,7 @@ enum {
     EBL_FAULT_SPEED_MISMATCH = 4096,
     EBL_FAULT_SPEED_STUCK = 8192,
     EBL_FAULT_MOTOR_HALL = 16384,
+    EBL_FAULT_NOT_PROVISIONED = 65536,
     EBL_FAULT_LAW_RESULT = 131072,
     EBL_FAULT_SAFE_STOP = 262144,
 };
@@ -291,6 +301,7 @@ enum {
     EBL_MSG_CFG_ROLLBACK = 0x0127,
     EBL_MSG_CFG_ABORT = 0x0128,
     EBL_MSG_CFG_STATUS = 0x0129,
+    EBL_MSG_CFG_WEAR = 0x012a,
     EBL_MSG_STR_SUBSCRIBE = 0x0201,
     EBL_MSG_STR_UNSUBSCRIBE = 0x0202,
     EBL_MSG_STR_RENEW = 0x0203,
@@ -420,6 +431,7 @@ typedef struct {
     uint8_t count;         /* elements */
     uint8_t length;        /* bytes of one element */
     uint8_t access;        /* ebl_access */
+    uint8_t record;        /* ebl_record */
     uint8_t flags;
     uint16_t config_offset; /* bytes from the start of ebl_config */
     float min;             /* no meaning for texts */
@@ -844,6 +856,15 @@ typedef struct {
 int ebl_cfg_status_response_get(ebl_cfg_status_response *message, const uint8_t *bytes, size_t length);
 int ebl_cfg_status_response_put(const ebl_cfg_status_response *message, uint8_t *bytes, size_t capacity,
                                size_t *length);
+
+#define EBL_CFG_WEAR_RESPONSE_LENGTH 6
+typedef struct {
+    uint32_t wait_s;
+    uint16_t writes_free;
+} ebl_cfg_wear_response;
+int ebl_cfg_wear_response_get(ebl_cfg_wear_response *message, const uint8_t *bytes, size_t length);
+int ebl_cfg_wear_response_put(const ebl_cfg_wear_response *message, uint8_t *bytes, size_t capacity,
+                             size_t *length);
 
 #define EBL_STR_SUBSCRIBE_REQUEST_LENGTH 6
 typedef struct {
@@ -1270,6 +1291,18 @@ typedef struct {
 int ebl_stream_counts_event_get(ebl_stream_counts_event *message, const uint8_t *bytes, size_t length);
 int ebl_stream_counts_event_put(const ebl_stream_counts_event *message, uint8_t *bytes, size_t capacity,
                                size_t *length);
+
+#define EBL_CONFIG_CONVERTED_EVENT_LENGTH 11
+typedef struct {
+    uint32_t generation;
+    uint32_t crc32;
+    uint8_t added;
+    uint8_t dropped;
+    uint8_t clamped;
+} ebl_config_converted_event;
+int ebl_config_converted_event_get(ebl_config_converted_event *message, const uint8_t *bytes, size_t length);
+int ebl_config_converted_event_put(const ebl_config_converted_event *message, uint8_t *bytes, size_t capacity,
+                                  size_t *length);
 
 #define EBL_LOG_CLOSED_EVENT_LENGTH 12
 typedef struct {

@@ -37,6 +37,7 @@ typedef struct {
     uint8_t count;         /* elements */
     uint8_t length;        /* bytes of one element */
     uint8_t access;        /* ebl_access */
+    uint8_t record;        /* ebl_record */
     uint8_t flags;
     uint16_t config_offset; /* bytes from the start of ebl_config */
     float min;             /* no meaning for texts */

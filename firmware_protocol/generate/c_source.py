@@ -61,7 +61,8 @@ def _parameter_row(registry: Registry, parameter: Parameter) -> str:
     access = next(n for n, v in registry.enum("access").members.items() if v == parameter.access)
     return (
         f"    {{0x{parameter.id:04x}, {parameter.image_offset}, EBL_TYPE_{parameter.type.upper()},"
-        f" {parameter.count}, {parameter.length}, EBL_ACCESS_{access}, {flags},\n"
+        f" {parameter.count}, {parameter.length}, EBL_ACCESS_{access},"
+        f" EBL_RECORD_{parameter.record}, {flags},\n"
         f"     offsetof(ebl_config, {parameter.name}),"
         f" {float_literal(low)}, {float_literal(high)}, {float_literal(parameter.least_step)}}},"
     )

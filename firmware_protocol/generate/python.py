@@ -162,7 +162,8 @@ def _parameter(row: Parameter) -> list[str]:
         f"        length={row.length}, min={row.min}, max={row.max}, enum={_quoted(row.enum)},",
         f"        increasing={row.increasing}, access={row.access},"
         f" image_offset={row.image_offset},{' ratchet=True,' if row.ratchet else ''}"
-        f"{f' least_step={row.least_step},' if row.increasing else ''}",
+        f"{f' least_step={row.least_step},' if row.increasing else ''}"
+        f"{'' if row.record == 'TUNABLE' else f' record={_quoted(row.record)},'}",
         f"        default={default},",
         f"        doc={_quoted(row.doc)},",
         "    ),",

@@ -29,6 +29,9 @@ PROSE = ("doc", "rider_text", "mechanic_text")
 FAULT_BITS = (*range(15), *range(16, 31))
 """Bits 15 and 31 would be the sign of the channel that carries them."""
 
+MAKERS_RECORDS = ("MARKET", "FACTORY")
+"""Records of parameters that nobody changes without a token of the maker."""
+
 SIZES = {name: struct.calcsize("<" + code) for name, code in STRUCT_CODES.items()}
 
 
@@ -182,6 +185,7 @@ def _high_half(owner: str, name: str, text: str, mark: list[str], before: list[F
 
 def _parameters(rows: list[dict[str, Any]], enums: tuple[Table, ...]) -> tuple[Parameter, ...]:
     access = next(table for table in enums if table.name == "access").members
+    records = next(table for table in enums if table.name == "record").members
     parameters = []
     offset = 0
     for row in sorted(rows, key=lambda row: int(row["id"])):
@@ -209,9 +213,14 @@ def _parameters(rows: list[dict[str, Any]], enums: tuple[Table, ...]) -> tuple[P
             doc=row["doc"],
             ratchet=row.get("ratchet", False),
             least_step=row.get("least_step", 0.0),
+            record=row.get("record", "TUNABLE"),
         )
         if parameter.increasing != (parameter.least_step > 0):
             raise BadRegistry(f"{parameter.name}: increasing values need a least_step, others none")
+        if parameter.record not in records:
+            raise BadRegistry(f"{parameter.name}: a record is one of {', '.join(records)}")
+        if (parameter.record in MAKERS_RECORDS) != (parameter.access == access["FACTORY"]):
+            raise BadRegistry(f"{parameter.name}: what the maker keeps, only the maker changes")
         if parameter.ratchet and (parameter.type == "text" or enum is not None):
             raise BadRegistry(f"{parameter.name}: only numbers can be a ratchet")
         limits = [limit is not None for limit in (parameter.min, parameter.max)]

@@ -80,7 +80,7 @@ def _parameters(registry: Registry) -> list[str]:
         lines += [f"### 0x{row.id:04X} {row.name}", "", row.doc, ""]
         lines += [
             f"{kind}{shape} at image byte {row.image_offset}; {limits}{extra};"
-            f" {access[row.access]} may change it.",
+            f" {access[row.access]} may change it; kept in the {row.record.lower()} record.",
             "",
         ]
     return lines[:-1]

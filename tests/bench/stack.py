@@ -31,7 +31,8 @@ POINTERS = {
 # Which source file calls through pointers, and through which. No other does.
 CALLERS = {
     "app": {HAL},
-    "config_store": {HAL},
+    "config_items": {HAL},
+    "config_slot": {HAL},
     "config_transaction": {HAL},
     "counters": {HAL},
     "dispatch": {HAL, HANDLERS},

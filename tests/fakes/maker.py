@@ -14,6 +14,7 @@ from firmware_protocol._generated import (
     CfgCommitRequest,
     CfgSetRequest,
     CfgValidateRequest,
+    CommitFlags,
     Status,
 )
 from firmware_protocol.layout import Value
@@ -64,6 +65,18 @@ def challenged(unit: BenchUnit, level: Access, image: bytes) -> Challenge:
     assert isinstance(message, AuthChallengeResponse), asked
     assert message.level == level
     return Challenge(message.uid, message.nonce, level, message.expires_us, image)
+
+
+def write_with_the_makers_word(
+    unit: BenchUnit, maker: Maker, changes: dict[str, Value], confirm_s: int = 0
+) -> None:
+    """A whole transaction under a FACTORY token. confirm_s: on trial for so long."""
+    transaction, image = staged(unit, changes)
+    token = maker.sign(challenged(unit, Access.FACTORY, image))
+    assert respond(unit, transaction, token).status == Status.OK
+    flags = CommitFlags.PROVISIONAL if confirm_s else 0
+    response = unit.ask(CfgCommitRequest(transaction, crc32(image), flags, confirm_s))
+    assert response.status == Status.OK, response
 
 
 def respond(unit: BenchUnit, transaction: int, token: Token) -> codec.Response:

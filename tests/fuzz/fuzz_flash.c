@@ -18,18 +18,28 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* A provisioned slot with some of its bytes replaced by the input, and a check value over them. */
+/* A provisioned slot with some of its bytes replaced by the input, and check values over them: of
+ * each record, and of the header with the table of records, which is there twice. */
 static void forge(uint8_t *slot, const uint8_t *data, size_t size)
 {
-    size_t at = 8;
+    const size_t table = 36, rows = 4, copy = 68, records = 124;
+    size_t at = 8, place = records;
 
     for (size_t i = 0; i + 1 < size; i += 2) {
-        at = 8 + (at - 8 + data[i]) % (24 + EBL_IMAGE_LENGTH);
+        at = 8 + (at - 8 + data[i]) % (FLASH_BLOCK_BYTES - 8);
         slot[at] = data[i + 1];
     }
-    uint32_t crc = ebl_crc32(0, slot + 8, 16);
+    for (size_t i = 0; i < rows; i++) {
+        uint8_t *row = slot + table + 8 * i;
+        size_t length = ebl_get_u16(row + 4);
 
-    ebl_put_u32(slot + 4, ebl_crc32(crc, slot + 32, EBL_IMAGE_LENGTH));
+        if (place + length > FLASH_BLOCK_BYTES) break;
+        ebl_put_u32(row, ebl_crc32(0, slot + place, length));
+        place += length;
+    }
+    ebl_put_u32(slot + 4, ebl_crc32(ebl_crc32(0, slot + 8, 16), slot + table, 32));
+    memcpy(slot + copy, slot, 24);
+    memcpy(slot + copy + 24, slot + table, 32);
 }
 
 static void lay(uint8_t *flash, size_t flash_size, const uint8_t *data, size_t size)

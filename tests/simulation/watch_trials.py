@@ -9,15 +9,21 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from firmware_protocol._generated import IMAGE_LENGTH
 from firmware_protocol.layout import Value
 from firmware_protocol.parameters import unpack_image
+from tests.fakes.config_flash import (
+    AT_CONFIRMED,
+    AT_PROVISIONAL,
+    AT_VOID,
+    generation_at,
+    image_at,
+    is_written,
+)
 from tests.simulation.violation import Violation
 
 SLOTS_AT = (0, 1024)
-MAGIC = b"EBL2"
-AT_GENERATION, AT_PROVISIONAL, AT_CONFIRMED, AT_VOID, AT_IMAGE = 12, 24, 28, 32, 36
-WRITTEN, ERASED = bytes(4), b"\xff" * 4
+MAGIC = b"EBL3"
+WORD_BYTES = 4
 # The unit looks at its clock every millisecond, the judge every ten.
 LATE_S = 0.1
 # Until the control step after the end of a trial has been seen.
@@ -110,26 +116,26 @@ class TrialWatch:
 
 
 def on_trial(slots: bytes) -> tuple[int, bytes] | None:
-    """Generation and image of the slot on trial. A word cut in half confirms nothing."""
+    """Generation and image of the slot on trial. A word that was begun was meant."""
     for at in SLOTS_AT:
-        words = [slots[at + word : at + word + 4] for word in (AT_PROVISIONAL, AT_CONFIRMED)]
-        is_there = slots[at : at + 4] == MAGIC and words[0] == WRITTEN
-        if is_there and words[1] != WRITTEN and slots[at + AT_VOID : at + AT_VOID + 4] == ERASED:
-            number = int.from_bytes(slots[at + AT_GENERATION : at + AT_GENERATION + 4], "little")
-            return number, image_at(slots, at)
+        if slots[at : at + 4] != MAGIC or not says(slots, at + AT_PROVISIONAL):
+            continue
+        if not says(slots, at + AT_CONFIRMED) and not says(slots, at + AT_VOID):
+            return generation_at(slots, at), image_at(slots, at)
     return None
 
 
 def is_confirmed(slots: bytes, image: bytes) -> bool:
     """Whether a slot that was confirmed holds this image."""
     return any(
-        slots[at + AT_CONFIRMED : at + AT_CONFIRMED + 4] == WRITTEN
-        and slots[at + AT_VOID : at + AT_VOID + 4] == ERASED
+        says(slots, at + AT_CONFIRMED)
+        and not says(slots, at + AT_VOID)
+        and slots[at : at + 4] == MAGIC
         and image_at(slots, at) == image
         for at in SLOTS_AT
     )
 
 
-def image_at(slots: bytes, at: int) -> bytes:
-    """The image in the slot at this address."""
-    return slots[at + AT_IMAGE : at + AT_IMAGE + IMAGE_LENGTH]
+def says(slots: bytes, at: int) -> bool:
+    """Whether the state word at this address counts."""
+    return is_written(slots[at : at + WORD_BYTES])

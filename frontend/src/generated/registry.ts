@@ -88,6 +88,12 @@ export const ENUMS = {
     DEALER: 1,
     FACTORY: 2,
   },
+  record: {
+    MARKET: 0,
+    FACTORY: 1,
+    CALIBRATION: 2,
+    TUNABLE: 3,
+  },
   bank: {
     ACTIVE: 0,
     STAGED: 1,
@@ -181,6 +187,7 @@ export const ENUMS = {
     AUTH_CHANGED: 8,
     CONFIG_PROVISIONAL: 16,
     STREAM_COUNTS: 17,
+    CONFIG_CONVERTED: 18,
     LOG_CLOSED: 20,
     LOG_OVERWRITTEN: 21,
   },
@@ -242,6 +249,7 @@ export const FLAGS = {
     SPEED_MISMATCH: 12,
     SPEED_STUCK: 13,
     MOTOR_HALL: 14,
+    NOT_PROVISIONED: 16,
     LAW_RESULT: 17,
     SAFE_STOP: 18,
   },
@@ -1325,9 +1333,9 @@ export const FAULTS = {
   },
   CONFIG_DEFAULTED: {
     bit: 3,
-    severity: "WARNING",
-    rider_text: "The bike runs on its factory settings. Ask your dealer to restore yours.",
-    mechanic_text: "Neither copy of the configuration in flash was good. Restore a backup; if it comes back, the flash is worn.",
+    severity: "LATCHED",
+    rider_text: "Walking pace only: settings of the bike were lost. See your dealer.",
+    mechanic_text: "Part of the configuration in flash is damaged, and defaults stand in its place. Restore a backup; what the maker sets needs the maker's token. If it comes back, the flash is worn.",
   },
   OVER_CURRENT: {
     bit: 4,
@@ -1394,6 +1402,12 @@ export const FAULTS = {
     severity: "LATCHED",
     rider_text: "No assist: the motor does not tell its position. You can pedal home; see your dealer.",
     mechanic_text: "The motor's speed was missing, or under a quarter of what the cranks demand while it should push, for half a second. Check plug, supply and signals of the Hall sensors, then the phases, and whether the motor turns freely.",
+  },
+  NOT_PROVISIONED: {
+    bit: 16,
+    severity: "LATCHED",
+    rider_text: "No assist: this drive unit was never set up for a country. See your dealer.",
+    mechanic_text: "The flash holds no configuration and never did: the factory's last step is missing. Only the maker can provision the unit, or write a whole configuration with a token.",
   },
   LAW_RESULT: {
     bit: 17,

@@ -9,6 +9,8 @@
 
 #define RECEIVE_BLOCK_BYTES 64
 
+#define WALKING_PACE_KMH 6.0f /* where walk assist ends (EN 15194 4.2.12) */
+
 /* Above either the bike is being ridden, and a ride log is kept. */
 #define MOVING_KMH 1.0f
 #define MOVING_RPM 5.0f
@@ -17,10 +19,22 @@
  * keep the unit from its other work. */
 #define RECEIVE_BLOCKS_MAX 32
 
+/* What is lost of the configuration has a default in its place, which nobody chose: a limit that
+ * was lowered is up again, a sensor's zero is off. At a walking pace none of it is a hazard.
+ * Without its market a unit does not know what is lawful, and does nothing. */
+static void hold_back(assist_config *assist, uint8_t lost)
+{
+    if (lost == 0) return;
+    assist->assist_cutoff_kmh = float32_min(assist->assist_cutoff_kmh, WALKING_PACE_KMH);
+    assist->assist_cutoff_extra_kmh = 0.0f;
+    if ((lost >> EBL_RECORD_MARKET & 1u) != 0) assist->market = MARKET_COUNT;
+}
+
 void app_config_apply(app *unit)
 {
     ebl_config_unpack(&unit->config, live_image(&unit->live, &unit->store));
     parameters_to_assist(&unit->config, &unit->assist_config_next);
+    hold_back(&unit->assist_config_next, unit->store.lost);
     unit->assist_config_pending = 1;
 }
 
@@ -42,11 +56,32 @@ static void fault_at_start(app *unit, uint32_t flag)
     event_faults_set(&unit->events, &unit->link, now_us, flag);
 }
 
-static void config_defaulted(app *unit)
+/* Tells what the boot found in flash that is not as it was written. */
+static void config_tell(app *unit)
 {
-    event_config(&unit->events, &unit->link, unit->board->now_us(unit->board->context),
-                 EBL_EVENT_CONFIG_DEFAULTED, unit->store.generation, unit->store.crc32);
-    fault_at_start(unit, EBL_FAULT_CONFIG_DEFAULTED);
+    uint64_t now_us = unit->board->now_us(unit->board->context);
+    const config_tally *tally = &unit->store.tally;
+    uint32_t fault =
+        unit->store.is_provisioned ? EBL_FAULT_CONFIG_DEFAULTED : EBL_FAULT_NOT_PROVISIONED;
+
+    if (tally->added != 0 || tally->dropped != 0 || tally->clamped != 0) {
+        event_config_converted(&unit->events, &unit->link, now_us, &unit->store);
+    }
+    if (unit->store.lost == 0) return;
+    event_config(&unit->events, &unit->link, now_us, EBL_EVENT_CONFIG_DEFAULTED,
+                 unit->store.generation, unit->store.crc32);
+    fault_at_start(unit, fault);
+    faults_hold(&unit->faults, fault);
+}
+
+void app_config_well(app *unit)
+{
+    uint32_t over = EBL_FAULT_CONFIG_DEFAULTED | EBL_FAULT_NOT_PROVISIONED;
+    uint32_t cleared = faults_clear(&unit->faults, over);
+
+    if (cleared == 0) return;
+    event_faults_cleared(&unit->events, &unit->link, unit->board->now_us(unit->board->context),
+                         cleared);
 }
 
 /* EN 15194 4.2.13: a unit that stopped itself while it drove does not drive on by itself. */
@@ -85,7 +120,7 @@ void app_init(app *unit, const hal *board)
     } else {
         app_config_apply(unit);
     }
-    if (unit->store.slot == CONFIG_STORE_NO_SLOT) config_defaulted(unit);
+    config_tell(unit);
     if (stopped_itself(board->reset_cause)) fault_at_start(unit, EBL_FAULT_SAFE_STOP);
 }
 

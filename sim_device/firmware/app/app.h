@@ -90,8 +90,9 @@ const assist_output *app_output(const app *unit);
 /* What a unit leaves the factory with: the defaults, and assist up to where the market ends it. */
 void app_factory_config(ebl_config *config, uint8_t market_number);
 
-/* The factory's last step, before the first app_init: gives a flash that was never written its
- * first configuration. Any other flash is left alone. 0, or a negative CONFIG_STORE_ result. */
+/* The factory's last step, before the first app_init: gives a flash that never had one its first
+ * configuration. Any other flash is left alone. A unit that was not provisioned gives no assist.
+ * 0, or a negative CONFIG_STORE_ result. */
 int app_provision(const hal *board, const ebl_config *config);
 
 /* The factory's choice: the maker's public key of 32 bytes, for good. Without one no limit can be
@@ -109,6 +110,10 @@ void app_faults_cleared(app *unit, uint32_t cleared, uint64_t now_us);
 
 /* For the rooms of this folder: the image in force becomes the law's at the next control step. */
 void app_config_apply(app *unit);
+
+/* For the rooms of this folder: nothing of the active configuration is lost any more; the faults
+ * that told so end. */
+void app_config_well(app *unit);
 
 /* A new configuration is active: live values end, the law gets it, the host is told with this
  * event. */

@@ -2,12 +2,14 @@
 
 #include <string.h>
 
-#include "app.h"        // app_inputs_prepare
-#include "ebl_frame.h"  // ebl_crc32
-#include "parameters.h" // parameters_set, parameters_image_is_valid
+#include "app.h"         // app_inputs_prepare
+#include "config_wear.h" // config_wear_wait_s, config_wear_spend
+#include "ebl_frame.h"   // ebl_crc32
+#include "parameters.h"  // parameters_set, parameters_image_is_valid
 
 #define US_PER_MS 1000u
 #define US_PER_S 1000000u
+#define MS_PER_S 1000u
 
 /* Erasing stalls the processor: nobody may be riding. A wheel pushed by hand is slower than the
  * first, a motor turned by its cogging slower than the second. */
@@ -145,14 +147,16 @@ static uint8_t store_status(int result)
 }
 
 uint8_t transaction_commit(config_transaction *transaction, config_store *store, const hal *board,
-                           const ebl_cfg_commit_request *request, uint64_t now_us, uint16_t *detail)
+                           const ebl_cfg_commit_request *request, uint64_t now_us,
+                           uint32_t operating_s, uint16_t *detail)
 {
     uint8_t status = commit_check(transaction, board, request, now_us, detail);
 
     if (status != EBL_STATUS_OK) return status;
-    if (memcmp(transaction->image, store->image, EBL_IMAGE_LENGTH) != 0) {
-        *detail = transaction_commit_wait_ms(transaction, now_us);
+    if (store->lost != 0 || memcmp(transaction->image, store->image, EBL_IMAGE_LENGTH) != 0) {
+        *detail = transaction_commit_wait_ms(transaction, store, now_us, operating_s);
         if (*detail > 0) return EBL_STATUS_RATE_LIMIT;
+        store->worn_until_s = config_wear_spend(store->worn_until_s, operating_s);
         transaction->commit_free_us = now_us + (uint64_t)TRANSACTION_COMMIT_PERIOD_MS * US_PER_MS;
         status =
             store_status(config_store_write(store, board, transaction->image, request->flags != 0));
@@ -171,10 +175,17 @@ uint8_t transaction_abort(config_transaction *transaction, uint16_t id, uint64_t
     return status;
 }
 
-uint16_t transaction_commit_wait_ms(const config_transaction *transaction, uint64_t now_us)
+uint16_t transaction_commit_wait_ms(const config_transaction *transaction,
+                                    const config_store *store, uint64_t now_us,
+                                    uint32_t operating_s)
 {
-    if (transaction->commit_free_us <= now_us) return 0;
-    return (uint16_t)((transaction->commit_free_us - now_us + US_PER_MS - 1) / US_PER_MS);
+    uint64_t wait_ms = (uint64_t)config_wear_wait_s(store->worn_until_s, operating_s) * MS_PER_S;
+    uint64_t free_us = transaction->commit_free_us;
+
+    if (free_us > now_us && (free_us - now_us + US_PER_MS - 1) / US_PER_MS > wait_ms) {
+        wait_ms = (free_us - now_us + US_PER_MS - 1) / US_PER_MS;
+    }
+    return wait_ms < UINT16_MAX ? (uint16_t)wait_ms : UINT16_MAX;
 }
 
 void transaction_poll(config_transaction *transaction, uint64_t now_us)

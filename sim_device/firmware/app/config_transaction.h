@@ -13,7 +13,7 @@
 
 #define TRANSACTION_LEASE_MS 30000
 
-/* An erased block takes its time, and a script gone wrong must not wear the flash out. */
+/* An erased block takes its time. What a script gone wrong may wear out, config_wear.h bounds. */
 #define TRANSACTION_COMMIT_PERIOD_MS 2000
 
 typedef struct {
@@ -38,16 +38,19 @@ uint8_t transaction_validate(config_transaction *transaction, uint16_t id, uint6
 uint8_t transaction_staged_crc(config_transaction *transaction, uint16_t id, uint64_t now_us,
                                uint32_t *crc32, uint16_t *detail);
 
-/* OK: the store holds the new image, on trial where the request's flags say so, and the transaction
+/* `operating_s`: of the unit's life. OK: the store holds the new image, on trial where the
+ * request's flags say so, and the transaction
  * is over. Else both are as they were. */
 uint8_t transaction_commit(config_transaction *transaction, config_store *store, const hal *board,
                            const ebl_cfg_commit_request *request, uint64_t now_us,
-                           uint16_t *detail);
+                           uint32_t operating_s, uint16_t *detail);
 uint8_t transaction_abort(config_transaction *transaction, uint16_t id, uint64_t now_us,
                           uint16_t *detail);
 
-/* Milliseconds until a commit may write the flash again. */
-uint16_t transaction_commit_wait_ms(const config_transaction *transaction, uint64_t now_us);
+/* Milliseconds until a commit may write the flash again; 65535: that long or longer. */
+uint16_t transaction_commit_wait_ms(const config_transaction *transaction,
+                                    const config_store *store, uint64_t now_us,
+                                    uint32_t operating_s);
 
 /* OK where the flash may be written now: standing still, with enough battery. */
 uint8_t transaction_flash_status(const hal *board);

@@ -146,6 +146,18 @@ void event_config_provisional(event_log *events, unit_link *link, uint64_t now_u
     event_send(events, link, now_us, EBL_EVENT_CONFIG_PROVISIONAL, fields, length);
 }
 
+void event_config_converted(event_log *events, unit_link *link, uint64_t now_us,
+                            const config_store *store)
+{
+    ebl_config_converted_event event = {store->generation, store->crc32, store->tally.added,
+                                        store->tally.dropped, store->tally.clamped};
+    uint8_t fields[EBL_CONFIG_CONVERTED_EVENT_LENGTH];
+    size_t length;
+
+    if (ebl_config_converted_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
+    event_send(events, link, now_us, EBL_EVENT_CONFIG_CONVERTED, fields, length);
+}
+
 void event_stream_counts(event_log *events, unit_link *link, uint64_t now_us,
                          const ebl_stream_counts_event *counts)
 {

@@ -5,8 +5,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "hal.h"  // hal
-#include "link.h" // unit_link
+#include "config_store.h" // config_store
+#include "hal.h"          // hal
+#include "link.h"         // unit_link
 
 #define EVENTS_KEPT_MAX 8
 #define EVENT_KEPT_BYTES_MAX 17 /* code, time, and 12 bytes of fields */
@@ -49,6 +50,10 @@ void event_config(event_log *events, unit_link *link, uint64_t now_us, uint8_t c
 
 void event_config_provisional(event_log *events, unit_link *link, uint64_t now_us,
                               uint32_t generation, uint32_t crc32, uint8_t confirm_s);
+
+/* What the boot made of an image of other firmware; the counts of `store->tally`. */
+void event_config_converted(event_log *events, unit_link *link, uint64_t now_us,
+                            const config_store *store);
 
 void event_stream_counts(event_log *events, unit_link *link, uint64_t now_us,
                          const ebl_stream_counts_event *counts);

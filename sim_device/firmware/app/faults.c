@@ -63,7 +63,9 @@ void faults_step(fault_list *faults, const hal_inputs *inputs, const ebl_config 
 
 int faults_inhibit(const fault_list *faults)
 {
-    return (faults->active & EBL_FAULTS_ASSIST_OFF) != 0;
+    const uint32_t slows_only = EBL_FAULT_CONFIG_DEFAULTED;
+
+    return (faults->active & EBL_FAULTS_ASSIST_OFF & ~slows_only) != 0;
 }
 
 uint32_t faults_clear_latched(fault_list *faults, uint32_t flags)
@@ -73,13 +75,14 @@ uint32_t faults_clear_latched(fault_list *faults, uint32_t flags)
     for (unsigned bit = 0; bit < FAULT_KINDS; bit++) {
         uint32_t flag = 1u << bit;
 
-        if (!(flags & faults->active & EBL_FAULTS_LATCHED & flag)) continue;
+        if (!(flags & faults->active & EBL_FAULTS_LATCHED & ~faults->held & flag)) continue;
         if (faults->good_steps[bit] < GOOD_STEPS) continue;
         faults->active &= ~flag;
         cleared |= flag;
     }
     return cleared;
 }
+
 int faults_latch(fault_list *faults, uint32_t flag)
 {
     int is_new = (faults->active & flag) == 0;
@@ -88,12 +91,15 @@ int faults_latch(fault_list *faults, uint32_t flag)
     return is_new;
 }
 
-int faults_clear(fault_list *faults, uint32_t flag)
-{
-    int was_set = (faults->active & flag) != 0;
+void faults_hold(fault_list *faults, uint32_t flag) { faults->held |= flag; }
 
-    faults->active &= ~flag;
-    return was_set;
+uint32_t faults_clear(fault_list *faults, uint32_t flags)
+{
+    uint32_t were_set = faults->active & flags;
+
+    faults->active &= ~flags;
+    faults->held &= ~flags;
+    return were_set;
 }
 
 void faults_freeze(fault_list *faults, uint32_t set, uint64_t t_us, const int16_t *row)

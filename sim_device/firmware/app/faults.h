@@ -43,6 +43,7 @@ typedef struct {
 
 typedef struct {
     uint32_t active; /* EBL_FAULT_* bits */
+    uint32_t held;   /* those whose cause lasts until faults_clear */
     uint16_t bad_steps[FAULT_KINDS];
     uint16_t good_steps[FAULT_KINDS];
     fault_watch watch;
@@ -64,16 +65,22 @@ int faults_torque_is_plausible(float torque_raw_counts);
 void faults_step(fault_list *faults, const hal_inputs *inputs, const ebl_config *config,
                  const fault_law *law, uint32_t *set, uint32_t *cleared);
 
-/* True while a fault forbids any torque. */
+/* True while a fault forbids any torque. A configuration that was lost in part does not: it holds
+ * the law to a walking pace. */
 int faults_inhibit(const fault_list *faults);
 
 /* Clears those of these latched faults whose cause is gone; to be called at standstill. Returns
  * the bits that were cleared. */
 uint32_t faults_clear_latched(fault_list *faults, uint32_t flags);
 
-/* A fault that does not come from the inputs and stays until `faults_clear`. True if new. */
+/* A fault that does not come from the inputs. True if new. */
 int faults_latch(fault_list *faults, uint32_t flag);
-int faults_clear(fault_list *faults, uint32_t flag);
+
+/* This one's cause lasts: nothing but `faults_clear` ends it. */
+void faults_hold(fault_list *faults, uint32_t flag);
+
+/* Returns those of the bits that were set. */
+uint32_t faults_clear(fault_list *faults, uint32_t flags);
 
 /* Keeps the latest row of telemetry for the faults that were just set. */
 void faults_freeze(fault_list *faults, uint32_t set, uint64_t t_us, const int16_t *row);

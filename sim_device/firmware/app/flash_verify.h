@@ -10,6 +10,9 @@
 /* CONFIG_STORE_OK, CONFIG_STORE_FLASH_FAIL or CONFIG_STORE_VERIFY_FAIL. */
 int flash_program_verified(const hal *board, size_t address, const uint8_t *bytes, size_t length);
 
+/* Goes on with a check value over so many bytes of flash. Negative where it cannot be read. */
+int flash_crc32(const hal *board, size_t address, size_t length, uint32_t *crc);
+
 /* True if every byte reads as erased. */
 int flash_is_blank(const hal *board, size_t address, size_t length);
 

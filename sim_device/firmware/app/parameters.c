@@ -92,24 +92,6 @@ void parameters_default_image(uint8_t *image)
     ebl_config_pack(&config, image);
 }
 
-uint32_t parameters_layout_crc32(void)
-{
-    uint32_t crc = 0;
-
-    for (size_t i = 0; i < EBL_PARAMETER_COUNT; i++) {
-        const ebl_parameter *parameter = &ebl_parameters[i];
-        uint8_t bytes[8];
-
-        ebl_put_u16(bytes, parameter->id);
-        bytes[2] = parameter->type;
-        bytes[3] = parameter->count;
-        ebl_put_u16(bytes + 4, parameter->length);
-        ebl_put_u16(bytes + 6, parameter->image_offset);
-        crc = ebl_crc32(crc, bytes, sizeof bytes);
-    }
-    return crc;
-}
-
 /* True if a value of this parameter may stand alone; order between values is VALIDATE's. */
 static int value_is_in_range(const ebl_parameter *parameter, const uint8_t *bytes)
 {

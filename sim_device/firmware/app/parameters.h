@@ -14,9 +14,6 @@ void parameters_to_assist(const ebl_config *config, assist_config *assist);
 /* The factory default as an image. */
 void parameters_default_image(uint8_t *image);
 
-/* Tells images apart whose bytes mean other parameters: a slot of another layout is not read. */
-uint32_t parameters_layout_crc32(void);
-
 /* An image whose only fault is that points are nearer than their least step, as firmware without
  * that rule took them: moves each just far enough from the one before it, and back from the end of
  * the range. Any other image stays as it is. Returns how many points were moved. */

@@ -181,8 +181,7 @@ static void committed(app *unit, uint8_t confirm_s)
         return;
     }
     app_config_changed(unit, EBL_EVENT_CONFIG_COMMITTED);
-    if (!faults_clear(&unit->faults, EBL_FAULT_CONFIG_DEFAULTED)) return;
-    event_faults_cleared(&unit->events, &unit->link, now(unit), EBL_FAULT_CONFIG_DEFAULTED);
+    app_config_well(unit);
 }
 
 /* Only for what could be committed otherwise: the rest is the transaction's to refuse. */
@@ -216,7 +215,7 @@ static void commit(app *unit, const ebl_header *request, reply *answer)
     status = commit_access(unit, &asked, &detail);
     if (status == EBL_STATUS_OK) {
         status = transaction_commit(&unit->transaction, &unit->store, unit->board, &asked,
-                                    now(unit), &detail);
+                                    now(unit), unit->counters.operating_s, &detail);
     }
     if (status != EBL_STATUS_OK) {
         reply_refuse(answer, status, detail);

@@ -1,6 +1,7 @@
 /* What the host asks about a configuration that is tried: on trial, or live. */
 #include <string.h>
 
+#include "config_wear.h"  // config_wear_wait_s
 #include "dispatch.h"     // reply_ok, reply_with
 #include "ebl_bytes.h"    // EBL_OK
 #include "ebl_registry.h" // ebl_cfg_confirm_request_get
@@ -24,8 +25,8 @@ static void confirm(app *unit, const ebl_header *request, reply *answer)
     if (status != EBL_STATUS_OK || !was_on_trial) return;
     event_config(&unit->events, &unit->link, now(unit), EBL_EVENT_CONFIG_COMMITTED,
                  unit->store.generation, unit->store.crc32);
-    if (!faults_clear(&unit->faults, EBL_FAULT_CONFIG_DEFAULTED)) return;
-    event_faults_cleared(&unit->events, &unit->link, now(unit), EBL_FAULT_CONFIG_DEFAULTED);
+    app_config_apply(unit); /* what held it back may be over */
+    app_config_well(unit);
 }
 
 static void rollback(app *unit, const ebl_header *request, reply *answer)
@@ -60,11 +61,27 @@ static void config_status(app *unit, const ebl_header *request, reply *answer)
     response.crc32 = unit->store.crc32;
     response.confirm_left_ms = trial_left_ms(&unit->trial, &unit->store, now(unit));
     response.live_left_ms = live_left_ms(&unit->live, now(unit));
-    response.commit_wait_ms = transaction_commit_wait_ms(&unit->transaction, now(unit));
+    response.commit_wait_ms = transaction_commit_wait_ms(&unit->transaction, &unit->store,
+                                                         now(unit), unit->counters.operating_s);
     response.rollback_cause = unit->trial.cause;
     response.rolled_back_generation = unit->trial.returned_generation;
     put = ebl_cfg_status_response_put(&response, reply_fields(answer), reply_capacity(answer),
                                       &length);
+    reply_with(answer, put, length);
+}
+
+static void wear(app *unit, const ebl_header *request, reply *answer)
+{
+    uint32_t operating_s = unit->counters.operating_s;
+    ebl_cfg_wear_response response = {
+        config_wear_wait_s(unit->store.worn_until_s, operating_s),
+        config_wear_writes_free(unit->store.worn_until_s, operating_s)};
+    size_t length = 0;
+    int put;
+
+    (void)request;
+    put =
+        ebl_cfg_wear_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
     reply_with(answer, put, length);
 }
 
@@ -76,10 +93,10 @@ static void slots(app *unit, const ebl_header *request, reply *answer)
 
     (void)request;
     response.active_slot = unit->store.slot;
-    for (uint8_t i = 0; i < CONFIG_STORE_SLOTS; i++) {
+    for (uint8_t i = 0; i < CONFIG_SLOTS; i++) {
         config_slot seen;
 
-        config_store_slot(unit->board, i, &seen);
+        config_slot_look(unit->board, i, &seen);
         response.states[i] = seen.state;
         response.generations[i] = seen.generation;
         response.erases[i] = seen.erases;
@@ -136,6 +153,7 @@ request_handler requests_trial(uint16_t message_id)
     case EBL_MSG_CFG_CONFIRM: return confirm;
     case EBL_MSG_CFG_ROLLBACK: return rollback;
     case EBL_MSG_CFG_STATUS: return config_status;
+    case EBL_MSG_CFG_WEAR: return wear;
     case EBL_MSG_CFG_SLOTS: return slots;
     case EBL_MSG_PARAM_GET: return param_get;
     case EBL_MSG_LIVE_SET: return live_values;

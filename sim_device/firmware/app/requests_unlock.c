@@ -101,6 +101,9 @@ uint8_t app_access_check(const app *unit, const uint8_t *image, uint16_t *detail
 {
     uint8_t needed = unlock_level_needed(unit->store.image, image);
 
+    /* What the maker chose is lost: whatever is written instead, the maker has to agree. */
+    if ((unit->store.lost & CONFIG_STORE_MAKERS_RECORDS) != 0) needed = EBL_ACCESS_FACTORY;
+
     if (needed == EBL_ACCESS_RIDER) return EBL_STATUS_OK;
     if (unlock_permits(&unit->lock, needed, image, now(unit))) return EBL_STATUS_OK;
     *detail = needed;

@@ -54,8 +54,8 @@ float battery_torque_nm(const assist_config *config, assist_state *state, const 
                         float resistance_ohm, float back_emf_v);
 int battery_sags(const assist_config *config, const assist_input *input);
 
-/* market.c: the rider's hardest push of late, told in every step (0 where none was measured, so that
- * the window is one of time), and the last word. */
+/* market.c: the rider's hardest push of late, told in every step (0 where none was measured, so
+ * that the window is one of time), and the last word. */
 void market_push_note(const assist_config *config, assist_state *state, float torque_nm);
 float apply_market(const assist_config *config, assist_state *state, const assist_input *input,
                    float motor_nm, assist_output *output);

@@ -104,7 +104,7 @@ class Unit:
         log: the whole flash for ride logs, or None for an erased one of `LOG_LENGTH` bytes; another
             length, in whole blocks, makes a smaller flash.
         unlock_key: the maker's public key to provision, or None for what the flash has.
-        market: for which a unit with an erased flash leaves the factory.
+        market: for which a unit with an erased flash leaves the factory; None: it was never there.
         line_baud: the serial line's rate at boot, or 0 for one that takes no time.
         request: answers SIM_GET and SIM_SET: (message id, request) -> (status, response).
         bike_alone: the firmware runs on another board; `sensors` and `drive` stand for its wires.
@@ -126,7 +126,7 @@ class Unit:
         flash: bytes | None = None,
         log: bytes | None = None,
         unlock_key: bytes | None = None,
-        market: Market = Market.EU_EPAC,
+        market: Market | None = Market.EU_EPAC,
         line_baud: int = 0,
         request: BoardRequest | None = None,
         bike_alone: bool = False,
@@ -146,7 +146,8 @@ class Unit:
         setup.seed = seed
         setup.uid = uid
         setup.boot_id = boot_id
-        setup.market_number = market
+        setup.market_number = market or Market.EU_EPAC
+        setup.not_provisioned = int(market is None)
         setup.line_baud = line_baud
         setup.bike_alone = int(bike_alone)
         setup.flash = ffi.NULL if flash is None else ffi.from_buffer("uint8_t[]", flash)

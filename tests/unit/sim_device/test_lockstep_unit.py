@@ -12,6 +12,7 @@ from firmware_protocol import codec, framing
 from firmware_protocol._generated import (
     CfgInfoRequest,
     DeviceClass,
+    FaultFlags,
     HelloRequest,
     SimGetRequest,
     SimSetRequest,
@@ -374,3 +375,14 @@ def test_the_battery_s_management_can_be_made_to_cut() -> None:
     seen = unit.observe()
     assert seen["battery_cut"] == 1
     assert seen["motor_torque_nm"] == 0.0
+
+
+def test_a_unit_that_no_factory_has_seen_gives_no_assist() -> None:
+    unit = LockstepUnit(1, market="none")
+    unit.select_mode(2)
+    unit.rider("constant", torque_nm=30.0, cadence_rpm_max=70.0)
+
+    unit.advance(10.0)
+
+    assert unit.observe()["fault_flags"] == FaultFlags.NOT_PROVISIONED
+    assert unit.observe()["motor_demand_nm"] == 0.0

@@ -39,6 +39,7 @@ from firmware_protocol._generated import (
 )
 from firmware_protocol.layout import Value
 from tests.fakes.bench_unit import BenchUnit, crc32
+from tests.fakes.maker import Maker, provision, write_with_the_makers_word
 
 CHANGES: dict[str, Value] = {
     "sensor_offset_counts": -123.5,
@@ -387,24 +388,32 @@ def test_another_transactions_number_opens_nothing(unit: BenchUnit) -> None:
     assert unit.ask(CfgAbortRequest(transaction)).status == Status.OK
 
 
-def test_a_unit_without_a_configuration_says_so_until_it_gets_one() -> None:
+def test_a_unit_without_a_configuration_says_so_until_the_maker_gives_it_one() -> None:
+    maker = Maker()
     unit = BenchUnit(provisioned=False)
+    provision(unit, maker)
 
     assert unit.read_image() == (0, parameters.pack_image(parameters.default_config()))
-    assert fault_flags(unit) == FaultFlags.CONFIG_DEFAULTED
+    assert fault_flags(unit) == FaultFlags.NOT_PROVISIONED
     codes = [event.code for event in unit.events]
     assert codes == [Event.BOOT, Event.CONFIG_DEFAULTED, Event.FAULT_SET]
 
-    assert unit.write(CHANGES).status == Status.OK
+    write_with_the_makers_word(unit, maker, CHANGES)
 
     assert fault_flags(unit) == 0
     assert info(unit).generation == 1
 
 
 def test_flash_without_room_for_two_slots_is_not_written() -> None:
-    unit = BenchUnit(provisioned=False, flash_block_bytes=512, flash_bytes=512)
+    maker = Maker()
+    unit = BenchUnit(provisioned=False, flash_block_bytes=512, flash_bytes=3 * 512)
 
-    assert unit.write(CHANGES).status == Status.NO_SPACE
+    refused = unit.write(CHANGES)
+
+    # Without a block for the maker's key either there is nobody who could allow it.
+    assert (refused.status, refused.detail) == (Status.ACCESS, Access.FACTORY)
+    assert lib.bench_provision_unlock_key(unit.board, maker.public_key) != 0
+    assert lib.bench_provision(unit.board) != 0
     assert (unit.flash() == 0xFF).all()
 
 

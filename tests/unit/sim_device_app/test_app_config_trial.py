@@ -29,6 +29,7 @@ from firmware_protocol._generated import (
     Status,
 )
 from tests.fakes.bench_unit import BenchUnit, crc32
+from tests.fakes.maker import Maker, provision, write_with_the_makers_word
 
 TRIAL_S = 10
 CHANGES = {"assist_cutoff_kmh": 19.0, "mode_names": ["a", "b", "c", "d", "e"]}
@@ -187,14 +188,16 @@ def test_a_host_that_leaves_and_comes_back_finds_the_trial_as_it_was(unit: Bench
 
 
 def test_a_unit_without_a_configuration_tries_its_first_one_too() -> None:
+    maker = Maker()
     unit = BenchUnit(provisioned=False)
+    provision(unit, maker)
     default = unit.read_image()
-    unit.write(CHANGES, confirm_s=TRIAL_S)
+    write_with_the_makers_word(unit, maker, CHANGES, confirm_s=TRIAL_S)
     assert unit.ask(EvtFaultListRequest()).message.fault_flags != 0
 
     unit.advance(TRIAL_S)
     assert unit.read_image() == default
-    unit.write(CHANGES, confirm_s=TRIAL_S)
+    write_with_the_makers_word(unit, maker, CHANGES, confirm_s=TRIAL_S)
     confirm(unit)
 
     assert unit.ask(EvtFaultListRequest()).message.fault_flags == 0

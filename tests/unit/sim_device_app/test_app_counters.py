@@ -66,7 +66,7 @@ def test_learning_does_not_touch_the_configuration() -> None:
 
 @pytest.mark.board_long
 def test_the_log_goes_round_and_never_forgets() -> None:
-    unit = BenchUnit(flash_block_bytes=512, flash_bytes=4 * 512)
+    unit = BenchUnit(flash_block_bytes=512, flash_bytes=6 * 512)
     minutes = 3 * 2 * (512 // RECORD_BYTES)
     seen = 0
 
@@ -96,7 +96,7 @@ def test_an_area_is_not_erased_while_the_bike_rolls() -> None:
 
 @pytest.mark.board_long
 def test_power_lost_in_any_byte_of_a_saving_leaves_the_count_before_or_after() -> None:
-    unit = BenchUnit(flash_block_bytes=512, flash_bytes=4 * 512)
+    unit = BenchUnit(flash_block_bytes=512, flash_bytes=6 * 512)
     unit.advance(61.0)
     flash_before = unit.flash().copy()
     found = []
@@ -117,7 +117,7 @@ def test_power_lost_in_any_byte_of_a_saving_leaves_the_count_before_or_after() -
 
 
 def test_a_flash_with_no_room_for_a_log_counts_in_ram() -> None:
-    unit = BenchUnit(flash_block_bytes=512, flash_bytes=2 * 512)
+    unit = BenchUnit(flash_block_bytes=512, flash_bytes=4 * 512)
 
     unit.advance(120.0)
 

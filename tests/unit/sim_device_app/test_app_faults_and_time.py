@@ -106,7 +106,7 @@ def test_clearing_forgets_what_is_over_and_keeps_what_is_not(unit: BenchUnit) ->
 def test_a_unit_without_a_configuration_has_a_frame_of_that() -> None:
     unit = BenchUnit(provisioned=False)
 
-    assert frozen(unit, bit=3).count == 1
+    assert frozen(unit, bit=16).count == 1
 
 
 def sync(unit: BenchUnit, host_us: int) -> TimSyncResponse:

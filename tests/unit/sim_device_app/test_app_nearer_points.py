@@ -5,8 +5,6 @@ Method: a slot is written as the earlier firmware did, the denormal table that i
 the unit boots from it. What is expected is counted from the registry's least steps by hand.
 """
 
-import struct
-import zlib
 from typing import Any
 
 import numpy as np
@@ -15,24 +13,20 @@ from sim_device.firmware.python._native import lib
 
 from firmware_protocol import parameters
 from firmware_protocol._generated import (
+    Event,
     EvtFaultListRequest,
     EvtFaultListResponse,
 )
 from firmware_protocol.parameters import default_config, violations
 from tests.fakes.bench_unit import BenchUnit
-
-AT_CRC, AT_LAYOUT, HEADER_LENGTH, AT_IMAGE = 4, 8, 24, 36
-"""Of a slot, as config_store.c lays it out."""
+from tests.fakes.config_flash import items_of, slot
 
 
 def boot_with(config: dict[str, Any]) -> BenchUnit:
-    """A unit whose first slot holds this image, whole by its own check value."""
+    """A unit whose first slot holds this image."""
     unit = BenchUnit()
-    slot = unit.flash()
-    image = parameters.pack_image(config)
-    slot[AT_IMAGE : AT_IMAGE + len(image)] = np.frombuffer(image, np.uint8)
-    crc = zlib.crc32(image, zlib.crc32(slot[AT_LAYOUT:HEADER_LENGTH].tobytes()))
-    slot[AT_CRC : AT_CRC + 4] = np.frombuffer(struct.pack("<I", crc), np.uint8)
+    stored = bytes(slot(items_of(parameters.pack_image(config)), generation=1))
+    unit.flash()[: len(stored)] = np.frombuffer(stored, np.uint8)
     unit.boot()
     unit.hello()
     return unit
@@ -81,12 +75,16 @@ def test_the_table_that_once_gave_every_limits_maximum_assists_within_its_gain()
     assert crank_nm == pytest.approx(1.5, abs=0.02)  # the rider's own 1.5 Nm, at a ratio of 1
 
 
-def test_an_image_that_is_wrong_in_another_way_is_not_touched() -> None:
-    torn = {**default_config(), "fuzzy_gain_points": [0.1, 0.2, 0.2, 0.4, 0.6]}
+def test_points_out_of_range_and_too_near_are_put_right_and_told() -> None:
+    unit = boot_with({**default_config(), "fuzzy_gain_points": [0.1, 0.2, 0.2, 0.4, 0.6]})
 
-    unit = boot_with(torn)
-
-    assert unit.config() == default_config()
+    told = [event.message for event in unit.events if event.code == Event.CONFIG_CONVERTED]
+    assert len(told) == 1
+    config = unit.config()
+    assert config.pop("fuzzy_gain_points") == pytest.approx([0.1, 0.2, 0.201, 0.4, 0.5], abs=2e-6)
+    expected = default_config()
+    del expected["fuzzy_gain_points"]
+    assert config == expected
     faults = unit.ask(EvtFaultListRequest()).message
     assert isinstance(faults, EvtFaultListResponse)
-    assert faults.fault_flags != 0
+    assert faults.fault_flags == 0

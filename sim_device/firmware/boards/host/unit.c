@@ -267,7 +267,7 @@ unit *unit_create(const unit_setup *setup)
     connect_board(self, setup);
     ebl_config factory;
     app_factory_config(&factory, setup->market_number);
-    if (app_provision(&self->hal, &factory) < 0 ||
+    if ((!setup->not_provisioned && app_provision(&self->hal, &factory) < 0) ||
         (setup->unlock_key != NULL &&
          app_provision_unlock_key(&self->hal, setup->unlock_key) < 0)) {
         unit_destroy(self);

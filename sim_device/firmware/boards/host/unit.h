@@ -37,7 +37,8 @@ typedef struct {
     size_t log_size;           /* of the flash for ride logs, whole blocks; 0: UNIT_LOG_SIZE */
     const uint8_t *log;        /* so many bytes, or NULL for an erased one */
     const uint8_t *unlock_key; /* the maker's, 32 bytes, or NULL for what the flash has */
-    uint8_t market_number;     /* of a unit whose flash is erased */
+    uint8_t market_number;     /* the factory's, for a flash that never had a configuration */
+    uint8_t not_provisioned;   /* 1: the factory was not there */
     uint32_t line_baud; /* the serial line's rate at boot; 0: bytes take no time and have no rate */
     unit_request request; /* NULL: the unit knows no board requests */
     void *request_context;

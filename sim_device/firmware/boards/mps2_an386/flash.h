@@ -15,7 +15,8 @@ typedef struct {
     uint8_t uid[12];
     uint8_t unlock_key_present;
     uint8_t market_number;
-    uint8_t reserved[2];
+    uint8_t market_present; /* 0: nobody said for which market, and none is assumed */
+    uint8_t reserved;
     uint8_t unlock_key[32];
     uint32_t serial_baud; /* the line's first rate, others to follow; 0: one that is never told */
 } flash_identity;

@@ -112,14 +112,16 @@ static void board_connect(void)
     board.device_class = EBL_DEVICE_CLASS_MID_DRIVE_SIMULATED;
     board.hardware_revision = HARDWARE_REVISION;
     identity = flash_connect(&board);
-    app_factory_config(&factory, identity->market_number);
     if (identity->serial_baud != 0) {
         board.serial_bauds = HOST_BAUDS;
         board.serial_baud_set = serial_baud_set;
         board.serial_drained = serial_drained;
         (void)serial_baud_set(NULL, identity->serial_baud);
     }
-    (void)app_provision(&board, &factory); /* what it could not write the boot reports */
+    if (identity->market_present) {
+        app_factory_config(&factory, identity->market_number);
+        (void)app_provision(&board, &factory); /* what it could not write the boot reports */
+    }
     if (identity->unlock_key_present) {
         (void)app_provision_unlock_key(&board, identity->unlock_key);
     }
