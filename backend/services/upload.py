@@ -75,9 +75,8 @@ class Uploads:
                 f"The file has {length} bytes; at most {self._settings.length_max} are taken.",
                 code="too_large",
             )
-        upload = self._store.uploads.create(
-            name[:NAME_LENGTH_MAX] or "upload", length, sha256, self._settings.expires_s
-        )
+        told = name.replace("\0", "")[:NAME_LENGTH_MAX] or "upload"
+        upload = self._store.uploads.create(told, length, sha256, self._settings.expires_s)
         return self._process(upload.id) if length == 0 else upload
 
     def append(self, upload_id: str, offset: int, data: bytes) -> int:

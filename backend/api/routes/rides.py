@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 from fastapi import APIRouter, Path, Query, Request, Response, status
 from fastapi.responses import JSONResponse, StreamingResponse
 
+from backend.api.large import in_pieces, whole
 from backend.api.models.ride import (
     Figure,
     Replay,
@@ -45,7 +46,7 @@ def channel_names(text: str | None) -> list[str] | None:
 
 
 @router.get("", operation_id="list_rides", response_model=RideList)
-async def list_rides(
+def list_rides(
     services: Provided,
     begin: Annotated[datetime | None, Query(alias="from")] = None,
     end: Annotated[datetime | None, Query(alias="to")] = None,
@@ -54,13 +55,13 @@ async def list_rides(
     cursor: Annotated[str | None, Query(max_length=200)] = None,
 ) -> Any:
     """Newest first; `next` is the cursor of the following page, or null."""
-    return services.rides.list(begin, end, device, limit, cursor)
+    return whole(RideList, services.rides.list(begin, end, device, limit, cursor))
 
 
 @router.get("/{ride_id}", operation_id="get_ride", response_model=Ride)
-async def get_ride(ride_id: RideId, services: Provided) -> Any:
+def get_ride(ride_id: RideId, services: Provided) -> Any:
     """One ride with its summary, its gaps and its channels."""
-    return services.rides.get(ride_id)
+    return whole(Ride, services.rides.get(ride_id))
 
 
 @router.patch("/{ride_id}", operation_id="patch_ride", response_model=Ride)
@@ -95,7 +96,7 @@ def get_ride_series(
     if BINARY_MEDIA_TYPE in request.headers.get("accept", ""):
         return Response(trace.to_bytes(), media_type=BINARY_MEDIA_TYPE)
     # Thousands of numbers that the view has just made: checking each again costs more than them.
-    return JSONResponse(trace.to_json())
+    return in_pieces(JSONResponse(trace.to_json()).body)
 
 
 @router.get(
@@ -111,7 +112,7 @@ def get_ride_figure(
     px: Annotated[int, Query(ge=1, le=10_000)] = 1200,
 ) -> Any:
     """The traces of a ride as a Plotly figure."""
-    return services.rides.figure(ride_id, channel_names(channels), px)
+    return whole(Figure, services.rides.figure(ride_id, channel_names(channels), px))
 
 
 @router.get(
@@ -143,4 +144,5 @@ def export_ride(
 def replay_ride(ride_id: RideId, body: ReplayRequest, services: Provided) -> Any:
     """Runs the ride's inputs through the unit's own law with another table or other modes."""
     question = body.model_dump()
-    return services.rides.replay(ride_id, question["fuzzy_table"], question["assist_modes"])
+    answer = services.rides.replay(ride_id, question["fuzzy_table"], question["assist_modes"])
+    return whole(Replay, answer)

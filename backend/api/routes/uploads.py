@@ -1,19 +1,22 @@
 """Files on their way to becoming rides: resumable (tus 1.0.0), or whole in one request.
 
 The tus specification gives the statuses: an offset that does not match is 409, a checksum that
-does not match 460, a version we do not speak 412, an upload that has gone 404.
+does not match 460, one that cannot be read or is of another algorithm 400, a version we do not
+speak 412, an upload that has gone 404. A part longer than what is left of its file is 413, as for
+a file that is too large, and nothing of it is kept. `Upload-Expires` says until when an unfinished
+upload is waited for.
 """
 
 from __future__ import annotations
 
 import base64
-import binascii
 import hashlib
 import hmac
 from collections.abc import AsyncIterator
+from email.utils import formatdate
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Header, Query, Request, Response
+from fastapi import APIRouter, Header, HTTPException, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
 
 from backend.api.models.ride import Upload, UploadList
@@ -29,7 +32,7 @@ CHECKSUM_MISMATCH = 460
 # A chunk with a checksum is held in memory until it is checked; clients use 0.25 to 1 MiB.
 CHECKED_CHUNK_BYTES_MAX = 16 * 1024 * 1024
 
-router = APIRouter(tags=["uploads"], responses=refusals(404, 409, 412, 413, 415))
+router = APIRouter(tags=["uploads"], responses=refusals(400, 404, 409, 412, 413, 415))
 FileName = Annotated[str, Query(min_length=1, max_length=255, description="The file's own name.")]
 
 
@@ -70,19 +73,27 @@ async def create_upload(
         return problem_response(413, "too_large", f"A file may have at most {limit} bytes.")
     described = metadata(upload_metadata)
     name = described.get("filename") or described.get("name") or "upload"
+    with_part = request.headers.get("content-type") == TUS_CHUNK_MEDIA_TYPE
+    if with_part and _part_length(request) > upload_length:
+        return _too_long(upload_length)
     upload = await run_in_threadpool(services.uploads.create, name[:255], upload_length)
     offset = 0
-    if request.headers.get("content-type") == TUS_CHUNK_MEDIA_TYPE:
-        offset = await _append_stream(services, upload.id, 0, request.stream())
+    if with_part:
+        try:
+            offset = await _append_part(services, upload, 0, request)
+        except PartTooLong:
+            await run_in_threadpool(services.uploads.remove, upload.id)
+            return _too_long(upload_length)
     location = str(request.url_for("get_upload", upload_id=upload.id).path)
-    return _tus_response(201, location=location, upload_offset=str(offset))
+    return _tus_response(201, location=location, upload_offset=str(offset), **_expiry(upload))
 
 
 @router.head("/uploads/{upload_id}", operation_id="get_upload_offset")
 async def get_upload_offset(upload_id: str, services: Provided) -> Response:
     """How many bytes have arrived: where to go on after a break."""
     upload = await run_in_threadpool(services.uploads.get, upload_id)
-    return _tus_response(200, upload_offset=str(upload.received), upload_length=str(upload.length))
+    stands = {"upload_offset": str(upload.received), "upload_length": str(upload.length)}
+    return _tus_response(200, **stands, **_expiry(upload))
 
 
 @router.patch("/uploads/{upload_id}", operation_id="append_upload", status_code=204)
@@ -101,16 +112,25 @@ async def append_upload(
         return problem_response(
             415, "unsupported_media_type", f"A part is sent as {TUS_CHUNK_MEDIA_TYPE}."
         )
-    chunks: AsyncIterator[bytes] = request.stream()
+    upload = await run_in_threadpool(services.uploads.get, upload_id)
+    left = upload.length - upload_offset
+    if upload_offset == upload.received and _part_length(request) > left:
+        return _too_long(left)
+    chunks: AsyncIterator[bytes] | None = None
     if upload_checksum is not None:
         algorithm, expected = checksum(upload_checksum)
-        chunk = await _collected(chunks)
+        chunk = await _collected(request.stream())
         digest = hashlib.new(algorithm, chunk, usedforsecurity=False).digest()
         if not hmac.compare_digest(digest, expected):
             return Response("Checksum Mismatch", CHECKSUM_MISMATCH, _tus_headers())
+        if upload_offset == upload.received and len(chunk) > left:
+            return _too_long(left)
         chunks = _one(chunk)
-    offset = await _append_stream(services, upload_id, upload_offset, chunks)
-    return _tus_response(204, upload_offset=str(offset))
+    try:
+        offset = await _append_part(services, upload, upload_offset, request, chunks)
+    except PartTooLong:
+        return _too_long(left)
+    return _tus_response(204, upload_offset=str(offset), **_expiry(upload, offset))
 
 
 @router.get("/uploads", operation_id="list_uploads", response_model=UploadList)
@@ -143,16 +163,17 @@ async def delete_upload(upload_id: str, services: Provided) -> Response:
 def metadata(text: str) -> dict[str, str]:
     """`Upload-Metadata`: comma-separated pairs of a key and a base64 value.
 
-    Raises: InvalidRequest, if a value is not base64 of UTF-8.
+    Raises: HTTPException 400, if a value is not base64 of UTF-8.
     """
     pairs: dict[str, str] = {}
     for pair in filter(None, (part.strip() for part in text.split(","))):
         key, _, value = pair.partition(" ")
         try:
-            pairs[key] = base64.b64decode(value, validate=True).decode()
-        except (binascii.Error, UnicodeDecodeError):
-            raise InvalidRequest(
-                f"Upload-Metadata: the value of {key[:40]!r} is not base64 of UTF-8 text."
+            # Neither SQL nor a file system takes a name with a zero in it.
+            pairs[key] = base64.b64decode(value, validate=True).decode().replace("\0", "")
+        except ValueError:
+            raise HTTPException(
+                400, f"Upload-Metadata: the value of {key[:40]!r} is not base64 of UTF-8 text."
             ) from None
     return pairs
 
@@ -160,15 +181,79 @@ def metadata(text: str) -> dict[str, str]:
 def checksum(text: str) -> tuple[str, bytes]:
     """`Upload-Checksum: sha256 BASE64` as algorithm and digest.
 
-    Raises: InvalidRequest, for an algorithm that is not offered or a value that is not base64.
+    Raises: HTTPException 400, for an algorithm that is not offered and a value that is no digest.
     """
     algorithm, _, value = text.partition(" ")
-    if algorithm.lower() not in TUS_CHECKSUMS:
-        raise InvalidRequest(f"Upload-Checksum: use one of {', '.join(TUS_CHECKSUMS)}.")
+    algorithm = algorithm.lower()
+    if algorithm not in TUS_CHECKSUMS:
+        raise HTTPException(400, f"Upload-Checksum: use one of {', '.join(TUS_CHECKSUMS)}.")
     try:
-        return algorithm.lower(), base64.b64decode(value, validate=True)
-    except binascii.Error:
-        raise InvalidRequest("Upload-Checksum: the value is not base64.") from None
+        digest = base64.b64decode(value, validate=True)
+    except ValueError:
+        raise HTTPException(400, "Upload-Checksum: the value is not base64.") from None
+    length = hashlib.new(algorithm, usedforsecurity=False).digest_size
+    if len(digest) != length:
+        raise HTTPException(
+            400, f"Upload-Checksum: a digest of {algorithm} has {length} bytes, not {len(digest)}."
+        )
+    return algorithm, digest
+
+
+class PartTooLong(Exception):
+    """A part without a declared length went beyond its file's end; nothing of it was kept."""
+
+
+async def _append_part(
+    services: Services,
+    upload: Any,
+    offset: int,
+    request: Request,
+    chunks: AsyncIterator[bytes] | None = None,
+) -> int:
+    """Add a part of a tus upload; the new offset.
+
+    Of one whose length is declared, and was compared, every piece is kept as it arrives. Another
+    is collected first: only its end tells whether it fits.
+    """
+    if chunks is None:
+        chunks = request.stream()
+        if "content-length" not in request.headers:
+            chunks = _one(await _fitting(chunks, upload.length - offset))
+    return await _append_stream(services, upload.id, offset, chunks)
+
+
+async def _fitting(chunks: AsyncIterator[bytes], left: int) -> bytes:
+    """A whole part in memory. Raises PartTooLong, InvalidRequest."""
+    body = bytearray()
+    async for chunk in chunks:
+        body += chunk
+        if len(body) > left:
+            raise PartTooLong
+        if len(body) > CHECKED_CHUNK_BYTES_MAX:
+            raise InvalidRequest(
+                "A part without Content-Length may have at most "
+                f"{CHECKED_CHUNK_BYTES_MAX} bytes: say its length."
+            )
+    return bytes(body)
+
+
+def _part_length(request: Request) -> int:
+    """The declared length of a part, 0 where it is not declared."""
+    text = request.headers.get("content-length", "0")
+    return int(text) if text.isdecimal() else 0
+
+
+def _too_long(left: int) -> Response:
+    detail = f"The part is longer than the {left} bytes its file still lacks: nothing was kept."
+    return problem_response(413, "too_long", detail, headers=_tus_headers())
+
+
+def _expiry(upload: Any, received: int | None = None) -> dict[str, str]:
+    """`Upload-Expires` of an upload that has not arrived, as RFC 9110 writes a time."""
+    stands = upload.received if received is None else received
+    if upload.expires_us is None or stands >= upload.length:
+        return {}
+    return {"upload_expires": formatdate(upload.expires_us // 1_000_000, usegmt=True)}
 
 
 async def _append_stream(

@@ -1,0 +1,39 @@
+"""A ride as the API answers it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from backend.api.models.ride import RideSummary
+
+SAMPLE_RIDE: dict[str, Any] = {
+    "id": 1,
+    "state": "done",
+    "origin": "imported",
+    "name": "over the pass",
+    "notes": "",
+    "started_at": "2023-11-14T22:13:20Z",
+    "row_count": 7200,
+    "period_us": 1_000_000,
+    "channels": [{"name": "speed_kmh", "unit": "km/h", "scale": 0.01, "derived": False}],
+    "device": dict.fromkeys(
+        (
+            "device_id",
+            "device_serial",
+            "device_model",
+            "firmware_version",
+            "config_generation",
+            "config_crc32",
+            "gear_ratio",
+        )
+    ),
+    "gaps": [],
+    "filled": [],
+    "events": [],
+    "completeness": 1.0,
+    "cut_short": False,
+    "upload_id": None,
+    "object_bytes": 4096,
+    "damage": None,
+    "summary": {**dict.fromkeys(RideSummary.model_fields), "duration_s": 7200.0},
+}
