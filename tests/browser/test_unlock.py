@@ -13,13 +13,14 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import OpenDesk
-from tests.browser.desk import ROOT
+from tests.browser.desk import ROOT, Desk
 from tests.browser.test_pages_for_everyone import JUDGE
 from tests.browser.test_tune_page import review
 from tests.fakes.server import SpindleServer
 
 CUTOFF = "[data-parameter=assist_cutoff_kmh] input"
 PANEL = "[data-testid=unlock]"
+ASK = "Ask the unit for a challenge"
 
 
 def spindle(*words: str | Path) -> str:
@@ -48,11 +49,15 @@ def shop(key: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Spindl
     running.stop()
 
 
-def write_cutoff(page: Page, kmh: str) -> None:
+def ask_for_cutoff(page: Page, kmh: str) -> None:
+    """Raises the limit in the page and asks the unit for its challenge."""
     page.fill(CUTOFF, kmh)
     page.press(CUTOFF, "Enter")
     review(page)
-    page.click("dialog >> text=Write to the unit")
+    steps = page.get_by_test_id("token-steps")
+    expect(steps).to_contain_text("Needs the maker's token: Cut-off speed")
+    expect(steps).to_contain_text("Paste the token that comes back")
+    page.click(f"dialog footer >> text={ASK}")
 
 
 def test_a_limit_is_lowered_freely_and_raised_with_a_token(
@@ -73,7 +78,7 @@ def test_a_limit_is_lowered_freely_and_raised_with_a_token(
     expect(done).to_be_visible()
     expect(done.get_by_role("button", name="Undo")).to_have_count(0)
 
-    write_cutoff(page, "25")
+    ask_for_cutoff(page, "25")
     panel = page.locator(PANEL)
     expect(panel).to_contain_text(shop.get("/devices")["items"][0]["identity"]["serial_number"])
     desk.picture("unlock")
@@ -108,7 +113,7 @@ def test_a_token_of_somebody_else_is_refused_and_another_challenge_can_be_asked_
     page.fill(field, "2600")
     page.press(field, "Enter")
     page.click("text=核对并写入")
-    page.click("dialog >> text=写入单元")
+    page.click("dialog footer >> text=向单元索取质询")
     panel = page.locator(PANEL)
     panel.locator("textarea").nth(1).fill("00" * 72)
     desk.picture("unlock-phone-zh-dark")
@@ -119,3 +124,74 @@ def test_a_token_of_somebody_else_is_refused_and_another_challenge_can_be_asked_
     expect(page.locator("dialog [role=alert]")).to_contain_text("令牌")
     expect(panel).to_have_count(0)
     desk.picture("unlock-refused-zh")
+
+
+@pytest.mark.parametrize(("width", "theme"), [(1440, "light"), (390, "dark")])
+def test_without_a_key_in_the_unit_what_needs_a_token_is_no_dead_end(
+    open_desk: OpenDesk,
+    server: SpindleServer,
+    standing: str,
+    axe: str,
+    width: int,
+    theme: str,
+) -> None:
+    # The unit of the other tests carries no key. Two changes: one it takes, one it cannot take.
+    desk = open_desk(width=width, height=844, theme=theme)
+    page = desk.open("/tune")
+    page.click("summary >> text=Limits")
+    stop = page.locator("[data-parameter=pedal_stop_ms] input")
+    stop.fill("160" if width == 1440 else "170")
+    page.click("summary >> text=Drivetrain")
+    wheel = page.locator("[data-parameter=wheel_circumference_m] input")
+    beyond_m = round(float(wheel.input_value()) * 1.06, 3)
+    wheel.fill(f"{beyond_m:g}")
+    wheel.press("Enter")
+    review(page)
+    steps = page.get_by_test_id("token-steps")
+    expect(steps).to_contain_text("Wheel circumference")
+    page.click(f"dialog footer >> text={ASK}")
+    expect(page.get_by_test_id("no-key")).to_contain_text("carries no maker's key")
+    desk.picture(f"raise-without-key-{width}")
+    page.evaluate(axe)
+    assert page.evaluate(JUDGE) == []
+    assert page.evaluate("document.documentElement.scrollWidth") == width
+
+    steps.get_by_role("button", name="Keep there what the unit has").click()
+    expect(steps).to_have_count(0)
+    page.click("dialog >> text=Write to the unit")
+
+    expect(page.locator("[role=status]", has_text="verified")).to_be_visible()
+    written = server.get(f"/devices/{standing}/config")["parameters"]
+    assert written["pedal_stop_ms"] == (160 if width == 1440 else 170)
+    assert written["wheel_circumference_m"] < beyond_m
+
+
+def test_beyond_a_dealer_s_band_the_review_shows_the_way(desk: Desk, standing: str) -> None:
+    page = desk.open("/sensor")
+    gain = page.locator("[data-parameter=sensor_gain_nm_per_count] input")
+    gain.fill("0.02")
+    gain.press("Enter")
+
+    review(page)
+
+    steps = page.get_by_test_id("token-steps")
+    expect(steps).to_contain_text("Needs the maker's token: Sensor gain")
+    expect(page.locator("dialog footer")).to_contain_text(ASK)
+
+
+def test_a_parameter_of_the_factory_is_changed_on_purpose_and_with_a_token(
+    desk: Desk, standing: str
+) -> None:
+    page = desk.open("/tune")
+    page.click("summary >> text=Drivetrain")
+    row = page.locator("[data-parameter=gear_ratio]")
+    expect(row).to_contain_text("only with the maker's token")
+    row.get_by_role("button", name="Change Motor turns per crank turn").click()
+    row.locator("input").fill("41")
+    row.locator("input").press("Enter")
+
+    review(page)
+
+    expect(page.get_by_test_id("token-steps")).to_contain_text("Motor turns per crank turn")
+    page.click(f"dialog footer >> text={ASK}")
+    expect(page.get_by_test_id("no-key")).to_be_visible()

@@ -1,7 +1,7 @@
 // Limits that go down freely and up only with the maker's token. The unit decides; this only tells
 // the reader beforehand.
 import { PARAMETERS, type ParameterRow } from '$generated/registry'
-import type { ConfigChange, ParameterValue } from './types'
+import type { ConfigChange, Parameter, ParameterValue } from './types'
 
 export type RatchetMove = 'lowered' | 'raised'
 
@@ -21,6 +21,19 @@ export function ratchetMove(
   if (!isRatchet(name) || typeof old !== 'number' || typeof value !== 'number') return null
   if (value === old) return null
   return value < old ? 'lowered' : 'raised'
+}
+
+/** Whether the unit will ask for the maker's token: a factory's parameter, a limit that goes up, or
+    a value further from the factory's than a dealer may set. */
+export function needsToken(
+  parameter: Parameter,
+  old: ParameterValue | null,
+  value: ParameterValue | null,
+): boolean {
+  if (value === old) return false
+  const { access, free, name } = parameter
+  if (access === 'FACTORY' || ratchetMove(name, old, value) === 'raised') return true
+  return free != null && typeof value === 'number' && !(value >= free.min && value <= free.max)
 }
 
 /** Whether writing the old values back would need a token. */

@@ -170,7 +170,7 @@ export const en = {
   'tune.view': 'View of the surface',
   'tune.no_webgl': 'This browser cannot draw in three dimensions; the map shows the same.',
   'tune.changed': 'Changed, not yet in the unit',
-  'tune.factory': 'Only the factory may change this',
+  'tune.factory': "the factory's; changes only with the maker's token",
   'tune.now': 'now {value}',
   'tune.peaks': 'Peaks of {name}',
   'tune.live_gain': 'gain now {gain}',
@@ -296,7 +296,7 @@ export const en = {
   'band.left':
     "Further from the factory's value than may be set here ({low} to {high}). Measure it again; " +
     "if it is right, it needs the maker's token: the unit will ask for it.",
-  'ratchet.raised': "Raising it needs the maker's token: the unit will ask for it.",
+  'ratchet.raised': "Raising it needs the maker's token.",
   'unlock.title': 'Token of the maker',
   'unlock.explain':
     'Hand the challenge to the maker of the unit, who signs it with “spindle unlock sign”. The ' +

@@ -1,4 +1,5 @@
-// English: how things stand. Faults of the unit, what is not saved, what became of a change.
+// English: how things stand. Faults of the unit, what is not saved, what became of a change,
+// and what needs the maker's token.
 export const enState = {
   'faults.one': '1 fault',
   'faults.many': '{count} faults',
@@ -48,4 +49,19 @@ export const enState = {
     'The answer was lost, but the unit was asked again: it has the change.',
   'outcome.unknown':
     'Whether the unit has the change is not known. It is shown as soon as the unit answers.',
+
+  'token.title': "Needs the maker's token",
+  'token.factory': "The factory's own: it needs the maker's token.",
+  'token.step_ask': 'Ask the unit for a challenge, with the button below. That writes nothing.',
+  'token.step_hand': 'Hand the challenge to the maker, as text or as a file.',
+  'token.step_paste': 'Paste the token that comes back. The change is written then, all of it.',
+  'token.without': 'Without a token: keep there what the unit has, and write the rest.',
+  'token.no_key':
+    "This unit carries no maker's key, so no token can be made for it and nobody can change " +
+    'this, here or elsewhere. Its maker can give it a key; a simulated unit is given one when it ' +
+    'is started. Until then keep there what the unit has, and write the rest.',
+  'token.put_back': 'Keep there what the unit has',
+  'token.ask': 'Ask the unit for a challenge',
+  'token.change': 'Change…',
+  'token.change_of': 'Change {name}',
 }

@@ -161,7 +161,7 @@ export const zh: Record<Key, string> = {
   'tune.view': '曲面视图',
   'tune.no_webgl': '此浏览器不能绘制三维图；热图显示相同内容。',
   'tune.changed': '已修改，尚未写入单元',
-  'tune.factory': '仅工厂可修改',
+  'tune.factory': '出厂设定，仅凭制造商的令牌可改',
   'tune.now': '当前 {value}',
   'tune.peaks': '{name}的峰点',
   'tune.live_gain': '当前增益 {gain}',

@@ -41,4 +41,18 @@ export const zhState: Record<keyof typeof enState, string> = {
   'outcome.unchanged': '单元保持原来的内容。',
   'outcome.changed': '应答丢失，但再次询问后确认：修改已在单元中。',
   'outcome.unknown': '不知单元是否已有此修改；单元应答后即会显示。',
+
+  'token.title': '需要制造商的令牌',
+  'token.factory': '属于出厂设定：需要制造商的令牌。',
+  'token.step_ask': '用下方按钮向单元索取质询；此步不写入任何内容。',
+  'token.step_hand': '把质询以文字或文件交给制造商。',
+  'token.step_paste': '粘贴制造商返回的令牌；随后写入全部修改。',
+  'token.without': '没有令牌时：此处保留单元中的值，只写入其余修改。',
+  'token.no_key':
+    '此单元没有制造商的密钥，无法为它制作令牌，因此任何人都不能修改此值。制造商可为它装入密钥；' +
+    '模拟单元可在启动时指定密钥。在此之前请保留单元中的值，只写入其余修改。',
+  'token.put_back': '此处保留单元中的值',
+  'token.ask': '向单元索取质询',
+  'token.change': '修改…',
+  'token.change_of': '修改{name}',
 }

@@ -1,7 +1,7 @@
 // Words for parameters: labels, elements, choices, faults and differences, in the reader's units.
 import type { DraftChange, ConfigDraft } from '../api/config_draft.svelte'
 import { faultsOf, walk, type Fault } from '../api/limits'
-import { ratchetMove } from '../api/ratchet'
+import { needsToken, ratchetMove } from '../api/ratchet'
 import type { Parameter, ParameterValue } from '../api/types'
 import type { Locale } from '../i18n/locale.svelte'
 import type { Units } from '../units/units.svelte'
@@ -17,6 +17,8 @@ export interface ElementChange {
   fault: string | null
   /** For what only a token changes, or changes back: what the reader should know. */
   token: string | null
+  /** Whether the unit will ask for the maker's token. */
+  locked: boolean
 }
 
 /** What a parameter is called; a new one is called by its name in words. */
@@ -72,8 +74,8 @@ function tokenText(
 ): string | null {
   const { free } = parameter
   const left = free && typeof value === 'number' && !(value >= free.min && value <= free.max)
-  if (left && value !== old)
-    return bandText(locale, units, parameter, 'left')
+  if (left && value !== old) return bandText(locale, units, parameter, 'left')
+  if (parameter.access === 'FACTORY') return locale.t('token.factory')
   const move = ratchetMove(parameter.name, old ?? null, value)
   return move && locale.t(`ratchet.${move}`)
 }
@@ -129,6 +131,7 @@ export function elementChanges(
       range: rangeText(parameter, units),
       fault: fault ? faultText(locale, units, fault, parameter.unit) : null,
       token: tokenText(locale, units, parameter, old, element),
+      locked: needsToken(parameter, old ?? null, element),
     })
   })
   return found
