@@ -65,9 +65,10 @@ def belonging(view: DatabaseView, objects: FileObjects) -> Belonging:
     unknown = sorted(keys - view.known_keys)
     if unknown:
         some = ", ".join(unknown[:FEW]) + (" ..." if len(unknown) > FEW else "")
-        return Belonging(
-            None, reason=f"the database does not know {len(unknown)} files of the folder ({some})"
-        )
+        reason = f"the database does not know {len(unknown)} files of the folder ({some})"
+        if view.object_keys & keys:
+            reason += "; if it is the right one, move them elsewhere and start again"
+        return Belonging(None, reason=reason)
     if view.identity and view.object_keys and not view.object_keys & keys:
         return Belonging(
             None, reason=f"none of the database's {len(view.object_keys)} objects is in the folder"

@@ -245,7 +245,11 @@ def test_a_store_from_before_with_an_unknown_object_is_refused(used: Path) -> No
     stranger.parent.mkdir(parents=True)
     stranger.write_bytes(b"who am I")
 
-    assert names_both_commands(refused(used))
+    message = refused(used)
+    assert names_both_commands(message)
+    assert "move them elsewhere" in message
+    stranger.rename(used / "elsewhere")
+    opened(used).close()
 
 
 def test_a_folder_that_lost_its_identity_is_taken_again_by_its_database(used: Path) -> None:
