@@ -113,7 +113,6 @@ static void open(app *unit, const ebl_header *request, reply *answer)
         reply_refuse(answer, EBL_STATUS_RANGE, response.chunk);
         return;
     }
-    unit->ride_log.store.fetched = place;
     ride_log_bulk_open(&unit->bulk, store, place, asked.offset, response.chunk, response.window,
                        asked.session, now_us(unit));
     put =
@@ -290,7 +289,6 @@ void requests_log_poll(app *unit)
     int state;
 
     ride_log_bulk_poll(&unit->bulk, &unit->ride_log.store, now_us(unit));
-    if (unit->bulk.session == 0) unit->ride_log.store.fetched = RIDE_LOG_NONE;
     if (check->tid == 0) return;
     state = ride_log_check_poll(check, &unit->ride_log.store, unit->board);
     if (state == RIDE_LOG_CHECK_RUNNING) return;

@@ -97,21 +97,16 @@ int ride_log_store_is_before(const ride_log_store *store, uint16_t block, uint16
 uint8_t ride_log_store_victim(const ride_log_store *store)
 {
     uint8_t oldest = RIDE_LOG_NONE;
-    uint8_t fetched = RIDE_LOG_NONE;
 
     for (uint16_t number = 0; number < ride_log_store_count(store); number++) {
         uint8_t place = ride_log_store_by_age(store, number);
         uint8_t flags = store->logs[place].flags;
 
         if ((flags & EBL_LOG_RECORDING) || store->logs[place].refused) continue;
-        if (place == store->fetched) {
-            fetched = place;
-            continue;
-        }
         if (flags & EBL_LOG_CONFIRMED) return place;
         if (oldest == RIDE_LOG_NONE) oldest = place;
     }
-    return oldest != RIDE_LOG_NONE ? oldest : fetched;
+    return oldest;
 }
 
 int ride_log_store_erase(ride_log_store *store, const hal *board, uint16_t block)
@@ -302,7 +297,6 @@ void ride_log_store_boot(ride_log_store *store, const hal *board, uint32_t row_p
 
     memset(store, 0, sizeof *store);
     memset(store->owner, RIDE_LOG_NONE, sizeof store->owner);
-    store->fetched = RIDE_LOG_NONE;
     store->next_id = 1;
     store->blocks = (uint16_t)(blocks < RIDE_LOG_BLOCKS_MAX ? blocks : RIDE_LOG_BLOCKS_MAX);
     if (store->blocks < BLOCKS_MIN) store->blocks = 0;

@@ -34,8 +34,7 @@ typedef struct {
     uint8_t owner[RIDE_LOG_BLOCKS_MAX]; /* place in `logs`, NONE or REFUSED */
     uint16_t blocks;
     uint16_t pages_per_block;
-    uint16_t head;   /* where the search for a free block begins */
-    uint8_t fetched; /* place of the log a host is fetching, or NONE: given up last */
+    uint16_t head; /* where the search for a free block begins */
     uint32_t next_id;
     uint32_t overwritten; /* unconfirmed logs given up since boot */
     uint8_t erases;       /* of blocks, until the unit's counters have them */
@@ -61,9 +60,9 @@ uint16_t ride_log_store_free_block(const ride_log_store *store, uint16_t limit);
 /* True if the block comes before `limit` when going round from the head. */
 int ride_log_store_is_before(const ride_log_store *store, uint16_t block, uint16_t limit);
 
-/* The log to be given up next: the oldest confirmed one, else the oldest; one that a host is
- * fetching only where there is no other; never one that is being recorded, nor one whose first
- * block the flash would not erase. RIDE_LOG_NONE where there is none. */
+/* The log to be given up next: the oldest confirmed one, else the oldest; never one that is being
+ * recorded, nor one whose first block the flash would not erase. RIDE_LOG_NONE where there is
+ * none. */
 uint8_t ride_log_store_victim(const ride_log_store *store);
 
 /* Begins to erase a block, and counts it. Negative where the flash refuses; the block, or the log

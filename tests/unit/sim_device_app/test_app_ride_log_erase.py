@@ -18,7 +18,6 @@ from firmware_protocol._generated import (
 from tests.fakes.bench_logs import (
     SESSION,
     Entry,
-    acknowledge,
     begin,
     confirm,
     fetch,
@@ -116,31 +115,6 @@ def test_a_log_whose_erasing_waits_for_the_flash_is_not_given_out() -> None:
     opened = unit.ask(LogOpenRequest(log.log_id, log.generation, 0, 32, SESSION))
 
     assert (opened.status, opened.detail) == (Status.BUSY, 1)
-
-
-def test_room_is_made_of_other_logs_while_one_is_being_fetched() -> None:
-    unit = unit_with_log(BLOCK_BYTES, 32 * BLOCK_BYTES)
-    for _ in range(2):
-        ride(unit, 3.0)
-    fetched, other = logs(unit)
-    whole = fetch(unit, fetched)
-    confirm(unit, fetched, whole)
-    begin(unit, fetched, window=1)
-
-    def goes_on() -> None:
-        """Says every second that the first piece is still missing."""
-        for _ in range(24):
-            unit.advance(1.0)
-            acknowledge(unit, 0)
-
-    while other in logs(unit):
-        unit.inputs(speed_kmh=18.0)
-        unit.advance(3.0)
-        unit.inputs(speed_kmh=0.0)
-        goes_on()
-
-    assert fetched.generation in [entry.generation for entry in logs(unit)]
-    assert fetch(unit, fetched) == whole
 
 
 def test_every_erase_of_a_block_is_counted_and_the_count_outlives_a_restart() -> None:
