@@ -101,6 +101,8 @@ _RANGES: dict[str, tuple[float, float]] = {
     "sensor.zero_nm_per_k": (-10.0, 10.0),
     "sensor.span_share_per_k": (-0.1, 0.1),
     "sensor.fault_drift_nm_per_min": (-1000.0, 1000.0),
+    # More than this and a pulse could come before the one ahead of it.
+    "wheel.jitter_share": (0.0, 0.08),
     "link.bit_error_rate": (0.0, 0.5),
     "link.burst_bit_error_rate": (0.0, 0.5),
     "link.burst_share": _SHARE,
@@ -113,6 +115,7 @@ _RANGES: dict[str, tuple[float, float]] = {
 
 BIKE_VALUES: dict[str, Setting] = {
     **{name: Setting(0.0, choices=(0.0, 1.0)) for name in _SWITCHES},
+    "wheel.pulses_per_turn": Setting(36.0, choices=tuple(float(n) for n in range(1, 101))),
     "sensor.adc_bits": Setting(16.0, choices=_ADC_BITS),
     **{name: Setting(low, min=low, max=high) for name, (low, high) in _RANGES.items()},
 }

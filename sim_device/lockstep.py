@@ -347,6 +347,7 @@ class LockstepUnit:
                 "battery_cut": int(phase.battery_cut),
                 "motor_warmer_k": phase.motor_warmer_k,
                 "controller_warmer_k": phase.controller_warmer_k,
+                "pulses_missed": phase.pulses_missed,
             }
         )
         self.unit.hold_walk_button(phase.walk_button)

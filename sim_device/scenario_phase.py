@@ -99,6 +99,7 @@ class Phase:
     battery_cut: bool = False
     motor_warmer_k: float = 0.0
     controller_warmer_k: float = 0.0
+    pulses_missed: float = 0.0
 
     @property
     def faults(self) -> dict[str, Value]:
@@ -115,6 +116,7 @@ FAULTS = (
     "battery_cut",
     "motor_warmer_k",
     "controller_warmer_k",
+    "pulses_missed",
     "bit_error_rate",
     "burst_share",
     "coupling",
@@ -139,6 +141,7 @@ _RANGES = {
     "torque_sensor": Setting("sound", choices=tuple(TORQUE_SENSOR_FAULTS)),
     "speed_sensor": Setting("sound", choices=tuple(SPEED_SENSOR_FAULTS)),
     "motor_warmer_k": Setting(0.0, min=-WARMER_K_MAX, max=WARMER_K_MAX),
+    "pulses_missed": Setting(0.0, min=0.0, max=1.0),
     "controller_warmer_k": Setting(0.0, min=-WARMER_K_MAX, max=WARMER_K_MAX),
 }
 

@@ -35,6 +35,7 @@ class Faults(TypedDict, total=False):
     battery_cut: bool
     motor_warmer_k: float
     controller_warmer_k: float
+    pulses_missed: float
     bit_error_rate: float
     burst_share: float
     coupling: float

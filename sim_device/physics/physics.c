@@ -9,6 +9,7 @@
 
 /* Keep the noises of one seed apart. */
 #define LEGS_STREAM 0x6C6567732E6C6567u
+#define WHEEL_STREAM 0x776865656C2E7073u
 #define LINK_STREAM 0x6C696E6B726F746Fu
 
 /* Metres the rear tyre moves per radian of the chainring. */
@@ -281,7 +282,7 @@ static void warm(const physics_config *config, physics_state *state, const insta
     rider_tire(&config->rider, &state->rider, now->rider_nm * now->crank.travel / dt_s, dt_s);
 }
 
-/* What the sensors make of it: the speed at the wheel, and every 2 ms a word from the spindle. */
+/* What the sensors make of it: pulses of the wheel, and every 2 ms a word from the spindle. */
 static void sense(const physics_config *config, physics_state *state,
                   const physics_command *command, double dt_s)
 {
@@ -296,6 +297,9 @@ static void sense(const physics_config *config, physics_state *state,
         state->seen_speed_age_s = 0.0;
         break;
     }
+    wheel_sensor_step(&config->wheel, &state->wheel,
+                      state->seen_speed_ms * dt_s / (2.0 * PI * config->road.wheel_radius_m),
+                      command->faults.pulses_missed, dt_s);
     state->steps++;
     state->link.arrived = 0;
     if (state->steps % ROTOR_LINK_PERIOD_MS != 0) {
@@ -387,6 +391,7 @@ void physics_reset(const physics_config *config, physics_state *state, double sp
     state->seen_speed_ms = state->speed_ms;
     state->crank_speed_rad_s = state->speed_ms / metres_per_rad(config);
     state->motor_speed_rad_s = state->crank_speed_rad_s * config->drivetrain.gear_ratio;
+    wheel_sensor_reset(&state->wheel, seed ^ WHEEL_STREAM);
     physics_renew(config, state);
     rotor_link_reset(&state->link, torque_sensor_temperature_degc(&state->sensor));
     physics_seed(state, seed);
@@ -407,5 +412,6 @@ void physics_seed(physics_state *state, uint64_t seed)
 {
     state->rider.random = seed ^ LEGS_STREAM;
     state->sensor.random = seed;
+    state->wheel.noise = seed ^ WHEEL_STREAM;
     rotor_link_seed(&state->link, seed ^ LINK_STREAM);
 }

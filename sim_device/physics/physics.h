@@ -16,6 +16,7 @@
 #include "road.h"          // road_command
 #include "rotor_link.h"    // rotor_link_config
 #include "torque_sensor.h" // torque_sensor_config
+#include "wheel_sensor.h"  // wheel_sensor_config
 
 typedef struct {
     road_config road;
@@ -25,6 +26,7 @@ typedef struct {
     rider_config rider;
     torque_sensor_config sensor;
     rotor_link_config link;
+    wheel_sensor_config wheel;
 } physics_config;
 
 typedef enum { SPEED_SENSOR_SOUND = 0, SPEED_SENSOR_LOST = 1, SPEED_SENSOR_STUCK = 2 } speed_fault;
@@ -38,6 +40,7 @@ typedef struct {
     int battery_cut;            /* the battery's management opens its switch */
     double motor_warmer_k;      /* what the motor's thermometer shows too much */
     double controller_warmer_k; /* and the controller's */
+    double pulses_missed;       /* share of the wheel's pulses that nobody sees */
 } physics_faults;
 
 typedef struct {
@@ -59,7 +62,7 @@ typedef struct {
     double spindle_torque_nm; /* what passes the strain gauges */
     double motor_shaft_nm;    /* through its clutch, so never negative */
     double motor_current_a;
-    double seen_speed_ms; /* by the speed sensor, at the wheel */
+    double seen_speed_ms; /* that the speed sensor makes pulses of, at the wheel */
     double seen_speed_age_s;
     int crank_engaged;
     int motor_engaged;
@@ -71,6 +74,7 @@ typedef struct {
     rider_state rider;
     torque_sensor_state sensor;
     rotor_link_state link;
+    wheel_sensor_state wheel;
     physics_ledger ledger;
 } physics_state;
 

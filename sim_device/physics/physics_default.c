@@ -101,6 +101,11 @@ static const rotor_link_config LINK = {
     .restart_s = 0.02,
 };
 
+/* A ring as for antilock brakes, beside the disc. */
+static const wheel_sensor_config WHEEL = {
+    .pulses_per_turn = 36.0,
+};
+
 void physics_default(physics_config *config)
 {
     config->road = ROAD;
@@ -110,4 +115,5 @@ void physics_default(physics_config *config)
     config->rider = RIDER;
     config->sensor = SENSOR;
     config->link = LINK;
+    config->wheel = WHEEL;
 }

@@ -10,7 +10,8 @@ import random
 import pytest
 
 from firmware_protocol.parameters import unpack_image
-from sim_device.configure import read_image
+from sim_device.configure import ConfigureError, read_image
+from sim_device.configure import write_config as configure
 from sim_device.lockstep import LockstepUnit
 
 BOOST = 4
@@ -34,29 +35,91 @@ LOOK_S = 0.1
 RATED_TOLERANCE = 1.05
 
 
-@pytest.mark.parametrize("seed", range(3))
-@pytest.mark.parametrize("market", CUTOFF_KMH)
-def test_assist_ends_where_the_market_ends_it_and_not_before(market: str, seed: int) -> None:
+# Of speed sensors: pulses a turn, jitter of a pulse as a share of the way between two, and how much
+# later than the law's speed the assist may end for it. Measured worst: 0.10, 0.19 and 0.18 km/h.
+SENSORS = [(36.0, 0.0, 0.2), (36.0, 0.01, 0.3), (6.0, 0.0, 0.3)]
+
+
+def ridden_past_the_cutoff(unit: LockstepUnit, cutoff_kmh: float, seed: int) -> tuple[float, float]:
+    """The highest true speed at which the motor helped, and until how long after it was passed."""
     wishes = random.Random(seed)
-    cutoff_kmh = CUTOFF_KMH[market]
-    unit = LockstepUnit(seed, market=market, bike=TALL_GEAR)
     unit.select_mode(BOOST)
     unit.place(cutoff_kmh - 4.0)
     unit.road(grade_deg=wishes.uniform(-1.5, -0.5))
     unit.rider("legs", wishes.uniform(45.0, 65.0), 140.0)
-    helped_up_to_kmh, steps_above, above_before = 0.0, 0, False
-
+    helped_up_to_kmh, steps_above, latest = 0.0, 0, 0
     while steps_above < 300:
         unit.advance(0.01)
         seen = unit.observe()
+        above = seen["wheel_speed_kmh"] >= cutoff_kmh
+        steps_above = steps_above + 1 if above else 0
         if seen["motor_torque_nm"] > 0.0:
-            assert not above_before
             helped_up_to_kmh = max(helped_up_to_kmh, seen["wheel_speed_kmh"])
-        steps_above += above_before
-        above_before = seen["wheel_speed_kmh"] >= cutoff_kmh
-
-    assert helped_up_to_kmh == pytest.approx(cutoff_kmh, abs=0.6)
+            latest = max(latest, steps_above)
     assert seen["fault_flags"] == 0
+    return helped_up_to_kmh, latest * 0.01
+
+
+@pytest.mark.parametrize(("pulses", "jitter", "late_kmh"), SENSORS)
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("market", CUTOFF_KMH)
+def test_assist_ends_where_the_market_ends_it_and_not_before(
+    market: str, seed: int, pulses: float, jitter: float, late_kmh: float
+) -> None:
+    bike = {**TALL_GEAR, "wheel.pulses_per_turn": pulses, "wheel.jitter_share": jitter}
+    unit = LockstepUnit(seed, market=market, bike=bike)
+
+    helped_up_to_kmh, _ = ridden_past_the_cutoff(unit, CUTOFF_KMH[market], seed)
+
+    assert CUTOFF_KMH[market] - 0.6 < helped_up_to_kmh < CUTOFF_KMH[market] + late_kmh
+
+
+@pytest.mark.parametrize("market", CUTOFF_KMH)
+def test_an_even_ring_of_36_lets_no_assist_outlive_the_limit_by_a_twentieth_of_a_second(
+    market: str,
+) -> None:
+    unit = LockstepUnit(7, market=market, bike=TALL_GEAR)
+
+    _, late_s = ridden_past_the_cutoff(unit, CUTOFF_KMH[market], 7)
+
+    assert late_s <= 0.05
+
+
+def test_a_circumference_set_as_low_as_a_dealer_may_ends_the_assist_four_percent_later() -> None:
+    unit = LockstepUnit(3, bike=TALL_GEAR)
+    low_m = 2.073451 * 0.9601
+    configure(unit.unit, {"wheel_circumference_m": low_m})
+
+    helped_up_to_kmh, _ = ridden_past_the_cutoff(unit, 25.0 / 0.9601, 3)
+
+    assert 25.9 < helped_up_to_kmh < 26.04 + 0.15
+
+
+def test_lower_than_that_the_unit_refuses_so_that_no_dealer_gets_further() -> None:
+    unit = LockstepUnit(3, bike=TALL_GEAR)
+
+    with pytest.raises(ConfigureError, match=r"CFG_COMMIT.*ACCESS"):
+        configure(unit.unit, {"wheel_circumference_m": 2.073451 * 0.95})
+
+
+def test_missed_pulses_give_back_assist_for_moments_and_no_longer() -> None:
+    unit = LockstepUnit(5, bike=TALL_GEAR)
+    unit.simulation_set({"faults": {"pulses_missed": 0.02}})
+    unit.select_mode(BOOST)
+    unit.place(21.0)
+    unit.road(grade_deg=-1.0)
+    unit.rider("legs", 55.0, 140.0)
+
+    helped = []
+    for _ in range(1500):
+        unit.advance(0.01)
+        seen = unit.observe()
+        if seen["wheel_speed_kmh"] >= 25.2:
+            helped.append(seen["motor_torque_nm"] > 0.0)
+
+    # Two in a hundred are missed, and each makes the reading dip until the next pulse.
+    assert len(helped) > 1000
+    assert sum(helped) < 0.03 * len(helped)
 
 
 def shaft_powers_w(market: str) -> list[float]:

@@ -4,6 +4,7 @@ Everything is virtual: time passes only in `advance`, the line is memory, and th
 power after exactly as many bytes as a test asks for.
 """
 
+import math
 import zlib
 from typing import Any
 
@@ -145,7 +146,15 @@ class BenchUnit:
         return message
 
     def inputs(self, **values: float) -> None:
-        """Change what the sensors read, by the names of hal_inputs."""
+        """Change what the sensors read, by the names of hal_inputs.
+
+        speed_kmh: of the wheel, whose pulses follow; NaN is a sensor that is known to be broken.
+        """
+        speed_kmh = values.pop("speed_kmh", None)
+        if speed_kmh is not None:
+            broken = math.isnan(speed_kmh)
+            values.setdefault("speed_age_ms", lib.HAL_SPEED_NOT_MEASURED if broken else 0)
+            lib.bench_wheel_set(self.board, 0.0 if broken else speed_kmh)
         inputs = ffi.new("hal_inputs *")
         lib.bench_inputs_get(self.board, inputs)
         for name, value in values.items():

@@ -60,7 +60,10 @@ static void feel(bench_board *board, script *from)
     bench_inputs_get(board, &inputs);
     switch (byte(from) % 6) {
     case 0: inputs.torque_raw_counts = value; break;
-    case 1: inputs.speed_kmh = value; break;
+    case 1:
+        inputs.wheel_pulses += byte(from) % 16 == 0 ? 0x80000000u : byte(from);
+        inputs.wheel_pulse_us = bench_now_us(board) - byte(from) * 1000u;
+        break;
     case 2: inputs.cadence_rpm = value; break;
     case 3: inputs.motor_speed_rpm = value; break;
     case 4: inputs.battery_voltage_v = value; break;

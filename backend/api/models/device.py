@@ -279,6 +279,7 @@ class SimulationFaults(Question):
     battery_cut: bool | None = None
     motor_warmer_k: float | None = None
     controller_warmer_k: float | None = None
+    pulses_missed: float | None = None
     bit_error_rate: float | None = None
     burst_share: float | None = None
     coupling: float | None = None

@@ -2163,6 +2163,8 @@ export interface components {
             motor_warmer_k?: number | null;
             /** Controller Warmer K */
             controller_warmer_k?: number | null;
+            /** Pulses Missed */
+            pulses_missed?: number | null;
             /** Bit Error Rate */
             bit_error_rate?: number | null;
             /** Burst Share */

@@ -103,6 +103,7 @@ void app_init(app *unit, const hal *board)
     unit->board = board;
     unit->tx_mtu = EBL_MTU_BEFORE_HELLO;
     unit->output.fuzzy_gain = float32_missing();
+    wheel_speed_init(&unit->wheel);
     link_init(&unit->link);
     line_rate_init(&unit->line, board);
     telemetry_init(&unit->telemetry);
@@ -209,14 +210,14 @@ static uint8_t mode_select(const app *unit, const hal_inputs *inputs)
 }
 
 /* The law refuses what is not a number, so that is what a broken sensor becomes. */
-static void assist_input_from(const hal_inputs *inputs, uint8_t mode, int inhibit,
+static void assist_input_from(const hal_inputs *inputs, float speed_kmh, uint8_t mode, int inhibit,
                               assist_input *input)
 {
     memset(input, 0, sizeof *input);
     input->torque_raw_counts = faults_torque_is_plausible(inputs->torque_raw_counts)
                                    ? inputs->torque_raw_counts
                                    : float32_missing();
-    input->speed_kmh = inputs->speed_kmh;
+    input->speed_kmh = speed_kmh;
     input->cadence_rpm = inputs->cadence_rpm;
     input->motor_speed_rpm = inputs->motor_speed_rpm;
     input->battery_voltage_v = inputs->battery_voltage_v;
@@ -237,10 +238,10 @@ void app_faults_cleared(app *unit, uint32_t cleared, uint64_t now_us)
     ride_log_event_add(&unit->ride_log, EBL_LOG_EVENT_FAULT_CLEARED, cleared, now_us);
 }
 
-static void faults_report(app *unit, const hal_inputs *inputs, uint64_t now_us)
+static void faults_report(app *unit, const hal_inputs *inputs, float speed_kmh, uint64_t now_us)
 {
     const fault_law law = {unit->output.motor_torque_nm, unit->assist_state.torque_filtered_nm,
-                           unit->law_lost};
+                           unit->law_lost, speed_kmh};
     uint32_t set;
     uint32_t cleared;
 
@@ -253,9 +254,9 @@ static void faults_report(app *unit, const hal_inputs *inputs, uint64_t now_us)
     app_faults_cleared(unit, cleared, now_us);
 }
 
-static int is_moving(const hal_inputs *inputs)
+static int is_moving(const hal_inputs *inputs, float speed_kmh)
 {
-    return inputs->speed_kmh > MOVING_KMH || inputs->cadence_rpm > MOVING_RPM;
+    return speed_kmh > MOVING_KMH || inputs->cadence_rpm > MOVING_RPM;
 }
 
 void app_inputs_prepare(hal_inputs *inputs)
@@ -279,12 +280,34 @@ static void motor_drive(app *unit, int result)
     unit->board->motor_torque_set(unit->board->context, unit->output.motor_torque_nm);
 }
 
+static float pulse_m(const app *unit)
+{
+    return unit->config.wheel_circumference_m / (float)unit->config.wheel_pulses_per_turn;
+}
+
+float app_speed_kmh(const app *unit)
+{
+    uint64_t now_us = unit->board->now_us(unit->board->context);
+
+    if (unit->speed_not_measured) return float32_missing();
+    return wheel_speed_kmh(&unit->wheel, pulse_m(unit), now_us);
+}
+
+/* Returns the way since the step before. */
+static float wheel_look(app *unit, const hal_inputs *inputs)
+{
+    unit->speed_not_measured = inputs->speed_age_ms == HAL_SPEED_NOT_MEASURED;
+    return wheel_speed_pulses(&unit->wheel, pulse_m(unit), inputs->wheel_pulses,
+                              inputs->wheel_pulse_us);
+}
+
 void app_control_step(app *unit)
 {
     uint64_t now_us = unit->board->now_us(unit->board->context);
     hal_inputs inputs;
     assist_input input;
-    telemetry_sources sources = {&inputs, &unit->output, 0, 0};
+    telemetry_sources sources = {&inputs, &unit->output, 0.0f, 0, 0};
+    float way_m;
 
     if (step_watch_begin(&unit->watch, now_us) > 0) assist_interrupted(&unit->assist_state);
     if (unit->assist_config_pending) {
@@ -293,18 +316,23 @@ void app_control_step(app *unit)
     }
     app_inputs_prepare(&inputs);
     unit->board->inputs_read(unit->board->context, &inputs);
+    way_m = wheel_look(unit, &inputs);
+    sources.speed_kmh = app_speed_kmh(unit);
     sources.mode = mode_select(unit, &inputs);
-    faults_report(unit, &inputs, now_us); /* before the law: what it finds holds in this step */
-    assist_input_from(&inputs, sources.mode, faults_inhibit(&unit->faults), &input);
+    /* Before the law: what it finds holds in this step. */
+    faults_report(unit, &inputs, sources.speed_kmh, now_us);
+    assist_input_from(&inputs, sources.speed_kmh, sources.mode, faults_inhibit(&unit->faults),
+                      &input);
     motor_drive(unit,
                 assist_step(&unit->assist_config, &unit->assist_state, &input, &unit->output));
 
-    counters_step(&unit->counters, inputs.speed_kmh);
+    counters_step(&unit->counters, sources.speed_kmh, way_m);
     ride_log_mode_set(&unit->ride_log, sources.mode, now_us);
     sources.fault_flags = unit->faults.active;
     telemetry_step(&unit->telemetry, &sources, now_us, &unit->link);
     faults_freeze(&unit->faults, unit->faults_new, now_us, unit->telemetry.row);
-    ride_log_step(&unit->ride_log, unit->telemetry.row, now_us, is_moving(&inputs));
+    ride_log_step(&unit->ride_log, unit->telemetry.row, now_us,
+                  is_moving(&inputs, sources.speed_kmh));
     step_watch_done(&unit->watch);
 }
 

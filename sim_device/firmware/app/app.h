@@ -26,6 +26,7 @@
 #include "step_watch.h"         // step_watch
 #include "telemetry.h"          // telemetry
 #include "unlock.h"             // unlock
+#include "wheel_speed.h"        // wheel_speed
 
 /* A response the host may ask for again because it was lost: executing twice is not an option. */
 typedef struct {
@@ -54,6 +55,8 @@ typedef struct {
     unlock lock;
     ebl_config config; /* the one in force */
     counters counters;
+    wheel_speed wheel;
+    uint8_t speed_not_measured; /* the board says that its sensor is broken */
 
     assist_config assist_config_next;
     uint8_t assist_config_pending;
@@ -104,6 +107,9 @@ int app_provision_unlock_key(const hal *board, const uint8_t *key);
 uint8_t app_access_to_stage(const app *unit);
 uint8_t app_access_check(const app *unit, const uint8_t *image, uint16_t *detail);
 void app_lock(app *unit);
+
+/* For the rooms of this folder: the wheel's speed now; NaN where its sensor is broken. */
+float app_speed_kmh(const app *unit);
 
 /* For the rooms of this folder: tells the host and the ride log of faults that are over. */
 void app_faults_cleared(app *unit, uint32_t cleared, uint64_t now_us);

@@ -102,13 +102,14 @@ uint8_t transaction_staged_crc(config_transaction *transaction, uint16_t id, uin
 static int magnitude_is_below(float value, float limit) { return value > -limit && value < limit; }
 
 /* A speed that is not known is not a standstill; an unknown voltage the second slot covers. */
-uint8_t transaction_flash_status(const hal *board)
+uint8_t transaction_flash_status(const hal *board, float speed_kmh)
 {
     hal_inputs inputs;
 
     app_inputs_prepare(&inputs);
     board->inputs_read(board->context, &inputs);
-    if (!magnitude_is_below(inputs.speed_kmh, STANDSTILL_SPEED_KMH_MAX) ||
+    if (inputs.speed_age_ms == HAL_SPEED_NOT_MEASURED ||
+        !magnitude_is_below(speed_kmh, STANDSTILL_SPEED_KMH_MAX) ||
         !magnitude_is_below(inputs.motor_speed_rpm, STANDSTILL_MOTOR_SPEED_RPM_MAX)) {
         return EBL_STATUS_NOT_STOPPED;
     }
@@ -116,7 +117,7 @@ uint8_t transaction_flash_status(const hal *board)
     return EBL_STATUS_OK;
 }
 
-static uint8_t commit_check(config_transaction *transaction, const hal *board,
+static uint8_t commit_check(config_transaction *transaction, const hal *board, float speed_kmh,
                             const ebl_cfg_commit_request *request, uint64_t now_us,
                             uint16_t *detail)
 {
@@ -133,7 +134,7 @@ static uint8_t commit_check(config_transaction *transaction, const hal *board,
         *detail = (uint16_t)crc32;
         return EBL_STATUS_CRC_MISMATCH;
     }
-    return transaction_flash_status(board);
+    return transaction_flash_status(board, speed_kmh);
 }
 
 static uint8_t store_status(int result)
@@ -147,10 +148,10 @@ static uint8_t store_status(int result)
 }
 
 uint8_t transaction_commit(config_transaction *transaction, config_store *store, const hal *board,
-                           const ebl_cfg_commit_request *request, uint64_t now_us,
+                           float speed_kmh, const ebl_cfg_commit_request *request, uint64_t now_us,
                            uint32_t operating_s, uint16_t *detail)
 {
-    uint8_t status = commit_check(transaction, board, request, now_us, detail);
+    uint8_t status = commit_check(transaction, board, speed_kmh, request, now_us, detail);
 
     if (status != EBL_STATUS_OK) return status;
     if (store->lost != 0 || memcmp(transaction->image, store->image, EBL_IMAGE_LENGTH) != 0) {

@@ -42,7 +42,7 @@ uint8_t transaction_staged_crc(config_transaction *transaction, uint16_t id, uin
  * request's flags say so, and the transaction
  * is over. Else both are as they were. */
 uint8_t transaction_commit(config_transaction *transaction, config_store *store, const hal *board,
-                           const ebl_cfg_commit_request *request, uint64_t now_us,
+                           float speed_kmh, const ebl_cfg_commit_request *request, uint64_t now_us,
                            uint32_t operating_s, uint16_t *detail);
 uint8_t transaction_abort(config_transaction *transaction, uint16_t id, uint64_t now_us,
                           uint16_t *detail);
@@ -53,7 +53,7 @@ uint16_t transaction_commit_wait_ms(const config_transaction *transaction,
                                     uint32_t operating_s);
 
 /* OK where the flash may be written now: standing still, with enough battery. */
-uint8_t transaction_flash_status(const hal *board);
+uint8_t transaction_flash_status(const hal *board, float speed_kmh);
 
 /* Ends the transaction when its lease is over. */
 void transaction_poll(config_transaction *transaction, uint64_t now_us);

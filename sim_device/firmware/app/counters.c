@@ -11,7 +11,6 @@
 #define AREAS COUNTERS_BLOCKS
 #define SAVE_PERIOD_US 60000000u
 #define STEPS_PER_S (1000000u / EBL_CONTROL_PERIOD_US)
-#define KMH_PER_M_PER_STEP (3.6f * (float)STEPS_PER_S)
 #define SPEED_KMH_MAX 150.0f /* what is faster is a disturbed sensor */
 #define STANDSTILL_SPEED_KMH_MAX 0.5f
 
@@ -80,19 +79,17 @@ void counters_boot(counters *state, const hal *board, size_t address)
     next_find(state, board);
 }
 
-void counters_step(counters *state, float speed_kmh)
+void counters_step(counters *state, float speed_kmh, float way_m)
 {
     if (++state->steps >= STEPS_PER_S) {
         state->steps = 0;
         state->operating_s++;
     }
     state->speed_kmh = speed_kmh;
-    if (!(speed_kmh > 0.0f && speed_kmh < SPEED_KMH_MAX)) return;
-    state->distance_rest_m += speed_kmh / KMH_PER_M_PER_STEP;
-    if (state->distance_rest_m >= 1.0f) {
-        state->distance_rest_m -= 1.0f;
-        state->distance_m++;
-    }
+    if (!(way_m > 0.0f && speed_kmh < SPEED_KMH_MAX)) return;
+    state->distance_rest_m += way_m;
+    state->distance_m += (uint32_t)state->distance_rest_m;
+    state->distance_rest_m -= (float)(uint32_t)state->distance_rest_m;
 }
 
 /* True where a record fits at `next`: an area that is begun anew is erased first. */

@@ -34,8 +34,8 @@ typedef struct {
 /* Reads the newest record. The log begins at `address`. */
 void counters_boot(counters *state, const hal *board, size_t address);
 
-/* One control step at this speed; what is no speed counts as no distance. */
-void counters_step(counters *state, float speed_kmh);
+/* One control step at this speed, and what the wheel rolled in it. */
+void counters_step(counters *state, float speed_kmh, float way_m);
 
 /* Saves once a minute, if anything changed. */
 void counters_poll(counters *state, const hal *board, uint64_t now_us);

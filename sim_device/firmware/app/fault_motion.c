@@ -44,7 +44,7 @@ fault_sign fault_motion_mismatch(const hal_inputs *inputs, const ebl_config *con
     float driven_kmh = wheel_kmh(config, wheel_rpm);
 
     if (!(law->motor_torque_nm > DRIVING_TORQUE_NM)) return FAULT_SIGN_NONE;
-    return fault_sign_of(driven_kmh > MISMATCH_FACTOR * inputs->speed_kmh + MISMATCH_KMH);
+    return fault_sign_of(driven_kmh > MISMATCH_FACTOR * law->speed_kmh + MISMATCH_KMH);
 }
 
 /* The chain's speed, in turns of the motor, while it is driven; 0 otherwise. Motor and cranks each
@@ -76,7 +76,7 @@ static int speed_changed(fault_watch *watch, float speed_kmh, const ebl_config *
 fault_sign fault_motion_stuck(fault_watch *watch, const hal_inputs *inputs,
                               const ebl_config *config, const fault_law *law)
 {
-    int changed = speed_changed(watch, inputs->speed_kmh, config);
+    int changed = speed_changed(watch, law->speed_kmh, config);
     float rpm_per_kmh;
 
     watch->chain_rpm = chain_rpm(changed ? 0.0f : watch->chain_rpm, inputs, config, law);

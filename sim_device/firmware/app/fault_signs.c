@@ -53,9 +53,9 @@ int faults_torque_is_plausible(float torque_raw_counts)
     return torque_raw_counts > -TORQUE_RAW_COUNTS_MAX && torque_raw_counts < TORQUE_RAW_COUNTS_MAX;
 }
 
-static fault_sign speed_sign(const hal_inputs *inputs)
+static fault_sign speed_sign(const hal_inputs *inputs, const fault_law *law)
 {
-    return fault_sign_of(!(inputs->speed_kmh >= 0.0f && inputs->speed_kmh < SPEED_KMH_MAX) ||
+    return fault_sign_of(!(law->speed_kmh >= 0.0f && law->speed_kmh < SPEED_KMH_MAX) ||
                          inputs->speed_age_ms > SPEED_AGE_MS_MAX);
 }
 
@@ -135,7 +135,7 @@ static fault_sign stuck_sign(fault_watch *watch, const hal_inputs *inputs, const
 static fault_sign drift_sign(fault_watch *watch, const hal_inputs *inputs, const fault_law *law)
 {
     float torque_nm = law->rider_torque_filtered_nm;
-    int resting = float32_abs(inputs->speed_kmh) < REST_KMH &&
+    int resting = float32_abs(law->speed_kmh) < REST_KMH &&
                   float32_abs(inputs->cadence_rpm) < REST_RPM &&
                   inputs->torque_age_ms <= TORQUE_HOLD_MS &&
                   faults_torque_is_plausible(inputs->torque_raw_counts);
@@ -180,7 +180,7 @@ void fault_signs(fault_list *faults, const hal_inputs *inputs, const ebl_config 
                  fault_sign_of(!faults_torque_is_plausible(inputs->torque_raw_counts)));
         sign_set(signs, EBL_FAULT_TORQUE_STUCK, stuck_sign(&faults->watch, inputs, law));
     }
-    sign_set(signs, EBL_FAULT_SPEED_SENSOR, speed_sign(inputs));
+    sign_set(signs, EBL_FAULT_SPEED_SENSOR, speed_sign(inputs, law));
     sign_set(signs, EBL_FAULT_BATTERY_LOW, battery_low_sign(faults, inputs, config));
     sign_set(signs, EBL_FAULT_OVER_CURRENT, current_sign(inputs, config));
     sign_set(signs, EBL_FAULT_UNDER_VOLTAGE, fault_sign_of(inputs->battery_voltage_v < deep_v));

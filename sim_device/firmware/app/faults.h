@@ -50,12 +50,13 @@ typedef struct {
     fault_frame frames[FAULT_KINDS];
 } fault_list;
 
-/* What the law made of the step before: the torque the motor was told, the rider's average, and
- * whether there was no number to tell. */
+/* What the unit makes of its inputs. By the law, in the step before: the torque the motor was told,
+ * the rider's average, and whether there was no number to tell. By the wheel's pulses: speed. */
 typedef struct {
     float motor_torque_nm;
     float rider_torque_filtered_nm;
     uint8_t lost;
+    float speed_kmh;
 } fault_law;
 
 /* True if a bridge can give this reading: a number, and not pinned to the end of its word. */

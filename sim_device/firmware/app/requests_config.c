@@ -214,8 +214,9 @@ static void commit(app *unit, const ebl_header *request, reply *answer)
     }
     status = commit_access(unit, &asked, &detail);
     if (status == EBL_STATUS_OK) {
-        status = transaction_commit(&unit->transaction, &unit->store, unit->board, &asked,
-                                    now(unit), unit->counters.operating_s, &detail);
+        status =
+            transaction_commit(&unit->transaction, &unit->store, unit->board, app_speed_kmh(unit),
+                               &asked, now(unit), unit->counters.operating_s, &detail);
     }
     if (status != EBL_STATUS_OK) {
         reply_refuse(answer, status, detail);

@@ -57,7 +57,7 @@ static void faults_clear_request(app *unit, const ebl_header *request, reply *an
         reply_refuse(answer, EBL_STATUS_LENGTH, EBL_EVT_FAULT_CLEAR_REQUEST_LENGTH);
         return;
     }
-    if (transaction_flash_status(unit->board) != EBL_STATUS_NOT_STOPPED) {
+    if (transaction_flash_status(unit->board, app_speed_kmh(unit)) != EBL_STATUS_NOT_STOPPED) {
         app_faults_cleared(unit, faults_clear_latched(&unit->faults, asked.fault_flags),
                            unit->board->now_us(unit->board->context));
     }

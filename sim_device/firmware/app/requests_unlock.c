@@ -48,7 +48,7 @@ static uint8_t may_be_asked(app *unit, uint16_t transaction, uint16_t *detail)
 
     if (status != EBL_STATUS_OK) return status;
     if (unit->transaction.state != EBL_CONFIG_STATE_VALID) return EBL_STATUS_STATE;
-    return transaction_flash_status(unit->board);
+    return transaction_flash_status(unit->board, app_speed_kmh(unit));
 }
 
 static void respond(app *unit, const ebl_header *request, reply *answer)

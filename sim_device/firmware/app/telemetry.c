@@ -24,7 +24,7 @@ static float channel_value(uint8_t channel_id, const telemetry_sources *sources)
     const assist_output *output = sources->output;
 
     switch (channel_id) {
-    case EBL_CHANNEL_SPEED_KMH: return inputs->speed_kmh;
+    case EBL_CHANNEL_SPEED_KMH: return sources->speed_kmh;
     case EBL_CHANNEL_CADENCE_RPM: return inputs->cadence_rpm;
     case EBL_CHANNEL_CRANK_ANGLE_DEG: return inputs->crank_angle_deg;
     case EBL_CHANNEL_RIDER_TORQUE_NM: return output->rider_torque_nm;

@@ -17,6 +17,7 @@
 typedef struct {
     const hal_inputs *inputs;
     const assist_output *output;
+    float speed_kmh;
     uint8_t mode;
     uint32_t fault_flags;
 } telemetry_sources;

@@ -5,10 +5,11 @@
  * inputs come prepared to inputs_read: temperatures and the battery's current NaN, ages and buttons
  * 0, no mode selected; a board writes what it has and leaves the rest.
  *
- * The wheel's speed comes new with every pulse, from its time in microseconds: a reading that stays
- * within 0.005 km/h for five turns under power, while the chain's speed changes, is a stuck sensor,
- * so it must not be rounded. One magnet is too slow at walking pace, six will do. While no pulse
- * comes it falls: it is never more than what a pulse would give now. */
+ * Speed is not among them: the unit makes it itself, from the wheel's pulses and its own
+ * circumference and pulses a turn (control/wheel_speed.h). A board counts the pulses and takes the
+ * time of the latest, with a timer's capture or in an interrupt, to microseconds on the clock of
+ * now_us: a reading that stays within 0.005 km/h for five turns under power, while the chain's
+ * speed changes, is a stuck sensor. One magnet is too slow at walking pace, six will do. */
 #ifndef SPINDLE_HAL_H
 #define SPINDLE_HAL_H
 
@@ -18,7 +19,6 @@
 typedef struct {
     float torque_raw_counts; /* signed bridge reading; the sensor word is 16 bit */
     float sensor_temperature_degc;
-    float speed_kmh;       /* of the wheel, as fine as it was measured */
     float crank_angle_deg; /* 0 <= angle < 360, 0 with the left crank up */
     float cadence_rpm;     /* negative when pedalling backwards */
     float motor_speed_rpm; /* NaN while the rotor's position is not known: no torque then */
@@ -31,12 +31,16 @@ typedef struct {
     uint8_t brake;         /* 1 while a brake lever is pulled */
     uint8_t walk_button;   /* 1 while the button for walk assist is held */
     uint8_t battery_cut;   /* 1 while the battery's own management says that it opened its switch */
-    uint16_t torque_age_ms; /* since the torque reading was measured; 0: just now, or by wire */
-    uint16_t speed_age_ms;  /* since the speed sensor was last known to work; 0: cannot tell */
+    uint16_t torque_age_ms;  /* since the torque reading was measured; 0: just now, or by wire */
+    uint16_t speed_age_ms;   /* since the speed sensor was last known to work; 0: cannot tell;
+                             * HAL_SPEED_NOT_MEASURED: known to be broken */
+    uint32_t wheel_pulses;   /* since boot; wraps */
+    uint64_t wheel_pulse_us; /* when the latest came, on the clock of now_us */
     float controller_temperature_degc;
 } hal_inputs;
 
 #define HAL_MODE_NOT_SELECTED 255
+#define HAL_SPEED_NOT_MEASURED 65535
 
 typedef struct {
     void *context;

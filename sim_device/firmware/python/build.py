@@ -33,6 +33,7 @@ HEADERS: tuple[str, ...] = (
     "sim_device/firmware/control/assist.h",
     "sim_device/firmware/control/market.h",
     "sim_device/firmware/control/rotor_receiver.h",
+    "sim_device/firmware/control/wheel_speed.h",
     "sim_device/firmware/hal/hal.h",
     "sim_device/firmware/app/step_watch.h",
     "sim_device/firmware/app/sha512.h",
@@ -47,6 +48,7 @@ HEADERS: tuple[str, ...] = (
     "sim_device/physics/drivetrain.h",
     "sim_device/physics/torque_sensor.h",
     "sim_device/physics/rotor_link.h",
+    "sim_device/physics/wheel_sensor.h",
     "sim_device/physics/physics.h",
     "sim_device/firmware/boards/host/unit.h",
 )

@@ -104,6 +104,12 @@ def test_a_phase_keeps_what_the_one_before_did() -> None:
         (HEAD + "[[phases]]\nseconds=1\nhorn=1", "phase 1: horn is not known"),
         (HEAD + "\n\n[[phases]]\nseconds=1\n[[phases]]\nseconds=0", "line 8, phase 2: seconds"),
         (HEAD + "[[phases]]\nseconds=1\ntorque_sensor='lame'", "line 5, phase 1: torque_sensor"),
+        (
+            HEAD + "[[phases]]\nseconds=1\npulses_missed=1.5",
+            "line 5, phase 1: pulses_missed is 1.5; it lies from 0.0 to 1.0",
+        ),
+        (HEAD + "bike.wheel.jitter_share = 0.2", "line 3, bike.wheel.jitter_share is 0.2; it lies"),
+        (HEAD + "bike.wheel.pulses_per_turn = 0", "line 3, bike.wheel.pulses_per_turn is 0"),
         (HEAD + "[[phases]]\nseconds=1\nbit_error_rate=2", "bit_error_rate is 2; it lies from 0.0"),
         (HEAD + "phases = 3", "line 3: phases are tables"),
         (HEAD + "settings = 3", "line 3: settings holds tables"),

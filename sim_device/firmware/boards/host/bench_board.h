@@ -56,6 +56,10 @@ uint32_t bench_line_baud_now(const bench_board *board);
 void bench_inputs_get(const bench_board *board, hal_inputs *inputs);
 void bench_inputs_set(bench_board *board, const hal_inputs *inputs);
 
+/* The wheel rolls at this speed from now on, as if it always had: the unit reads it at once, and
+ * its pulses follow to the microsecond. 0: it stands, and has for long. */
+void bench_wheel_set(bench_board *board, float speed_kmh);
+
 /* 1: requests from 0x7000 on are echoed by the board; 0: the board has none. From the next boot. */
 void bench_board_requests(bench_board *board, int present);
 

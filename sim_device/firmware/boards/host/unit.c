@@ -1,11 +1,13 @@
 #include "unit.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "app.h"          // app_poll
 #include "byte_queue.h"   // byte_queue_put
 #include "ebl_registry.h" // EBL_DEVICE_CLASS_MID_DRIVE_SIMULATED
+#include "ebl_values.h"   // ebl_config_violations
 #include "hal.h"          // hal
 #include "log_flash.h"    // log_flash_open
 #include "unit_senses.h"  // senses_read
@@ -15,7 +17,8 @@
 #define CONTROL_PERIOD_US 10000u
 #define HARDWARE_REVISION 1u
 
-#define DEG_PER_RAD (180.0 / 3.14159265358979323846)
+#define PI 3.14159265358979323846
+#define DEG_PER_RAD (180.0 / PI)
 #define RPM_PER_RAD_S (30.0 / 3.14159265358979323846)
 #define KMH_PER_MS 3.6
 #define FLASH_NEVER_CUT UINT32_MAX
@@ -90,7 +93,7 @@ static int board_serial_drained(void *context)
 static void board_inputs_read(void *context, hal_inputs *inputs)
 {
     const unit *self = context;
-    senses_read(&self->state, &self->stimulus, &self->receiver, inputs);
+    senses_read(&self->state, &self->stimulus, &self->receiver, self->now_us, inputs);
     inputs->mode_selected = self->mode_selected;
     inputs->walk_button = self->walk_button;
 }
@@ -99,6 +102,7 @@ void unit_inputs(unit *self, hal_inputs *inputs)
 {
     app_inputs_prepare(inputs);
     board_inputs_read(self, inputs);
+    inputs->wheel_pulse_us = self->now_us - inputs->wheel_pulse_us;
 }
 
 void unit_drive(unit *self, const assist_output *output, uint8_t mode)
@@ -239,6 +243,17 @@ static void connect_board(unit *self, const unit_setup *setup)
     log_flash_connect(&self->log, &self->hal, &self->now_us);
 }
 
+/* A unit leaves the factory for its bike. A wheel that no unit can be told of is left as it is. */
+static void measure_wheel(const physics_config *bike, ebl_config *factory)
+{
+    const double circumference_m = 2.0 * PI * bike->road.wheel_radius_m;
+    ebl_config measured = *factory;
+    measured.wheel_circumference_m = (float)(floor(circumference_m * 1e6 + 0.5) * 1e-6);
+    measured.wheel_circumference_m_factory = measured.wheel_circumference_m;
+    measured.wheel_pulses_per_turn = (uint8_t)bike->wheel.pulses_per_turn;
+    if (ebl_config_violations(&measured, NULL, 0) == 0) *factory = measured;
+}
+
 unit *unit_create(const unit_setup *setup)
 {
     unit *self = calloc(1, sizeof *self);
@@ -267,6 +282,7 @@ unit *unit_create(const unit_setup *setup)
     connect_board(self, setup);
     ebl_config factory;
     app_factory_config(&factory, setup->market_number);
+    measure_wheel(&self->bike, &factory);
     if ((!setup->not_provisioned && app_provision(&self->hal, &factory) < 0) ||
         (setup->unlock_key != NULL &&
          app_provision_unlock_key(&self->hal, setup->unlock_key) < 0)) {
@@ -400,7 +416,9 @@ void unit_begin_ledger(unit *self) { physics_begin_ledger(&self->bike, &self->st
 
 void unit_place(unit *self, double speed_kmh, uint64_t seed)
 {
+    const uint32_t pulses = self->state.wheel.pulses; /* the unit's counter goes on */
     physics_reset(&self->bike, &self->state, speed_kmh, seed);
+    self->state.wheel.pulses = pulses;
     rotor_receiver_init(&self->receiver, torque_sensor_temperature_degc(&self->state.sensor));
 }
 

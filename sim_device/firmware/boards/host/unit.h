@@ -115,7 +115,8 @@ uint32_t unit_line_baud(const unit *self);
 
 void unit_observe(const unit *self, unit_observation *seen);
 
-/* For a bike alone: what the sensors of its unit see now, and what that unit last decided. */
+/* For a bike alone: what the sensors of its unit see now, and what that unit last decided. It has a
+ * clock of its own: wheel_pulse_us is how long ago the latest pulse came. */
 void unit_inputs(unit *self, hal_inputs *inputs);
 void unit_drive(unit *self, const assist_output *output, uint8_t mode);
 

@@ -2,7 +2,7 @@
 
 #define DEG_PER_RAD (180.0 / 3.14159265358979323846)
 #define RPM_PER_RAD_S (30.0 / 3.14159265358979323846)
-#define KMH_PER_MS 3.6
+#define US_PER_S 1000000.0
 #define MS_PER_S 1000.0
 #define SPEED_AGE_MS_MAX 60000.0
 
@@ -24,14 +24,15 @@ void senses_rotor_exchange(const physics_state *state, rotor_receiver *receiver)
 }
 
 void senses_read(const physics_state *state, const physics_command *command,
-                 const rotor_receiver *receiver, hal_inputs *inputs)
+                 const rotor_receiver *receiver, uint64_t now_us, hal_inputs *inputs)
 {
     const physics_faults *faults = &command->faults;
     const double speed_age_ms = state->seen_speed_age_s * MS_PER_S;
     inputs->torque_raw_counts = receiver->torque_raw_counts;
     inputs->torque_age_ms = receiver->age_ms;
     inputs->sensor_temperature_degc = (float)receiver->temperature_degc;
-    inputs->speed_kmh = (float)(state->seen_speed_ms * KMH_PER_MS);
+    inputs->wheel_pulses = state->wheel.pulses;
+    inputs->wheel_pulse_us = now_us - (uint64_t)(state->wheel.pulse_age_s * US_PER_S + 0.5);
     inputs->speed_age_ms =
         (uint16_t)(speed_age_ms < SPEED_AGE_MS_MAX ? speed_age_ms : SPEED_AGE_MS_MAX);
     inputs->crank_angle_deg = (float)(state->crank_angle_rad * DEG_PER_RAD);

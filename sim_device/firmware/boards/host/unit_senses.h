@@ -14,6 +14,6 @@ void senses_rotor_exchange(const physics_state *state, rotor_receiver *receiver)
 
 /* Everything but buttons: those are the rider's. */
 void senses_read(const physics_state *state, const physics_command *command,
-                 const rotor_receiver *receiver, hal_inputs *inputs);
+                 const rotor_receiver *receiver, uint64_t now_us, hal_inputs *inputs);
 
 #endif

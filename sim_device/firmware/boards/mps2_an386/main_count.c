@@ -31,6 +31,7 @@ static app unit;
 static hal board;
 static uint64_t time_us;
 static hal_inputs ride;
+static float way_pulses; /* of the wheel, since its latest pulse */
 static uint8_t to_unit[1024];
 static size_t to_unit_length;
 static uint32_t bytes_out;
@@ -189,9 +190,17 @@ static void ride_on(int step)
     int stroke = step % 40 < 20 ? step % 40 : 40 - step % 40;
 
     ride.torque_raw_counts = (float)(stroke * 180);
-    ride.speed_kmh = 25.0f * (float)step / (float)STEPS;
-    ride.cadence_rpm = 3.0f * ride.speed_kmh;
-    ride.motor_speed_rpm = 120.0f * ride.speed_kmh;
+    float speed_kmh = 25.0f * (float)step / (float)STEPS;
+
+    /* A pulse of 36 is 57.6 mm, and 1 km/h brings 0.048 of it in a step. */
+    way_pulses += 0.0482f * speed_kmh;
+    if (way_pulses >= 1.0f) {
+        way_pulses -= 1.0f;
+        ride.wheel_pulses++;
+        ride.wheel_pulse_us = time_us;
+    }
+    ride.cadence_rpm = 3.0f * speed_kmh;
+    ride.motor_speed_rpm = 120.0f * speed_kmh;
     ride.battery_voltage_v = 37.0f;
     ride.battery_current_a = 11.5f;
     ride.motor_temperature_degc = 60.0f;

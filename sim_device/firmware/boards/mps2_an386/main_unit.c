@@ -65,7 +65,7 @@ static int serial_drained(void *context)
 static void inputs_read(void *context, hal_inputs *inputs)
 {
     (void)context;
-    plant_inputs(inputs);
+    plant_inputs(inputs, round_us);
 }
 
 /* The bench is told after the step, with what else it wants to know. */

@@ -107,9 +107,11 @@ void plant_motor_tick(void)
 
 int plant_steps_come(void) { return !plant.steps_broken; }
 
-void plant_inputs(hal_inputs *inputs)
+void plant_inputs(hal_inputs *inputs, uint64_t now_us)
 {
-    if (plant.present) *inputs = plant.inputs;
+    if (!plant.present) return;
+    *inputs = plant.inputs;
+    inputs->wheel_pulse_us = now_us - plant.inputs.wheel_pulse_us;
 }
 
 void plant_step_tell(const assist_output *output, uint8_t mode)

@@ -61,8 +61,9 @@ void plant_open(void);
 /* Reads what the bench has written. */
 void plant_poll(void);
 
-/* Leaves the inputs as they are while no bench is there. */
-void plant_inputs(hal_inputs *inputs);
+/* Leaves the inputs as they are while no bench is there. The bench tells how long ago the latest
+ * pulse of the wheel came, because its clock is not the board's. */
+void plant_inputs(hal_inputs *inputs, uint64_t now_us);
 
 /* Tells the bench of a control step, and of granted time that has passed. */
 void plant_step_tell(const assist_output *output, uint8_t mode);
