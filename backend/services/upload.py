@@ -11,7 +11,9 @@ from __future__ import annotations
 import logging
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
@@ -31,6 +33,8 @@ LOG = logging.getLogger(__name__)
 UPLOAD_BYTES_MAX = 256 * 1024 * 1024
 NAME_LENGTH_MAX = 255
 PIECE_BYTES = 1 << 20
+# Child processes that read files at once; each may take half a gigabyte.
+READ_AT_ONCE = 2
 # Code of a file whose ride is still being recorded.
 WAITS = "ride_is_live"
 CONCLUDED = (COMPLETE, PARTIAL, REJECTED)
@@ -62,8 +66,10 @@ class Uploads:
         self._store = store
         self._settings = settings or UploadSettings()
         self._reader = reader
-        # One file at a time: the same bytes sent twice at once must not become two rides.
-        self._processing = threading.Lock()
+        # A file that eats all its time leaves room for another; they are read in turn.
+        self._readers = ThreadPoolExecutor(READ_AT_ONCE, thread_name_prefix="import")
+        self._turn = threading.Condition()
+        self._at_work: set[str] = set()
 
     def create(self, name: str, length: int, sha256: str | None = None) -> Upload:
         """Begin an upload of `length` bytes. Raises InvalidRequest when it is too large.
@@ -133,9 +139,22 @@ class Uploads:
                 self._process(upload.id)
 
     def _process(self, upload_id: str) -> Upload:
-        with self._processing:
+        with self._alone_with(upload_id):
             upload = self.get(upload_id)
             return upload if upload.state in CONCLUDED else self._process_next(upload_id)
+
+    @contextmanager
+    def _alone_with(self, upload_id: str) -> Iterator[None]:
+        """One thread at a time with an upload; the next finds it concluded."""
+        with self._turn:
+            self._turn.wait_for(lambda: upload_id not in self._at_work)
+            self._at_work.add(upload_id)
+        try:
+            yield
+        finally:
+            with self._turn:
+                self._at_work.discard(upload_id)
+                self._turn.notify_all()
 
     def _process_next(self, upload_id: str) -> Upload:
         uploads = self._store.uploads
@@ -149,6 +168,9 @@ class Uploads:
         outcome = self._read(upload)
         try:
             with self._store.deciding:
+                # The same bytes may have become a ride while these were read.
+                if (twin := self._twin(upload)) is not None:
+                    return twin
                 return self._keep(self.get(upload_id), outcome)
         except StoreError as error:
             # The original is kept and the upload waits: the next start looks at it again.
@@ -218,7 +240,8 @@ class Uploads:
         expected = Expected(upload.object_key, upload.received)
         if found := self._store.soundness.damage(expected):
             raise damaged_upload(upload.name, upload.object_key, found)
-        return self._reader(self._store.objects.local_path(upload.object_key), upload.name)
+        path = self._store.objects.local_path(upload.object_key)
+        return self._readers.submit(self._reader, path, upload.name).result()
 
     def _twin(self, upload: Upload) -> Upload | None:
         """Conclude an upload of bytes that are here already, naming the ride they became."""
