@@ -88,7 +88,7 @@ def test_the_unit_treats_it_like_any_other(made: Registry, tmp_path: Path) -> No
         "too_early": 0,
         "latched_cleared": LATCHED,
         "left": WARNING,
-        "warning_cleared": 1,
+        "warning_cleared": WARNING,
         "forgotten": 0,
     }
     assert event == struct.pack("<HH", 2, (LATCHED | WARNING) >> 16)
