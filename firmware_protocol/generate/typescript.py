@@ -29,7 +29,6 @@ export interface ParameterRow {
   readonly ratchet: boolean;
   readonly default: ParameterValue;
   readonly access: string;
-  readonly doc: string;
 }
 
 export interface ChannelRow {
@@ -38,7 +37,6 @@ export interface ChannelRow {
   readonly unit: string;
   /** value = count * scale */
   readonly scale: number;
-  readonly doc: string;
 }
 
 export interface FaultRow {
@@ -73,7 +71,6 @@ def module(registry: Registry) -> str:
             "ratchet": row.ratchet,
             "default": row.default,
             "access": access[row.access],
-            "doc": row.doc,
         }
         for row in registry.parameters
     }
@@ -83,7 +80,6 @@ def module(registry: Registry) -> str:
             "name": row.name,
             "unit": row.unit,
             "scale": row.scale,
-            "doc": row.doc,
         }
         for row in registry.channels
     }

@@ -21,7 +21,6 @@ export interface ParameterRow {
   readonly ratchet: boolean;
   readonly default: ParameterValue;
   readonly access: string;
-  readonly doc: string;
 }
 
 export interface ChannelRow {
@@ -30,7 +29,6 @@ export interface ChannelRow {
   readonly unit: string;
   /** value = count * scale */
   readonly scale: number;
-  readonly doc: string;
 }
 
 export interface FaultRow {
@@ -272,7 +270,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 0.0,
     access: "DEALER",
-    doc: "Raw reading of the torque sensor with no load on the pedals.",
   },
   sensor_gain_nm_per_count: {
     id: 257,
@@ -290,7 +287,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 0.01,
     access: "DEALER",
-    doc: "Torque per raw count, found by hanging known weights on the pedal.",
   },
   torque_filter_s: {
     id: 258,
@@ -308,7 +304,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 0.5,
     access: "DEALER",
-    doc: "Time constant that averages the rider's torque over the pedal stroke (thesis_checks 4.4).",
   },
   torque_rate_interval_ms: {
     id: 259,
@@ -326,7 +321,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 100,
     access: "DEALER",
-    doc: "Time over which the relative torque rate of eq. 4.16 is taken (thesis_checks I-15).",
   },
   torque_rate_floor_nm: {
     id: 260,
@@ -344,7 +338,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 1.0,
     access: "DEALER",
-    doc: "Smallest torque the rate is divided by, so that starting to pedal is not a division by zero.",
   },
   assist_mode_at_start: {
     id: 512,
@@ -362,7 +355,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 3,
     access: "DEALER",
-    doc: "The mode slot that is selected when the unit is switched on.",
   },
   mode_names: {
     id: 513,
@@ -380,7 +372,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: ["off", "eco", "tour", "sport", "boost"],
     access: "DEALER",
-    doc: "What the five mode slots are called on the display.",
   },
   mode_laws: {
     id: 514,
@@ -398,7 +389,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: ["OFF", "FIXED", "FIXED", "FUZZY", "FUZZY"],
     access: "DEALER",
-    doc: "The assist law of each mode slot.",
   },
   mode_ratios: {
     id: 515,
@@ -416,7 +406,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: [0.0, 0.5, 1.0, 1.0, 1.5],
     access: "DEALER",
-    doc: "Motor torque at the crank per rider torque, before gain and taper.",
   },
   fixed_taper_start_kmh: {
     id: 516,
@@ -434,7 +423,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 15.0,
     access: "DEALER",
-    doc: "Speed above which the fixed law's ratio falls in a straight line.",
   },
   fixed_taper_end_kmh: {
     id: 517,
@@ -452,7 +440,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 24.0,
     access: "DEALER",
-    doc: "Speed at which the fixed law's ratio reaches zero (thesis_checks I-13).",
   },
   assist_ramp_up_nm_per_s: {
     id: 518,
@@ -470,7 +457,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 200.0,
     access: "DEALER",
-    doc: "Fastest rise of the assist torque at the crank.",
   },
   assist_ramp_down_nm_per_s: {
     id: 519,
@@ -488,7 +474,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 400.0,
     access: "DEALER",
-    doc: "Fastest gentle fall of the assist torque at the crank; a cut-off does not wait for it.",
   },
   pedal_torque_nm_min: {
     id: 520,
@@ -506,7 +491,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 1.0,
     access: "DEALER",
-    doc: "Rider torque below which the law gives no assist.",
   },
   fuzzy_table_name: {
     id: 768,
@@ -524,7 +508,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: "thesis 4-2",
     access: "DEALER",
-    doc: "What the rule table is called.",
   },
   fuzzy_inference: {
     id: 769,
@@ -542,7 +525,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: "MAMDANI_CENTROID",
     access: "DEALER",
-    doc: "Exact centroid of the thesis, or weighted average, which is provably monotone with a monotone table.",
   },
   fuzzy_speed_points_kmh: {
     id: 770,
@@ -560,7 +542,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: [5.0, 10.0, 15.0, 20.0, 25.0],
     access: "DEALER",
-    doc: "Peaks of the five speed sets.",
   },
   fuzzy_torque_rate_points: {
     id: 771,
@@ -578,7 +559,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: [0.0, 0.225, 0.45, 0.675, 0.9],
     access: "DEALER",
-    doc: "Peaks of the five torque-rate sets (relative change over the rate interval).",
   },
   fuzzy_gain_points: {
     id: 772,
@@ -596,7 +576,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: [0.1, 0.2, 0.3, 0.4, 0.5],
     access: "DEALER",
-    doc: "Peaks of the five gain sets: what the rules add to the mode's ratio.",
   },
   fuzzy_rules: {
     id: 773,
@@ -614,7 +593,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: [["ZO", "ZO", "PS", "PB", "PB"], ["ZO", "ZO", "PS", "PS", "PB"], ["NS", "ZO", "ZO", "PS", "PS"], ["NB", "NS", "NS", "ZO", "ZO"], ["NB", "NB", "NS", "NS", "NS"]],
     access: "DEALER",
-    doc: "Gain label for each speed (row) and torque rate (column): thesis table 4-2.",
   },
   fuzzy_falling_torque: {
     id: 774,
@@ -632,7 +610,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: "HOLD_ZERO_RATE",
     access: "DEALER",
-    doc: "What the gain does while the rider's torque falls.",
   },
   assist_cutoff_kmh: {
     id: 1024,
@@ -650,7 +627,6 @@ export const PARAMETERS = {
     ratchet: true,
     default: 25.0,
     access: "DEALER",
-    doc: "Speed at and above which there is no assist, whatever the table says. The market may be lower.",
   },
   assist_cutoff_band_kmh: {
     id: 1025,
@@ -668,7 +644,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 0.0,
     access: "DEALER",
-    doc: "Width of the soft ramp below the cut-off speed; 0 cuts hard, and a rider at that speed feels each stroke cut.",
   },
   motor_torque_nm_max: {
     id: 1026,
@@ -686,7 +661,6 @@ export const PARAMETERS = {
     ratchet: true,
     default: 2.0,
     access: "DEALER",
-    doc: "Largest torque at the motor's shaft.",
   },
   battery_current_a_max: {
     id: 1027,
@@ -704,7 +678,6 @@ export const PARAMETERS = {
     ratchet: true,
     default: 12.0,
     access: "DEALER",
-    doc: "Largest current drawn from the battery.",
   },
   battery_voltage_v_min: {
     id: 1028,
@@ -722,7 +695,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 30.0,
     access: "DEALER",
-    doc: "Battery voltage below which assist ends.",
   },
   motor_speed_rpm_max: {
     id: 1029,
@@ -740,7 +712,6 @@ export const PARAMETERS = {
     ratchet: true,
     default: 3000.0,
     access: "DEALER",
-    doc: "Motor speed at and above which it gives no torque.",
   },
   pedal_stop_ms: {
     id: 1030,
@@ -758,7 +729,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 150,
     access: "DEALER",
-    doc: "Time without forward pedalling after which assist is cut.",
   },
   gear_ratio: {
     id: 1280,
@@ -776,7 +746,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 40.34,
     access: "FACTORY",
-    doc: "Motor turns per crank turn (thesis text 4.10; the teeth of table 2-3 give 36.744, thesis_checks I-1).",
   },
   chainring_teeth: {
     id: 1281,
@@ -794,7 +763,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 44,
     access: "FACTORY",
-    doc: "Teeth of the chainring.",
   },
   cog_teeth: {
     id: 1282,
@@ -812,7 +780,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 14,
     access: "FACTORY",
-    doc: "Teeth of the rear cog.",
   },
   wheel_circumference_m: {
     id: 1284,
@@ -830,7 +797,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 2.073451,
     access: "DEALER",
-    doc: "Way of the bike in one turn of the wheel that carries the speed sensor: every speed and distance is counted with it.",
   },
   motor_torque_constant_nm_per_a: {
     id: 1296,
@@ -848,7 +814,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 0.112,
     access: "FACTORY",
-    doc: "Torque per ampere, and volts per rad/s, of the motor (thesis_checks I-5).",
   },
   motor_resistance_ohm: {
     id: 1297,
@@ -866,7 +831,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 0.25,
     access: "FACTORY",
-    doc: "Resistance of winding, bridge and lead (thesis_checks I-5).",
   },
   mode_tapers: {
     id: 1536,
@@ -884,7 +848,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: ["TAPER_SPEEDS", "TAPER_SPEEDS", "TAPER_SPEEDS", "TAPER_SPEEDS", "TAPER_SPEEDS"],
     access: "DEALER",
-    doc: "How the fixed law's ratio falls with speed in each mode slot; the fuzzy law has its table.",
   },
   mode_tables: {
     id: 1537,
@@ -902,7 +865,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: [0, 0, 0, 0, 0],
     access: "DEALER",
-    doc: "Which fuzzy table each mode slot uses: 0 the first, 1 the second.",
   },
   mode_ramp_up_nm_per_s: {
     id: 1538,
@@ -920,7 +882,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: [2000, 2000, 2000, 2000, 2000],
     access: "DEALER",
-    doc: "Fastest rise of the assist torque at the crank in each mode slot; assist_ramp_up_nm_per_s holds too.",
   },
   mode_ramp_down_nm_per_s: {
     id: 1539,
@@ -938,7 +899,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: [2000, 2000, 2000, 2000, 2000],
     access: "DEALER",
-    doc: "Fastest gentle fall of the assist torque at the crank in each mode slot; assist_ramp_down_nm_per_s holds too.",
   },
   mode_torque_pct: {
     id: 1540,
@@ -956,7 +916,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: [100, 100, 100, 100, 100],
     access: "DEALER",
-    doc: "Largest torque at the motor's shaft in each mode slot, of motor_torque_nm_max.",
   },
   walk_speed_kmh: {
     id: 1541,
@@ -974,7 +933,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 5.0,
     access: "DEALER",
-    doc: "Speed that walk assist holds while its button is held; 0: no walk assist.",
   },
   second_table_name: {
     id: 1552,
@@ -992,7 +950,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: "thesis 4-2, smooth",
     access: "DEALER",
-    doc: "What the second rule table is called. It shares the speed and torque-rate points of the first.",
   },
   second_inference: {
     id: 1553,
@@ -1010,7 +967,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: "WEIGHTED_AVERAGE",
     access: "DEALER",
-    doc: "How the rules of the second table are combined.",
   },
   second_gain_points: {
     id: 1554,
@@ -1028,7 +984,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: [0.1, 0.2, 0.3, 0.4, 0.5],
     access: "DEALER",
-    doc: "Peaks of the second table's five gain sets.",
   },
   second_rules: {
     id: 1555,
@@ -1046,7 +1001,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: [["ZO", "ZO", "PS", "PB", "PB"], ["ZO", "ZO", "PS", "PS", "PB"], ["NS", "ZO", "ZO", "PS", "PS"], ["NB", "NS", "NS", "ZO", "ZO"], ["NB", "NB", "NS", "NS", "NS"]],
     access: "DEALER",
-    doc: "Gain label for each speed (row) and torque rate (column) of the second table.",
   },
   market: {
     id: 1568,
@@ -1064,7 +1018,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: "EU_EPAC",
     access: "FACTORY",
-    doc: "Whose law the bike is ridden under: lowers every other limit where it is stricter, and never raises one.",
   },
   assist_cutoff_extra_kmh: {
     id: 1569,
@@ -1082,7 +1035,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 0.0,
     access: "FACTORY",
-    doc: "Added to assist_cutoff_kmh for a market that allows more than 25 km/h; the market's own limit holds.",
   },
   wheel_pulses_per_turn: {
     id: 1584,
@@ -1100,7 +1052,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 36,
     access: "FACTORY",
-    doc: "Pulses of the speed sensor in one turn of its wheel: its magnets, or the teeth of its ring.",
   },
   wheel_circumference_m_factory: {
     id: 1585,
@@ -1118,7 +1069,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 2.073451,
     access: "FACTORY",
-    doc: "Circumference of the wheel that the bike left the factory with: the middle of what a dealer may set.",
   },
   sensor_gain_nm_per_count_factory: {
     id: 1586,
@@ -1136,7 +1086,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 0.01,
     access: "FACTORY",
-    doc: "Gain of this unit's torque sensor as the factory measured it: the middle of what a dealer may set.",
   },
   sensor_offset_counts_factory: {
     id: 1587,
@@ -1154,7 +1103,6 @@ export const PARAMETERS = {
     ratchet: false,
     default: 0.0,
     access: "FACTORY",
-    doc: "Reading of this unit's torque sensor without load as the factory measured it: the middle of what a dealer may set.",
   },
 } as const satisfies Record<string, ParameterRow>;
 
@@ -1166,147 +1114,126 @@ export const CHANNELS = {
     name: "speed_kmh",
     unit: "km/h",
     scale: 0.01,
-    doc: "Bike speed.",
   },
   cadence_rpm: {
     id: 2,
     name: "cadence_rpm",
     unit: "rpm",
     scale: 0.01,
-    doc: "Crank speed.",
   },
   crank_angle_deg: {
     id: 3,
     name: "crank_angle_deg",
     unit: "deg",
     scale: 0.02,
-    doc: "Crank angle, 0 with the left crank up.",
   },
   rider_torque_nm: {
     id: 4,
     name: "rider_torque_nm",
     unit: "Nm",
     scale: 0.01,
-    doc: "Rider torque at the spindle, as calibrated, unfiltered.",
   },
   rider_torque_raw: {
     id: 5,
     name: "rider_torque_raw",
     unit: "counts",
     scale: 1,
-    doc: "Torque sensor reading before calibration.",
   },
   rider_torque_filtered_nm: {
     id: 6,
     name: "rider_torque_filtered_nm",
     unit: "Nm",
     scale: 0.01,
-    doc: "Rider torque averaged over the stroke: what the law acts on.",
   },
   torque_rate: {
     id: 7,
     name: "torque_rate",
     unit: "",
     scale: 0.0005,
-    doc: "Relative torque change over the rate interval: the law's second input.",
   },
   motor_torque_nm: {
     id: 8,
     name: "motor_torque_nm",
     unit: "Nm",
     scale: 0.0001,
-    doc: "Torque at the motor's shaft; times gear_ratio it is the torque at the crank.",
   },
   motor_current_a: {
     id: 9,
     name: "motor_current_a",
     unit: "A",
     scale: 0.001,
-    doc: "Current in the motor.",
   },
   motor_speed_rpm: {
     id: 10,
     name: "motor_speed_rpm",
     unit: "rpm",
     scale: 0.2,
-    doc: "Motor speed.",
   },
   battery_current_a: {
     id: 11,
     name: "battery_current_a",
     unit: "A",
     scale: 0.001,
-    doc: "Current from the battery.",
   },
   battery_voltage_v: {
     id: 12,
     name: "battery_voltage_v",
     unit: "V",
     scale: 0.002,
-    doc: "Battery voltage at the terminals.",
   },
   battery_soc_pct: {
     id: 13,
     name: "battery_soc_pct",
     unit: "%",
     scale: 0.01,
-    doc: "Battery state of charge.",
   },
   assist_ratio: {
     id: 14,
     name: "assist_ratio",
     unit: "",
     scale: 0.0002,
-    doc: "Motor torque at the crank over filtered rider torque that the law asks for, gain included, before limits.",
   },
   fuzzy_gain: {
     id: 15,
     name: "fuzzy_gain",
     unit: "",
     scale: 5e-05,
-    doc: "Gain of the fuzzy law; missing where the mode does not use it.",
   },
   assist_mode: {
     id: 16,
     name: "assist_mode",
     unit: "",
     scale: 1,
-    doc: "Selected mode slot, 0 to 4.",
   },
   limit_flags: {
     id: 17,
     name: "limit_flags",
     unit: "flags",
     scale: 1,
-    doc: "Bits of limit_flags.",
   },
   motor_temperature_degc: {
     id: 18,
     name: "motor_temperature_degc",
     unit: "degC",
     scale: 0.01,
-    doc: "Motor winding temperature.",
   },
   sensor_temperature_degc: {
     id: 19,
     name: "sensor_temperature_degc",
     unit: "degC",
     scale: 0.01,
-    doc: "Temperature at the torque sensor.",
   },
   fault_flags: {
     id: 20,
     name: "fault_flags",
     unit: "flags",
     scale: 1,
-    doc: "Bits 0 to 14 of fault_flags.",
   },
   fault_flags_high: {
     id: 21,
     name: "fault_flags_high",
     unit: "flags",
     scale: 1,
-    doc: "Bits 16 up of fault_flags: bit 0 here is bit 16 there.",
   },
 } as const satisfies Record<string, ChannelRow>;
 
