@@ -1,7 +1,8 @@
 /* The bench board driven by a script on standard input, for a build with sanitizers.
  *
  * Records: 'b' boot; 'a' u32 advance by microseconds; 's' u16 length and bytes to the unit; 'r' u32
- * room on the line; 'i' the raw hal_inputs. Everything the unit says goes to standard output. */
+ * room on the line; 'w' f32 the wheel's speed; 'i' the raw hal_inputs. Everything the unit says
+ * goes to standard output. */
 #include <stdio.h>
 
 #include "bench_board.h" // bench_create
@@ -45,6 +46,10 @@ static int obey(bench_board *board, int record, uint32_t *boot_id)
             bench_send(board, bytes, length);
         }
         bench_poll(board);
+        return 1;
+    case 'w':
+        if (!take(bytes, 4)) return 0;
+        bench_wheel_set(board, ebl_get_f32(bytes));
         return 1;
     case 'i':
         if (fread(&inputs, sizeof inputs, 1, stdin) != 1) return 0;

@@ -92,6 +92,8 @@ class RecordedUnit(BenchUnit):
         super().line_room(length)
 
     def inputs(self, **values: float) -> None:
+        if "speed_kmh" in values:
+            self.script += struct.pack("<cf", b"w", values["speed_kmh"])
         super().inputs(**values)
         inputs = ffi.new("hal_inputs *")
         lib.bench_inputs_get(self.board, inputs)

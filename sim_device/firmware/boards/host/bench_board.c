@@ -1,6 +1,5 @@
 #include "bench_board.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -101,7 +100,7 @@ static void wheel_turn(bench_board *board)
     /* A clock that was set far ahead: whole pulses at once. */
     behind = ((double)board->now_us - board->pulse_due_us) / board->pulse_period_us;
     if (behind > 1000.0) {
-        board->inputs.wheel_pulses += (uint32_t)fmod(behind, 4294967296.0);
+        board->inputs.wheel_pulses += (uint32_t)(uint64_t)behind;
         board->pulse_due_us = (double)board->now_us;
     }
     while (board->pulse_due_us <= (double)board->now_us) {
