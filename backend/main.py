@@ -26,6 +26,7 @@ from backend.api.connections import PatientProtocol
 from backend.api.safety import AllowedHosts
 from backend.api.services import Services
 from backend.errors import LinkError, SpindleError, StoreError
+from backend.ingest import Children, read_in_child
 from backend.link import kind_of
 from backend.services.collect import Collect
 from backend.services.connect import Devices
@@ -38,7 +39,7 @@ from backend.services.replay import RideReplay
 from backend.services.review import Rides
 from backend.services.try_live import LiveTuning
 from backend.services.tune import Tuning
-from backend.services.upload import Uploads, UploadSettings
+from backend.services.upload import QUICK_S, Uploads, UploadSettings
 from backend.services.watch import Watch
 from backend.settings import CHECKOUT, Settings
 from backend.store import Store, open_store
@@ -77,12 +78,17 @@ def open_services(settings: Settings) -> Iterator[Services]:
         recorder = Recorder(store.rides, memory.ride_context)
         closing.callback(recorder.close)
         limit = UploadSettings(length_max=settings.upload_bytes_max)
-        uploads = Uploads(store, limit)
+        children = Children()
+        quick = partial(read_in_child, wall_s=QUICK_S, children=children)
+        slow = partial(read_in_child, children=children)
+        uploads = Uploads(store, limit, quick, slow, children.stop)
         in_background("uploads", uploads.recover)
         # Units close first: their last rows still find the recorder.
         closing.callback(devices.close)
         collect = Collect(devices, uploads, settings.data / "collecting")
         closing.callback(collect.close)
+        # Closes before those who wait for a file to be read.
+        closing.callback(uploads.close)
 
         devices.watch(memory.follow)
         devices.watch(recorder.watch)

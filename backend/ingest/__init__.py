@@ -1,6 +1,15 @@
 """Log files to samples: FIT and CSV, salvage of damaged ones, in a child process."""
 
 from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide, Outcome
-from backend.ingest.sandbox import read_in_child
+from backend.ingest.sandbox import Children, ReadingStopped, read_in_child
 
-__all__ = ["COMPLETE", "PARTIAL", "REJECTED", "ImportedRide", "Outcome", "read_in_child"]
+__all__ = [
+    "COMPLETE",
+    "PARTIAL",
+    "REJECTED",
+    "Children",
+    "ImportedRide",
+    "Outcome",
+    "ReadingStopped",
+    "read_in_child",
+]

@@ -18,6 +18,7 @@ from backend.domain.ride_events import RideEvent
 COMPLETE = "complete"
 PARTIAL = "partial"
 REJECTED = "rejected"
+TOO_SLOW = "too_slow"
 
 
 @dataclass(frozen=True)

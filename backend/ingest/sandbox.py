@@ -12,6 +12,7 @@ import signal
 import struct
 import subprocess
 import sys
+import threading
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,7 @@ import numpy as np
 from backend.domain.channels import Counts, channel_from_json
 from backend.domain.ride import RideContext, RideRows
 from backend.domain.ride_events import RideEvent
-from backend.ingest.outcome import REJECTED, ImportedRide, Outcome, rejected
+from backend.ingest.outcome import REJECTED, TOO_SLOW, ImportedRide, Outcome, rejected
 from backend.ingest.worker import CPU_S, DATA_BYTES, OUT_OF_MEMORY
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -29,40 +30,90 @@ WALL_S = 3 * CPU_S
 STDERR_SHOWN = 300
 
 
-def read_in_child(path: Path, name: str) -> Outcome:
+class ReadingStopped(Exception):
+    """Spindle stops: the file was not read to its end, and nothing is known of it."""
+
+
+class Children:
+    """The children that read at present, so that a stop can end them; safe from any thread."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._running: set[subprocess.Popen[bytes]] = set()
+        self._stopped = False
+
+    def stop(self) -> None:
+        """End every child, and begin no other."""
+        with self._lock:
+            self._stopped = True
+            for child in self._running:
+                child.kill()
+
+    def run(self, command: list[str], wall_s: float) -> subprocess.CompletedProcess[bytes]:
+        """A command to its end. Raises ReadingStopped, subprocess.TimeoutExpired."""
+        # One thread: a pool of them would count against the memory limit without being used.
+        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "PYTHONPATH": str(ROOT)}
+        with self._lock:
+            self._check()
+            child = subprocess.Popen(
+                command,
+                cwd=ROOT,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                # Ctrl-C in a terminal is meant for the server: a child that died of it would
+                # look like one that its file killed.
+                start_new_session=True,
+                creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
+            )
+            self._running.add(child)
+        try:
+            out, err = child.communicate(timeout=wall_s)
+        except subprocess.TimeoutExpired:
+            child.kill()
+            child.communicate()
+            raise
+        finally:
+            with self._lock:
+                self._running.discard(child)
+        with self._lock:
+            self._check()
+        return subprocess.CompletedProcess(command, child.returncode, out, err)
+
+    def _check(self) -> None:
+        if self._stopped:
+            raise ReadingStopped
+
+
+def read_in_child(
+    path: Path, name: str, wall_s: float = WALL_S, children: Children | None = None
+) -> Outcome:
     """A file -> what came of it. Never raises on any contents.
 
-    path: where the bytes are. name: what the file was called, which may decide the format.
+    path: where the bytes are. name: what the file was called, which may decide the format. wall_s:
+    how long a child may take. children: whose `stop` ends it. Raises ReadingStopped after that.
     """
-    outcome = run_child(path, name, "fast")
+    children = children or Children()
+    outcome = run_child(path, name, "fast", wall_s, children)
     if outcome.state == REJECTED and outcome.code in ("parser_crashed", "too_much_memory"):
-        again = run_child(path, name, "salvage")
-        if again.state != REJECTED:
+        again = run_child(path, name, "salvage", wall_s, children)
+        if again.state != REJECTED or again.code == TOO_SLOW:
             return again
     return outcome
 
 
-def run_child(path: Path, name: str, way: str) -> Outcome:
+def run_child(path: Path, name: str, way: str, wall_s: float, children: Children) -> Outcome:
     """One run of the reader; its death is an outcome too."""
     command = [sys.executable, "-m", "backend.ingest.worker", str(path), printable(name), way]
-    # One thread: a pool of them would count against the memory limit without being used.
-    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "PYTHONPATH": str(ROOT)}
     try:
-        done = subprocess.run(
-            command,
-            cwd=ROOT,
-            env=environment,
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            timeout=WALL_S,
-            check=False,
-        )
+        done = children.run(command, wall_s)
     except subprocess.TimeoutExpired:
-        return rejected("too_slow", f"Reading took longer than {WALL_S} s and was stopped.")
+        return rejected(TOO_SLOW, f"Reading took longer than {wall_s:g} s and was stopped.")
     if done.returncode == 0:
         return decode(done.stdout)
     if done.returncode == -getattr(signal, "SIGXCPU", 0):
-        return rejected("too_slow", f"Reading took more than {CPU_S} s of computing; stopped.")
+        return rejected(TOO_SLOW, f"Reading took more than {CPU_S} s of computing; stopped.")
     if done.returncode == OUT_OF_MEMORY or b"memory allocation" in done.stderr:
         return rejected(
             "too_much_memory", f"Reading needed more than {DATA_BYTES >> 20} MB; stopped."

@@ -3,38 +3,35 @@
 A file arrives piece by piece (`create`, `append`), or at once (`receive_file`). With its last byte
 it is kept under its hash, looked at in a child process, and concluded: `complete`, `partial` or
 `rejected`, with a stable code, a sentence, and the rides it became. It is kept as long as one of
-these rides; without any it can be removed, and goes by itself when its time is over.
+these rides; without any it can be removed, and goes by itself when its time is over. Reading has
+threads of its own (`reading.Lanes`): `begin` and `add` never wait for it.
 """
 
 from __future__ import annotations
 
-import logging
-import threading
 import time
-from collections.abc import Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from backend.domain.ride import Ride, iso_utc
-from backend.errors import Conflict, InvalidRequest, StoreError
+from backend.errors import Conflict, InvalidRequest
 from backend.ingest import ImportedRide, Outcome, read_in_child
-from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED
+from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, TOO_SLOW
 from backend.services.fill import fill
+from backend.services.reading import Lanes, TakesLong
 from backend.services.same_ride import same_rides
 from backend.store import Store, Upload, Verdict
 from backend.store.soundness import Expected, damaged_upload
-
-LOG = logging.getLogger(__name__)
 
 # A ride of a day is 10 MB in any format; the bound keeps one client from filling the disk.
 UPLOAD_BYTES_MAX = 256 * 1024 * 1024
 NAME_LENGTH_MAX = 255
 PIECE_BYTES = 1 << 20
-# Child processes that read files at once; each may take half a gigabyte.
-READ_AT_ONCE = 2
+# How long a reader may take before its file is put into the slow lane.
+QUICK_S = 5.0
 # Code of a file whose ride is still being recorded.
 WAITS = "ride_is_live"
 CONCLUDED = (COMPLETE, PARTIAL, REJECTED)
@@ -54,24 +51,45 @@ class UploadSettings:
     expires_s: int = 7 * 86_400
 
 
+class Arrival(NamedTuple):
+    """How far an upload is, and with its last byte the promise of what becomes of it."""
+
+    offset: int
+    reading: Future[Upload] | None
+
+
 class Uploads:
-    """The uploads' use cases; safe to call from any thread."""
+    """The uploads' use cases; safe to call from any thread.
+
+    reader: has little time, and says `too_slow` when it was not enough; then slow_reader (the same,
+    if none is given) reads the file. stop_readers: ends both at once, wherever they are.
+    """
 
     def __init__(
         self,
         store: Store,
         settings: UploadSettings | None = None,
         reader: Reader = read_in_child,
+        slow_reader: Reader | None = None,
+        stop_readers: Callable[[], None] = lambda: None,
     ) -> None:
         self._store = store
         self._settings = settings or UploadSettings()
         self._reader = reader
-        # A file that eats all its time leaves room for another; they are read in turn.
-        self._readers = ThreadPoolExecutor(READ_AT_ONCE, thread_name_prefix="import")
-        self._turn = threading.Condition()
-        self._at_work: set[str] = set()
+        self._slow_reader = slow_reader or reader
+        self._stop_readers = stop_readers
+        self._lanes = Lanes(self._process, self.get)
+
+    def close(self) -> None:
+        """Stop reading. What was not concluded stays queued and is read at the next start."""
+        self._lanes.close(self._stop_readers)
 
     def create(self, name: str, length: int, sha256: str | None = None) -> Upload:
+        """`begin`; a file without bytes has arrived with it and is concluded."""
+        upload = self.begin(name, length, sha256)
+        return self._look(upload.id).result() if length == 0 else upload
+
+    def begin(self, name: str, length: int, sha256: str | None = None) -> Upload:
         """Begin an upload of `length` bytes. Raises InvalidRequest when it is too large.
 
         sha256: what the whole file will hash to, if the client knows; it is checked at the end.
@@ -82,18 +100,27 @@ class Uploads:
                 code="too_large",
             )
         told = name.replace("\0", "")[:NAME_LENGTH_MAX] or "upload"
-        upload = self._store.uploads.create(told, length, sha256, self._settings.expires_s)
-        return self._process(upload.id) if length == 0 else upload
+        return self._store.uploads.create(told, length, sha256, self._settings.expires_s)
 
     def append(self, upload_id: str, offset: int, data: bytes) -> int:
         """Add bytes at `offset`; returns the new offset, which is safe on the disk.
 
-        With the last byte the file is looked at. Raises NotFound, Conflict, StoreError.
+        With the last byte the file is read; returns when it is concluded or Spindle stops. Raises
+        NotFound, Conflict, StoreError.
+        """
+        arrival = self.add(upload_id, offset, data)
+        if arrival.reading is not None:
+            arrival.reading.result()
+        return arrival.offset
+
+    def add(self, upload_id: str, offset: int, data: bytes) -> Arrival:
+        """Add bytes at `offset` without waiting for the file to be read.
+
+        Raises NotFound, Conflict, StoreError; so may the promise.
         """
         upload = self._store.uploads.append(upload_id, offset, data)
-        if upload.received == upload.length:
-            self._process(upload_id)
-        return upload.received
+        whole = upload.received == upload.length
+        return Arrival(upload.received, self._look(upload_id) if whole else None)
 
     def receive_file(self, name: str, source: bytes | Path) -> Upload:
         """A whole file at once -> what became of it."""
@@ -122,60 +149,47 @@ class Uploads:
     def remove(self, upload_id: str) -> None:
         """Give an upload up and free its space, whatever became of it but rides.
 
-        Raises NotFound; Conflict, naming the rides, when some came from it.
+        Raises NotFound; Conflict, naming the rides, when some came from it, or while it is read.
         """
-        with self._store.deciding:
+        with self._store.deciding, self._lanes.idle(upload_id):
             self._store.uploads.remove(upload_id, now_us())
 
     def recover(self) -> Sequence[Upload]:
-        """Look at the files a crash left waiting."""
-        return [self._process(upload.id) for upload in self._store.uploads.waiting()]
+        """Look at the files a crash or a stop left waiting; what became of those that were read."""
+        promises = [self._look(upload.id) for upload in self._store.uploads.waiting()]
+        return [promise.result() for promise in promises if promise.exception() is None]
 
-    def look_again(self) -> None:
-        """Look at the files that waited for a ride that is over now."""
+    def look_again(self) -> Sequence[Future[Upload]]:
+        """Have the files looked at that waited for a ride that is over now; does not wait."""
         live = set(self._store.rides.live_ids())
-        for upload in self._store.uploads.waiting():
-            if upload.code == WAITS and upload.duplicate_of not in live:
-                self._process(upload.id)
+        return [
+            self._look(upload.id)
+            for upload in self._store.uploads.waiting()
+            if upload.code == WAITS and upload.duplicate_of not in live
+        ]
 
-    def _process(self, upload_id: str) -> Upload:
-        with self._alone_with(upload_id):
-            upload = self.get(upload_id)
-            return upload if upload.state in CONCLUDED else self._process_next(upload_id)
+    def _look(self, upload_id: str) -> Future[Upload]:
+        """Keep a whole file, and have it read in its turn."""
+        return self._lanes.begin(upload_id, self._store.uploads.keep_original)
 
-    @contextmanager
-    def _alone_with(self, upload_id: str) -> Iterator[None]:
-        """One thread at a time with an upload; the next finds it concluded."""
-        with self._turn:
-            self._turn.wait_for(lambda: upload_id not in self._at_work)
-            self._at_work.add(upload_id)
-        try:
-            yield
-        finally:
-            with self._turn:
-                self._at_work.discard(upload_id)
-                self._turn.notify_all()
+    def _process(self, upload_id: str, slow: bool) -> Upload:
+        upload = self.get(upload_id)
+        return upload if upload.state in CONCLUDED else self._process_next(upload, slow)
 
-    def _process_next(self, upload_id: str) -> Upload:
-        uploads = self._store.uploads
-        upload = uploads.keep_original(upload_id)
+    def _process_next(self, upload: Upload, slow: bool) -> Upload:
         if upload.declared_sha256 and upload.declared_sha256 != upload.sha256:
             told = f"The bytes that arrived hash to {upload.sha256}, not to what was declared."
-            return self._conclude(upload_id, REJECTED, "hash_mismatch", told, 0.0)
+            return self._conclude(upload.id, REJECTED, "hash_mismatch", told, 0.0)
         with self._store.deciding:
             if (twin := self._twin(upload)) is not None:
                 return twin
-        outcome = self._read(upload)
-        try:
-            with self._store.deciding:
-                # The same bytes may have become a ride while these were read.
-                if (twin := self._twin(upload)) is not None:
-                    return twin
-                return self._keep(self.get(upload_id), outcome)
-        except StoreError as error:
-            # The original is kept and the upload waits: the next start looks at it again.
-            LOG.warning("Upload %s is kept but not read: %s", upload_id, error.message)
-            raise
+        outcome = self._read(upload, slow)
+        # Where this fails the original is kept and the upload waits for the next start.
+        with self._store.deciding:
+            # The same bytes may have become a ride while these were read.
+            if (twin := self._twin(upload)) is not None:
+                return twin
+            return self._keep(self.get(upload.id), outcome)
 
     def _keep(self, upload: Upload, outcome: Outcome) -> Upload:
         """Make rides of what was read, or fill those that are here, and say so."""
@@ -234,14 +248,19 @@ class Uploads:
         detail = f"This is ride {live.id}, which is being recorded; what it lacks is filled later."
         return self._conclude(upload.id, "queued", WAITS, detail, None, live.id)
 
-    def _read(self, upload: Upload) -> Outcome:
+    def _read(self, upload: Upload, slow: bool) -> Outcome:
         if upload.object_key is None:
             raise Conflict(f"Upload {upload.id} has not arrived.")
         expected = Expected(upload.object_key, upload.received)
         if found := self._store.soundness.damage(expected):
             raise damaged_upload(upload.name, upload.object_key, found)
         path = self._store.objects.local_path(upload.object_key)
-        return self._readers.submit(self._reader, path, upload.name).result()
+        if slow:
+            return self._slow_reader(path, upload.name)
+        outcome = self._reader(path, upload.name)
+        if outcome.code == TOO_SLOW:
+            raise TakesLong
+        return outcome
 
     def _twin(self, upload: Upload) -> Upload | None:
         """Conclude an upload of bytes that are here already, naming the ride they became."""

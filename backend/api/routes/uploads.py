@@ -9,6 +9,7 @@ upload is waited for.
 
 from __future__ import annotations
 
+import asyncio
 import base64
 import hashlib
 import hmac
@@ -40,7 +41,7 @@ FileName = Annotated[str, Query(min_length=1, max_length=255, description="The f
 async def import_ride(name: FileName, request: Request, services: Provided) -> Any:
     """A whole file as the request's body; answers when it has become a ride or been refused."""
     length = _declared_length(request)
-    upload = await run_in_threadpool(services.uploads.create, name, length)
+    upload = await _begin(services, name, length)
     await _append_stream(services, upload.id, 0, request.stream())
     return await run_in_threadpool(services.uploads.get, upload.id)
 
@@ -76,7 +77,7 @@ async def create_upload(
     with_part = request.headers.get("content-type") == TUS_CHUNK_MEDIA_TYPE
     if with_part and _part_length(request) > upload_length:
         return _too_long(upload_length)
-    upload = await run_in_threadpool(services.uploads.create, name[:255], upload_length)
+    upload = await _begin(services, name[:255], upload_length)
     offset = 0
     if with_part:
         try:
@@ -154,7 +155,8 @@ async def delete_upload(upload_id: str, services: Provided) -> Response:
     """Removes an upload that no ride came from, and its bytes: unfinished, rejected or a copy.
 
     An original lives as long as a ride that came from it: 409 names these rides, and the file goes
-    with the last of them. Uploads without rides also go by themselves when their time is over.
+    with the last of them. One that is being read, or waits for it, is 409 `being_read` until then.
+    Uploads without rides also go by themselves when their time is over.
     """
     await run_in_threadpool(services.uploads.remove, upload_id)
     return _tus_response(204)
@@ -256,14 +258,30 @@ def _expiry(upload: Any, received: int | None = None) -> dict[str, str]:
     return {"upload_expires": formatdate(upload.expires_us // 1_000_000, usegmt=True)}
 
 
+async def _begin(services: Services, name: str, length: int) -> Any:
+    """A new upload; a file without bytes has arrived with it."""
+    upload = await run_in_threadpool(services.uploads.begin, name, length)
+    if length == 0:
+        await _add(services, upload.id, 0, b"")
+    return upload
+
+
 async def _append_stream(
     services: Services, upload_id: str, offset: int, chunks: AsyncIterator[bytes]
 ) -> int:
     """Hands over what arrives piece by piece, so that a break loses nothing; the new offset."""
     async for chunk in chunks:
         if chunk:
-            offset = await run_in_threadpool(services.uploads.append, upload_id, offset, chunk)
+            offset = await _add(services, upload_id, offset, chunk)
     return offset
+
+
+async def _add(services: Services, upload_id: str, offset: int, data: bytes) -> int:
+    """Add bytes, and with the last one wait until the file is read, on no thread meanwhile."""
+    arrival = await run_in_threadpool(services.uploads.add, upload_id, offset, data)
+    if arrival.reading is not None:
+        await asyncio.wrap_future(arrival.reading)
+    return arrival.offset
 
 
 async def _collected(chunks: AsyncIterator[bytes]) -> bytes:

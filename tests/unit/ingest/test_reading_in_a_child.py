@@ -5,14 +5,16 @@ Method: the real child process, on sound, hostile and expensive files.
 
 from __future__ import annotations
 
+import os
+import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
-from backend.ingest import COMPLETE, REJECTED, read_in_child
-from backend.ingest import sandbox as sandbox_module
+from backend.ingest import COMPLETE, REJECTED, Children, ReadingStopped, read_in_child
 from backend.ingest.formats import read_file
-from backend.ingest.sandbox import decode, run_child
+from backend.ingest.sandbox import decode
 from backend.ingest.worker import encode
 from tests.fakes.fit_file import commute, definition, enclosed, fit_file
 
@@ -54,13 +56,12 @@ def test_a_million_empty_messages_end_in_an_answer(tmp_path: Path) -> None:
 
 
 def test_reading_that_takes_too_long_is_stopped_with_the_reason(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path,
 ) -> None:
     path = tmp_path / "object"
     path.write_bytes(fit_file(commute(20)))
-    monkeypatch.setattr(sandbox_module, "WALL_S", 0.001)
 
-    assert run_child(path, "ride.fit", "fast").code == "too_slow"
+    assert read_in_child(path, "ride.fit", wall_s=0.001).code == "too_slow"
 
 
 def test_a_name_can_be_anything(tmp_path: Path) -> None:
@@ -69,3 +70,27 @@ def test_a_name_can_be_anything(tmp_path: Path) -> None:
 
     for name in ("", "--help", "a\nb\x00c.fit", "=cmd|' /C calc'!A0.fit", "\u202egpj.tif"):
         assert read_in_child(path, name).state == COMPLETE
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs a file that its reader waits for")
+def test_a_stop_ends_a_child_at_its_work_and_begins_no_other(tmp_path: Path) -> None:
+    path = tmp_path / "object"
+    os.mkfifo(path)
+    children = Children()
+    with ThreadPoolExecutor(1) as server:
+        reading = server.submit(read_in_child, path, "ride.fit", 60, children)
+        # Opens as soon as the child does, which then waits for bytes.
+        with path.open("wb"):
+            children.stop()
+
+            with pytest.raises(ReadingStopped):
+                reading.result()
+    with pytest.raises(ReadingStopped):
+        read_in_child(path, "ride.fit", children=children)
+
+
+@pytest.mark.skipif(not hasattr(os, "getpgrp"), reason="needs process groups")
+def test_a_ctrl_c_meant_for_the_server_does_not_reach_a_child() -> None:
+    told = Children().run([sys.executable, "-c", "import os; print(os.getpgrp())"], 60)
+
+    assert int(told.stdout) != os.getpgrp()

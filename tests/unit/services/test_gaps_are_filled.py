@@ -290,7 +290,8 @@ def test_a_log_that_comes_before_its_ride_is_over_fills_it_afterwards(bench: Ben
     assert bench.store.rides.get(ride_id).state == "live"
 
     recorder.close()
-    bench.uploads.look_again()
+    for looking in bench.uploads.look_again():
+        looking.result(30)
 
     assert sum(span.rows_filled for span in bench.store.rides.get(ride_id).filled) == 100
     (upload,) = [bench.store.uploads.get(u.id) for u in [bench.uploads.receive_file("x", b"log 1")]]
