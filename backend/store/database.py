@@ -106,7 +106,7 @@ class Database:
         if 0 < left < before:
             return True
         # The log of changes still holds what was deleted; a reader in it only postpones this.
-        outside_transaction(self.engine, "PRAGMA wal_checkpoint(TRUNCATE)")
+        truncate_log(self.engine)
         return False
 
     def ask(self) -> None:
@@ -233,6 +233,23 @@ def make_shrinkable(engine: Engine) -> None:
     """Lets a file of before this rule shrink too: it is written anew, once. A full disk may not."""
     if outside_transaction(engine, "PRAGMA auto_vacuum") == 0:
         outside_transaction(engine, "VACUUM")
+
+
+def truncate_log(engine: Engine) -> None:
+    """Empty SQLite's log of changes, if nobody reads from it just now.
+
+    Waiting for a reader would keep every writer waiting too, until its patience is over.
+    """
+    connection = engine.raw_connection()
+    try:
+        cursor = connection.cursor()
+        cursor.execute("PRAGMA busy_timeout=0")
+        cursor.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchone()
+    except sqlite3.Error as error:
+        LOG.warning("The database's log was not emptied: %s. It is reused.", error)
+    finally:
+        connection.cursor().execute(f"PRAGMA busy_timeout={BUSY_TIMEOUT_MS}")
+        connection.close()
 
 
 def outside_transaction(engine: Engine, statement: str) -> object:
