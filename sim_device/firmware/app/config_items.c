@@ -10,8 +10,8 @@
 #define ELEMENT_LENGTH_MAX 32
 
 /* Putting one value right may put another wrong. */
-#define SETTLE_ROUNDS_MAX 4
-#define REFUSALS_AT_ONCE 8
+#define SETTLE_ROUNDS_MAX 6
+#define REFUSALS_AT_ONCE 6
 
 #define MAKERS ((1u << EBL_RECORD_MARKET) | (1u << EBL_RECORD_FACTORY))
 
