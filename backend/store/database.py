@@ -105,8 +105,10 @@ class Database:
         left = self.write(shrink) if before else 0
         if 0 < left < before:
             return True
-        # The log of changes still holds what was deleted; a reader in it only postpones this.
-        truncate_log(self.engine)
+        # The log of changes still holds what was deleted; a reader in it only postpones this. It
+        # takes the writer's lock, and SQLite does not let a transaction that has read wait for it.
+        with suppress(RuntimeError):
+            self._writer.submit(truncate_log, self.engine).result()
         return False
 
     def ask(self) -> None:

@@ -52,8 +52,8 @@ def test_a_simulated_unit_that_dies_comes_back_with_its_configuration(
     children: list[SimulatedLink] = []
     start = SimulatedLink.__init__
 
-    def noted(self: SimulatedLink, *arguments: object) -> None:
-        start(self, *arguments)  # type: ignore[arg-type]
+    def noted(self: SimulatedLink, *arguments: object, **options: object) -> None:
+        start(self, *arguments, **options)  # type: ignore[arg-type]
         children.append(self)
 
     monkeypatch.setattr(SimulatedLink, "__init__", noted)
@@ -77,8 +77,8 @@ def test_removing_a_simulated_unit_ends_its_process(
     children: list[SimulatedLink] = []
     start = SimulatedLink.__init__
 
-    def noted(self: SimulatedLink, *arguments: object) -> None:
-        start(self, *arguments)  # type: ignore[arg-type]
+    def noted(self: SimulatedLink, *arguments: object, **options: object) -> None:
+        start(self, *arguments, **options)  # type: ignore[arg-type]
         children.append(self)
 
     monkeypatch.setattr(SimulatedLink, "__init__", noted)
