@@ -73,7 +73,12 @@ def _follow(function: Function, word: str, operands: str, known: Container[int])
         if target.group(2) == function.name and word != "bl":
             return
         to = int(target.group(1), 16)
-        if to not in known or target.group(3):
+        if target.group(3) and function.name.startswith("__aeabi_"):
+            # The compiler's library shares the ends of its functions; a whole one needs no less.
+            to -= int(target.group(3), 16)
+        elif target.group(3):
+            to = -1
+        if to not in known:
             raise UnknownStack(f"{function.name} goes on in the middle of {target.group(2)}")
         (function.calls if word == "bl" else function.jumps).add(to)
     elif _POINTER_CALL.match(f"{word} {operands}"):

@@ -81,8 +81,9 @@ class BoardWire:
     def copy_message(self, struct_name: str, payload: bytes) -> bytes:
         with _Room(self._board) as room:
             message = self._get(room, struct_name, payload)
-            capacity = len(payload)
-            target, length = room.empty(capacity + CHECK_LENGTH), room.empty(WORD)
+            # A shorter payload of an older peer grows by its high halves.
+            capacity = len(payload) + CHECK_LENGTH
+            target, length = room.empty(capacity), room.empty(WORD)
             arguments = [message, target, capacity, length]
             _must(self._integer(f"{struct_name}_put", arguments))
             return room.read(target, room.word(length))

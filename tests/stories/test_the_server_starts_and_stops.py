@@ -136,6 +136,7 @@ def test_a_unit_that_is_not_there_keeps_nobody_waiting(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.host_build("thirty-two emulated boards are more than two cores run")
 @pytest.mark.parametrize("wait_for_all", [True, False], ids=["ready", "starting"])
 def test_thirty_two_simulated_units_end_with_the_server(tmp_path: Path, wait_for_all: bool) -> None:
     server = SpindleServer(tmp_path, [f"sim:unit{number}" for number in range(32)]).start()

@@ -140,6 +140,7 @@ def test_the_middle_of_a_band_and_the_pulses_are_the_factory_s(band: Band) -> No
     assert staged_anyhow(bench, {"wheel_pulses_per_turn": 18}).status == Status.ACCESS
 
 
+@pytest.mark.host_build("three thousand comparisons")
 def test_host_and_unit_draw_the_same_line_to_the_last_bit() -> None:
     draw = random.Random(7)
     for _ in range(3000):
