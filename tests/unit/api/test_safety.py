@@ -7,11 +7,10 @@ requests and WebSockets (RFC 6454 Origin, RFC 6455 section 10.2), bodies that li
 
 from __future__ import annotations
 
-import asyncio
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import pytest
+from anyio.from_thread import start_blocking_portal
 from fastapi import FastAPI, Request, WebSocket
 from fastapi.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
@@ -152,10 +151,8 @@ def test_an_endless_body_is_not_read_to_its_end() -> None:
         "client": ("127.0.0.1", 1),
         "app": None,
     }
-    # On a thread of its own: a browser test may have left an event loop in this one.
-    with ThreadPoolExecutor(1) as thread:
-        answered = guarded_app(AllowedHosts())(scope, receive, send)
-        thread.submit(asyncio.run, answered).result()
+    with start_blocking_portal() as portal:
+        portal.call(guarded_app(AllowedHosts()), scope, receive, send)
 
     assert sent[0]["status"] == 413
     assert asked <= 3

@@ -13,6 +13,7 @@ from typing import Any
 
 import httpx
 import pytest
+from anyio.from_thread import start_blocking_portal
 from pydantic import BaseModel
 
 from backend.api import large
@@ -74,7 +75,8 @@ def test_while_rides_are_read_others_are_answered(
             rides.let_go.set()
             return other.status_code, (await asking).json()
 
-    other, answer = asyncio.run(story())
+    with start_blocking_portal() as portal:
+        other, answer = portal.call(story)
 
     assert other == 204
     assert answer == ASKED[path]

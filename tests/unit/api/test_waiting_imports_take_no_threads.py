@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import httpx
+from anyio.from_thread import start_blocking_portal
 
 from backend.api.app import ApiSettings, create_app
 from backend.ingest import Outcome
@@ -67,8 +68,11 @@ def test_while_many_imports_wait_another_route_is_answered(tmp_path: Path) -> No
             answers = [(await sent).json() for sent in sending]
         return [each["state"] for each in listed], [each["state"] for each in answers]
 
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as store:
-        meanwhile, afterwards = asyncio.run(story(CountedUploads(store, reader=held)))
+    with (
+        open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as store,
+        start_blocking_portal() as portal,
+    ):
+        meanwhile, afterwards = portal.call(story, CountedUploads(store, reader=held))
 
     assert meanwhile == ["queued"] * IMPORTS
     assert afterwards == ["rejected"] * IMPORTS
