@@ -72,15 +72,13 @@ def _follow(function: Function, word: str, operands: str, known: Container[int])
     if _BRANCH.match(word) and target is not None:
         if target.group(2) == function.name and word != "bl":
             return
-        to = int(target.group(1), 16)
-        if target.group(3) and function.name.startswith("__aeabi_"):
-            # The compiler's library shares the ends of its functions; a whole one needs no less.
-            to -= int(target.group(3), 16)
-        elif target.group(3):
-            to = -1
-        if to not in known:
+        into = int(target.group(3) or "0", 16)
+        start = int(target.group(1), 16) - into
+        # The compiler's library shares the ends of its functions; a whole one needs no less.
+        may_enter = function.name.startswith("__aeabi_")
+        if start not in known or (into and not may_enter):
             raise UnknownStack(f"{function.name} goes on in the middle of {target.group(2)}")
-        (function.calls if word == "bl" else function.jumps).add(to)
+        (function.calls if word == "bl" else function.jumps).add(start)
     elif _POINTER_CALL.match(f"{word} {operands}"):
         function.by_pointer = True
 

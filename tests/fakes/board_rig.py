@@ -22,6 +22,7 @@ WIRE_FUNCTIONS = (
     "default_image",
     "copy_image",
     "image_violations",
+    "band_holds",
     "channel_counts",
     "schema",
 )

@@ -126,6 +126,12 @@ class BoardWire:
             rows = room.read(found, min(count, capacity) * REFUSAL.size)
         return [REFUSAL.unpack_from(rows, at) for at in range(0, len(rows), REFUSAL.size)]
 
+    def band_holds(self, number: int, image: bytes) -> bool:
+        size, _, _ = layout(ffi.typeof("ebl_band"))
+        band = self._board.address("ebl_bands") + number * size
+        with _Room(self._board) as room:
+            return bool(self._integer("ebl_band_holds", [band, room.put(image)]))
+
     def channel_counts(self, scale: float, value: float) -> int:
         return self._integer("ebl_channel_counts", [], [scale, value])
 

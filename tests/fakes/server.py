@@ -58,6 +58,11 @@ class SpindleServer(RunningServer):
         )
         return str(devices[number]["id"])
 
+    def all_ready(self, count: int) -> None:
+        """Wait until `count` units are ready; they become so in any order."""
+        for number in range(count):
+            self.ready_device(number)
+
     def simulate(self, device: str, **change: Any) -> dict[str, Any]:
         """Changes the simulation behind a unit."""
         answer: dict[str, Any] = self.ask("PUT", f"/devices/{device}/simulation", json=change)

@@ -26,7 +26,7 @@ QUICK = ["sim:one?seed=11&speed=5", "sim:two?seed=12&speed=5"]
 def workshop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     """A server with two units side by side, in fast motion."""
     running = SpindleServer(tmp_path_factory.mktemp("workshop"), QUICK).start()
-    running.ready_device(1)
+    running.all_ready(len(QUICK))
     yield running
     running.stop()
 

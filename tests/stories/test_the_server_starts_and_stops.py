@@ -136,12 +136,12 @@ def test_a_unit_that_is_not_there_keeps_nobody_waiting(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.host_build("thirty-two emulated boards are more than two cores run")
+@pytest.mark.host_build("a board takes a tenth of a core at rest: these are about the server")
 @pytest.mark.parametrize("wait_for_all", [True, False], ids=["ready", "starting"])
 def test_thirty_two_simulated_units_end_with_the_server(tmp_path: Path, wait_for_all: bool) -> None:
     server = SpindleServer(tmp_path, [f"sim:unit{number}" for number in range(32)]).start()
     if wait_for_all:
-        server.ready_device(31)
+        server.all_ready(32)
     simulators = simulators_of(server.pid)
 
     said = server.stop(signal.SIGTERM)

@@ -23,7 +23,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     """Three units in virtual time that stand still, and one whose clock is real."""
     devices = [f"sim:{name}?clock=virtual&scenario=none" for name in ("one", "two", "three")]
     running = SpindleServer(tmp_path_factory.mktemp("virtual"), [*devices, "sim:real"]).start()
-    running.ready_device(3)
+    running.all_ready(4)
     yield running
     running.stop()
 

@@ -156,6 +156,11 @@ def image_violations(image: bytes, capacity: int = 255) -> list[tuple[int, int, 
     return [(row.id, row.index, row.code) for row in found[0 : min(count, capacity)]]
 
 
+def band_holds(number: int, image: bytes) -> bool:
+    """Whether the unit finds an image's value inside the band of this number."""
+    return bool(lib.ebl_band_holds(lib.ebl_bands + number, ffi.from_buffer("uint8_t[]", image)))
+
+
 def channel_counts(scale: float, value: float) -> int:
     """The telemetry count of a value, -32768 for none."""
     counts: int = lib.ebl_channel_counts(scale, value)
