@@ -41,7 +41,7 @@ from backend.store.objects import (
     sidecar_key,
 )
 from backend.store.parquet import RideFile, read_facts
-from backend.store.ride_table import finish_row, inserted, ride_row
+from backend.store.ride_table import finish_row, inserted, row_of
 from backend.store.sidecar import read_sidecar
 from backend.store.store import saying_where
 
@@ -206,27 +206,13 @@ def add_kept(database: Database, objects: FileObjects, kept: KeptRide) -> tuple[
     written = WrittenObject(
         key, path.stem, path.stat().st_size, ride.row_count, found, completeness
     )
-    body = ride_row(
-        "live",
-        ride.origin,
-        ride.channels,
-        ride.period_us,
-        ride.started_us,
-        ride.context,
-        ride.name,
-    )
-    body |= {
-        "notes": ride.notes,
-        "filled": [asdict(span) for span in ride.filled],
-        "cut_short": ride.cut_short,
-    }
     state = "complete" if completeness in (None, 1.0) else "partial"
 
     def work(connection: Connection) -> None:
         upload_id = None
         if kept.original is not None:
             upload_id = upload_of(connection, objects, kept.original, state, completeness)
-        ride_id = inserted(connection, body | {"upload_id": upload_id})
+        ride_id = inserted(connection, row_of(ride) | {"upload_id": upload_id})
         finish_row(connection, ride_id, written)
         if upload_id is not None:
             join_source(connection, ride_id, upload_id, MADE)

@@ -85,7 +85,6 @@ def cursor_parts(cursor: str) -> tuple[int, int]:
 
 
 def ride_row(
-    state: str,
     origin: str,
     channels: Sequence[ChannelSpec],
     period_us: int | None,
@@ -93,9 +92,9 @@ def ride_row(
     context: RideContext,
     name: str,
 ) -> dict[str, object]:
-    """A new row of the table `ride`."""
+    """A new row of the table `ride`, live until `finish_row`."""
     return {
-        "state": state,
+        "state": "live",
         "origin": origin,
         "name": name[:NAME_LENGTH_MAX],
         "notes": "",
@@ -108,6 +107,15 @@ def ride_row(
         "gaps": [],
         "created_us": time.time_ns() // 1000,
     }
+
+
+def row_of(ride: Ride) -> dict[str, object]:
+    """A new row for a ride whose rows are all there, but for what `finish_row` adds."""
+    row = ride_row(
+        ride.origin, ride.channels, ride.period_us, ride.started_us, ride.context, ride.name
+    )
+    filled = [asdict(span) for span in ride.filled]
+    return row | {"notes": ride.notes, "filled": filled, "cut_short": ride.cut_short}
 
 
 def inserted(connection: Connection, body: dict[str, object]) -> int:

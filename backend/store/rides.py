@@ -54,6 +54,7 @@ from backend.store.ride_table import (
     remove_ride,
     ride_from_row,
     ride_row,
+    row_of,
     upload_file,
     upload_key,
     whole_ride,
@@ -122,7 +123,7 @@ class RideStore:
         """
         if any(channel.wide for channel in channels) or period_us <= 0:
             raise InvalidRequest("A live ride needs 16 bit channels and a period above 0.")
-        body = ride_row("live", "recorded", channels, period_us, started_us, context, name)
+        body = ride_row("recorded", channels, period_us, started_us, context, name)
         body |= {"server_id": self._server_id, "heartbeat_us": time.time_ns() // 1000}
         ride_id = self._database.write(lambda c: inserted(c, body))
         self._recording.add(ride_id)
@@ -236,23 +237,13 @@ class RideStore:
         more: dict[str, object] = {"name": ride.name[:NAME_LENGTH_MAX], "notes": ride.notes}
         if file := self._database.read(lambda c: upload_file(c, upload_id)):
             more["original"] = file
-        body = ride_row(
-            "live",
-            ride.origin,
-            ride.channels,
-            ride.period_us,
-            ride.started_us,
-            ride.context,
-            ride.name,
-        )
-        body |= {"notes": ride.notes, "completeness": ride.completeness}
         with self._objects.holding():
             source = RowsInMemory(rows)
             written = write_object(self._objects, ride, source, counted=False, more=more)
 
             def work(connection: Connection) -> int:
                 key = upload_key(connection, upload_id)
-                ride_id = inserted(connection, body | {"upload_id": key})
+                ride_id = inserted(connection, row_of(ride) | {"upload_id": key})
                 finish_row(connection, ride_id, written)
                 if key is not None:
                     join_source(connection, ride_id, key, MADE)

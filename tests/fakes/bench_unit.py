@@ -22,6 +22,10 @@ from firmware_protocol._generated import (
     CfgSetRequest,
     CfgValidateRequest,
     CommitFlags,
+    EvtFaultClearRequest,
+    EvtFaultClearResponse,
+    EvtFaultListRequest,
+    EvtFaultListResponse,
     HelloRequest,
     HelloResponse,
     Status,
@@ -30,6 +34,7 @@ from firmware_protocol.layout import Message, Value
 
 FLASH_BLOCK_BYTES = 1024
 FLASH_BYTES = 8 * FLASH_BLOCK_BYTES
+ALL_FAULTS = 0x7FFF_7FFF
 
 
 class BenchUnit:
@@ -166,6 +171,22 @@ class BenchUnit:
         output = ffi.new("assist_output *")
         lib.bench_output(self.board, output)
         return output
+
+    def motor_nm(self) -> float:
+        """What the unit asks of its motor."""
+        return float(lib.bench_motor_torque_nm(self.board))
+
+    def faults(self) -> int:
+        """The fault flags it tells."""
+        message = self.ask(EvtFaultListRequest()).message
+        assert isinstance(message, EvtFaultListResponse)
+        return message.fault_flags
+
+    def clear_faults(self) -> int:
+        """Clear what may be cleared; the fault flags that are left."""
+        message = self.ask(EvtFaultClearRequest(ALL_FAULTS)).message
+        assert isinstance(message, EvtFaultClearResponse)
+        return message.fault_flags
 
     def flash(self) -> np.ndarray:
         """The flash itself: writing to it is damage."""

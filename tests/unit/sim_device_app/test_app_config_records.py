@@ -21,7 +21,6 @@ from firmware_protocol._generated import (
     CountersRequest,
     Event,
     EvtFaultClearRequest,
-    EvtFaultListRequest,
     FaultFlags,
     Status,
 )
@@ -63,10 +62,6 @@ def lay(unit: BenchUnit, first: bytes, second: bytes = b"") -> None:
     unit.boot()
 
 
-def faults(unit: BenchUnit) -> int:
-    return int(unit.ask(EvtFaultListRequest()).message.fault_flags)
-
-
 def converted(unit: BenchUnit) -> tuple[int, int, int] | None:
     """Added, dropped, clamped, if the unit told of any."""
     unit.advance(0.01)
@@ -105,7 +100,7 @@ def test_an_image_of_the_same_layout_is_read_without_a_word() -> None:
     unit = a_unit(slot(items_of(image_with(**JAPAN)), 5))
 
     assert unit.read_image() == (5, image_with(**JAPAN))
-    assert (converted(unit), faults(unit)) == (None, 0)
+    assert (converted(unit), unit.faults()) == (None, 0)
 
 
 def test_an_image_with_other_parameters_is_read_by_their_ids() -> None:
@@ -121,7 +116,7 @@ def test_an_image_with_other_parameters_is_read_by_their_ids() -> None:
     unit = a_unit(slot(items, 7))
 
     assert converted(unit) == (1, 1, 1)
-    assert faults(unit) == 0
+    assert unit.faults() == 0
     assert unit.config() == parameters.default_config() | JAPAN
     assert assist_at(unit, 17.0) > 0.0
 
@@ -148,7 +143,7 @@ def test_values_that_break_a_rule_together_get_their_defaults_and_it_is_told() -
     assert converted(unit) is not None
     assert unit.config()["fixed_taper_start_kmh"] == default["fixed_taper_start_kmh"]
     assert unit.config()["fixed_taper_end_kmh"] == default["fixed_taper_end_kmh"]
-    assert faults(unit) == 0
+    assert unit.faults() == 0
 
 
 def test_a_market_this_firmware_does_not_know_is_not_taken_for_another() -> None:
@@ -157,7 +152,7 @@ def test_a_market_this_firmware_does_not_know_is_not_taken_for_another() -> None
 
     unit = a_unit(slot([*items, Item(market, 1, 1, bytes([77]))], 2))
 
-    assert faults(unit) == FaultFlags.CONFIG_DEFAULTED
+    assert unit.faults() == FaultFlags.CONFIG_DEFAULTED
     assert assist_at(unit, 3.0) == 0.0
 
 
@@ -174,7 +169,7 @@ def test_flash_of_earlier_firmware_is_read(name: str) -> None:
     counters = unit.ask(CountersRequest()).message
     assert generation == old["generation"]
     assert (counters.distance_m, counters.operating_s) == (old["distance_m"], old["operating_s"])
-    assert faults(unit) == 0
+    assert unit.faults() == 0
     config, radius_m = unit.config(), struct.unpack("<f", old["values"].pop(WHEEL_RADIUS))[0]
     assert config["wheel_circumference_m"] == pytest.approx(2 * math.pi * radius_m, rel=1e-6)
     # What the bike had is what its factory measured, for all that anybody knows.
@@ -204,9 +199,9 @@ def test_the_lock_of_earlier_firmware_still_knows_its_maker() -> None:
 
 def told_or_same(unit: BenchUnit, before: tuple[int, bytes]) -> bool:
     """The configuration is what it was, or the unit says that it is not and holds back."""
-    if unit.read_image() == before and faults(unit) == 0:
+    if unit.read_image() == before and unit.faults() == 0:
         return True
-    assert faults(unit) & FaultFlags.CONFIG_DEFAULTED
+    assert unit.faults() & FaultFlags.CONFIG_DEFAULTED
     assert Event.CONFIG_DEFAULTED in [event.code for event in unit.events]
     return assist_at(unit, 10.0) == 0.0
 
@@ -226,7 +221,7 @@ def test_no_flipped_bit_of_a_slot_changes_anything_without_a_word(copies: int) -
         unit.flash()[place] ^= np.uint8(1 << bit % 8)
         unit.boot()
         assert told_or_same(unit, before), (place, bit % 8)
-        if faults(unit):
+        if unit.faults():
             flips_felt.append(place)
 
     # The header is there twice; a record that was changed since has no twin.
@@ -264,9 +259,9 @@ def test_a_record_that_did_not_change_is_taken_from_its_twin(record: str) -> Non
     unit.boot()
 
     if record == "TUNABLE":
-        assert faults(unit) == FaultFlags.CONFIG_DEFAULTED
+        assert unit.faults() == FaultFlags.CONFIG_DEFAULTED
     else:
-        assert (unit.read_image(), faults(unit)) == (before, 0)
+        assert (unit.read_image(), unit.faults()) == (before, 0)
 
 
 def test_lost_settings_mean_walking_pace_until_a_dealer_writes_them() -> None:
@@ -274,7 +269,7 @@ def test_lost_settings_mean_walking_pace_until_a_dealer_writes_them() -> None:
     unit.flash()[records_at(unit.flash())["TUNABLE"][20]] ^= np.uint8(1)
     unit.boot()
 
-    assert faults(unit) == FaultFlags.CONFIG_DEFAULTED
+    assert unit.faults() == FaultFlags.CONFIG_DEFAULTED
     assert assist_at(unit, 4.0) > 0.0
     assert assist_at(unit, WALKING_KMH + 0.1) == 0.0
     unit.inputs(speed_kmh=0.0, cadence_rpm=0.0, motor_speed_rpm=0.0, torque_raw_counts=0.0)
@@ -284,10 +279,10 @@ def test_lost_settings_mean_walking_pace_until_a_dealer_writes_them() -> None:
 
     assert unit.write({}).status == Status.OK
 
-    assert faults(unit) == 0
+    assert unit.faults() == 0
     assert assist_at(unit, 15.0) > 0.0
     unit.boot()
-    assert faults(unit) == 0
+    assert unit.faults() == 0
 
 
 def test_a_lost_calibration_becomes_what_the_factory_measured() -> None:
@@ -297,7 +292,7 @@ def test_a_lost_calibration_becomes_what_the_factory_measured() -> None:
     unit.boot()
 
     assert unit.config()["sensor_offset_counts"] == 300.0
-    assert faults(unit) == FaultFlags.CONFIG_DEFAULTED
+    assert unit.faults() == FaultFlags.CONFIG_DEFAULTED
     assert assist_at(unit, WALKING_KMH + 0.1) == 0.0
 
 
@@ -308,7 +303,7 @@ def test_what_the_maker_chose_is_not_written_anew_by_a_dealer(record: str) -> No
     provision(unit, maker)
     unit.flash()[records_at(unit.flash())[record][5]] ^= np.uint8(1)
     unit.boot()
-    assert faults(unit) == FaultFlags.CONFIG_DEFAULTED
+    assert unit.faults() == FaultFlags.CONFIG_DEFAULTED
 
     refused = unit.write({"assist_cutoff_kmh": 20.0})
     assert (refused.status, refused.detail) == (Status.ACCESS, Access.FACTORY)
@@ -318,9 +313,9 @@ def test_what_the_maker_chose_is_not_written_anew_by_a_dealer(record: str) -> No
     assert respond(unit, transaction, token).status == Status.OK
     assert commit(unit, transaction, image).status == Status.OK
 
-    assert faults(unit) == 0
+    assert unit.faults() == 0
     unit.boot()
-    assert (unit.config()["market"], faults(unit)) == ("CHINA", 0)
+    assert (unit.config()["market"], unit.faults()) == ("CHINA", 0)
 
 
 def test_a_newer_slot_that_cannot_be_read_at_all_leaves_the_older_one_at_a_walking_pace() -> None:
@@ -331,14 +326,14 @@ def test_a_newer_slot_that_cannot_be_read_at_all_leaves_the_older_one_at_a_walki
     unit.boot()
 
     assert unit.read_image()[0] == 1
-    assert faults(unit) == FaultFlags.CONFIG_DEFAULTED
+    assert unit.faults() == FaultFlags.CONFIG_DEFAULTED
     assert assist_at(unit, 10.0) == 0.0
 
 
 def test_a_unit_that_was_never_provisioned_gives_no_assist() -> None:
     unit = BenchUnit(provisioned=False)
 
-    assert faults(unit) == FaultFlags.NOT_PROVISIONED
+    assert unit.faults() == FaultFlags.NOT_PROVISIONED
     assert assist_at(unit, 3.0) == 0.0
     unit.inputs(speed_kmh=0.0, cadence_rpm=0.0, motor_speed_rpm=0.0, torque_raw_counts=0.0)
     unit.advance(ENOUGH_S)
@@ -358,9 +353,9 @@ def test_a_factory_that_loses_power_may_begin_again() -> None:
         done = lib.bench_provision(unit.board)
         unit.boot()
         assert done != 0
-        assert faults(unit) == FaultFlags.NOT_PROVISIONED
+        assert unit.faults() == FaultFlags.NOT_PROVISIONED
 
         assert lib.bench_provision(unit.board) == 0
         unit.boot()
 
-        assert (faults(unit), unit.read_image()[0]) == (0, 1)
+        assert (unit.faults(), unit.read_image()[0]) == (0, 1)

@@ -40,10 +40,6 @@ def unit() -> BenchUnit:
     return unit
 
 
-def motor_nm(unit: BenchUnit) -> float:
-    return float(lib.bench_motor_torque_nm(unit.board))
-
-
 def fault_flags(unit: BenchUnit) -> int:
     message = unit.ask(EvtFaultListRequest()).message
     assert isinstance(message, EvtFaultListResponse)
@@ -63,7 +59,7 @@ def stop(unit: BenchUnit) -> None:
 
 
 def test_the_motor_gets_the_riders_torque_times_the_ratio(unit: BenchUnit) -> None:
-    assert motor_nm(unit) == pytest.approx(RIDER_NM / GEAR_RATIO, rel=1e-3)
+    assert unit.motor_nm() == pytest.approx(RIDER_NM / GEAR_RATIO, rel=1e-3)
 
 
 def test_without_a_choice_on_the_handlebar_the_mode_at_start_counts(unit: BenchUnit) -> None:
@@ -101,17 +97,17 @@ def test_a_new_configuration_works_from_the_next_control_step_on_the_same_filter
     assert unit.output().rider_torque_filtered_nm == pytest.approx(filtered, rel=1e-6)
     assert unit.output().assist_ratio == pytest.approx(0.25)
     unit.advance(0.5)
-    assert motor_nm(unit) == pytest.approx(0.25 * RIDER_NM / GEAR_RATIO, rel=1e-3)
+    assert unit.motor_nm() == pytest.approx(0.25 * RIDER_NM / GEAR_RATIO, rel=1e-3)
 
 
 def test_a_staged_configuration_moves_nothing(unit: BenchUnit) -> None:
-    before = motor_nm(unit)
+    before = unit.motor_nm()
     transaction = unit.begin()
 
     unit.stage(transaction, {"mode_ratios": [0.0, 0.5, 0.25, 1.0, 1.5]})
     unit.advance(1.0)
 
-    assert motor_nm(unit) == pytest.approx(before, rel=1e-3)
+    assert unit.motor_nm() == pytest.approx(before, rel=1e-3)
 
 
 @pytest.mark.parametrize("reading", [math.nan, math.inf, 32767.0, -32768.0, 1e30], ids=str)
@@ -121,7 +117,7 @@ def test_a_torque_sensor_that_lies_stops_the_motor_at_once(unit: BenchUnit, read
     unit.inputs(torque_raw_counts=reading)
     unit.advance(0.01)
 
-    assert motor_nm(unit) == 0.0
+    assert unit.motor_nm() == 0.0
     assert unit.output().limit_flags & LimitFlags.INPUT_REFUSED
     assert unit.output().rider_torque_filtered_nm == filtered
 
@@ -164,7 +160,7 @@ def test_a_spark_on_the_torque_sensor_is_no_fault(unit: BenchUnit) -> None:
     unit.advance(1.0)
 
     assert fault_events(unit) == []
-    assert motor_nm(unit) > 0.0
+    assert unit.motor_nm() > 0.0
 
 
 def test_a_battery_that_recovers_a_little_stays_low(unit: BenchUnit) -> None:

@@ -9,16 +9,11 @@ is no action of the rider, so it clears nothing.
 from typing import Any
 
 import pytest
-from sim_device.firmware.python._native import lib
 
 from firmware_protocol._generated import (
     FAULTS,
     Event,
-    EvtFaultClearRequest,
-    EvtFaultClearResponse,
     EvtFaultFreezeRequest,
-    EvtFaultListRequest,
-    EvtFaultListResponse,
     FaultFlags,
     Severity,
     Status,
@@ -66,24 +61,8 @@ def unit() -> BenchUnit:
     unit.hello()
     unit.inputs(**RIDING)
     unit.advance(4.0)
-    assert motor_nm(unit) > 0.1
+    assert unit.motor_nm() > 0.1
     return unit
-
-
-def motor_nm(unit: BenchUnit) -> float:
-    return float(lib.bench_motor_torque_nm(unit.board))
-
-
-def flags(unit: BenchUnit) -> int:
-    message = unit.ask(EvtFaultListRequest()).message
-    assert isinstance(message, EvtFaultListResponse)
-    return message.fault_flags
-
-
-def clear(unit: BenchUnit) -> int:
-    message = unit.ask(EvtFaultClearRequest(0xFFFF)).message
-    assert isinstance(message, EvtFaultClearResponse)
-    return message.fault_flags
 
 
 @pytest.mark.parametrize(("broken", "flag", "seconds"), LATCHED, ids=str)
@@ -92,16 +71,16 @@ def test_a_hazard_ends_the_assist_in_time_and_keeps_it_ended(
 ) -> None:
     unit.inputs(**broken)
     unit.advance(seconds + 0.01)
-    assert motor_nm(unit) == 0.0
+    assert unit.motor_nm() == 0.0
     unit.advance(1.0)
-    assert flags(unit) & flag
+    assert unit.faults() & flag
 
     unit.inputs(**MENDED)
     unit.advance(5.0)  # the rider pedals on
 
-    assert motor_nm(unit) == 0.0
-    assert flags(unit) & flag
-    assert clear(unit) & flag  # not while the bike rolls
+    assert unit.motor_nm() == 0.0
+    assert unit.faults() & flag
+    assert unit.clear_faults() & flag  # not while the bike rolls
 
 
 @pytest.mark.parametrize(("broken", "flag", "seconds"), LATCHED, ids=str)
@@ -112,11 +91,11 @@ def test_a_hazard_is_cleared_at_standstill_once_its_cause_is_gone(
     unit.advance(seconds + 0.2)
     unit.inputs(**{**MENDED, **STANDING})
     unit.advance(0.5)
-    too_early = clear(unit)
+    too_early = unit.clear_faults()
     unit.advance(1.0)
 
     assert too_early & flag
-    assert clear(unit) & flag == 0
+    assert unit.clear_faults() & flag == 0
     assert (Event.FAULT_CLEARED, flag) in [
         (event.code, event.fields["fault_flags"] & flag)
         for event in unit.events
@@ -124,7 +103,7 @@ def test_a_hazard_is_cleared_at_standstill_once_its_cause_is_gone(
     ]
     unit.inputs(**MENDED)
     unit.advance(3.0)
-    assert motor_nm(unit) > 0.1
+    assert unit.motor_nm() > 0.1
 
 
 def test_a_hazard_whose_cause_stays_is_not_cleared(unit: BenchUnit) -> None:
@@ -132,11 +111,11 @@ def test_a_hazard_whose_cause_stays_is_not_cleared(unit: BenchUnit) -> None:
     unit.advance(1.0)
     unit.inputs(**STANDING, motor_temperature_degc=111.0)  # cooler, and still hot
     unit.advance(2.0)
-    assert clear(unit) == FaultFlags.MOTOR_TEMPERATURE
+    assert unit.clear_faults() == FaultFlags.MOTOR_TEMPERATURE
 
     unit.inputs(motor_temperature_degc=109.0)
     unit.advance(2.0)
-    assert clear(unit) == 0
+    assert unit.clear_faults() == 0
 
 
 def test_switching_off_and_on_clears_a_hazard_that_is_over(unit: BenchUnit) -> None:
@@ -147,8 +126,8 @@ def test_switching_off_and_on_clears_a_hazard_that_is_over(unit: BenchUnit) -> N
     unit.boot()
     unit.advance(3.0)
 
-    assert flags(unit) == 0
-    assert motor_nm(unit) > 0.1
+    assert unit.faults() == 0
+    assert unit.motor_nm() > 0.1
 
 
 def test_a_fault_keeps_what_the_bike_did(unit: BenchUnit) -> None:
@@ -162,28 +141,28 @@ def test_a_fault_keeps_what_the_bike_did(unit: BenchUnit) -> None:
 def test_a_sag_of_the_battery_is_no_fault(unit: BenchUnit) -> None:
     unit.inputs(battery_voltage_v=29.5)
     unit.advance(0.3)
-    assert motor_nm(unit) == 0.0
+    assert unit.motor_nm() == 0.0
 
     unit.inputs(battery_voltage_v=36.0)
     unit.advance(2.0)
 
-    assert flags(unit) == 0
-    assert motor_nm(unit) > 0.1
+    assert unit.faults() == 0
+    assert unit.motor_nm() > 0.1
 
 
 def test_an_interrupted_rotor_comes_back_by_itself(unit: BenchUnit) -> None:
     unit.inputs(torque_age_ms=60)
     unit.advance(0.15)
-    ramped_out = motor_nm(unit)
+    ramped_out = unit.motor_nm()
     unit.advance(0.2)
-    assert flags(unit) == FaultFlags.TORQUE_LINK
+    assert unit.faults() == FaultFlags.TORQUE_LINK
 
     unit.inputs(torque_age_ms=0)
     unit.advance(3.0)
 
     assert ramped_out == 0.0
-    assert flags(unit) == 0
-    assert motor_nm(unit) > 0.1
+    assert unit.faults() == 0
+    assert unit.motor_nm() > 0.1
 
 
 def turns(unit: BenchUnit, count: int, swing: float) -> None:
@@ -195,18 +174,18 @@ def turns(unit: BenchUnit, count: int, swing: float) -> None:
 
 def test_a_reading_that_stops_following_the_legs_is_stuck(unit: BenchUnit) -> None:
     turns(unit, 5, swing=600.0)
-    assert flags(unit) == 0
+    assert unit.faults() == 0
 
     turns(unit, 7, swing=0.0)
 
-    assert flags(unit) == FaultFlags.TORQUE_STUCK
-    assert motor_nm(unit) == 0.0
+    assert unit.faults() == FaultFlags.TORQUE_STUCK
+    assert unit.motor_nm() == 0.0
 
 
 def test_a_servo_that_pushes_evenly_is_not_a_stuck_sensor(unit: BenchUnit) -> None:
     turns(unit, 30, swing=0.0)
 
-    assert flags(unit) == 0
+    assert unit.faults() == 0
 
 
 @pytest.mark.parametrize(
@@ -217,18 +196,18 @@ def test_a_zero_that_moved_is_seen_at_rest_and_a_foot_or_a_weight_is_not(
 ) -> None:
     unit.inputs(**{**STANDING, "torque_raw_counts": 100.0 * rest_nm})
     unit.advance(9.0)
-    assert (flags(unit) == FaultFlags.TORQUE_DRIFT) == drifted
+    assert (unit.faults() == FaultFlags.TORQUE_DRIFT) == drifted
 
     unit.inputs(torque_raw_counts=0.0)
     unit.advance(12.0)
-    assert flags(unit) == 0
+    assert unit.faults() == 0
 
 
 def test_a_motor_in_an_easy_gear_is_not_a_lost_speed_sensor(unit: BenchUnit) -> None:
     unit.inputs(speed_kmh=9.0)  # the configured gear would give 22 km/h; a big cog gives 9
     unit.advance(3.0)
 
-    assert flags(unit) == 0
+    assert unit.faults() == 0
 
 
 def test_a_motor_that_cannot_say_how_fast_it_turns_gives_nothing_and_latches(
@@ -236,13 +215,13 @@ def test_a_motor_that_cannot_say_how_fast_it_turns_gives_nothing_and_latches(
 ) -> None:
     unit.inputs(motor_speed_rpm=float("nan"))
     unit.advance(0.02)
-    at_once = motor_nm(unit)
+    at_once = unit.motor_nm()
     unit.advance(0.5)
     unit.inputs(**MENDED)
     unit.advance(5.0)
 
-    assert at_once == motor_nm(unit) == 0.0
-    assert flags(unit) == FaultFlags.MOTOR_HALL
+    assert at_once == unit.motor_nm() == 0.0
+    assert unit.faults() == FaultFlags.MOTOR_HALL
     bit = int(FaultFlags.MOTOR_HALL).bit_length() - 1
     assert unit.ask(EvtFaultFreezeRequest(bit)).status == Status.OK
 
@@ -254,8 +233,8 @@ def test_a_motor_that_follows_fast_legs_as_far_as_its_voltage_goes_has_lost_noth
     unit.inputs(speed_kmh=20.0)
     unit.advance(3.0)
 
-    assert motor_nm(unit) > 0.1
-    assert flags(unit) == 0
+    assert unit.motor_nm() > 0.1
+    assert unit.faults() == 0
 
 
 def wheel_turns(
@@ -277,23 +256,23 @@ def wheel_turns(
 
 def test_a_speed_that_stays_while_the_motor_gets_faster_is_stuck(unit: BenchUnit) -> None:
     wheel_turns(unit, 3.0, motor_rpm=(2270.0, 2270.0))
-    assert flags(unit) == 0  # nothing says yet that it is not true
+    assert unit.faults() == 0  # nothing says yet that it is not true
 
     wheel_turns(unit, 3.0, motor_rpm=(2270.0, 2600.0))
 
-    assert flags(unit) == FaultFlags.SPEED_STUCK
-    assert motor_nm(unit) == 0.0
+    assert unit.faults() == FaultFlags.SPEED_STUCK
+    assert unit.motor_nm() == 0.0
     unit.inputs(**MENDED)
     unit.advance(5.0)
-    assert motor_nm(unit) == 0.0
+    assert unit.motor_nm() == 0.0
 
 
 def test_shifting_to_keep_the_cadence_does_not_hide_a_stuck_speed(unit: BenchUnit) -> None:
     wheel_turns(unit, 2.0, motor_rpm=(2270.0, 2450.0))  # faster by a twelfth
-    assert flags(unit) == 0
+    assert unit.faults() == 0
     wheel_turns(unit, 2.0, motor_rpm=(2110.0, 2270.0))  # the next cog, and again
 
-    assert flags(unit) == FaultFlags.SPEED_STUCK
+    assert unit.faults() == FaultFlags.SPEED_STUCK
 
 
 def test_a_speed_that_stuck_while_coasting_does_not_fit_the_gear_any_more(unit: BenchUnit) -> None:
@@ -302,8 +281,8 @@ def test_a_speed_that_stuck_while_coasting_does_not_fit_the_gear_any_more(unit: 
     unit.inputs(**{**RIDING, "motor_speed_rpm": 2800.0, "cadence_rpm": 2800.0 / GEAR_RATIO})
     unit.advance(1.0)
 
-    assert flags(unit) == FaultFlags.SPEED_STUCK
-    assert motor_nm(unit) == 0.0
+    assert unit.faults() == FaultFlags.SPEED_STUCK
+    assert unit.motor_nm() == 0.0
 
 
 def test_a_speed_that_sticks_from_switching_on_is_seen_when_the_bike_moves(unit: BenchUnit) -> None:
@@ -315,15 +294,15 @@ def test_a_speed_that_sticks_from_switching_on_is_seen_when_the_bike_moves(unit:
         unit.inputs(torque_raw_counts=3000.0)
         unit.advance(0.1)
 
-    assert flags(unit) == FaultFlags.SPEED_STUCK
-    assert motor_nm(unit) == 0.0
+    assert unit.faults() == FaultFlags.SPEED_STUCK
+    assert unit.motor_nm() == 0.0
 
 
 def test_a_shift_at_a_true_speed_is_not_a_stuck_sensor(unit: BenchUnit) -> None:
     for rpm in (2270.0, 1945.0, 1675.0, 2605.0):
         wheel_turns(unit, 4.0, motor_rpm=(rpm, rpm), jitter_kmh=0.02)
 
-    assert flags(unit) == 0
+    assert unit.faults() == 0
 
 
 def test_a_bench_at_one_speed_is_not_a_stuck_sensor_whatever_the_assist_does(
@@ -341,8 +320,8 @@ def test_a_bench_at_one_speed_is_not_a_stuck_sensor_whatever_the_assist_does(
             unit.advance(0.04)
         unit.advance(3.0)
 
-    assert motor_nm(unit) > 0.1
-    assert flags(unit) == 0
+    assert unit.motor_nm() > 0.1
+    assert unit.faults() == 0
 
 
 def test_the_walk_button_pushes_the_bike_through_the_whole_unit(unit: BenchUnit) -> None:
@@ -351,12 +330,12 @@ def test_the_walk_button_pushes_the_bike_through_the_whole_unit(unit: BenchUnit)
 
     unit.inputs(walk_button=1, speed_kmh=3.0)
     unit.advance(1.0)
-    pushed = motor_nm(unit)
+    pushed = unit.motor_nm()
     unit.inputs(walk_button=0)
     unit.advance(0.02)
 
     assert 0.1 < pushed <= 1.0
-    assert motor_nm(unit) == 0.0
+    assert unit.motor_nm() == 0.0
 
 
 def test_every_fault_says_what_to_do(unit: BenchUnit) -> None:

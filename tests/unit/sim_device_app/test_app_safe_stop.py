@@ -10,11 +10,7 @@ from sim_device.firmware.python._native import ffi, lib
 
 from firmware_protocol._generated import (
     Event,
-    EvtFaultClearRequest,
-    EvtFaultClearResponse,
     EvtFaultFreezeRequest,
-    EvtFaultListRequest,
-    EvtFaultListResponse,
     FaultFlags,
     ResetCause,
     StartInfoRequest,
@@ -36,24 +32,8 @@ def unit() -> BenchUnit:
     unit.inputs(**{**RIDING, "speed_kmh": 15.0, "mode_selected": 3})
     unit.inputs(motor_speed_rpm=1540.0, cadence_rpm=38.2)
     unit.advance(4.0)
-    assert motor_nm(unit) > 0.1
+    assert unit.motor_nm() > 0.1
     return unit
-
-
-def motor_nm(unit: BenchUnit) -> float:
-    return float(lib.bench_motor_torque_nm(unit.board))
-
-
-def faults(unit: BenchUnit) -> int:
-    message = unit.ask(EvtFaultListRequest()).message
-    assert isinstance(message, EvtFaultListResponse)
-    return message.fault_flags
-
-
-def clear(unit: BenchUnit) -> int:
-    message = unit.ask(EvtFaultClearRequest(ALL_FAULTS)).message
-    assert isinstance(message, EvtFaultClearResponse)
-    return message.fault_flags
 
 
 def start_info(unit: BenchUnit) -> StartInfoResponse:
@@ -79,10 +59,10 @@ def test_damaged_memory_of_the_law_gives_no_torque_and_a_latched_fault(
     torques = []
     for _ in range(300):
         unit.advance(0.01)
-        torques.append(motor_nm(unit))
+        torques.append(unit.motor_nm())
 
     assert torques == [0.0] * 300
-    assert faults(unit) & FaultFlags.LAW_RESULT
+    assert unit.faults() & FaultFlags.LAW_RESULT
     told = [event for event in unit.events if event.code == Event.FAULT_SET]
     assert told[-1].fields["fault_flags"] & FaultFlags.LAW_RESULT
     freeze = unit.ask(EvtFaultFreezeRequest(17))
@@ -92,16 +72,16 @@ def test_damaged_memory_of_the_law_gives_no_torque_and_a_latched_fault(
 def test_a_lost_result_is_cleared_at_standstill_and_never_by_pedalling(unit: BenchUnit) -> None:
     lib.bench_hurt_law(unit.board, 0)
     unit.advance(3.0)
-    assert clear(unit) & FaultFlags.LAW_RESULT  # the bike rolls
-    assert motor_nm(unit) == 0.0
+    assert unit.clear_faults() & FaultFlags.LAW_RESULT  # the bike rolls
+    assert unit.motor_nm() == 0.0
 
     unit.inputs(**STANDING)
     unit.advance(2.0)
-    assert clear(unit) == 0
+    assert unit.clear_faults() == 0
 
     unit.inputs(**{**RIDING, "speed_kmh": 15.0, "motor_speed_rpm": 1540.0, "cadence_rpm": 38.2})
     unit.advance(3.0)
-    assert motor_nm(unit) > 0.1
+    assert unit.motor_nm() > 0.1
 
 
 def test_the_watchdog_is_kicked_once_a_step_and_only_by_a_loop_that_lives(unit: BenchUnit) -> None:
@@ -126,11 +106,11 @@ def test_steps_that_stop_coming_end_with_the_motor_off_and_no_more_kicks(unit: B
     lib.bench_advance_us(unit.board, 2_000)
 
     assert lib.bench_motor_is_off(unit.board)
-    assert motor_nm(unit) == 0.0
+    assert unit.motor_nm() == 0.0
     assert lib.bench_kicks(unit.board) <= before + 1
     lib.bench_hang(unit.board, 0)
     unit.advance(1.0)
-    assert motor_nm(unit) == 0.0
+    assert unit.motor_nm() == 0.0
     assert lib.bench_kicks(unit.board) <= before + 1
 
     unit.boot()
@@ -152,27 +132,27 @@ def test_a_start_says_its_cause_and_one_of_its_own_making_is_a_latched_fault(
     assert (boot.code, boot.fields["reset_cause"]) == (Event.BOOT, cause)
     assert start_info(unit).reset_cause == cause
     stopped = cause in OWN_STOPS
-    assert bool(faults(unit) & FaultFlags.SAFE_STOP) == stopped
-    assert (motor_nm(unit) == 0.0) == stopped
+    assert bool(unit.faults() & FaultFlags.SAFE_STOP) == stopped
+    assert (unit.motor_nm() == 0.0) == stopped
     unit.inputs(**STANDING)
     unit.advance(2.0)
-    assert clear(unit) == 0
+    assert unit.clear_faults() == 0
 
 
 def test_missed_steps_are_counted_and_the_assist_begins_anew(unit: BenchUnit) -> None:
-    before_nm = motor_nm(unit)
+    before_nm = unit.motor_nm()
     lib.bench_hang(unit.board, lib.BENCH_HANG_STEPS | lib.BENCH_HANG_POLLS)
     lib.bench_advance_us(unit.board, 80_000)
     lib.bench_hang(unit.board, 0)
 
     unit.advance(0.01)
-    first_nm = motor_nm(unit)
+    first_nm = unit.motor_nm()
     unit.advance(2.0)
 
     assert start_info(unit).steps_missed == 8
     assert first_nm <= 200.0 * 0.01 / 40.34 * 1.001  # one step of the ramp, from nothing
-    assert motor_nm(unit) == pytest.approx(before_nm, rel=0.02)
-    assert faults(unit) == 0
+    assert unit.motor_nm() == pytest.approx(before_nm, rel=0.02)
+    assert unit.faults() == 0
 
 
 def test_steps_in_time_are_never_missed(unit: BenchUnit) -> None:

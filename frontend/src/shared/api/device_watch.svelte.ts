@@ -2,6 +2,7 @@
 import { Refusal } from './client'
 import type { Server } from './server'
 import type { Device } from './types'
+import { WhileSeen } from './while_seen'
 
 const PERIOD_MS = 1000
 
@@ -13,8 +14,7 @@ export class DeviceWatch {
   now_ms = $state(Date.now())
   current = $derived(this.items.find((d) => d.id === this.chosen_id) ?? this.items[0] ?? null)
   private seen_ms = $state.raw<Record<string, number>>({})
-  private timer: ReturnType<typeof setTimeout> | null = null
-  private stopped = false
+  private readonly asking = new WhileSeen(() => this.refresh(), PERIOD_MS)
 
   constructor(
     private readonly server: Server,
@@ -24,16 +24,11 @@ export class DeviceWatch {
   }
 
   start(): void {
-    document.addEventListener('visibilitychange', this.wake)
-    window.addEventListener('online', this.wake)
-    void this.ask()
+    this.asking.start()
   }
 
   stop(): void {
-    this.stopped = true
-    if (this.timer) clearTimeout(this.timer)
-    document.removeEventListener('visibilitychange', this.wake)
-    window.removeEventListener('online', this.wake)
+    this.asking.stop()
   }
 
   /** Whether the current unit answers and may be written to. */
@@ -62,15 +57,5 @@ export class DeviceWatch {
       this.unreachable = true
     }
     this.now_ms = Date.now()
-  }
-
-  private readonly wake = (): void => {
-    if (!document.hidden) void this.ask()
-  }
-
-  private async ask(): Promise<void> {
-    if (this.timer) clearTimeout(this.timer)
-    if (!document.hidden) await this.refresh()
-    if (!this.stopped) this.timer = setTimeout(() => void this.ask(), PERIOD_MS)
   }
 }
