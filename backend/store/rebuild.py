@@ -13,7 +13,7 @@ from __future__ import annotations
 import secrets
 import time
 from collections.abc import Iterable
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
@@ -47,6 +47,8 @@ from backend.store.store import saying_where
 
 # Where a destroyed SQLite file may have left something.
 JOURNALS = ("-wal", "-shm", "-journal")
+# What facts raise that make no sense.
+NONSENSE = (KeyError, TypeError, ValueError, AttributeError)
 
 
 @dataclass
@@ -180,17 +182,14 @@ def read_kept(objects: FileObjects, key: str) -> KeptRide:
     if (reason := damage_of(objects, key)) is not None:
         raise StoreError(f"{key} is no whole ride: {reason}.")
     facts, channels, row_count = read_facts(objects.local_path(key))
-    damaged = False
+    with suppress(StoreError, *NONSENSE):
+        return kept_ride(facts, read_sidecar(objects, key), channels, row_count, key)
     try:
-        sidecar = read_sidecar(objects, key)
-    except StoreError:
-        sidecar, damaged = {}, True
-    try:
-        kept = kept_ride(facts, sidecar, channels, row_count, key)
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        kept = kept_ride(facts, {}, channels, row_count, key)
+    except NONSENSE as error:
         raise StoreError(f"{key} tells no ride: {error!r}.") from error
-    lost = (f"what {sidecar_key(key)} said, which is damaged",) if damaged else ()
-    return replace(kept, lacks=kept.lacks + lost)
+    lost = f"what {sidecar_key(key)} said, which is damaged"
+    return replace(kept, lacks=(*kept.lacks, lost))
 
 
 def add_kept(database: Database, objects: FileObjects, kept: KeptRide) -> tuple[str, ...]:

@@ -337,9 +337,9 @@ class RideStore:
 
     def patch(self, ride_id: int, name: str | None = None, notes: str | None = None) -> Ride:
         """Change what people wrote about a ride. Raises NotFound, InvalidRequest."""
-        changes = {
-            key: value for key, value in (("name", name), ("notes", notes)) if value is not None
-        }
+        # PostgreSQL has no text with a NUL in it.
+        words = {"name": name, "notes": notes}
+        changes = {key: text.replace("\0", "") for key, text in words.items() if text is not None}
         if len(name or "") > NAME_LENGTH_MAX or len(notes or "") > NOTES_LENGTH_MAX:
             raise InvalidRequest(
                 f"A ride's name has at most {NAME_LENGTH_MAX} characters, "

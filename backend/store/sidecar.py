@@ -16,7 +16,7 @@ from sqlalchemy import Connection, select
 from backend.domain.ride import Ride
 from backend.errors import StoreError
 from backend.store import tables as t
-from backend.store.facts import facts_of
+from backend.store.facts import WORDS, facts_of
 from backend.store.objects import Objects, sidecar_key
 from backend.store.parquet import read_facts
 
@@ -29,7 +29,21 @@ FACTS_VERSION = 2
 
 def read_sidecar(objects: Objects, ride_key: str) -> dict[str, Any]:
     """The sidecar of a ride's object, empty if it has none. Raises StoreError if it is damaged."""
-    return objects.read_json(sidecar_key(ride_key)) or {}
+    key = sidecar_key(ride_key)
+    body = objects.read_json(key) or {}
+    if not isinstance(body.get("facts", {}), dict) or not all(
+        is_text(body[name]) for name in WORDS if name in body
+    ):
+        raise StoreError(f"{key} cannot be read: it is no sidecar of a ride.")
+    return body
+
+
+def is_text(value: object) -> bool:
+    """Whether every database can keep this as text."""
+    try:
+        return isinstance(value, str) and "\0" not in value and value.encode() is not None
+    except UnicodeEncodeError:
+        return False
 
 
 def write_sidecar(

@@ -265,18 +265,32 @@ def test_damaged_rides_are_told_and_the_others_come_back(hundred: Path, tmp_path
     assert list(report.not_taken) == [victim.relative_to(folder / "objects").as_posix()]
 
 
-def test_a_damaged_sidecar_costs_the_words_and_says_so(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "damage",
+    [
+        b"{",
+        b'{"facts": null}',
+        b'{"facts": [1]}',
+        b'{"name": null}',
+        b'{"notes": 5}',
+        b'{"name": "\\ud800"}',
+        b'{"name": "a\\u0000b"}',
+    ],
+)
+def test_a_damaged_sidecar_costs_the_words_and_says_so(tmp_path: Path, damage: bytes) -> None:
     with open_store(*urls(tmp_path)) as store:
         ride = add_recorded(store, 1)
         store.rides.patch(ride.id, name="Alps")
     key = str(ride.object_key)
-    (tmp_path / "objects" / sidecar_key(key)).write_bytes(b"{")
+    (tmp_path / "objects" / sidecar_key(key)).write_bytes(damage)
     (tmp_path / "spindle.db").unlink()
 
     report: Rebuilt = rebuild_store(*urls(tmp_path))
 
     assert report.rides == 1
     assert sidecar_key(key) in report.lacking[key][0]
+    with open_store(*urls(tmp_path)) as store:
+        assert store.rides.patch(1, name="Alps").name == "Alps"
 
 
 def make_old(folder: Path, keys: list[str]) -> None:

@@ -130,6 +130,12 @@ def test_rides_are_found_by_time_and_by_unit(store: Store) -> None:
         store.rides.list(cursor="nonsense")
 
 
+def test_words_are_kept_without_what_no_text_of_sql_can_hold(store: Store) -> None:
+    ride = finished(store, honest_ride(100))
+
+    assert store.rides.patch(ride.id, name="A\0lps").name == "Alps"
+
+
 def test_notes_change_and_measurements_do_not(store: Store) -> None:
     ride = finished(store, honest_ride(100))
 
