@@ -6,6 +6,7 @@ from sqlalchemy.engine import URL, make_url
 from sqlalchemy.exc import ArgumentError, NoSuchModuleError
 
 from backend.errors import FieldError, InvalidRequest
+from backend.store.database import sqlite_path
 
 ENGINES = ("sqlite", "postgresql")
 FORMS = "sqlite:///path/to/spindle.db or postgresql+psycopg://user:password@host/name"
@@ -21,8 +22,9 @@ def check_url(url: str) -> None:
     shown = parts.render_as_string(hide_password=True)
     if parts.get_backend_name() not in ENGINES:
         raise refused(f"{shown}: there is no such kind of database here. Write {FORMS}.")
-    if parts.get_backend_name() == "sqlite" and parts.database in (None, "", ":memory:"):
-        raise refused(f"{shown} would be forgotten with the process. Name a file: {FORMS}.")
+    if parts.get_backend_name() == "sqlite" and sqlite_path(url) is None:
+        # A file by another name than its path could not be locked either.
+        raise refused(f"{shown} is no path, and may be forgotten with the process. Write {FORMS}.")
     check_driver(parts, shown)
 
 

@@ -54,10 +54,8 @@ class DatabaseView:
 def look_at(url: str) -> DatabaseView:
     """The contents of a database. Raises StoreError when it cannot be reached at all."""
     path = sqlite_path(url)
-    if path is not None and not path.exists():
-        return DatabaseView(MISSING)
-    if path is not None and path.is_file() and path.stat().st_size == 0:
-        return DatabaseView(EMPTY)
+    if path is not None and (not path.exists() or (path.is_file() and path.stat().st_size == 0)):
+        return rest_of(path)
     engine = reading_engine(url, path)
     try:
         with engine.connect() as connection:
@@ -72,12 +70,25 @@ def look_at(url: str) -> DatabaseView:
         engine.dispose()
 
 
+def rest_of(path: Path) -> DatabaseView:
+    """An SQLite file without contents. Opened, it would empty a journal that still has some."""
+    journal = journal_of(path)
+    if journal.exists() and journal.stat().st_size:
+        detail = f"it is gone, but not {journal.name}, which holds what was written last"
+        return DatabaseView(DAMAGED, detail)
+    return DatabaseView(EMPTY if path.exists() else MISSING)
+
+
+def journal_of(path: Path) -> Path:
+    """Where SQLite keeps what is not in the file yet."""
+    return path.with_name(path.name + "-wal")
+
+
 def reading_engine(url: str, path: Path | None) -> Engine:
     """An engine that writes nothing, not even the files SQLite keeps beside a database."""
     if path is None:
         return create_engine(url)
-    journal = path.with_name(path.name + "-wal")
-    mode = "mode=ro" if journal.exists() else "mode=ro&immutable=1"
+    mode = "mode=ro" if journal_of(path).exists() else "mode=ro&immutable=1"
     return create_engine(f"sqlite:///file:{quote(path.as_posix())}?{mode}&uri=true")
 
 

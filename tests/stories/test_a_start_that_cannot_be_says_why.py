@@ -53,6 +53,7 @@ def is_told(result: subprocess.CompletedProcess[str], code: int, *says: str) -> 
         ("sqlite+nope:///x.db", "driver"),
         ("sqlite://", "forgotten"),
         ("sqlite:///:memory:", "forgotten"),
+        ("sqlite:///file:spindle.db?uri=true", "sqlite:///path"),
     ],
 )
 def test_a_database_that_is_none_is_wrong_usage(tmp_path: Path, db: str, says: str) -> None:

@@ -88,6 +88,28 @@ def test_a_destroyed_database_is_refused_and_stays_as_it_is(used: Path, rest: by
     assert names_both_commands(refused(used))
 
 
+@pytest.mark.parametrize("rest", [None, b""])
+def test_what_a_killed_server_wrote_last_is_kept_when_its_database_is_gone(
+    tmp_path: Path, rest: bytes | None
+) -> None:
+    crashed, whole = tmp_path / "crashed", tmp_path / "whole"
+    with opened(whole) as store:
+        ride_id = store.rides.start_live(CHANNELS, PERIOD_US, STARTED_US, RideContext())
+        store.rides.append_tail(ride_id, 0, honest_ride(300)).result()
+        # What a kill leaves: all of the ride is in SQLite's journal.
+        shutil.copytree(whole, crashed)
+    shutil.rmtree(crashed / "objects")
+    (crashed / "spindle.db").rename(tmp_path / "elsewhere.db")
+    if rest is not None:
+        (crashed / "spindle.db").write_bytes(rest)
+
+    assert "spindle.db-wal" in refused(crashed)
+
+    shutil.move(tmp_path / "elsewhere.db", crashed / "spindle.db")
+    with opened(crashed) as again:
+        assert again.rides.get(ride_id).row_count == 300
+
+
 def test_another_database_is_refused_by_the_folder_that_has_one(used: Path) -> None:
     (used / "other").mkdir()
     with opened(used / "other") as other:
