@@ -21,7 +21,7 @@ from sqlalchemy.engine import make_url
 from sqlalchemy.exc import SQLAlchemyError
 
 from backend.errors import StoreError
-from backend.store.trouble import QUEUE_FULL, WriteWatch, write_a_little
+from backend.store.trouble import QUEUE_FULL, WORDS, WriteWatch, code_of, write_a_little
 
 LOG = logging.getLogger(__name__)
 Result = TypeVar("Result")
@@ -59,7 +59,11 @@ class Database:
                 make_shrinkable(self.engine)
         except (SQLAlchemyError, OSError) as error:
             self.close()
-            raise StoreError(f"The database {shown(url)} cannot be opened: {error}") from error
+            code = code_of(error)
+            reason = str(error) if code is None else f"{WORDS[code]}."
+            raise StoreError(
+                f"The database {shown(url)} cannot be opened: {reason}", code
+            ) from error
 
     def submit(self, work: Callable[[Connection], Result]) -> Future[Result]:
         """Run `work` in one transaction on the writing thread; blocks while too many wait."""

@@ -8,7 +8,7 @@ holds its own (`advisory.py`).
 from __future__ import annotations
 
 import os
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -32,7 +32,7 @@ class FileLock:
 
     def __init__(self, path: Path, what: str) -> None:
         try:
-            self._file = path.open("a+b")
+            self._file = path.open("a+b", buffering=0)
         except OSError as error:
             raise StoreError(f"{what} cannot be locked: {error}") from error
         try:
@@ -44,9 +44,10 @@ class FileLock:
                 f"Another Spindle is using {what}{owner}: stop it, or start this one with "
                 "--data DIR. Nothing was changed."
             ) from None
-        self._file.truncate(0)
-        self._file.write(str(os.getpid()).encode())
-        self._file.flush()
+        # Only for the refusal of another one: a full disk may keep it from being written.
+        with suppress(OSError):
+            self._file.truncate(0)
+            self._file.write(str(os.getpid()).encode())
 
     def release(self) -> None:
         """Let another one in. The system does it too when the process dies."""

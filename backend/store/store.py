@@ -26,7 +26,7 @@ from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
 from backend.store.revisions import RevisionLog
 from backend.store.rides import Orphan, RideStore
 from backend.store.soundness import Soundness
-from backend.store.trouble import code_of
+from backend.store.trouble import DISK_FULL, WORDS, code_of
 from backend.store.uploads import UploadStore
 
 LOG = logging.getLogger(__name__)
@@ -171,10 +171,12 @@ def saying_where() -> Iterator[None]:
         yield
     except OSError as error:
         where = error.filename or "the folder of the data"
+        code = code_of(error)
+        reason = f"{error.strerror or error}. Give this user the right to write there"
         raise StoreError(
-            f"The store cannot be opened: {where}: {error.strerror or error}. Give this user the "
-            "right to write there, or choose another folder with --data DIR.",
-            code_of(error),
+            f"The store cannot be opened: {where}: {WORDS[code] if code == DISK_FULL else reason}, "
+            "or choose another folder with --data DIR.",
+            code,
         ) from error
 
 

@@ -58,6 +58,8 @@ OF_ERRNO = {
 }
 OF_SQLITE = {
     sqlite3.SQLITE_FULL: DISK_FULL,
+    # The index of its log did not get the room it needs.
+    sqlite3.SQLITE_IOERR_SHMSIZE: DISK_FULL,
     sqlite3.SQLITE_READONLY: READ_ONLY,
     sqlite3.SQLITE_PERM: READ_ONLY,
     sqlite3.SQLITE_IOERR: IO_ERROR,
@@ -167,7 +169,7 @@ def code_of(error: BaseException) -> str | None:
     number = getattr(error.orig, "sqlite_errorcode", None)
     if number is not None:
         # The low byte of an extended code is what kind it is.
-        return OF_SQLITE.get(number & 0xFF)
+        return OF_SQLITE.get(number, OF_SQLITE.get(number & 0xFF))
     state = getattr(error.orig, "sqlstate", None)
     if state is not None:
         return OF_SQLSTATE.get(state[:2])

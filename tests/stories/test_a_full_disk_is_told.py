@@ -1,7 +1,7 @@
 """Goal: a disk that is really full is seen in /health and once in the log, and so is its end.
 
 Method: the server's data on a small file system of its own (needs the right to mount), filled by
-another file while a simulated bike rides; then that file is removed.
+another file while a simulated bike rides, or before a start; then that file is removed.
 """
 
 from __future__ import annotations
@@ -14,6 +14,8 @@ from typing import Any
 
 import pytest
 
+from backend.errors import StoreError
+from backend.store import open_store
 from tests.fakes.server import SpindleServer, eventually
 
 pytestmark = [
@@ -78,3 +80,20 @@ def test_a_full_disk_while_recording_is_told_and_costs_nothing_when_freed(
     said = server.stop()
     assert said.count("cannot be written") == said.count("can be written again") >= 1
     assert said.count("The database cannot be written") == 1
+
+
+@pytest.mark.parametrize("used_before", [False, True])
+def test_a_start_on_a_full_disk_says_what_to_do_and_works_once_there_is_room(
+    small_disk: Path, used_before: bool
+) -> None:
+    urls = f"sqlite:///{small_disk}/spindle.db", (small_disk / "objects").as_uri()
+    if used_before:
+        open_store(*urls).close()
+    fill(small_disk / "filler")
+
+    with pytest.raises(StoreError, match=r"no space is left on its disk\. Free some") as refusal:
+        open_store(*urls)
+
+    assert refusal.value.code == "disk_full"
+    (small_disk / "filler").unlink()
+    open_store(*urls).close()
