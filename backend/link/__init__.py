@@ -2,6 +2,14 @@
 
 from backend.link.base import Link
 from backend.link.opening import Opener, kind_of, open_link
-from backend.link.ports import PortInfo, list_ports
+from backend.link.ports import PortInfo, is_character_device, list_ports
 
-__all__ = ["Link", "Opener", "PortInfo", "kind_of", "list_ports", "open_link"]
+__all__ = [
+    "Link",
+    "Opener",
+    "PortInfo",
+    "is_character_device",
+    "kind_of",
+    "list_ports",
+    "open_link",
+]

@@ -16,7 +16,7 @@ from urllib.parse import parse_qs, urlsplit
 
 from backend.errors import InvalidRequest
 from backend.link.base import Link
-from backend.link.ports import device_with_usb_serial, usb_serial_of
+from backend.link.ports import device_with_usb_serial, is_character_device, usb_serial_of
 from backend.link.serial_port import SerialPort, baud_of
 from backend.link.simulated import SimulatedAddress, SimulatedLink
 from backend.link.socket_link import SocketLink
@@ -42,7 +42,7 @@ def kind_of(url: str) -> str:
             "COM3, or socket://host:port."
         )
     name, _ = _name_and_baud(url)
-    if Path(name).exists() and not Path(name).is_char_device():
+    if is_character_device(name) is False:
         raise InvalidRequest(f"{name} is no serial port: a port is a device such as /dev/ttyUSB0.")
     return "serial"
 
@@ -95,9 +95,11 @@ class Opener:
 def _host_and_port(url: str) -> tuple[str, int]:
     try:
         parts = urlsplit(url)
-        host, port = parts.hostname, parts.port
+        host, port = parts.hostname or "", parts.port
+        # Names that no name server can be asked for: too long, or with an empty part.
+        host.encode("idna")
     except ValueError:
-        host, port = None, None
+        host, port = "", None
     if not host or not port:
         raise InvalidRequest(f"`{url}`: write socket://host:port with a port from 1 to 65535.")
     return host, port

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import stat
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -34,6 +35,14 @@ class PortInfo:
 SIMULATED = PortInfo(
     url="sim", kind="simulated", description="A simulated drive unit, started by Spindle"
 )
+
+
+def is_character_device(name: str) -> bool | None:
+    """What kind of file this is; None where there is none, or none that can be looked at."""
+    try:
+        return stat.S_ISCHR(Path(name).stat().st_mode)
+    except (OSError, ValueError):
+        return None
 
 
 def list_ports() -> list[PortInfo]:

@@ -31,6 +31,8 @@ LOOK_EVERY_S = 0.1
 NAME_DEFAULT = "unit"
 SETTINGS = ("seed", "speed", "clock", "scenario", "flash", "market", "unlock_key", "baud")
 CLOCKS = ("real", "virtual")
+# What the noise of the physics is begun with is 64 bits wide there and has a sign.
+SEED_MAX = 2**63 - 1
 # What the child says last is quoted when it fails; more than this helps nobody.
 COMPLAINT_CHARACTERS_MAX = 600
 
@@ -76,6 +78,8 @@ class SimulatedAddress:
             speed = float(settings.get("speed", 1.0))
         except ValueError as error:
             raise InvalidRequest(f"{url}: seed is a whole number, speed a number.") from error
+        if not 0 <= seed <= SEED_MAX:
+            raise InvalidRequest(f"{url}: seed is from 0 to {SEED_MAX}.")
         if not 0.01 <= speed <= 1000.0:
             raise InvalidRequest(f"{url}: speed is a factor from 0.01 to 1000.")
         clock = settings.get("clock", "real")

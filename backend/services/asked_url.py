@@ -7,11 +7,11 @@ system that is not a serial port. It may name a host and port, since a unit behi
 
 from __future__ import annotations
 
-from pathlib import Path
+import os
 from urllib.parse import parse_qs
 
 from backend.control.scenarios import live_scenarios
-from backend.device.ports import kind_of
+from backend.device.ports import is_character_device, kind_of
 from backend.errors import FieldError, InvalidRequest
 
 # Settings of a simulated unit that are paths.
@@ -39,8 +39,7 @@ def check_asked(url: str) -> None:
                 )
     elif kind == "serial":
         name = url.strip().partition("?")[0]
-        path = Path(name)
-        if path.is_char_device() and not str(path.resolve()).startswith(TERMINALS):
+        if is_character_device(name) and not os.path.realpath(name).startswith(TERMINALS):
             raise _refused(
                 f"{name} is no serial port; one of another kind is for `spindle serve --device`."
             )

@@ -9,6 +9,8 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 from backend.errors import InvalidRequest, LinkError
 from backend.link import kind_of, list_ports, open_link
@@ -43,12 +45,39 @@ def test_the_url_tells_the_transport(url: str, kind: str) -> None:
         "socket://:80",
         "sim:a?sped=2",
         "sim:a?seed=x",
+        "sim:a?seed=-1",
+        "sim:a?seed=18446744073709551616",
+        "socket://.bike:80",
+        f"socket://{'b' * 64}:80",
         "COM3?baud=9",
     ],
 )
 def test_a_url_that_leads_nowhere_is_refused(url: str) -> None:
     with pytest.raises(InvalidRequest):
         kind_of(url)
+
+
+@given(st.text(max_size=400) | st.text(max_size=390).map("socket://{}:80".format))
+@example("x" * 400)
+@example("/dev/" + "x" * 300)
+@example("socket://a..b:80")
+@example("/dev/\0")
+def test_any_text_is_a_way_or_is_refused_and_nothing_else_happens(url: str) -> None:
+    try:
+        assert kind_of(url) in ("simulated", "socket", "serial")
+    except InvalidRequest:
+        return
+
+
+def test_what_may_not_be_looked_at_is_tried_as_a_port(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def forbidden(name: object, **_: object) -> None:
+        raise PermissionError(13, "Permission denied", name)
+
+    monkeypatch.setattr("os.stat", forbidden)
+
+    assert kind_of("/root/bike") == "serial"
 
 
 def test_two_names_are_two_simulated_units_and_one_name_is_always_the_same() -> None:

@@ -35,7 +35,15 @@ def test_what_names_a_file_or_another_device_is_refused_for_its_url(url: str) ->
 
 @pytest.mark.parametrize(
     "url",
-    ["sim", "sim:x?scenario=commute", "sim:x?scenario=none", "socket://bench:1", "/dev/ttyUSB77"],
+    [
+        "sim",
+        "sim:x?scenario=commute",
+        "sim:x?scenario=none",
+        "socket://bench:1",
+        "/dev/ttyUSB77",
+        # No file has so long a name; that it is not there is said when it is opened.
+        "x" * 400,
+    ],
 )
 def test_a_unit_is_none_of_these(url: str) -> None:
     check_asked(url)
