@@ -88,7 +88,7 @@ class RevisionLog(Protocol):
 
 
 # Entity tags of a list, a weak one with its mark. A comma may stand inside the quotes.
-ENTITY_TAGS = re.compile(r'(?:W/)?"[^"]*"')
+ENTITY_TAGS = re.compile(r'[^\s,"]*"[^"]*"')
 
 
 def etag(generation: int, crc32: int) -> str:

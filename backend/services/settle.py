@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
@@ -13,10 +14,10 @@ from backend.services.connect import Devices
 
 Result = TypeVar("Result")
 
-# A unit that fell silent in the middle of a change is waited for to learn what it did. The first
-# attempts may still meet the dying link, so there are three.
-SETTLE_S = 8.0
-SETTLE_ATTEMPTS = 3
+# A unit that fell silent in the middle of a change is waited for so long to learn what it did.
+SETTLE_S = 20.0
+# Between attempts: a dying link looks whole for a moment, and fails at once.
+PAUSE_S = 0.2
 
 
 @dataclass(frozen=True)
@@ -41,9 +42,10 @@ def settled(
     operation: made with the unit's mtu; raises NoAnswer with an outcome where it found one out.
     Raises what the operation raises; `error`, as unknown, when the unit does not come back.
     """
-    for _ in range(SETTLE_ATTEMPTS):
-        devices.wait_connected(device_id, SETTLE_S)
+    until_s = time.monotonic() + SETTLE_S
+    while (left_s := until_s - time.monotonic()) > 0.0:
         try:
+            devices.wait_connected(device_id, left_s)
             mtu = devices.writable(device_id).mtu
         except RequestRefused:
             # It was removed, or came back as one whose configuration nobody here understands.
@@ -56,6 +58,7 @@ def settled(
         except NotFound:
             break
         except LinkError:
-            continue
+            pass
+        time.sleep(PAUSE_S)
     error.outcome = "unknown"
     raise error

@@ -211,7 +211,6 @@ def test_a_write_that_takes_too_long_is_taken_back_or_found_out(
 def test_a_change_found_out_only_later_has_its_reason_in_the_log(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("backend.services.settle.SETTLE_ATTEMPTS", 1)
     monkeypatch.setattr("backend.services.settle.SETTLE_S", 0.01)
     bench.unit.dead_down_s = 3.0
 

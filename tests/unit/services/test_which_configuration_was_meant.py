@@ -22,7 +22,16 @@ def test_a_change_for_this_configuration_goes_on(if_match: str | None) -> None:
 
 @pytest.mark.parametrize(
     "if_match",
-    ["", '"6-0000abcd"', f"W/{TAG}", f'W/{TAG}, "x"', '"*"', '"a, 7-0000abcd"', '"x7-0000abcd"'],
+    [
+        "",
+        '"6-0000abcd"',
+        f"W/{TAG}",
+        f'W/{TAG}, "x"',
+        f"w/{TAG}",
+        '"*"',
+        '"a, 7-0000abcd"',
+        '"x7-0000abcd"',
+    ],
 )
 def test_a_change_for_another_one_or_a_weak_tag_is_refused(if_match: str) -> None:
     with pytest.raises(ConfigConflict):

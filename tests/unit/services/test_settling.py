@@ -1,0 +1,80 @@
+"""Goal: what became of a change is asked until the unit tells, or its time is over.
+
+Method: devices by script, whose link looks whole while it dies.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, cast
+
+import pytest
+
+from backend.device.operation import Operation
+from backend.errors import LinkError, NoAnswer, NotFound, SpindleError
+from backend.services import settle
+from backend.services.connect import Devices
+from backend.services.settle import settled
+
+SILENT = NoAnswer("silent")
+FOUND = "found"
+
+
+class ScriptedDevices:
+    """Every run takes the next of the script: an error or a result."""
+
+    mtu = 512
+
+    def __init__(self, *script: SpindleError | str) -> None:
+        self._script: Iterator[SpindleError | str] = iter(script)
+
+    def wait_connected(self, device_id: str, timeout_s: float) -> bool:
+        return True
+
+    def writable(self, device_id: str) -> ScriptedDevices:
+        return self
+
+    def run(self, device_id: str, operation: Operation[str]) -> str:
+        step = next(self._script)
+        if isinstance(step, SpindleError):
+            raise step
+        return step
+
+
+class RemovedDevices(ScriptedDevices):
+    """Somebody removed the device meanwhile."""
+
+    def wait_connected(self, device_id: str, timeout_s: float) -> bool:
+        raise NotFound("There is no device.")
+
+
+def ask(devices: ScriptedDevices) -> str:
+    never: Any = lambda mtu: None  # noqa: E731
+    return settled(cast(Devices, devices), "bike", never, NoAnswer("lost"))
+
+
+@pytest.fixture(autouse=True)
+def no_pause(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(settle, "PAUSE_S", 0.0)
+
+
+def test_a_link_that_fails_at_once_many_times_does_not_use_the_time_up() -> None:
+    gone = LinkError("gone")
+
+    assert ask(ScriptedDevices(SILENT, gone, SILENT, SILENT, gone, SILENT, FOUND)) == FOUND
+
+
+def test_what_is_not_found_out_in_its_time_is_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(settle, "SETTLE_S", 0.0)
+
+    with pytest.raises(NoAnswer) as told:
+        ask(ScriptedDevices(SILENT))
+
+    assert told.value.outcome == "unknown"
+
+
+def test_a_device_that_was_removed_meanwhile_leaves_the_change_unknown() -> None:
+    with pytest.raises(NoAnswer) as told:
+        ask(RemovedDevices())
+
+    assert told.value.outcome == "unknown"
