@@ -12,6 +12,7 @@ import logging
 import threading
 
 from sqlalchemy import Connection, Engine, create_engine, select, text
+from sqlalchemy.engine import make_url
 from sqlalchemy.exc import SQLAlchemyError
 from sqlalchemy.pool import NullPool
 
@@ -106,7 +107,7 @@ class AdvisoryLock:
 
 def lock_engine(url: str) -> Engine:
     """An engine whose one connection is never given to anybody else, nor used again."""
-    options = KEEPALIVE if "psycopg" in url.split("://", 1)[0] else {}
+    options = KEEPALIVE if "psycopg" in make_url(url).get_driver_name() else {}
     return create_engine(
         url, poolclass=NullPool, isolation_level="AUTOCOMMIT", connect_args=options
     )

@@ -11,6 +11,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from sqlalchemy import Connection, Engine, create_engine, inspect, text
+from sqlalchemy.engine import make_url
 from sqlalchemy.exc import DatabaseError, OperationalError, SQLAlchemyError
 
 from backend.errors import StoreError
@@ -52,14 +53,17 @@ class DatabaseView:
 
 
 def look_at(url: str) -> DatabaseView:
-    """The contents of a database. Raises StoreError when it cannot be reached at all."""
+    """The contents of a database. Raises StoreError when it cannot be reached or used at all."""
     path = sqlite_path(url)
     if path is not None and (not path.exists() or (path.is_file() and path.stat().st_size == 0)):
         return rest_of(path)
     engine = reading_engine(url, path)
     try:
         with engine.connect() as connection:
-            return view_of(connection)
+            view = view_of(connection)
+            if path is None and view.state != OK:
+                require_unicode(connection, shown(url))
+            return view
     except OperationalError as error:
         raise StoreError(f"The database {shown(url)} cannot be read: {error.orig}") from error
     except DatabaseError as error:
@@ -87,9 +91,24 @@ def journal_of(path: Path) -> Path:
 def reading_engine(url: str, path: Path | None) -> Engine:
     """An engine that writes nothing, not even the files SQLite keeps beside a database."""
     if path is None:
-        return create_engine(url)
+        # The driver's own choice for a database without an encoding is bytes instead of text.
+        unicode = (
+            {"client_encoding": "utf8"} if "psycopg" in make_url(url).get_driver_name() else {}
+        )
+        return create_engine(url, connect_args=unicode)
     mode = "mode=ro" if journal_of(path).exists() else "mode=ro&immutable=1"
     return create_engine(f"sqlite:///file:{quote(path.as_posix())}?{mode}&uri=true")
+
+
+def require_unicode(connection: Connection, shown_url: str) -> None:
+    """Raises StoreError for a new PostgreSQL database that cannot keep every name people write."""
+    encoding = connection.execute(text("SHOW server_encoding")).scalar_one()
+    if encoding != "UTF8":
+        raise StoreError(
+            f"The database {shown_url} has the encoding {encoding}, which cannot keep every name "
+            "and note. Make another one with CREATE DATABASE ... ENCODING 'UTF8' TEMPLATE "
+            "template0, and name it in SPINDLE_DB. Nothing was changed."
+        )
 
 
 def view_of(connection: Connection) -> DatabaseView:

@@ -64,11 +64,11 @@ class Postgres:
             "pg_ctl", "-D", str(self._folder / "data"), "-w", "-l", log, "-o", options, "start"
         )
 
-    def new_database(self) -> str:
+    def new_database(self, encoding: str = "UTF8") -> str:
         """The URL of an empty database."""
         self._databases += 1
         name = f"spindle{self._databases}"
-        self.execute(f"CREATE DATABASE {name}")
+        self.execute(f"CREATE DATABASE {name} ENCODING '{encoding}' TEMPLATE template0")
         return f"postgresql+psycopg://{USER}:secret@127.0.0.1:{self.port}/{name}"
 
     def execute(self, statement: str) -> list[Any]:

@@ -26,7 +26,7 @@ import backend.store
 from backend.domain.ride import RideContext
 from backend.errors import StoreError
 from backend.store import Store, advisory, open_store
-from backend.store.advisory import AdvisoryLock
+from backend.store.advisory import AdvisoryLock, lock_engine
 from backend.store.check import check_store
 from backend.store.rebuild import rebuild_store
 from backend.store.tables import metadata
@@ -92,6 +92,22 @@ def test_migrations_and_tables_agree_both_ways(url: str) -> None:
 
     engine.dispose()
     assert differences == []
+
+
+@pytest.mark.parametrize("encoding", ["SQL_ASCII", "LATIN1"])
+def test_a_database_that_cannot_keep_every_name_is_refused(
+    cluster: Postgres, folder: str, encoding: str
+) -> None:
+    with pytest.raises(StoreError, match=f"encoding {encoding}.*ENCODING 'UTF8'"):
+        open_store(cluster.new_database(encoding), folder)
+
+
+def test_a_server_that_vanished_is_noticed_by_every_way_to_write_the_driver(url: str) -> None:
+    for written in (url, url.replace("postgresql+psycopg", "postgresql")):
+        with lock_engine(written).connect() as connection:
+            driver = connection.connection.driver_connection
+            assert driver is not None
+            assert driver.info.get_parameters()["keepalives_idle"] == "10"
 
 
 def test_a_ride_is_kept_and_comes_back_into_another_database(
