@@ -9,10 +9,12 @@ import signal
 import socket
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
+from tests.fakes.fit_file import commute, fit_file
 from tests.fakes.server import SpindleServer, eventually
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -48,7 +50,7 @@ def test_the_end_of_the_server_is_the_end_of_its_simulator(
 ) -> None:
     server = SpindleServer(tmp_path).start()
     server.ready_device()
-    simulators = simulators_of(server.pid)
+    simulators = children_of(server.pid)
 
     said = server.stop(ending)
 
@@ -60,8 +62,8 @@ def test_the_end_of_the_server_is_the_end_of_its_simulator(
     )
 
 
-def simulators_of(server_pid: int) -> list[int]:
-    """Simulators this server started."""
+def children_of(server_pid: int, word: bytes = b"sim_device") -> list[int]:
+    """Processes this server started with this word in their command: its simulators."""
     found = []
     for folder in Path("/proc").glob("[0-9]*"):
         try:
@@ -69,7 +71,7 @@ def simulators_of(server_pid: int) -> list[int]:
             parent = int((folder / "stat").read_text().rsplit(")", 1)[1].split()[1])
         except OSError:
             continue
-        if parent == server_pid and b"sim_device" in words:
+        if parent == server_pid and word in words:
             found.append(int(folder.name))
     return found
 
@@ -136,13 +138,44 @@ def test_a_unit_that_is_not_there_keeps_nobody_waiting(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("ending", [signal.SIGTERM, signal.SIGKILL])
+def test_a_file_that_is_read_when_the_server_ends_is_one_ride_after_the_next_start(
+    tmp_path: Path, ending: signal.Signals
+) -> None:
+    first = SpindleServer(tmp_path, []).start()
+    with ThreadPoolExecutor(1) as browser:
+        # Its reader takes longer to start than to be found.
+        sending = browser.submit(
+            first.client.post, "/rides/import?name=a.fit", content=fit_file(commute(3000))
+        )
+        readers = eventually(lambda: children_of(first.pid, b"backend.ingest.worker"))
+
+        said = first.stop(ending)
+        sending.exception()
+
+    eventually(lambda: not any(Path(f"/proc/{pid}").exists() for pid in readers))
+    assert "Traceback" not in said
+    assert ending == signal.SIGKILL or first.exit_code == 0
+
+    second = SpindleServer(tmp_path, []).start()
+    (upload,) = eventually(
+        lambda: second.get("/uploads")["items"], lambda items: items[0]["state"] == "complete"
+    )
+    rides = [ride["id"] for ride in second.get("/rides")["items"]]
+    second.stop()
+
+    assert rides == upload["ride_ids"]
+    assert len(rides) == 1
+
+
+@pytest.mark.slow
 @pytest.mark.host_build("a board takes a tenth of a core at rest: these are about the server")
 @pytest.mark.parametrize("wait_for_all", [True, False], ids=["ready", "starting"])
 def test_thirty_two_simulated_units_end_with_the_server(tmp_path: Path, wait_for_all: bool) -> None:
     server = SpindleServer(tmp_path, [f"sim:unit{number}" for number in range(32)]).start()
     if wait_for_all:
         server.all_ready(32)
-    simulators = simulators_of(server.pid)
+    simulators = children_of(server.pid)
 
     said = server.stop(signal.SIGTERM)
 

@@ -6,6 +6,8 @@ Method: the real child process, on sound, hostile and expensive files.
 from __future__ import annotations
 
 import os
+import select
+import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -14,7 +16,7 @@ import pytest
 
 from backend.ingest import COMPLETE, REJECTED, Children, ReadingStopped, read_in_child
 from backend.ingest.formats import read_file
-from backend.ingest.sandbox import decode
+from backend.ingest.sandbox import ROOT, decode
 from backend.ingest.worker import encode
 from tests.fakes.fit_file import commute, definition, enclosed, fit_file
 
@@ -94,3 +96,19 @@ def test_a_ctrl_c_meant_for_the_server_does_not_reach_a_child() -> None:
     told = Children().run([sys.executable, "-c", "import os; print(os.getpgrp())"], 60)
 
     assert int(told.stdout) != os.getpgrp()
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs a file that its reader waits for")
+def test_a_child_ends_with_a_server_that_is_killed(tmp_path: Path) -> None:
+    path = tmp_path / "object"
+    os.mkfifo(path)
+    words = f"import pathlib, backend.ingest as i; i.read_in_child(pathlib.Path({str(path)!r}), '')"
+    server = subprocess.Popen([sys.executable, "-c", words], cwd=ROOT)
+    # Opens as soon as the child does, which then waits for bytes for ever.
+    with path.open("wb", buffering=0) as file:
+        server.kill()
+        server.wait()
+        reader_gone = select.poll()
+        reader_gone.register(file, 0)
+
+        assert reader_gone.poll(30_000)
