@@ -33,7 +33,13 @@ CHECKSUM_MISMATCH = 460
 # A chunk with a checksum is held in memory until it is checked; clients use 0.25 to 1 MiB.
 CHECKED_CHUNK_BYTES_MAX = 16 * 1024 * 1024
 
+MISMATCH: dict[int | str, dict[str, Any]] = {
+    CHECKSUM_MISMATCH: {"description": "The part has not the digest it was sent with."}
+}
 router = APIRouter(tags=["uploads"], responses=refusals(400, 404, 409, 412, 413, 415))
+UploadChecksum = Annotated[
+    str | None, Header(max_length=200, description="Of the part in this request's body.")
+]
 FileName = Annotated[str, Query(min_length=1, max_length=255, description="The file's own name.")]
 
 
@@ -58,12 +64,13 @@ async def describe_uploads(request: Request) -> Response:
     )
 
 
-@router.post("/uploads", operation_id="create_upload", status_code=201)
+@router.post("/uploads", operation_id="create_upload", status_code=201, responses=MISMATCH)
 async def create_upload(
     request: Request,
     services: Provided,
     upload_length: Annotated[int, Header(ge=0)],
     upload_metadata: Annotated[str, Header(max_length=4000)] = "",
+    upload_checksum: UploadChecksum = None,
     tus_resumable: Annotated[str, Header()] = "",
 ) -> Response:
     """Begins an upload; a body with the tus chunk type is its first part already."""
@@ -77,11 +84,19 @@ async def create_upload(
     with_part = request.headers.get("content-type") == TUS_CHUNK_MEDIA_TYPE
     if with_part and _part_length(request) > upload_length:
         return _too_long(upload_length)
+    chunks: AsyncIterator[bytes] | None = None
+    if with_part and upload_checksum is not None:
+        chunk = await _collected(request.stream())
+        if not agrees(chunk, upload_checksum):
+            return _mismatch()
+        if len(chunk) > upload_length:
+            return _too_long(upload_length)
+        chunks = _one(chunk)
     upload = await _begin(services, name[:255], upload_length)
     offset = 0
     if with_part:
         try:
-            offset = await _append_part(services, upload, 0, request)
+            offset = await _append_part(services, upload, 0, request, chunks)
         except PartTooLong:
             await run_in_threadpool(services.uploads.remove, upload.id)
             return _too_long(upload_length)
@@ -97,13 +112,15 @@ async def get_upload_offset(upload_id: str, services: Provided) -> Response:
     return _tus_response(200, **stands, **_expiry(upload))
 
 
-@router.patch("/uploads/{upload_id}", operation_id="append_upload", status_code=204)
+@router.patch(
+    "/uploads/{upload_id}", operation_id="append_upload", status_code=204, responses=MISMATCH
+)
 async def append_upload(
     upload_id: str,
     request: Request,
     services: Provided,
     upload_offset: Annotated[int, Header(ge=0)],
-    upload_checksum: Annotated[str | None, Header(max_length=200)] = None,
+    upload_checksum: UploadChecksum = None,
     tus_resumable: Annotated[str, Header()] = "",
 ) -> Response:
     """The next part of a file. What arrived before a break is kept."""
@@ -119,11 +136,9 @@ async def append_upload(
         return _too_long(left)
     chunks: AsyncIterator[bytes] | None = None
     if upload_checksum is not None:
-        algorithm, expected = checksum(upload_checksum)
         chunk = await _collected(request.stream())
-        digest = hashlib.new(algorithm, chunk, usedforsecurity=False).digest()
-        if not hmac.compare_digest(digest, expected):
-            return Response("Checksum Mismatch", CHECKSUM_MISMATCH, _tus_headers())
+        if not agrees(chunk, upload_checksum):
+            return _mismatch()
         if upload_offset == upload.received and len(chunk) > left:
             return _too_long(left)
         chunks = _one(chunk)
@@ -180,11 +195,18 @@ def metadata(text: str) -> dict[str, str]:
     return pairs
 
 
-def checksum(text: str) -> tuple[str, bytes]:
-    """`Upload-Checksum: sha256 BASE64` as algorithm and digest.
+def agrees(part: bytes, upload_checksum: str) -> bool:
+    """Whether a part has the digest of `Upload-Checksum: sha256 BASE64`.
 
     Raises: HTTPException 400, for an algorithm that is not offered and a value that is no digest.
     """
+    algorithm, expected = checksum(upload_checksum)
+    digest = hashlib.new(algorithm, part, usedforsecurity=False).digest()
+    return hmac.compare_digest(digest, expected)
+
+
+def checksum(text: str) -> tuple[str, bytes]:
+    """Algorithm and digest of `Upload-Checksum`. Raises: HTTPException 400."""
     algorithm, _, value = text.partition(" ")
     algorithm = algorithm.lower()
     if algorithm not in TUS_CHECKSUMS:
@@ -248,6 +270,10 @@ def _part_length(request: Request) -> int:
 def _too_long(left: int) -> Response:
     detail = f"The part is longer than the {left} bytes its file still lacks: nothing was kept."
     return problem_response(413, "too_long", detail, headers=_tus_headers())
+
+
+def _mismatch() -> Response:
+    return Response("Checksum Mismatch", CHECKSUM_MISMATCH, _tus_headers())
 
 
 def _expiry(upload: Any, received: int | None = None) -> dict[str, str]:

@@ -6181,6 +6181,8 @@ export interface operations {
             header: {
                 "upload-length": number;
                 "upload-metadata"?: string;
+                /** @description Of the part in this request's body. */
+                "upload-checksum"?: string | null;
                 "tus-resumable"?: string;
             };
             path?: never;
@@ -6259,6 +6261,13 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
+            };
+            /** @description The part has not the digest it was sent with. */
+            460: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
         };
     };
@@ -6601,6 +6610,7 @@ export interface operations {
             query?: never;
             header: {
                 "upload-offset": number;
+                /** @description Of the part in this request's body. */
                 "upload-checksum"?: string | null;
                 "tus-resumable"?: string;
             };
@@ -6680,6 +6690,13 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
+            };
+            /** @description The part has not the digest it was sent with. */
+            460: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
         };
     };

@@ -158,6 +158,18 @@ def test_a_first_part_longer_than_its_upload_begins_none(bench: Bench) -> None:
     assert bench.uploads.list()["items"] == ()
 
 
+def test_the_checksum_of_a_first_part_is_compared_too(bench: Bench) -> None:
+    digest = base64.b64encode(hashlib.sha256(b"1234").digest()).decode()
+    headers = CHUNK | {"upload-length": str(LENGTH), "upload-checksum": f"sha256 {digest}"}
+
+    damaged = bench.client.post("/api/v1/uploads", headers=headers, content=b"1834")
+    none = bench.client.get("/api/v1/uploads").json()["items"]
+    sound = bench.client.post("/api/v1/uploads", headers=headers, content=b"1234")
+
+    assert (damaged.status_code, none) == (460, [])
+    assert (sound.status_code, sound.headers["upload-offset"]) == (201, "4")
+
+
 def test_an_unfinished_upload_says_until_when_it_is_waited_for(bench: Bench) -> None:
     created = bench.client.post(
         "/api/v1/uploads", headers={"tus-resumable": "1.0.0", "upload-length": "10"}
