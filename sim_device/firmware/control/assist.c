@@ -38,7 +38,7 @@ void assist_interrupted(assist_state *state)
 static int refuse(const assist_config *config, assist_state *state, assist_output *output)
 {
     assist_interrupted(state);
-    market_push_note(config, state, 0.0f);
+    push_note(config, state, 0.0f);
     output->limit_flags = ASSIST_LIMIT_INPUT_REFUSED;
     return ASSIST_INPUT_REFUSED;
 }
@@ -57,11 +57,11 @@ static int lose(assist_state *state, assist_output *output)
  * holds what was the filtered torque of a step that passed here. */
 static int remembers_numbers(const assist_state *state)
 {
-    return float32_is_finite(state->torque_filtered_nm + state->assist_torque_nm +
-                             state->walk_integral_nm + state->push_peak_nm[0] +
-                             state->push_peak_nm[1] + state->motor_power_mean_w +
-                             state->battery_spared + state->battery_power_w +
-                             state->battery_torque_nm + state->battery_trim_w);
+    return float32_is_finite(
+        state->torque_filtered_nm + state->assist_torque_nm + state->walk_integral_nm +
+        state->push_peak_nm[0] + state->push_peak_nm[1] + state->push_peak_nm[2] +
+        state->motor_power_mean_w + state->battery_spared + state->battery_power_w +
+        state->battery_torque_nm + state->battery_trim_w);
 }
 
 static float apply_sensor(const assist_config *config, assist_state *state,
@@ -76,7 +76,7 @@ static float apply_sensor(const assist_config *config, assist_state *state,
             stroke_average_nm(config, state->torque_filtered_nm, output->rider_torque_nm);
         push_nm = output->rider_torque_nm;
     }
-    market_push_note(config, state, push_nm);
+    push_note(config, state, push_nm);
     output->rider_torque_filtered_nm = state->torque_filtered_nm;
     earlier_torque_nm = torque_history_swap(config, state);
     output->torque_rate = torque_rate_of(config, state->torque_filtered_nm, earlier_torque_nm);

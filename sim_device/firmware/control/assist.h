@@ -115,8 +115,8 @@ typedef struct {
     float assist_torque_nm;    /* at the crank, after every limit: where the ramps go on from */
     float walk_integral_nm;
     uint8_t walk_phase;       /* of walk.c; 0 at rest: a held button must be let go first */
-    uint16_t push_steps;      /* of the present half of the window of push_peak_nm */
-    float push_peak_nm[2];    /* hardest push in this half window and in the one before */
+    uint16_t push_steps;      /* of the present half second of push_peak_nm */
+    float push_peak_nm[3];    /* hardest push in this half second and in the two before */
     float motor_power_mean_w; /* at the shaft: what a continuous rating is held against */
     float battery_spared;     /* share of the current that a sagging battery is spared */
     float battery_power_w;    /* allowed in this step; 0 before the first */

@@ -39,6 +39,10 @@ int torque_is_fresh(const assist_input *input);
 float apply_ramps(const assist_config *config, const assist_input *input, float previous_nm,
                   float wanted_nm, assist_output *output);
 
+/* cutoffs.c: the rider's hardest push of late, told in every step (0 where none was measured, so
+ * that the half seconds are of time). */
+void push_note(const assist_config *config, assist_state *state, float torque_nm);
+
 /* cutoffs.c: whatever takes the torque away at once. */
 float apply_cutoffs(const assist_config *config, assist_state *state, const assist_input *input,
                     float demand_nm, assist_output *output);
@@ -54,9 +58,7 @@ float battery_torque_nm(const assist_config *config, assist_state *state, const 
                         float resistance_ohm, float back_emf_v);
 int battery_sags(const assist_config *config, const assist_input *input);
 
-/* market.c: the rider's hardest push of late, told in every step (0 where none was measured, so
- * that the window is one of time), and the last word. */
-void market_push_note(const assist_config *config, assist_state *state, float torque_nm);
+/* market.c: the last word. */
 float apply_market(const assist_config *config, assist_state *state, const assist_input *input,
                    float motor_nm, assist_output *output);
 

@@ -6,8 +6,35 @@
 #include "float32.h"      // float32_max, float32_min
 #include "market.h"       // market_cutoff_kmh, market_profile_of
 
+static const float PUSH_HALF_SECOND_S = 0.5f;
+
+/* Legs that turn the cranks and push less than this for a second and a half do not ride: 6 W at 60
+ * rpm. Who pushes with one leg alone does so every second at 30 rpm. */
+static const float PUSH_NM_MIN = 1.0f;
+
+void push_note(const assist_config *config, assist_state *state, float torque_nm)
+{
+    state->push_steps = (uint16_t)(state->push_steps + 1u);
+    if ((float)state->push_steps * config->step_s > PUSH_HALF_SECOND_S) {
+        state->push_steps = 1;
+        state->push_peak_nm[2] = state->push_peak_nm[1];
+        state->push_peak_nm[1] = state->push_peak_nm[0];
+        state->push_peak_nm[0] = 0.0f;
+    }
+    state->push_peak_nm[0] = float32_max(state->push_peak_nm[0], torque_nm);
+}
+
+/* An average, and a gentle ramp down, go on when the legs only turn along: not for longer. */
+static int pushing(const assist_config *config, const assist_state *state)
+{
+    float push_nm = float32_max(state->push_peak_nm[0], state->push_peak_nm[1]);
+
+    push_nm = float32_max(push_nm, state->push_peak_nm[2]);
+    return push_nm >= float32_max(config->pedal_torque_nm_min, PUSH_NM_MIN);
+}
+
 /* Forward pedalling renews the permission, back-pedalling ends it, standing cranks use it up. */
-static int pedalling(const assist_config *config, assist_state *state, float cadence_rpm)
+static int turning(const assist_config *config, assist_state *state, float cadence_rpm)
 {
     float stop_s =
         float32_min(config->pedal_stop_s, market_profile_of(config->market)->pedal_stop_s);
@@ -39,7 +66,8 @@ float apply_cutoffs(const assist_config *config, assist_state *state, const assi
 {
     float left_nm = demand_nm;
 
-    if (!walk_is_on(state) && !pedalling(config, state, input->cadence_rpm)) {
+    if (!walk_is_on(state) &&
+        !(turning(config, state, input->cadence_rpm) && pushing(config, state))) {
         left_nm = held_at(0.0f, demand_nm, ASSIST_LIMIT_PEDAL_STOP, output);
     }
     if (input->brake) left_nm = held_at(0.0f, demand_nm, ASSIST_LIMIT_BRAKE, output);

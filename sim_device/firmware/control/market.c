@@ -32,9 +32,6 @@ static const float POWER_MEAN_S = 60.0f;
  * to the rating within seconds instead of falling. */
 static const float POWER_HEADROOM = 10.0f;
 
-/* Assist follows a push of this length at most: Japan wants it gone within a second of the last. */
-static const float PUSH_HALF_WINDOW_S = 0.5f;
-
 static const float RAD_PER_S_PER_RPM = 0.104719755f;
 
 const market_profile *market_profile_of(uint8_t market_number)
@@ -64,19 +61,8 @@ float market_cutoff_kmh(const assist_config *config)
     return float32_min(wanted_kmh, profile->cutoff_kmh);
 }
 
-void market_push_note(const assist_config *config, assist_state *state, float torque_nm)
-{
-    state->push_steps = (uint16_t)(state->push_steps + 1u);
-    if ((float)state->push_steps * config->step_s > PUSH_HALF_WINDOW_S) {
-        state->push_steps = 1;
-        state->push_peak_nm[1] = state->push_peak_nm[0];
-        state->push_peak_nm[0] = 0.0f;
-    }
-    state->push_peak_nm[0] = float32_max(state->push_peak_nm[0], torque_nm);
-}
-
 /* Against the stroke's average, because the law's ratio is of a rider's mean torque; but never
- * against an average that outlives the push. */
+ * against an average that outlives the push: Japan wants it gone within a second of the last. */
 static float ratio_limit_nm(const assist_config *config, const assist_state *state, float speed_kmh)
 {
     float push_nm = float32_max(state->push_peak_nm[0], state->push_peak_nm[1]);
