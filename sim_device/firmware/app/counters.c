@@ -10,6 +10,7 @@
 
 #define AREAS COUNTERS_BLOCKS
 #define SAVE_PERIOD_US 60000000u
+#define STANDING_SAVE_S 600u
 #define STEPS_PER_S (1000000u / EBL_CONTROL_PERIOD_US)
 #define SPEED_KMH_MAX 150.0f /* what is faster is a disturbed sensor */
 #define STANDSTILL_SPEED_KMH_MAX 0.5f
@@ -103,13 +104,20 @@ static int room_make(const counters *state, const hal *board)
     return board->flash_erase(board->context, address) >= 0;
 }
 
+/* A bike that stands has only its time to tell. */
+static int is_worth_saving(const counters *state)
+{
+    return state->distance_m != state->saved_distance_m ||
+           state->operating_s - state->saved_operating_s >= STANDING_SAVE_S;
+}
+
 void counters_poll(counters *state, const hal *board, uint64_t now_us)
 {
     uint8_t record[RECORD_LENGTH];
 
     if (state->area_bytes == 0 || now_us < state->save_due_us) return;
     state->save_due_us = now_us + SAVE_PERIOD_US;
-    if (state->operating_s == state->saved_operating_s || !room_make(state, board)) return;
+    if (!is_worth_saving(state) || !room_make(state, board)) return;
     ebl_put_u32(record + AT_SEQUENCE, state->sequence + 1);
     ebl_put_u32(record + AT_DISTANCE, state->distance_m);
     ebl_put_u32(record + AT_OPERATING, state->operating_s);

@@ -20,12 +20,13 @@ enum {
     MESSAGE_LENGTH = DIGEST_AT + SHA512_LENGTH
 };
 
-/* 1, 2, 4 .. 60 s after 1, 2, 3 .. failures. */
+/* 1, 2, 4 .. 60 s after 1, 2, 3 .. failures; longer for who does not stop. */
 static uint64_t delay_us(uint32_t failures)
 {
     uint32_t delay_s = 1;
 
     if (failures == 0) return 0;
+    if (failures > UNLOCK_FAILURES_MANY) return (uint64_t)UNLOCK_DELAY_S_MANY * US_PER_S;
     for (uint32_t i = 1; i < failures && delay_s < UNLOCK_DELAY_S_MAX; i++) delay_s *= 2;
     if (delay_s > UNLOCK_DELAY_S_MAX) delay_s = UNLOCK_DELAY_S_MAX;
     return (uint64_t)delay_s * US_PER_S;

@@ -16,6 +16,12 @@
 
 #define UNLOCK_TTL_S 60
 #define UNLOCK_DELAY_S_MAX 60
+
+/* Each attempt is a record in flash, 85 in a block of 1 KB. One a minute would spend the 10,000
+ * erases of both blocks in 3.2 years: who failed so often waits longer, and they last for 12. */
+#define UNLOCK_FAILURES_MANY 100000u
+#define UNLOCK_DELAY_S_MANY 240
+
 #define UNLOCK_NONCE_LENGTH 16
 
 typedef struct {

@@ -11,6 +11,11 @@ from firmware_protocol._generated import CountersRequest, CountersResponse
 from tests.fakes.bench_unit import FLASH_BLOCK_BYTES, BenchUnit
 
 RECORD_BYTES = 20
+CREEPING_KMH = 0.4
+"""Way is made, and the bike still counts as standing: a block may be erased."""
+STANDING_SAVE_S = 600
+BLOCK_ERASES_MAX = 10_000
+TEN_YEARS_S = 10 * 365.25 * 86_400
 COUNTERS_AT = 2 * FLASH_BLOCK_BYTES
 
 
@@ -53,8 +58,23 @@ def test_a_restart_costs_at_most_the_last_minute() -> None:
     assert kept.operating_s >= 119
 
 
+def test_a_unit_that_stands_for_ten_years_does_not_wear_out_the_flash_of_its_counters() -> None:
+    records_per_area = FLASH_BLOCK_BYTES // RECORD_BYTES
+    assert TEN_YEARS_S / STANDING_SAVE_S / (2 * records_per_area) < BLOCK_ERASES_MAX
+    unit = BenchUnit()
+    saved = set()
+
+    for _ in range(int(3.5 * STANDING_SAVE_S / 50)):
+        unit.advance(50.0)
+        saved.add(counters(unit).saved_operating_s)
+
+    assert len(saved - {0}) == 3
+    assert min(saved - {0}) >= STANDING_SAVE_S
+
+
 def test_learning_does_not_touch_the_configuration() -> None:
     unit = BenchUnit()
+    unit.inputs(speed_kmh=CREEPING_KMH)
     before = unit.read_image()
     slots = unit.flash()[:COUNTERS_AT].copy()
 
@@ -67,6 +87,7 @@ def test_learning_does_not_touch_the_configuration() -> None:
 @pytest.mark.board_long
 def test_the_log_goes_round_and_never_forgets() -> None:
     unit = BenchUnit(flash_block_bytes=512, flash_bytes=6 * 512)
+    unit.inputs(speed_kmh=CREEPING_KMH)
     minutes = 3 * 2 * (512 // RECORD_BYTES)
     seen = 0
 
@@ -97,6 +118,7 @@ def test_an_area_is_not_erased_while_the_bike_rolls() -> None:
 @pytest.mark.board_long
 def test_power_lost_in_any_byte_of_a_saving_leaves_the_count_before_or_after() -> None:
     unit = BenchUnit(flash_block_bytes=512, flash_bytes=6 * 512)
+    unit.inputs(speed_kmh=CREEPING_KMH)
     unit.advance(61.0)
     flash_before = unit.flash().copy()
     found = []

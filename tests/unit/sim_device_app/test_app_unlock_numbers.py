@@ -6,12 +6,15 @@ Method: both past the line, which only costs time, through doors of the bench bo
 
 from __future__ import annotations
 
+import struct
+import zlib
+
 import numpy as np
 import pytest
 from sim_device.firmware.python._native import ffi, lib
 
 from firmware_protocol._generated import Access, AuthChallengeRequest, Status
-from tests.fakes.bench_unit import BenchUnit
+from tests.fakes.bench_unit import FLASH_BLOCK_BYTES, BenchUnit
 from tests.fakes.maker import Maker, provision
 
 pytestmark = pytest.mark.board_long
@@ -22,6 +25,11 @@ BOOTS = 10
 GUESSES = 10_000
 GUESSES_A_BOOT = 7
 DELAY_S_MAX = 60
+MANY, DELAY_S_MANY = 100_000, 240
+RECORDS_AT = 5 * FLASH_BLOCK_BYTES
+RECORD_BYTES = 12
+BLOCK_ERASES_MAX = 10_000
+TEN_YEARS_S = 10 * 365.25 * 86_400
 JUNK = bytes(64)
 
 
@@ -69,6 +77,26 @@ def test_ten_thousand_guesses_over_restarts_are_all_counted_and_all_slow(unit: B
         lib.bench_skip_us(unit.board, delay_us - 1)
         assert is_closed(unit)
         lib.bench_skip_us(unit.board, 1)
+
+
+def test_who_guesses_for_ten_years_does_not_wear_out_the_flash_that_counts_it(
+    unit: BenchUnit,
+) -> None:
+    """Every attempt is a record, and a block of them is erased before it takes new ones."""
+    attempts = MANY + (TEN_YEARS_S - MANY * DELAY_S_MAX) / DELAY_S_MANY
+    assert attempts / (2 * (FLASH_BLOCK_BYTES // RECORD_BYTES)) < BLOCK_ERASES_MAX
+    record = struct.pack("<II", MANY - 1, MANY - 1)
+    record += zlib.crc32(record).to_bytes(4, "little")
+    unit.flash()[RECORDS_AT : RECORDS_AT + RECORD_BYTES] = list(record)
+    unit.boot()
+
+    for failures, delay_s in ((MANY, DELAY_S_MAX), (MANY + 1, DELAY_S_MANY)):
+        lib.bench_skip_us(unit.board, DELAY_S_MAX * 1_000_000)
+        assert guess(unit)[0] == Status.AUTH_BAD
+        assert unit.ask(AuthChallengeRequest(Access.DEALER)).detail == delay_s, failures
+    unit.boot()
+
+    assert unit.ask(AuthChallengeRequest(Access.DEALER)).detail == DELAY_S_MANY
 
 
 def test_the_doors_past_the_line_are_those_on_it(unit: BenchUnit) -> None:
