@@ -8,6 +8,8 @@ beside it. When `save` returns, the disk has it.
 import os
 import struct
 import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
@@ -46,10 +48,14 @@ class FlashFile:
         return image
 
     def save(self, image: bytes) -> None:
-        """Writes the image if it changed; a crash leaves the old file or the new one."""
+        """Writes the image if it changed; a crash leaves the old file or the new one.
+
+        Raises OSError, with what to do, where it cannot be written.
+        """
         if image == self.written:
             return
-        _replace(self.path, image)
+        with _told(self.path):
+            _replace(self.path, image)
         self.written = image
 
 
@@ -74,18 +80,22 @@ class LogFile:
         return image
 
     def save(self, unit: ChangingLog) -> None:
-        """Writes what changed since the last call; a crash leaves all of it or nothing."""
+        """Writes what changed since the last call; a crash leaves all of it or nothing.
+
+        Raises OSError, with what to do, where it cannot be written.
+        """
         if unit.log_changes == self.changes:
             return
         changes = unit.log_changes
         address, data = unit.log_changed()
-        if not self.is_there:
-            _replace(self.path, b"\xff" * LOG_LENGTH)
-            self.is_there = True
-        head = JOURNAL_HEAD.pack(JOURNAL_MAGIC, address, len(data), zlib.crc32(data))
-        _write(self.journal, head + data)
-        _sync_folder(self.path.parent)
-        self._apply(address, data)
+        with _told(self.path):
+            if not self.is_there:
+                _replace(self.path, b"\xff" * LOG_LENGTH)
+                self.is_there = True
+            head = JOURNAL_HEAD.pack(JOURNAL_MAGIC, address, len(data), zlib.crc32(data))
+            _write(self.journal, head + data)
+            _sync_folder(self.path.parent)
+            self._apply(address, data)
         self.changes = changes
 
     def _finish(self) -> None:
@@ -123,6 +133,20 @@ def _image_of(path: Path, length: int, what: str) -> bytes | None:
             "move it away to start with an erased one"
         )
     return image
+
+
+@contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Says which flash an error of the disk is about: the system's own words name no file."""
+    try:
+        yield
+    except OSError as error:
+        raise OSError(
+            error.errno,
+            f"the flash {path} cannot be written ({error.strerror}), and a unit may not say what "
+            "its flash does not hold: it stops here. What it has acknowledged is kept; make room "
+            "or allow writing there, and start it again",
+        ) from error
 
 
 def _replace(path: Path, data: bytes) -> None:

@@ -16,6 +16,7 @@ import tempfile
 import threading
 import time
 import zlib
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from urllib.parse import parse_qs
@@ -177,16 +178,33 @@ class SimulatedLink:
 
     def read(self, bytes_max: int = READ_BYTES_MAX) -> bytes:
         """Return what has arrived, at most `bytes_max`; b"" when nothing has."""
-        return self._port.read(bytes_max)
+        with self._child_quoted():
+            return self._port.read(bytes_max)
 
     def write(self, data: bytes) -> int:
         """Send what the port takes now and return how many bytes that was."""
-        return self._port.write(data)
+        with self._child_quoted():
+            return self._port.write(data)
 
     def close(self) -> None:
         """Close the port and end the child; twice is allowed."""
         self._port.close()
         self._stop()
+
+    @contextlib.contextmanager
+    def _child_quoted(self) -> Iterator[None]:
+        """A port that vanished because the child ended says what the child said."""
+        try:
+            yield
+        except LinkError as error:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._child.wait(LOOK_EVERY_S)
+            said = self._said() if self._child.returncode else ""
+            if not said:
+                raise
+            raise LinkError(
+                f"{self._url}: the simulated unit ended: {said}", code="simulator_failed"
+            ) from error
 
     def _start(self, command: list[str]) -> subprocess.Popen[bytes]:
         folders = [str(Path(__file__).resolve().parents[2]), os.environ.get("PYTHONPATH")]
@@ -227,13 +245,17 @@ class SimulatedLink:
         return words[1].strip()
 
     def _not_ready(self, cause: str) -> LinkError:
-        self._complaints.seek(0)
-        said = self._complaints.read().decode("utf-8", "replace").strip()
-        last = said[-COMPLAINT_CHARACTERS_MAX:] or "it said nothing"
         return LinkError(
-            f"{self._url}: the simulated unit did not start ({cause}): {last}",
+            f"{self._url}: the simulated unit did not start ({cause}): "
+            f"{self._said() or 'it said nothing'}",
             code="simulator_failed",
         )
+
+    def _said(self) -> str:
+        """The last that the child complained of."""
+        self._complaints.seek(0)
+        said = self._complaints.read().decode("utf-8", "replace").strip()
+        return said[-COMPLAINT_CHARACTERS_MAX:]
 
     def _stop(self) -> None:
         self._child.terminate()

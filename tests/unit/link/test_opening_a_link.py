@@ -198,3 +198,28 @@ def test_an_adapter_is_known_by_its_serial_number_and_not_by_its_name(
     finally:
         for descriptor in (end for pair in pairs for end in pair):
             os.close(descriptor)
+
+
+def test_a_simulator_that_ends_later_is_quoted_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    program = (
+        "import os, sys, tty\n"
+        "master, slave = os.openpty(); tty.setraw(master)\n"
+        "print('ready', os.ttyname(slave), flush=True)\n"
+        "os.read(master, 1)\n"
+        "raise SystemExit('the flash cannot be written')\n"
+    )
+    monkeypatch.setattr(SimulatedAddress, "command", lambda self, path: child(program))
+    link = SimulatedLink("sim")
+
+    def read_on() -> None:
+        while True:
+            link.read()
+
+    try:
+        link.write(b"x")
+        with pytest.raises(LinkError, match="ended: the flash cannot be written") as caught:
+            read_on()
+    finally:
+        link.close()
+
+    assert caught.value.code == "simulator_failed"

@@ -5,6 +5,7 @@ death in the middle of the writing itself is played at every call that touches t
 are copied as they lie there, and what the next start loads must be a moment the flash had.
 """
 
+import errno
 import os
 import shutil
 import socket
@@ -18,7 +19,7 @@ from typing import Any
 import pytest
 
 from sim_device import flash_file
-from sim_device.configure import read_image, write_config
+from sim_device.configure import ConfigureError, read_image, write_config
 from sim_device.firmware.python.unit import FLASH_LENGTH, LOG_LENGTH, Unit
 from sim_device.flash_file import FlashFile, LogFile
 
@@ -192,3 +193,46 @@ def test_a_flash_half_written_is_the_old_one_or_the_new_one(
     seen = [FlashFile(copy / "flash").load() for copy in copies]
     assert set(seen) == {old, new}
     assert seen[-1] == new
+
+
+@pytest.mark.slow
+def test_a_disk_without_room_stops_the_unit_with_the_flash_s_name_and_what_to_do(
+    tmp_path: Path,
+) -> None:
+    flash = tmp_path / "flash"
+    with killed_at_the_end(flash):
+        pass
+    (tmp_path / "flash.new").symlink_to("/dev/full")
+
+    command = [sys.executable, "-m", "sim_device", "unit", "--tcp", "0", "--flash", str(flash)]
+    child = subprocess.Popen(
+        [*command, "--scenario", "none"],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        assert child.stdout is not None
+        unit = SocketUnit(child.stdout.readline().split()[1])
+        with pytest.raises((ConfigureError, OSError)):
+            write_config(unit, {"torque_filter_s": 0.4})
+        _, said = child.communicate(timeout=60.0)
+    finally:
+        child.kill()
+
+    assert child.returncode == 1
+    assert f"{flash} cannot be written (No space left on device)" in said
+    assert "start it again" in said
+
+
+def test_a_ride_log_without_room_names_its_file_too(tmp_path: Path) -> None:
+    unit = LogOnly(b"\xff" * LOG_LENGTH)
+    file = LogFile(tmp_path / "flash.log")
+    unit.program(4096)
+    file.journal.symlink_to("/dev/full")
+
+    with pytest.raises(OSError, match=r"flash\.log cannot be written .No space left") as caught:
+        file.save(unit)
+
+    assert caught.value.errno == errno.ENOSPC

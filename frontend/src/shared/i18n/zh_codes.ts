@@ -81,7 +81,7 @@ const refusal = {
   port_busy: '端口被其他程序占用。请关闭该程序后重试。',
   port_permission: '没有使用此端口的权限。',
   port_vanished: '端口消失了：数据线被拔出，或单元断电。',
-  simulator_failed: '模拟单元无法启动。',
+  simulator_failed: '模拟单元无法启动，或已意外停止。',
   not_json: '请求内容不是可读的 JSON。',
   not_accepted: '不接受此值。',
   not_a_number: '不是数字。',
@@ -235,7 +235,7 @@ const reason = {
   port_busy: '端口被其他程序占用。请关闭该程序，随后自动连接。',
   port_permission: '没有使用此端口的权限。在 Linux 上，请将自己加入该端口所属的用户组后重新登录。',
   port_vanished: '端口消失了：数据线被拔出，或单元断电。恢复后自动重连。',
-  simulator_failed: '模拟单元无法启动。',
+  simulator_failed: '模拟单元无法启动，或已意外停止。',
 }
 
 export const zhCodes = { lint, violation, refusal, fault, mechanic, scenario, reason }
