@@ -38,6 +38,11 @@ road_forces road_forces_at(const road_config *config, const road_command *comman
     return forces;
 }
 
+/* What turns has a mass, or a bench without flywheel, and a slipping wheel without inertia, would
+ * be at any speed in no time. */
+#define REAR_WHEEL_KG_MIN 0.1
+#define BENCH_KG_MIN 1.0
+
 double road_moving_mass_kg(const road_config *config)
 {
     const double wheels_kg =
@@ -46,13 +51,15 @@ double road_moving_mass_kg(const road_config *config)
         return config->mass_kg + wheels_kg;
     }
     const double roller_squared = config->dyno_roller_radius_m * config->dyno_roller_radius_m;
-    return config->dyno_mass_kg + wheels_kg +
-           (config->flywheel_kg_m2 + config->rollers_kg_m2) / roller_squared;
+    return fmax(config->dyno_mass_kg + wheels_kg +
+                    (config->flywheel_kg_m2 + config->rollers_kg_m2) / roller_squared,
+                BENCH_KG_MIN);
 }
 
 double road_rear_wheel_mass_kg(const road_config *config)
 {
-    return 0.5 * config->wheel_inertia_kg_m2 / (config->wheel_radius_m * config->wheel_radius_m);
+    const double radius_squared = config->wheel_radius_m * config->wheel_radius_m;
+    return fmax(0.5 * config->wheel_inertia_kg_m2 / radius_squared, REAR_WHEEL_KG_MIN);
 }
 
 double road_grip_n(const road_config *config, const road_command *command)

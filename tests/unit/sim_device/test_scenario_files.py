@@ -147,6 +147,45 @@ def test_a_bike_at_the_end_of_any_range_still_moves_in_numbers(end: str) -> None
         assert math.isfinite(unit.observe()["speed_kmh"]), name
 
 
+EVERYTHING_LIGHT = {
+    "road.source": 1.0,
+    "road.dyno_mass_kg": 0.0,
+    "road.wheel_inertia_kg_m2": 0.0,
+    "road.flywheel_kg_m2": 0.0,
+    "road.rollers_kg_m2": 0.0,
+}
+A_WHEEL_WITHOUT_INERTIA = {"road.wheel_inertia_kg_m2": 0.0, "road.grip": 0.02}
+HEAT_THAT_FLOWS_AT_ONCE = {
+    f"motor.{part}_{what}": BIKE_VALUES[f"motor.{part}_{what}"].min or 0.0
+    for part in ("winding", "housing", "bridge")
+    for what in ("heat_j_per_k", "k_per_w")
+}
+THE_COLDEST_WINDING = {
+    "motor.ambient_degc": -60.0,
+    "motor.winding_share": 1.0,
+    "motor.resistance_share_per_k": BIKE_VALUES["motor.resistance_share_per_k"].max or 0.0,
+}
+
+
+@pytest.mark.parametrize(
+    "bike",
+    [EVERYTHING_LIGHT, A_WHEEL_WITHOUT_INERTIA, HEAT_THAT_FLOWS_AT_ONCE, THE_COLDEST_WINDING],
+    ids=["no mass on the bench", "no mass to slip", "no heat to hold", "no resistance"],
+)
+def test_several_values_at_their_ends_together_move_in_numbers_too(bike: dict[str, float]) -> None:
+    unit = LockstepUnit(bike=read_bike(bike))
+    unit.select_mode(4)
+    unit.rider("legs", 60.0)
+
+    for _ in range(30):
+        unit.advance(0.1)
+        seen = unit.observe()
+        for name in ("wheel_speed_kmh", "motor_speed_rpm", "motor_temperature_degc"):
+            assert math.isfinite(seen[name]), name
+        assert seen["motor_speed_rpm"] >= 0.0
+        assert seen["motor_temperature_degc"] < 1000.0
+
+
 def test_the_commute_rests_long_enough_for_a_ride_to_end() -> None:
     commute = load("commute")
 
