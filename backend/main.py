@@ -75,7 +75,7 @@ def open_services(settings: Settings) -> Iterator[Services]:
         tuning = Tuning(devices, store.revisions)
         memory = UnitMemory(devices, store.revisions, tuning.note_trial_end)
         closing.callback(memory.close)
-        recorder = Recorder(store.rides, memory.ride_context)
+        recorder = Recorder(store.rides, memory.ride_context, unfinished=store.unfinished)
         closing.callback(recorder.close)
         limit = UploadSettings(length_max=settings.upload_bytes_max)
         children = Children()

@@ -338,13 +338,17 @@ class UnitRecorder:
 
 
 class Recorder:
-    """Records every unit that is followed."""
+    """Records every unit that is followed.
+
+    unfinished: rides of a server that died; they are finished as soon as the store lets us.
+    """
 
     def __init__(
         self,
         rides: RideStore,
         context_of: ContextOf = lambda device_id: RideContext(device_id=device_id),
         settings: RecordSettings | None = None,
+        unfinished: Sequence[int] = (),
     ) -> None:
         self._rides = rides
         self._context_of = context_of
@@ -352,7 +356,7 @@ class Recorder:
         self._units: dict[str, UnitRecorder] = {}
         self._lock = threading.Lock()
         # Rides that could not be finished: when to try again (Unix time), and how they ended.
-        self._unfinished: dict[int, tuple[int, bool]] = {}
+        self._unfinished = dict.fromkeys(unfinished, (0, True))
 
     def listener(self, device_id: str) -> Callable[[DeviceEvent], None]:
         """What to subscribe to a unit's events; the same for the same unit."""

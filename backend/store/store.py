@@ -51,7 +51,8 @@ class Store:
         self.rides = RideStore(database, objects, self.deletions, self.soundness, server_id)
         self.revisions = RevisionLog(database)
         self.uploads = UploadStore(database, objects, objects.root / SPOOL, self.deletions)
-        self.unfinished: dict[int, str] = {}
+        # Rides that the start could not finish.
+        self.unfinished: list[int] = []
         # Held by what decides which rides an upload becomes, and by what deletes either.
         self.deciding = threading.RLock()
         self._files_gone = 0
@@ -70,7 +71,7 @@ class Store:
         """Finish what a crash left: half written files, other servers' rides, unknown objects.
 
         Returns the ids of the rides that were finished. One that cannot be (a full disk) stays
-        live and whole, and `unfinished` says why. Safe to repeat; what this server records stays.
+        live and whole, among the `unfinished`. Safe to repeat; what this server records stays.
         """
         self.objects.clear_staging()
         finished = []
@@ -79,7 +80,8 @@ class Store:
                 self.rides.end(orphan.ride_id, cut_short=True)
                 ride = self.rides.finish(orphan.ride_id)
             except StoreError as error:
-                self.unfinished[orphan.ride_id] = error.message
+                LOG.warning("Ride %d is kept but not finished: %s", orphan.ride_id, error.message)
+                self.unfinished.append(orphan.ride_id)
                 continue
             if ride is not None:
                 finished.append(ride.id)

@@ -15,9 +15,13 @@ import pytest
 from sqlalchemy import Connection, event
 
 from backend.errors import StoreFull
+from backend.main import open_services
 from backend.services.record import Recorder, RecordSettings
+from backend.settings import load
 from backend.store import Store, open_store
+from backend.store.objects import FileObjects
 from backend.store.trouble import CALM_S, WriteWatch
+from tests.fakes.server import eventually
 from tests.unit.services.test_recording import (
     PERIOD_US,
     WALL_US,
@@ -156,6 +160,26 @@ def test_a_ride_that_could_not_be_finished_is_finished_without_a_restart(
     store.rides.close()
 
     assert [ride.state for ride in store.rides.list().items] == ["done"]
+
+
+def test_a_ride_that_a_start_could_not_finish_is_finished_without_another_start(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    settings = load({"data": str(tmp_path), "device": "none"}, {})
+    with open_store(settings.db, settings.objects) as died:
+        feed(Recorder(died.rides, settings=SETTINGS), *blocks(riding(5)))
+
+    def refuse(*_: object) -> None:
+        raise StoreFull("no space left")
+
+    monkeypatch.setattr(FileObjects, "publish", refuse)
+    with open_services(settings) as services:
+        assert services.rides.get(1)["state"] == "live"
+        monkeypatch.undo()
+
+        ride = eventually(lambda: services.rides.get(1), lambda ride: ride["state"] == "done")
+
+    assert (ride["row_count"], ride["cut_short"]) == (500, True)
 
 
 def test_a_spell_of_trouble_is_logged_once_when_it_begins_and_once_when_it_ends(
