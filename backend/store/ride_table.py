@@ -119,9 +119,11 @@ def row_of(ride: Ride) -> dict[str, object]:
 
 
 def inserted(connection: Connection, body: dict[str, object]) -> int:
-    """Insert a ride and return its id."""
-    result = connection.execute(insert(t.ride).values(body).returning(t.ride.c.id))
-    return int(result.scalar_one())
+    """Insert a ride and return its id, which no other ride ever had."""
+    count = update(t.ride_number).values(last=t.ride_number.c.last + 1)
+    ride_id = int(connection.execute(count.returning(t.ride_number.c.last)).scalar_one())
+    connection.execute(insert(t.ride).values(body | {"id": ride_id}))
+    return ride_id
 
 
 def upload_key(connection: Connection, token: str | None) -> int | None:

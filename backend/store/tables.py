@@ -139,6 +139,10 @@ ride = Table(
     Column("cut_short", Boolean),
 )
 
+# One row: the last number a ride was given. SQLite by itself would give the highest one again after
+# that ride was deleted, and a bookmark would show another ride.
+ride_number = Table("ride_number", metadata, Column("last", KEY, nullable=False))
+
 # Whose bytes a ride lives on: it was `made` of an upload, `filled` from it, or is `beside` it, the
 # same ride in another file. The original lives as long as one of its rides.
 ride_source = Table(

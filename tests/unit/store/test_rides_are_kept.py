@@ -16,6 +16,7 @@ from backend.domain.ride import Ride, RideContext
 from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
 from backend.store import Store
 from backend.views.trace import trace
+from tests.unit.store.conftest import OpenStore
 from tests.unit.store.ride_data import (
     CHANNELS,
     GEAR_RATIO,
@@ -176,6 +177,17 @@ def test_the_kept_overview_has_the_exact_extremes_of_recorded_and_derived_channe
             assert np.array_equal(np.minimum.reduceat(raw[name], starts), shown.minimum[name])
             assert np.array_equal(np.maximum.reduceat(raw[name], starts), shown.maximum[name])
         assert shown.maximum["rider_torque_nm"].max() == 9_500
+
+
+def test_the_number_of_a_deleted_ride_never_comes_back(reopen: OpenStore) -> None:
+    store = reopen()
+    first, last = finished(store, honest_ride(100)), finished(store, honest_ride(200))
+    store.rides.delete(last.id)
+    store.close()
+
+    again = reopen()
+
+    assert finished(again, honest_ride(300)).id not in (first.id, last.id)
 
 
 def test_two_rides_of_equal_rows_share_an_object_until_both_are_gone(store: Store) -> None:

@@ -243,6 +243,7 @@ def without_identity(folder: Path) -> None:
         database.execute("DROP TABLE store_identity")
         database.execute("DROP TABLE discarded_object")
         database.execute("DROP TABLE ride_source")
+        database.execute("DROP TABLE ride_number")
         for column in ("server_id", "heartbeat_us", "cut_short"):
             database.execute(f"ALTER TABLE ride DROP COLUMN {column}")
         database.execute("UPDATE alembic_version SET version_num = '0002'")
