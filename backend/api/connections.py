@@ -33,23 +33,32 @@ class PatientProtocol(H11Protocol):
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__(*arguments, **named)
         self._look_again: asyncio.TimerHandle | None = None
-        # Since when the head of the next request is awaited, and which request was the last.
+        # Since when the head of the next request is awaited, which request was the last, and when
+        # something came.
         self.silent_since_s = self.loop.time()
         self._last: object = None
-        self._heard_s = self.silent_since_s
+        self.heard_s = self.silent_since_s
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Take the connection; where there are too many, the one that waited longest goes."""
+        """Take the connection; where there are too many, the one that waited longest goes.
+
+        Those that send no request go first, then those in the middle of one.
+        """
         super().connection_made(transport)
-        self.silent_since_s = self._heard_s = self.loop.time()
+        self.silent_since_s = self.heard_s = self.loop.time()
         if len(self.connections) > self.connections_max:
-            silent = [one for one in self.connections if _is_silent(one)]
-            min(silent, key=_silent_since_s, default=self).transport.close()
+            ours = [one for one in self.connections if isinstance(one, PatientProtocol)]
+            silent = [one for one in ours if one.is_silent and one is not self]
+            sending = [one for one in ours if one.waits_for_body]
+            longest = min(silent, key=lambda one: one.silent_since_s, default=None) or min(
+                sending, key=lambda one: one.heard_s, default=self
+            )
+            longest.transport.close()
         self._look_again = self.loop.call_later(self.look_every_s, self._look)
 
     def data_received(self, data: bytes) -> None:
         """Note that the other end is alive."""
-        self._heard_s = self.loop.time()
+        self.heard_s = self.loop.time()
         super().data_received(data)
 
     def connection_lost(self, exc: Exception | None) -> None:
@@ -63,6 +72,11 @@ class PatientProtocol(H11Protocol):
         """Whether no request is under way."""
         return self.conn.their_state is h11.IDLE
 
+    @property
+    def waits_for_body(self) -> bool:
+        """Whether a request has begun and the other end is to send the rest of it."""
+        return self.conn.their_state is h11.SEND_BODY
+
     def _look(self) -> None:
         now_s = self.loop.time()
         if self.transport.is_closing() or self.transport.get_protocol() is not self:
@@ -73,20 +87,10 @@ class PatientProtocol(H11Protocol):
             self.silent_since_s = now_s
         if self.flow.read_paused:
             # It is we who do not listen.
-            self._heard_s = now_s
-        waits_for_body = self.conn.their_state is h11.SEND_BODY
+            self.heard_s = now_s
         if now_s - self.silent_since_s >= self.head_s or (
-            waits_for_body and now_s - self._heard_s >= self.body_s
+            self.waits_for_body and now_s - self.heard_s >= self.body_s
         ):
             self.transport.close()
             return
         self._look_again = self.loop.call_later(self.look_every_s, self._look)
-
-
-def _is_silent(connection: object) -> bool:
-    return isinstance(connection, PatientProtocol) and connection.is_silent
-
-
-def _silent_since_s(connection: Any) -> float:
-    since_s: float = connection.silent_since_s
-    return since_s

@@ -20,6 +20,7 @@ def test_the_unit_says_who_it_is(desk: Desk, server: SpindleServer, standing: st
     expect(page.locator("main")).to_contain_text(known["identity"]["serial_number"])
     stamp = f"{known['config']['crc32']:08x}"
     expect(page.locator("[data-testid=config-stamp]")).to_contain_text(stamp)
+    expect(page.locator("dt:has-text('Last start') + dd")).to_have_text("switched on")
     expect(page.locator(PILL)).to_contain_text("Connected")
     desk.picture("bike", full=True)
 

@@ -27,8 +27,18 @@ class Impatient(PatientProtocol):
     connections_max = 100
 
 
+class PatientWithBodies(Impatient):
+    body_s = 60.0
+
+
 @pytest.fixture(scope="module")
 def address() -> Iterator[tuple[str, int]]:
+    with serving(Impatient) as listening:
+        yield listening
+
+
+@contextlib.contextmanager
+def serving(protocol: type[PatientProtocol]) -> Iterator[tuple[str, int]]:
     app = FastAPI()
 
     @app.get("/value")
@@ -40,7 +50,7 @@ def address() -> Iterator[tuple[str, int]]:
         return len(await request.body())
 
     with socket.create_server(("127.0.0.1", 0), backlog=256) as listening:
-        config = uvicorn.Config(app, http=Impatient, lifespan="off", log_level="error")
+        config = uvicorn.Config(app, http=protocol, lifespan="off", log_level="error")
         server = uvicorn.Server(config)
         thread = threading.Thread(target=lambda: server.run(sockets=[listening]), daemon=True)
         thread.start()
@@ -102,6 +112,22 @@ def test_the_second_request_of_a_connection_may_not_drip_either(address: tuple[s
         talker.sendall(b"GET /value HTTP/1.1\r\nHost: x\r\n\r\nGET /va")
 
         assert ends(talker).count(b"HTTP/1.1 200") == 1
+
+
+def test_a_hundred_bodies_that_drip_do_not_keep_a_talker_out() -> None:
+    begun = b"POST /value HTTP/1.1\r\nHost: x\r\nContent-Length: 9\r\nExpect: 100-continue\r\n\r\n"
+    with contextlib.ExitStack() as held:
+        address = held.enter_context(serving(PatientWithBodies))
+        for _ in range(PatientWithBodies.connections_max):
+            sender = held.enter_context(socket.create_connection(address))
+            sender.sendall(begun)
+            # From here on the server waits for this body.
+            assert sender.recv(4096).startswith(b"HTTP/1.1 100")
+        asking = http.client.HTTPConnection(*address, timeout=PATIENCE_S)
+        asking.request("GET", "/value")
+
+        assert asking.getresponse().read() == b"1"
+        asking.close()
 
 
 def test_two_hundred_silent_sockets_do_not_keep_a_talker_out(address: tuple[str, int]) -> None:
