@@ -14,10 +14,12 @@ from firmware_protocol._generated import (
     EvtFaultFreezeResponse,
     EvtFaultListRequest,
     EvtFaultListResponse,
+    FaultFlags,
     Status,
 )
 
 ALL_FAULTS = 0xFFFFFFFF
+SETTINGS_LOST = FaultFlags.CONFIG_DEFAULTED | FaultFlags.NOT_PROVISIONED
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,13 @@ def fault_frames() -> Operation[list[FaultFrame]]:
         frame = expect(request, response, EvtFaultFreezeResponse)
         found.append(FaultFrame(name, active, frame.count, values_of(frame.t_us, frame.values)))
     return found
+
+
+def settings_are_lost() -> Operation[bool]:
+    """Whether defaults stand where settings were: to write what the unit shows is a change then,
+    and the only end of the fault. Raises NoAnswer, DeviceRefused."""
+    listed = yield from ask(EvtFaultListRequest(), EvtFaultListResponse)
+    return bool(listed.fault_flags & SETTINGS_LOST)
 
 
 def clear_faults() -> Operation[list[FaultFrame]]:

@@ -23,6 +23,7 @@ from backend.device.config_trial import (
     rollback_config,
     trial_status,
 )
+from backend.device.fault_frames import settings_are_lost
 from backend.device.operation import Operation
 from backend.device.parameters import (
     PARAMETER_ROWS,
@@ -167,7 +168,8 @@ class Tuning:
             _check_kept(changed, kept)
             serial_number = self._serial_number(self._devices.status(device_id))
             self._back_up(serial_number, base)
-            if changed:
+            writes = bool(changed) or self._devices.run(device_id, settings_are_lost())
+            if writes:
                 state = TRIED if confirm_s else KEPT
                 try:
                     found = self._commit(device_id, base, intended, changed, confirm_s, permit)
@@ -178,7 +180,7 @@ class Tuning:
                     raise
                 self._remember(serial_number, found, changed, reason, author, state)
                 base = found
-        if not changed or not confirm_s:
+        if not writes or not confirm_s:
             return ConfigChange(base.generation, base.crc32, "committed", True, changed, None)
         with telling("changed"):
             expires_at = self._expires_at(device_id, base)
