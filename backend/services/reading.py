@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 
-from backend.errors import Conflict, SpindleError
+from backend.errors import Conflict, NotFound, SpindleError
 from backend.ingest import ReadingStopped
 from backend.store import Upload
 
@@ -41,8 +41,10 @@ class Lanes:
         self._unread = unread
         self._quick = ThreadPoolExecutor(QUICK_AT_ONCE, thread_name_prefix="import")
         self._slow = ThreadPoolExecutor(SLOW_AT_ONCE, thread_name_prefix="slow-import")
-        self._lock = threading.Lock()
+        self._lock = threading.RLock()
         self._going: dict[str, Future[Upload]] = {}
+        # What is done in a lane for each of them, and whether that is the slow one.
+        self._tasks: dict[str, tuple[Future[None], bool]] = {}
         self._closed = False
         self._told: set[str] = set()
 
@@ -67,14 +69,28 @@ class Lanes:
 
     @contextmanager
     def idle(self, upload_id: str) -> Iterator[None]:
-        """Inside, nobody begins to read the upload. Raises Conflict while somebody does."""
+        """Inside, nobody begins to read the upload, which is to be removed.
+
+        One that waits for its turn loses it, and whoever waits for that gets NotFound. Raises
+        Conflict while the upload is read.
+        """
         with self._lock:
-            if upload_id in self._going:
+            promise = self._going.get(upload_id)
+            task, slow = self._tasks.get(upload_id, (None, False))
+            if promise is not None and not (task is not None and task.cancel()):
                 raise Conflict(
                     f"Upload {upload_id} is being read: remove it when that is over.",
                     code="being_read",
                 )
-            yield
+            try:
+                yield
+            except BaseException:
+                if promise is not None:
+                    self._submit(upload_id, promise, slow=slow)
+                raise
+            removed = promise is not None and self._end(upload_id)
+        if promise is not None and removed:
+            promise.set_exception(NotFound(f"Upload {upload_id} was removed before it was read."))
 
     def close(self, stop_readers: Callable[[], None]) -> None:
         """End the reading. What is not concluded stays as it is, for the next start."""
@@ -92,7 +108,8 @@ class Lanes:
         with self._lock:
             if not self._closed:
                 lane = self._slow if slow else self._quick
-                lane.submit(self._run, upload_id, promise, slow)
+                task = lane.submit(self._run, upload_id, promise, slow)
+                self._tasks[upload_id] = (task, slow)
                 return
         self._leave(upload_id, promise)
 
@@ -132,4 +149,5 @@ class Lanes:
     def _end(self, upload_id: str) -> bool:
         """Whether the promise is still to be kept: a stop may have kept it."""
         with self._lock:
+            self._tasks.pop(upload_id, None)
             return self._going.pop(upload_id, None) is not None

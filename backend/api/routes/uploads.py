@@ -170,8 +170,9 @@ async def delete_upload(upload_id: str, services: Provided) -> Response:
     """Removes an upload that no ride came from, and its bytes: unfinished, rejected or a copy.
 
     An original lives as long as a ride that came from it: 409 names these rides, and the file goes
-    with the last of them. One that is being read, or waits for it, is 409 `being_read` until then.
-    Uploads without rides also go by themselves when their time is over.
+    with the last of them. One that is being read is 409 `being_read` until then; one that only
+    waits for its turn goes, and whoever sent it and waits is told 404. Uploads without rides also
+    go by themselves when their time is over.
     """
     await run_in_threadpool(services.uploads.remove, upload_id)
     return _tus_response(204)

@@ -226,6 +226,50 @@ def test_housekeeping_does_not_wait_for_the_files_it_has_looked_at(store: Store)
     assert looking.result(30).state == "complete"
 
 
+def test_a_file_that_waits_for_its_turn_can_be_removed(store: Store) -> None:
+    held = HeldReader()
+    uploads = Uploads(store, reader=held)
+    first, second, third = rides_of_length(50, 60, 70)
+    read = [arrived(uploads, "slow.fit", each) for each in (first, second)]
+    for _ in read:
+        assert held.begun.acquire(timeout=30)
+    waiting = uploads.begin("slow too.fit", len(third))
+    promise = uploads.add(waiting.id, 0, third).reading
+    assert promise is not None
+
+    uploads.remove(waiting.id)
+    told = promise.exception(0)
+    held.let_go.set()
+    uploads.recover()
+
+    assert isinstance(told, NotFound)
+    with pytest.raises(NotFound):
+        uploads.get(waiting.id)
+    assert {uploads.get(each).state for each in read} == {"complete"}
+
+
+def test_a_file_that_could_not_be_removed_keeps_its_turn(
+    store: Store, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(token: str, now_us: int) -> None:
+        raise Conflict("A ride came from it.", code="has_rides")
+
+    held = HeldReader()
+    uploads = Uploads(store, reader=held)
+    files = rides_of_length(50, 60, 70)
+    ids = [arrived(uploads, "slow.fit", each) for each in files]
+    for _ in range(2):
+        assert held.begun.acquire(timeout=30)
+
+    monkeypatch.setattr(store.uploads, "remove", refuse)
+    with pytest.raises(Conflict):
+        uploads.remove(ids[2])
+    held.let_go.set()
+    uploads.recover()
+
+    assert {uploads.get(each).state for each in ids} == {"complete"}
+
+
 def test_a_file_that_is_being_read_cannot_be_removed_until_that_is_over(store: Store) -> None:
     held = HeldReader()
 
