@@ -99,7 +99,9 @@ def open_services(settings: Settings) -> Iterator[Services]:
             in_background(url, partial(devices.add, url))
         preview = Preview()
         yield Services(
-            health=Health(__version__, devices, recorder, store.watch, store.database.ask),
+            health=Health(
+                __version__, devices, recorder, store.watch, store.database.ask, store.soundness
+            ),
             devices=devices,
             watch=Watch(devices),
             dashboards=dashboards,

@@ -1,12 +1,13 @@
 """Is everything kept that is to be kept, and is each unit there?
 
 Told now, not then: `degraded` while something cannot be written. Rows that were lost for good stay
-among the reasons until the unit's next ride begins, so that nobody misses it.
+among the reasons until the unit's next ride begins, so that nobody misses it; damaged rides until
+they are restored or deleted.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -14,10 +15,12 @@ from backend.services.connect import Devices
 from backend.services.record import Recorder
 from backend.services.ride_tail import RowCounts
 from backend.store import WriteWatch
+from backend.store.soundness import Soundness
 
 OK = "ok"
 DEGRADED = "degraded"
 ROWS_LOST = "rows_lost"
+RIDES_DAMAGED = "rides_damaged"
 
 
 class Reason(Protocol):
@@ -38,6 +41,15 @@ class RowsLost:
     part: str
     message: str
     code: str = ROWS_LOST
+
+
+@dataclass(frozen=True)
+class RidesDamaged:
+    """Rides whose files are not what was written."""
+
+    message: str
+    part: str = "objects"
+    code: str = RIDES_DAMAGED
 
 
 @dataclass(frozen=True)
@@ -62,7 +74,8 @@ class HealthView:
 class Health:
     """Looks at everything that may be wrong; `look` never waits. For any thread.
 
-    answers: asks the database for nothing in particular. Raises StoreError.
+    answers: asks the database for nothing in particular. Raises StoreError. soundness: knows which
+    rides' files are damaged.
     """
 
     def __init__(
@@ -72,12 +85,14 @@ class Health:
         recorder: Recorder,
         watch: WriteWatch,
         answers: Callable[[], None],
+        soundness: Soundness,
     ) -> None:
         self._version = version
         self._devices = devices
         self._recorder = recorder
         self._watch = watch
         self._answers = answers
+        self._soundness = soundness
 
     def ready(self) -> None:
         """Whether requests can be answered: raises StoreError while the database does not."""
@@ -94,4 +109,14 @@ class Health:
             RowsLost(unit, f"{rows} rows of the latest ride of {unit} could not be saved.")
             for unit, rows in self._recorder.rows_lost_lately()
         ]
-        return HealthView(DEGRADED if troubles else OK, self._version, (*troubles, *lost), devices)
+        damaged = [RidesDamaged(told_of_damage(keys))] if (keys := self._soundness.damaged) else []
+        reasons = (*troubles, *lost, *damaged)
+        return HealthView(DEGRADED if troubles else OK, self._version, reasons, devices)
+
+
+def told_of_damage(keys: Collection[str]) -> str:
+    """How many rides are damaged, the first of them, and what to do."""
+    return (
+        f"Files of rides that are damaged or missing: {len(keys)}, one of them {min(keys)}. "
+        "Restore them from a backup; the list of rides and `spindle store check` name each."
+    )

@@ -63,6 +63,8 @@ class Soundness:
         self._lock = threading.Lock()
         self._waiting: deque[Expected] = deque()
         self._next_round_us = 0
+        # What is wrong with the objects that are known to be damaged now, by key.
+        self.damaged: dict[str, str] = {}
 
     def damage(self, expected: Expected) -> str | None:
         """What is wrong with an object, None when nothing is; hashed unless it was before."""
@@ -108,7 +110,11 @@ class Soundness:
         return file
 
     def scrub(self, now_us: int, objects: Callable[[], Iterable[Expected]]) -> None:
-        """Read a few of the objects, so that damage is known before somebody asks; all in a day."""
+        """Read a few of the objects, so that damage is known before somebody asks; all in a day.
+
+        What is damaged is looked at each time: it may have been restored, or deleted.
+        """
+        suspects = set(self.damaged)
         if not self._waiting and now_us >= self._next_round_us:
             self._next_round_us = now_us + ROUND_US
             self._waiting.extend(objects())
@@ -119,11 +125,15 @@ class Soundness:
         read = 0
         while self._waiting and read < SCRUB_BYTES:
             expected = self._waiting.popleft()
-            file, _ = self.opened(expected)
+            file, found = self.opened(expected)
             if file is not None:
                 read += file.seek(0, 2)
                 file.close()
+            elif found is not None:
+                suspects.add(expected.key)
             read += 1
+        there_now = [one for one in objects() if one.key in suspects] if suspects else []
+        self.damaged = {one.key: found for one in there_now if (found := self.damage(one))}
 
     def _damage(self, expected: Expected, read: bool) -> str | None:
         try:

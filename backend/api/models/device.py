@@ -12,7 +12,13 @@ from backend.api.models.base import Answer, Question
 DeviceKind = Literal["simulated", "serial", "socket"]
 DeviceState = Literal["connecting", "ready", "read_only", "lost", "closed"]
 HealthCode = Literal[
-    "disk_full", "store_read_only", "io_error", "queue_full", "database_unreachable", "rows_lost"
+    "disk_full",
+    "store_read_only",
+    "io_error",
+    "queue_full",
+    "database_unreachable",
+    "rows_lost",
+    "rides_damaged",
 ]
 RiderKind = Literal["off", "constant", "legs"]
 DynoConvention = Literal["physical", "thesis"]
@@ -49,7 +55,8 @@ class Health(Answer):
     )
     version: str
     reasons: list[HealthReason] = Field(
-        description="`rows_lost` stays here, with status ok, until the unit's next ride."
+        description="Why. With status ok too: `rows_lost` until the unit's next ride, "
+        "`rides_damaged` until the files are restored or the rides deleted."
     )
     devices: list[DeviceHealth]
 

@@ -1401,7 +1401,7 @@ export interface components {
             version: string;
             /**
              * Reasons
-             * @description `rows_lost` stays here, with status ok, until the unit's next ride.
+             * @description Why. With status ok too: `rows_lost` until the unit's next ride, `rides_damaged` until the files are restored or the rides deleted.
              */
             reasons: components["schemas"]["HealthReason"][];
             /** Devices */
@@ -1413,7 +1413,7 @@ export interface components {
              * Code
              * @enum {string}
              */
-            code: "disk_full" | "store_read_only" | "io_error" | "queue_full" | "database_unreachable" | "rows_lost";
+            code: "disk_full" | "store_read_only" | "io_error" | "queue_full" | "database_unreachable" | "rows_lost" | "rides_damaged";
             /** Message */
             message: string;
             /**

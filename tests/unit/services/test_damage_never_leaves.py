@@ -19,9 +19,12 @@ from backend.domain.channels import ChannelSpec
 from backend.domain.ride import RideRows
 from backend.errors import ObjectDamaged
 from backend.ingest import ImportedRide, Outcome
+from backend.main import open_services
 from backend.services.review import Rides
 from backend.services.upload import Uploads
+from backend.settings import load
 from backend.store import RideReader, open_store
+from tests.fakes.server import eventually
 
 ORIGINAL = b"the file as it came"
 ROWS = 40_000
@@ -219,6 +222,45 @@ def test_a_damaged_recording_is_not_filled(shop: Shop) -> None:
     nothing = Filling(0, 0, np.empty(0, np.int64), {}, (), ())
     with pytest.raises(ObjectDamaged):
         shop.store.rides.fill(ride, nothing)
+
+
+def test_damage_that_nobody_asked_for_is_known_until_the_ride_is_restored_or_deleted(
+    shop: Shop,
+) -> None:
+    whole, day_us = shop.object.read_bytes(), 86_400_000_000
+    shop.object.unlink()
+    shop.store.scrub(0)
+    assert [Path(key).name for key in shop.store.soundness.damaged] == [shop.object.name]
+
+    shop.object.write_bytes(whole)
+    shop.store.scrub(1)
+    assert shop.store.soundness.damaged == {}
+
+    shop.object.write_bytes(whole[:-1] + b"?")
+    shop.store.scrub(day_us)
+    assert list(shop.store.soundness.damaged.values()) == ["changed"]
+
+    shop.store.rides.delete(shop.ride_id)
+    shop.store.scrub(day_us + 1)
+    assert shop.store.soundness.damaged == {}
+
+
+def test_the_server_s_health_names_a_damaged_ride_without_being_asked_for_it(
+    tmp_path: Path,
+) -> None:
+    settings = load({"data": str(tmp_path), "device": "none"}, {})
+    with open_store(settings.db, settings.objects) as store:
+        Uploads(store, reader=read).receive_file("a.fit", ORIGINAL)
+    (item,) = (tmp_path / "objects").rglob("*.parquet")
+    item.write_bytes(b"")
+
+    with open_services(settings) as services:
+        health = eventually(services.health.look, lambda health: health.reasons)
+
+    assert [(reason.code, reason.part) for reason in health.reasons] == [
+        ("rides_damaged", "objects")
+    ]
+    assert item.name in health.reasons[0].message
 
 
 def test_a_store_of_sound_files_says_so(shop: Shop) -> None:

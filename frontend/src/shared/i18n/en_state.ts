@@ -40,7 +40,7 @@ export const enState = {
   'faults.stopping': 'The simulated rider stops; the fault is cleared when the bike stands still.',
 
   'health.degraded': 'Not everything that is recorded can be saved now.',
-  'health.was_degraded': 'Not everything could be saved.',
+  'health.was_degraded': 'Not everything that was recorded is whole.',
   'live.recorder': 'Recorder: {saved} rows saved, {lost} lost',
   'live.recorder_waiting': ', {waiting} waiting',
 

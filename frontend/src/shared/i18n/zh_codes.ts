@@ -69,6 +69,7 @@ const refusal = {
   queue_full: '磁盘比到来的数据慢。请查看还有什么在使用它。',
   database_unreachable: '数据库没有应答。请检查其服务器是否运行。',
   rows_lost: '上次骑行有数据行未能保存。',
+  rides_damaged: '有骑行的文件已损坏或丢失：请从备份恢复；骑行列表会标出它们。',
   no_trial: '单元中没有正在试用的修改：已保留、已恢复或时间已到。请重新读取配置。',
   unknown_trial: '试用的修改并非由此 Spindle 写入，不知其本意。请恢复，或用写入它的工具保留。',
   stopping: 'Spindle 正在关闭；下次将从中断处继续。',
