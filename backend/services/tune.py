@@ -12,7 +12,7 @@ import threading
 import time
 from collections import defaultdict
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from datetime import UTC, datetime
 
 from backend.device.config_settle import settle_confirm, settle_rollback, settle_write
@@ -302,8 +302,12 @@ class Tuning:
         return self._put_part(device_id, CALIBRATION, value, reason, if_match, confirm_s, token)
 
     def limits(self, device_id: str) -> TypedView:
-        """What the unit enforces whatever the table says."""
-        return self._part(device_id, LIMITS)
+        """What the unit enforces whatever the table says. Where assist ends is not known while
+        defaults stand in place of what was lost: at walking pace, or there is none."""
+        found = self._part(device_id, LIMITS)
+        if self._devices.run(device_id, settings_are_lost()):
+            return replace(found, value={**found.value, "effective_assist_cutoff_kmh": None})
+        return found
 
     def put_limits(
         self,

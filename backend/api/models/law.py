@@ -100,7 +100,8 @@ class Limits(LawModel):
         default=None,
         description=(
             "Where assist ends: `assist_cutoff_kmh`, or less where the market allows less. Told by "
-            "the unit's own code; not looked at when it is written."
+            "the unit's own code; not looked at when it is written. Null while the unit has lost "
+            "settings, which its faults tell."
         ),
         json_schema_extra={"readOnly": True},
     )

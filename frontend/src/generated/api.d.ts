@@ -1472,7 +1472,7 @@ export interface components {
             assist_cutoff_extra_kmh?: number | null;
             /**
              * Effective Assist Cutoff Kmh
-             * @description Where assist ends: `assist_cutoff_kmh`, or less where the market allows less. Told by the unit's own code; not looked at when it is written.
+             * @description Where assist ends: `assist_cutoff_kmh`, or less where the market allows less. Told by the unit's own code; not looked at when it is written. Null while the unit has lost settings, which its faults tell.
              */
             readonly effective_assist_cutoff_kmh?: number | null;
         };
