@@ -23,6 +23,8 @@ router = APIRouter(tags=["live"])
 # Codes 4000 to 4999 are an application's own. The unit or a channel does not exist: trying the
 # same again will not help, unlike after any other close.
 CLOSE_REFUSED = 4404
+# RFC 6455, 7.1.5: closed without a word.
+GONE = 1006
 
 
 @router.websocket("/devices/{device_id}/live")
@@ -60,10 +62,14 @@ async def _send(socket: WebSocket, viewer: Viewer, ready: asyncio.Event) -> None
         await ready.wait()
         ready.clear()
         for item in viewer.take():
-            if isinstance(item, str):
-                await socket.send_text(item)
-            else:
-                await socket.send_bytes(item)
+            try:
+                if isinstance(item, str):
+                    await socket.send_text(item)
+                else:
+                    await socket.send_bytes(item)
+            except RuntimeError as closed:
+                # The server gave up a client that answers no ping; the listener hears of it later.
+                raise WebSocketDisconnect(GONE) from closed
 
 
 async def _listen(socket: WebSocket) -> None:
