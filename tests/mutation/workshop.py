@@ -1,6 +1,6 @@
 """A copy of the sources in which things are broken on purpose, and put back.
 
-C is compiled file by file without optimisation, so that a break costs one file and a link.
+C is compiled file by file, so that a break costs one file and a link.
 """
 
 from __future__ import annotations
@@ -90,10 +90,10 @@ class Workshop:
             path.write_text(text)
             self._rebuild(path)
 
-    def tests(self, files: tuple[str, ...]) -> subprocess.CompletedProcess[str]:
-        """Run test files against the copy, until the first fails."""
+    def tests(self, names: tuple[str, ...]) -> subprocess.CompletedProcess[str]:
+        """Run test files, or single tests, against the copy until the first fails."""
         options = ("-q", "-x", "-p", "no:cacheprovider")
-        return self._python("pytest", *options, *files)
+        return self._python("pytest", *options, *names)
 
     def simulation(self, one: Break) -> subprocess.CompletedProcess[str]:
         """Run seeds against the copy until the judge says what was planted."""
@@ -126,7 +126,7 @@ class Workshop:
 
     def _compile(self, source: Path) -> None:
         includes = [*build.SOURCE_FOLDERS, "sim_device/firmware/hal"]
-        command = [*self._compiler, "-std=c99", "-O0", "-w", "-fPIC", "-ffp-contract=off"]
+        command = [*self._compiler, "-std=c99", "-O1", "-w", "-fPIC", "-ffp-contract=off"]
         command += [f"-I{self.folder / part}" for part in includes]
         command += [f"-I{sysconfig.get_path('include')}", "-c", str(source)]
         self._run([*command, "-o", str(self._objects / f"{source.stem}.o")])
