@@ -15,6 +15,8 @@ from sim_device.lockstep import LockstepUnit
 from tests.fakes.config_flash import records_at
 from tests.fakes.server import SpindleServer
 
+pytestmark = pytest.mark.host_build("the flash that is hurt here is a file of the host's build")
+
 SAME = {"parameters": {"torque_filter_s": 0.5}}
 """What every unit has from the factory."""
 
