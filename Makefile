@@ -9,9 +9,6 @@ STAMP := .make
 # What runs against the emulated board; `make test-board-all` adds what takes minutes there.
 BOARD_TESTS := tests/board tests/conformance tests/unit/sim_device_app tests/stories
 
-# They compute, the others mostly wait: two processes side by side take two thirds of the time.
-COMPUTING_TESTS := tests/unit tests/mutation tests/fuzz
-
 C_SOURCES := $(wildcard firmware_protocol/c/*.[ch] sim_device/firmware/*/*.[ch] \
 	sim_device/firmware/boards/host/*.[ch] sim_device/physics/*.[ch] third_party/*/*.[ch])
 WEB_SOURCES := $(shell find frontend -type f -not -path '*/node_modules/*' -not -path '*/dist/*')
@@ -34,10 +31,7 @@ setup: $(STAMP)/native $(STAMP)/web ## install and build everything, start nothi
 .PHONY: test
 test: setup $(STAMP)/chromium lint ## every test there is, a real browser included
 	cd frontend && npm run --silent test
-	@nice $(BIN)/pytest $(COMPUTING_TESTS) > $(STAMP)/computing.log 2>&1 & computing=$$!; \
-	$(BIN)/pytest tests $(addprefix --ignore=,$(COMPUTING_TESTS)); waiting=$$?; \
-	wait $$computing; computing=$$?; cat $(STAMP)/computing.log; \
-	exit $$((waiting || computing))
+	$(BIN)/pytest
 
 .PHONY: test-board
 test-board: setup $(STAMP)/arm ## the unit's tests against the firmware on an emulated Cortex-M4F
