@@ -6,6 +6,10 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := .make
 
+# Most tests wait more than they compute: twice the two cores of a small machine.
+WORKERS ?= 4
+PARALLEL := -n $(WORKERS) --dist loadfile
+
 # What runs against the emulated board; `make test-board-all` adds what takes minutes there.
 BOARD_TESTS := tests/board tests/conformance tests/unit/sim_device_app tests/stories
 
@@ -31,7 +35,8 @@ setup: $(STAMP)/native $(STAMP)/web ## install and build everything, start nothi
 .PHONY: test
 test: setup $(STAMP)/chromium lint ## every test there is, a real browser included
 	cd frontend && npm run --silent test
-	$(BIN)/pytest
+	$(BIN)/pytest -m serial
+	$(BIN)/pytest -m "not serial" $(PARALLEL)
 
 .PHONY: test-board
 test-board: setup $(STAMP)/arm ## the unit's tests against the firmware on an emulated Cortex-M4F
