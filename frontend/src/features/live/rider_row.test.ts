@@ -2,15 +2,15 @@
    is a dash with its reason, never a zero. */
 import type { Server } from '$shared/api/server'
 import type { Dashboard } from '$shared/api/types'
+import type { Desk } from '$shared/context/desk'
 import { Locale } from '$shared/i18n/locale.svelte'
-import type { Desk } from '$shared/ui/desk'
 import { Units } from '$shared/units/units.svelte'
 import { mount, unmount } from 'svelte'
 import { afterEach, expect, it, vi } from 'vitest'
 import RiderRow from './RiderRow.svelte'
 
 const desk = vi.hoisted(() => ({ now: null as unknown }))
-vi.mock('$shared/ui/desk', () => ({ useDesk: () => desk.now }))
+vi.mock('$shared/context/desk', () => ({ useDesk: () => desk.now }))
 
 const told: Dashboard = {
   t_us: 5_000_000,

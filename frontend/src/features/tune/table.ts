@@ -1,7 +1,7 @@
 // A fuzzy table: between the unit's parameters and what the server's law takes; grids to text.
-import type { ConfigDraft } from '$shared/api/config_draft.svelte'
 import type { FuzzyTable, RuleLabel } from '$shared/api/types'
-import { LABELS } from '$shared/ui/parameter_text'
+import type { ConfigDraft } from '$shared/config/config_draft.svelte'
+import { LABELS } from '$shared/config/parameter_text'
 import { impossible, PARAMETERS_OF, type TableName } from './two_tables'
 
 export type Rules = RuleLabel[][]

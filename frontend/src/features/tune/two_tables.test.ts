@@ -1,8 +1,8 @@
 /* Goal: each table is edited by its own parameters, and is judged with the modes that use it. */
 import { PARAMETERS } from '$generated/registry'
-import { ConfigDraft } from '$shared/api/config_draft.svelte'
 import type { Server } from '$shared/api/server'
 import type { Parameter, ParameterValue } from '$shared/api/types'
+import { ConfigDraft } from '$shared/config/config_draft.svelte'
 import { expect, it } from 'vitest'
 import { tableOf } from './table'
 import {

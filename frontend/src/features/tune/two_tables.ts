@@ -1,8 +1,8 @@
 // The unit's two fuzzy tables: their parameters, the modes that use them, and what else the linter
 // is told so that it judges a table as the bike runs it.
-import type { ConfigDraft, Edits } from '$shared/api/config_draft.svelte'
-import { faultsOf } from '$shared/api/limits'
 import type { AssistModes, Limits, LintRequest } from '$shared/api/types'
+import type { ConfigDraft, Edits } from '$shared/config/config_draft.svelte'
+import { faultsOf } from '$shared/config/limits'
 
 export const TABLES = ['first', 'second'] as const
 export type TableName = (typeof TABLES)[number]

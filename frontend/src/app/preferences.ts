@@ -1,0 +1,44 @@
+// What the reader chose, kept in this browser. Anything unreadable counts as not chosen.
+import type { Language } from '$shared/i18n/locale.svelte'
+import type { ThemeChoice } from '$shared/ui/theme.svelte'
+import type { System } from '$shared/units/units.svelte'
+
+export interface Preferences {
+  language: Language
+  theme: ThemeChoice
+  units: System
+  device_id: string | null
+}
+
+const KEY = 'spindle'
+const languages: readonly Language[] = ['en', 'zh']
+const themes: readonly ThemeChoice[] = ['system', 'light', 'dark']
+const systems: readonly System[] = ['metric', 'imperial']
+
+export function readPreferences(): Preferences {
+  const kept = parse(localStorage.getItem(KEY))
+  const browser: Language = navigator.language.toLowerCase().startsWith('zh') ? 'zh' : 'en'
+  return {
+    language: oneOf(languages, kept.language) ?? browser,
+    theme: oneOf(themes, kept.theme) ?? 'system',
+    units: oneOf(systems, kept.units) ?? 'metric',
+    device_id: typeof kept.device_id === 'string' ? kept.device_id : null,
+  }
+}
+
+export function keepPreferences(preferences: Preferences): void {
+  localStorage.setItem(KEY, JSON.stringify(preferences))
+}
+
+function parse(text: string | null): Record<string, unknown> {
+  try {
+    const value: unknown = JSON.parse(text ?? '{}')
+    return value && typeof value === 'object' ? (value as Record<string, unknown>) : {}
+  } catch {
+    return {}
+  }
+}
+
+function oneOf<T>(choices: readonly T[], value: unknown): T | undefined {
+  return choices.find((choice) => choice === value)
+}

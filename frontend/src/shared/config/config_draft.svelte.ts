@@ -1,0 +1,205 @@
+// Edits to a unit's configuration that live here, not in the unit, until they are written.
+import type { Server } from '../api/server'
+import type { ConfigChange, Parameter, ParameterValue } from '../api/types'
+
+export type Edits = Readonly<Record<string, ParameterValue>>
+
+export interface DraftChange {
+  parameter: Parameter
+  old: ParameterValue
+  value: ParameterValue
+}
+
+const HISTORY_MAX = 200
+
+/** The draft of one page for one unit; it outlives the page, so that leaving loses nothing. */
+export class ConfigDraft {
+  parameters = $state.raw<Parameter[]>([])
+  tag = $state('')
+  generation = $state(0)
+  loaded = $state(false)
+  private baseline = $state.raw<Edits>({})
+  private edits = $state.raw<Edits>({})
+  private past = $state.raw<Edits[]>([])
+  private future = $state.raw<Edits[]>([])
+  private gesture: string | null = null
+
+  constructor(
+    readonly device_id: string,
+    private readonly server: Server,
+  ) {}
+
+  /** Reads the unit's configuration; edits stay and are compared with the new values. */
+  async load(): Promise<void> {
+    const [parameters, [config, tag]] = await Promise.all([
+      this.server.parameters(this.device_id),
+      this.server.config(this.device_id),
+    ])
+    this.parameters = parameters
+    this.baseline = config.parameters
+    this.generation = config.generation
+    this.tag = tag
+    this.loaded = true
+  }
+
+  parameter(name: string): Parameter | undefined {
+    return this.parameters.find((parameter) => parameter.name === name)
+  }
+
+  group(group: string): Parameter[] {
+    return this.parameters.filter((parameter) => parameter.group === group)
+  }
+
+  /** What the unit has. */
+  base(name: string): ParameterValue | undefined {
+    return this.baseline[name]
+  }
+
+  /** What it would have: the edit, else what it has. */
+  value(name: string): ParameterValue | undefined {
+    return this.edits[name] ?? this.baseline[name]
+  }
+
+  /** Changes a value. Calls of one gesture (a drag) are undone together. */
+  set(name: string, value: ParameterValue, gesture: string | null = null): void {
+    if (same(this.value(name), value)) return
+    if (gesture === null || gesture !== this.gesture) {
+      this.past = [...this.past, this.edits].slice(-HISTORY_MAX)
+    }
+    this.gesture = gesture
+    this.future = []
+    this.edits = this.without(name, same(value, this.baseline[name]) ? undefined : value)
+  }
+
+  get canUndo(): boolean {
+    return this.past.length > 0
+  }
+
+  get canRedo(): boolean {
+    return this.future.length > 0
+  }
+
+  /** Takes the last edit back; the names of what moved. */
+  undo(): string[] {
+    const previous = this.past[this.past.length - 1]
+    if (!previous) return []
+    const names = differingNames(this.edits, previous)
+    this.future = [...this.future, this.edits]
+    this.past = this.past.slice(0, -1)
+    this.edits = previous
+    this.gesture = null
+    return names
+  }
+
+  /** Makes the edit again that was taken back; the names of what moved. */
+  redo(): string[] {
+    const next = this.future[this.future.length - 1]
+    if (!next) return []
+    const names = differingNames(this.edits, next)
+    this.past = [...this.past, this.edits]
+    this.future = this.future.slice(0, -1)
+    this.edits = next
+    this.gesture = null
+    return names
+  }
+
+  /** Drops every edit; undo brings them back. */
+  discard(): void {
+    if (this.changes.length === 0) return
+    this.past = [...this.past, this.edits]
+    this.future = []
+    this.edits = {}
+  }
+
+  /** Writes the edits in one transaction and reads back what the unit has. confirm_s: 0 for good,
+      else for so many seconds on trial. token: the maker's, if a refusal asked for one. Throws
+      Refusal. */
+  async write(reason: string, confirm_s = 0, token: string | null = null): Promise<ConfigChange> {
+    const parameters = Object.fromEntries(this.changes.map((c) => [c.parameter.name, c.value]))
+    const [result, tag] = await this.server.writeConfig(
+      this.device_id,
+      parameters,
+      reason,
+      this.tag,
+      confirm_s,
+      token,
+    )
+    this.baseline = { ...this.baseline, ...parameters }
+    this.generation = result.generation
+    this.tag = tag
+    // An edit made while the write was on its way is not in the unit yet.
+    const later = ([name, value]: [string, ParameterValue]) => {
+      const written = parameters[name]
+      return written === undefined || !same(value, written)
+    }
+    this.edits = Object.fromEntries(Object.entries(this.edits).filter(later))
+    this.past = []
+    this.future = []
+    // The change is in the unit and verified, whatever becomes of this look at it.
+    await this.load().catch(() => undefined)
+    return result
+  }
+
+  /** Writes the values a change replaced. Throws Refusal. */
+  async takeBack(change: ConfigChange, reason: string): Promise<ConfigChange> {
+    await this.load()
+    const old = change.changed.flatMap((c) => (c.old === null ? [] : [[c.name, c.old] as const]))
+    const [result] = await this.server.writeConfig(
+      this.device_id,
+      Object.fromEntries(old),
+      reason,
+      this.tag,
+    )
+    await this.load().catch(() => undefined)
+    return result
+  }
+
+  /** How many values differ, each element of a table counted. */
+  get count(): number {
+    return this.changes.reduce((sum, { old, value }) => sum + differing(old, value), 0)
+  }
+
+  private without(name: string, value: ParameterValue | undefined): Edits {
+    const others = Object.entries(this.edits).filter(([other]) => other !== name)
+    return Object.fromEntries(value === undefined ? others : [...others, [name, value]])
+  }
+
+  /** Every parameter that differs from what the unit has. */
+  get changes(): DraftChange[] {
+    return this.parameters.flatMap((parameter) => {
+      const value = this.edits[parameter.name]
+      const old = this.baseline[parameter.name]
+      const changed = value !== undefined && old !== undefined && !same(value, old)
+      return changed ? [{ parameter, old, value }] : []
+    })
+  }
+}
+
+/** Drafts by unit and page, so that each page edits and writes its own. */
+export class Drafts {
+  private readonly byKey: Record<string, ConfigDraft> = {}
+
+  constructor(private readonly server: Server) {}
+
+  of(device_id: string, page: string): ConfigDraft {
+    const key = `${device_id}\n${page}`
+    return (this.byKey[key] ??= new ConfigDraft(device_id, this.server))
+  }
+}
+
+function differingNames(a: Edits, b: Edits): string[] {
+  return Object.keys({ ...a, ...b }).filter((name) => !same(a[name], b[name]))
+}
+
+function differing(a: ParameterValue, b: ParameterValue): number {
+  if (!Array.isArray(a) || !Array.isArray(b)) return same(a, b) ? 0 : 1
+  const others = b as ParameterValue[]
+  return (a as ParameterValue[]).reduce<number>(
+    (sum, element, i) => sum + differing(element, others[i] as ParameterValue),
+    0,
+  )
+}
+
+function same(a: ParameterValue | undefined, b: ParameterValue | undefined): boolean {
+  return JSON.stringify(a) === JSON.stringify(b)
+}

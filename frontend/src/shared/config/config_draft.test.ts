@@ -1,0 +1,154 @@
+/* Goal: edits live in the draft until they are written, can be undone, and survive a change of the
+   unit by somebody else. */
+import { describe, expect, it } from 'vitest'
+import { Refusal } from '../api/client'
+import type { Server } from '../api/server'
+import type { Parameter, ParameterValue } from '../api/types'
+import { ConfigDraft, Drafts } from './config_draft.svelte'
+
+const parameter = (name: string): Parameter => ({
+  id: 1,
+  name,
+  group: 'limits',
+  type: 'f32',
+  shape: [],
+  unit: 'km/h',
+  min: 0,
+  max: 25,
+  default: 25,
+  access: 'DEALER',
+  value: 25,
+  choices: null,
+    free: null,
+  description: '',
+})
+
+/** A server with one unit whose configuration can be changed behind the draft's back. */
+class FakeServer {
+  values: Record<string, ParameterValue> = { assist_cutoff_kmh: 25, fixed_taper_end_kmh: 24 }
+  generation = 1
+  written: [Record<string, ParameterValue>, string, string][] = []
+
+  parameters = async () => Object.keys(this.values).map(parameter)
+  config = async () => [
+    { generation: this.generation, crc32: 0, parameters: { ...this.values } },
+    `"${this.generation}"`,
+  ]
+  writeConfig = async (
+    _id: string,
+    changes: Record<string, ParameterValue>,
+    reason: string,
+    tag: string,
+  ) => {
+    this.written.push([changes, reason, tag])
+    const changed = Object.entries(changes).map(([name, value]) => ({
+      name,
+      old: this.values[name] ?? null,
+      new: value,
+    }))
+    Object.assign(this.values, changes)
+    this.generation += 1
+    const result = {
+      generation: this.generation,
+      crc32: 0,
+      state: 'committed',
+      verified: true,
+      changed,
+      expires_at: null,
+    }
+    return [result, `"${this.generation}"`]
+  }
+}
+
+async function loadedDraft() {
+  const server = new FakeServer()
+  const draft = new ConfigDraft('unit', server as unknown as Server)
+  await draft.load()
+  return { server, draft }
+}
+
+describe('a draft', () => {
+  it('holds edits until they are written with the tag they were made for', async () => {
+    const { server, draft } = await loadedDraft()
+
+    draft.set('assist_cutoff_kmh', 20)
+    expect(server.written).toEqual([])
+    await draft.write('quiet street')
+
+    expect(server.written).toEqual([[{ assist_cutoff_kmh: 20 }, 'quiet street', '"1"']])
+    expect(draft.changes).toEqual([])
+    expect(draft.generation).toBe(2)
+  })
+
+  it('is clean again when a value goes back to what the unit has', async () => {
+    const { draft } = await loadedDraft()
+
+    draft.set('assist_cutoff_kmh', 20)
+    draft.set('assist_cutoff_kmh', 25)
+
+    expect(draft.changes).toEqual([])
+  })
+
+  it('undoes a whole drag at once, and redoes it', async () => {
+    const { draft } = await loadedDraft()
+    for (const value of [24, 23, 22]) draft.set('assist_cutoff_kmh', value, 'drag')
+
+    draft.undo()
+    expect(draft.value('assist_cutoff_kmh')).toBe(25)
+    draft.redo()
+    expect(draft.value('assist_cutoff_kmh')).toBe(22)
+  })
+
+  it('keeps its edits when somebody else changes the unit', async () => {
+    const { server, draft } = await loadedDraft()
+    draft.set('assist_cutoff_kmh', 20)
+
+    server.values['assist_cutoff_kmh'] = 18
+    server.generation = 5
+    await draft.load()
+
+    expect(draft.changes.map(({ old, value }) => [old, value])).toEqual([[18, 20]])
+    expect(draft.tag).toBe('"5"')
+  })
+
+  it('takes a change back by writing the values it replaced', async () => {
+    const { server, draft } = await loadedDraft()
+    draft.set('assist_cutoff_kmh', 20)
+    const change = await draft.write('')
+
+    await draft.takeBack(change, 'undo')
+
+    expect(server.values['assist_cutoff_kmh']).toBe(25)
+  })
+
+  it('is the same one when the page is opened again', () => {
+    const drafts = new Drafts(new FakeServer() as unknown as Server)
+
+    expect(drafts.of('a', 'tune')).toBe(drafts.of('a', 'tune'))
+    expect(drafts.of('a', 'tune')).not.toBe(drafts.of('a', 'sensor'))
+  })
+
+  it('keeps what is edited while a write is on its way', async () => {
+    const server = new FakeServer()
+    const draft = new ConfigDraft('unit', server as unknown as Server)
+    await draft.load()
+    draft.set('assist_cutoff_kmh', 20)
+
+    const writing = draft.write('quiet street')
+    draft.set('fixed_taper_end_kmh', 22)
+    await writing
+
+    expect(draft.changes.map((change) => change.parameter.name)).toEqual(['fixed_taper_end_kmh'])
+  })
+
+  it('has written, even when the unit falls silent before it is looked at again', async () => {
+    const { server, draft } = await loadedDraft()
+    draft.set('assist_cutoff_kmh', 20)
+    server.config = () => Promise.reject(new Refusal(504, 'no_answer', 'The unit is silent.'))
+
+    const change = await draft.write('quiet street')
+
+    expect([change.generation, draft.generation, draft.tag]).toEqual([2, 2, '"2"'])
+    expect([draft.base('assist_cutoff_kmh'), draft.changes]).toEqual([20, []])
+  })
+})

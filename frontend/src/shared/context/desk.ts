@@ -1,0 +1,35 @@
+// What every page may use, made once by app/main.ts and handed down through Svelte's context.
+import { getContext, setContext } from 'svelte'
+import type { Server } from '../api/server'
+import type { Drafts } from '../config/config_draft.svelte'
+import type { Locale } from '../i18n/locale.svelte'
+import type { Foot } from '../ui/foot.svelte'
+import type { Theme } from '../ui/theme.svelte'
+import type { Toasts } from '../ui/toasts.svelte'
+import type { Units } from '../units/units.svelte'
+import type { DeviceWatch } from './device_watch.svelte'
+import type { HealthWatch } from './health_watch.svelte'
+
+export interface Desk {
+  server: Server
+  devices: DeviceWatch
+  health: HealthWatch
+  drafts: Drafts
+  locale: Locale
+  units: Units
+  theme: Theme
+  toasts: Toasts
+  foot: Foot
+  /** Goes to another page of this application. */
+  go: (path: string) => void
+}
+
+const KEY = Symbol('desk')
+
+export function provideDesk(desk: Desk): void {
+  setContext(KEY, desk)
+}
+
+export function useDesk(): Desk {
+  return getContext<Desk>(KEY)
+}

@@ -1,0 +1,61 @@
+// Which units there are and how their links stand, asked once a second while the page is seen.
+import { Refusal } from '../api/client'
+import type { Server } from '../api/server'
+import type { Device } from '../api/types'
+import { WhileSeen } from './while_seen'
+
+const PERIOD_MS = 1000
+
+export class DeviceWatch {
+  items = $state.raw<Device[]>([])
+  known = $state(false) // false until the server answered once
+  unreachable = $state(false)
+  chosen_id = $state<string | null>(null)
+  now_ms = $state(Date.now())
+  current = $derived(this.items.find((d) => d.id === this.chosen_id) ?? this.items[0] ?? null)
+  private seen_ms = $state.raw<Record<string, number>>({})
+  private readonly asking = new WhileSeen(() => this.refresh(), PERIOD_MS)
+
+  constructor(
+    private readonly server: Server,
+    chosen_id: string | null,
+  ) {
+    this.chosen_id = chosen_id
+  }
+
+  start(): void {
+    this.asking.start()
+  }
+
+  stop(): void {
+    this.asking.stop()
+  }
+
+  /** Whether the current unit answers and may be written to. */
+  get ready(): boolean {
+    return this.current?.state === 'ready' && !this.unreachable
+  }
+
+  /** Seconds since the current unit last answered; null if it never did. */
+  get age_s(): number | null {
+    const seen = this.current ? this.seen_ms[this.current.id] : undefined
+    return seen === undefined ? null : Math.max(0, (this.now_ms - seen) / 1000)
+  }
+
+  /** Asks now; also after something was connected or removed. */
+  async refresh(): Promise<void> {
+    try {
+      const items = await this.server.devices()
+      const now_ms = Date.now()
+      const alive = items.filter((d) => d.state === 'ready' || d.state === 'read_only')
+      this.seen_ms = { ...this.seen_ms, ...Object.fromEntries(alive.map((d) => [d.id, now_ms])) }
+      this.items = items
+      this.known = true
+      this.unreachable = false
+    } catch (error) {
+      if (!(error instanceof Refusal)) throw error
+      this.unreachable = true
+    }
+    this.now_ms = Date.now()
+  }
+}

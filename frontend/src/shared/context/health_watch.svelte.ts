@@ -1,0 +1,37 @@
+// Whether everything that is to be kept is kept, asked every few seconds while the page is seen.
+import { Refusal } from '../api/client'
+import type { Server } from '../api/server'
+import type { Health, RecorderHealth } from '../api/types'
+import { WhileSeen } from './while_seen'
+
+const PERIOD_MS = 5000
+
+export class HealthWatch {
+  /** The server's last word; null until it came, and while the server does not answer. */
+  now = $state.raw<Health | null>(null)
+  private readonly asking = new WhileSeen(() => this.refresh(), PERIOD_MS)
+
+  constructor(private readonly server: Server) {}
+
+  start(): void {
+    this.asking.start()
+  }
+
+  stop(): void {
+    this.asking.stop()
+  }
+
+  /** What became of a unit's rows since the server started; null while nobody knows. */
+  recorder(device_id: string): RecorderHealth | null {
+    return this.now?.devices.find((device) => device.id === device_id)?.recorder ?? null
+  }
+
+  private async refresh(): Promise<void> {
+    try {
+      this.now = await this.server.health()
+    } catch (error) {
+      if (!(error instanceof Refusal)) throw error
+      this.now = null
+    }
+  }
+}

@@ -1,0 +1,78 @@
+// A unit takes a new configuration only while wheel and motor stand still. A simulated rider can be
+// asked to stop for it, and goes on afterwards.
+import { Refusal } from '../api/client'
+import type { Server } from '../api/server'
+
+const POLL_MS = 250
+const WAIT_MS_MAX = 90_000 // a coast-down from 25 km/h on the flat takes about a minute
+
+export interface Pause {
+  wait: (ms: number) => Promise<void>
+}
+
+// What the unit itself takes for standing still.
+const SPEED_KMH_MAX = 0.5
+const MOTOR_SPEED_RPM_MAX = 30
+
+/** Whether wheel and motor rest; stands is null where the unit does not tell both. */
+export interface Standstill {
+  stands: boolean | null
+  speed_kmh: number | null
+}
+
+const browser: Pause = { wait: (ms) => new Promise((resolve) => setTimeout(resolve, ms)) }
+
+/** What a row of channels says about standing still. */
+export function standstillOf(channels: Record<string, number | null>): Standstill {
+  const { speed_kmh = null, motor_speed_rpm = null } = channels
+  const turns = (value: number | null, most: number) =>
+    value === null ? null : Math.abs(value) >= most
+  const wheel = turns(speed_kmh, SPEED_KMH_MAX)
+  const motor = turns(motor_speed_rpm, MOTOR_SPEED_RPM_MAX)
+  if (wheel || motor) return { stands: false, speed_kmh }
+  return { stands: wheel === null || motor === null ? null : true, speed_kmh }
+}
+
+/** Stops the simulated rider, acts once the bike stands, and lets the rider go on. */
+export async function whileStanding<T>(
+  server: Server,
+  id: string,
+  act: () => Promise<T>,
+  pause: Pause = browser,
+): Promise<T> {
+  const before = await server.simulation(id)
+  await server.setSimulation(id, { rider: { kind: 'off' }, brake: true })
+  try {
+    return await actOnceStanding(server, id, act, pause)
+  } finally {
+    const { kind, torque_nm, cadence_rpm_max } = before.rider
+    const rider = { kind, torque_nm, cadence_rpm_max }
+    const scenario = before.running ? { running: true } : {}
+    await server.setSimulation(id, { rider, brake: before.brake, ...scenario })
+  }
+}
+
+async function actOnceStanding<T>(
+  server: Server,
+  id: string,
+  act: () => Promise<T>,
+  pause: Pause,
+): Promise<T> {
+  for (let waited_ms = 0; ; waited_ms += POLL_MS) {
+    const { stands } = standstillOf(await server.channels(id))
+    // A unit that does not tell its speed is not waited for: it says itself whether it moves.
+    if (stands !== false || waited_ms >= WAIT_MS_MAX) {
+      try {
+        return await act()
+      } catch (error) {
+        if (!movesStill(error) || waited_ms >= WAIT_MS_MAX) throw error
+      }
+    }
+    await pause.wait(POLL_MS)
+  }
+}
+
+/** Whether a refusal says that the wheel or the motor turns. */
+export function movesStill(error: unknown): boolean {
+  return error instanceof Refusal && error.code === 'not_standing_still'
+}

@@ -1,9 +1,0 @@
-// Why something was refused, in the reader's language, and what became of a change.
-import type { Refusal } from '../api/client'
-import type { Locale } from '../i18n/locale.svelte'
-
-/** What the server says, and with a lost answer whether the unit has the change. */
-export function refusalText(locale: Locale, refusal: Refusal): string {
-  const said = locale.said('refusal', refusal.code, refusal.message)
-  return refusal.outcome ? `${said} ${locale.t(`outcome.${refusal.outcome}`)}` : said
-}
