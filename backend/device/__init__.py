@@ -1,1 +1,1 @@
-"""A drive unit seen from the host: sans-I/O session, driver thread, transaction, streams."""
+"""A drive unit seen from the host: the thread that drives a conversation, states, streams."""

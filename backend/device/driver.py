@@ -16,10 +16,10 @@ from concurrent.futures import Future
 from concurrent.futures import TimeoutError as FutureTimeout
 from typing import Protocol, TypeVar
 
-from backend.device.log_download import LogReceiver
-from backend.device.operation import Operation
-from backend.device.schema import Schemas
-from backend.device.session import Session
+from backend.device.ebl.operations.log_download import LogReceiver
+from backend.device.ebl.session.operation import Operation
+from backend.device.ebl.session.schema import Schemas
+from backend.device.ebl.session.session import Session
 from backend.device.snapshot import DeviceStatus, status_of
 from backend.device.states import ACQUAINTED, DeviceEvent, LinkState
 from backend.device.stream import StreamPlan

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from backend.device.ebl.session.session import Session
 from backend.device.identity import Identity
-from backend.device.session import Session
 from backend.device.states import LinkState
 from backend.device.statistics import LinkStatistics
 from backend.device.stream import StreamBlock, StreamStarted

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from backend.device.ebl.session.stream_account import StreamAccount
 from backend.device.statistics import LinkStatistics
-from backend.device.stream_account import StreamAccount
 from backend.domain.channels import ChannelSpec
 from firmware_protocol._generated import CHANNELS, StreamCountsEvent, StrSubscribeResponse
 from firmware_protocol.codec import Stream

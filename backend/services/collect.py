@@ -23,9 +23,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import BinaryIO, TypeVar
 
-from backend.device.log_download import LogReceiver
-from backend.device.operation import Operation
-from backend.device.ride_logs import (
+from backend.device.ebl.operations.log_download import LogReceiver
+from backend.device.ebl.operations.ride_logs import (
     RideLog,
     RideLogs,
     close_log,
@@ -36,6 +35,7 @@ from backend.device.ride_logs import (
     receive_log,
     settle_erase,
 )
+from backend.device.ebl.session.operation import Operation
 from backend.domain.ride import iso_utc
 from backend.errors import (
     Conflict,

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any, Protocol
 
-from backend.device.config_transaction import ConfigImage
-from backend.device.parameters import PARAMETER_ROWS, Free, ParameterRow, Value
+from backend.device.ebl.operations.config_transaction import ConfigImage
+from backend.device.ebl.operations.parameters import PARAMETER_ROWS, Free, ParameterRow, Value
 from backend.domain.revision import Revision
 from backend.errors import ConfigConflict
 

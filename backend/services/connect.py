@@ -13,18 +13,18 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from backend.device.driver import Driver, LinkOpener
-from backend.device.fault_frames import FaultFrame, clear_faults, fault_frames
-from backend.device.faults import fault_description, mechanic_text, severity
-from backend.device.live_values import LiveValues, ask_values, last_values
-from backend.device.log_download import LogReceiver
-from backend.device.operation import Operation
+from backend.device.ebl.operations.fault_frames import FaultFrame, clear_faults, fault_frames
+from backend.device.ebl.operations.faults import fault_description, mechanic_text, severity
+from backend.device.ebl.operations.live_values import LiveValues, ask_values, last_values
+from backend.device.ebl.operations.log_download import LogReceiver
+from backend.device.ebl.operations.simulation import simulation_get, simulation_set
+from backend.device.ebl.operations.upkeep import Upkeep, read_upkeep
+from backend.device.ebl.session.operation import Operation
+from backend.device.ebl.session.schema import Schemas
 from backend.device.ports import Opener, PortInfo, kind_of, list_ports
-from backend.device.schema import Schemas
-from backend.device.simulation import simulation_get, simulation_set
 from backend.device.snapshot import DeviceStatus
 from backend.device.states import DeviceEvent, LinkState
 from backend.device.stream import StreamPlan
-from backend.device.upkeep import Upkeep, read_upkeep
 from backend.errors import Conflict, DeviceRefused, InvalidRequest, NotFound
 from backend.services.device_ids import canonical, id_of
 from backend.services.device_view import ConfigStamp, DeviceView, FaultView

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
+from backend.device.ebl.operations.live_values import LiveValues
+from backend.device.ebl.session.reasons import code_of
 from backend.device.identity import Identity
-from backend.device.live_values import LiveValues
-from backend.device.reasons import code_of
 from backend.device.snapshot import DeviceStatus
 
 

@@ -13,8 +13,8 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from backend.device.config_transaction import ConfigImage, read_config
-from backend.device.parameters import PARAMETER_ROWS
+from backend.device.ebl.operations.config_transaction import ConfigImage, read_config
+from backend.device.ebl.operations.parameters import PARAMETER_ROWS
 from backend.device.states import DeviceEvent, LinkState, StateChanged, UnitEvent
 from backend.domain.ride import Ride, RideContext
 from backend.errors import NoAnswer, NotFound, SpindleError

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
-from backend.device.operation import Operation
+from backend.device.ebl.session.operation import Operation
 from backend.errors import LinkError, NoAnswer, NotFound, RequestRefused
 from backend.services.config_view import Change
 from backend.services.connect import Devices

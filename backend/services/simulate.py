@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from backend.control.scenarios import live_scenarios
-from backend.device.simulation import simulation_advance
+from backend.device.ebl.operations.simulation import simulation_advance
 from backend.errors import Conflict, NoAnswer
 from backend.services.connect import Devices
 

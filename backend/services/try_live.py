@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
-from backend.device.live_set import (
+from backend.device.ebl.operations.live_set import (
     TTL_S_MAX,
     LiveState,
     end_live,
@@ -17,7 +17,7 @@ from backend.device.live_set import (
     settle_live_end,
     values_in_force,
 )
-from backend.device.parameters import Value, faults_of, rounded, unknown_names
+from backend.device.ebl.operations.parameters import Value, faults_of, rounded, unknown_names
 from backend.errors import FieldError, InvalidRequest, LimitViolation, NoAnswer
 from backend.services.connect import Devices
 from backend.services.outcome import telling

@@ -15,17 +15,25 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import asdict, replace
 from datetime import UTC, datetime
 
-from backend.device.config_settle import settle_confirm, settle_rollback, settle_write
-from backend.device.config_transaction import ConfigImage, read_bank, read_config, write_config
-from backend.device.config_trial import (
+from backend.device.ebl.operations.config_settle import (
+    settle_confirm,
+    settle_rollback,
+    settle_write,
+)
+from backend.device.ebl.operations.config_transaction import (
+    ConfigImage,
+    read_bank,
+    read_config,
+    write_config,
+)
+from backend.device.ebl.operations.config_trial import (
     NO_TRIAL,
     confirm_config,
     rollback_config,
     trial_status,
 )
-from backend.device.fault_frames import settings_are_lost
-from backend.device.operation import Operation
-from backend.device.parameters import (
+from backend.device.ebl.operations.fault_frames import settings_are_lost
+from backend.device.ebl.operations.parameters import (
     PARAMETER_ROWS,
     Value,
     faults_of,
@@ -34,8 +42,9 @@ from backend.device.parameters import (
     rounded,
     unknown_names,
 )
+from backend.device.ebl.operations.unlock import Token, token_from
+from backend.device.ebl.session.operation import Operation
 from backend.device.snapshot import DeviceStatus
-from backend.device.unlock import Token, token_from
 from backend.domain.revision import Revision
 from backend.errors import (
     Conflict,

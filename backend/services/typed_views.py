@@ -8,7 +8,7 @@ from operator import itemgetter
 from typing import Any, cast
 
 from backend.control import cutoff_of
-from backend.device.parameters import Value, group, is_factory
+from backend.device.ebl.operations.parameters import Value, group, is_factory
 from backend.domain.assist_mode import AssistModes
 from backend.domain.fuzzy_table import PARAMETERS_OF, SHARED_FIELDS, FuzzyTable, stored_json
 from backend.errors import FieldError, InvalidRequest

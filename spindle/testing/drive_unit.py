@@ -13,11 +13,11 @@ from typing import Any, TypeVar, Unpack
 import numpy as np
 import numpy.typing as npt
 
-from backend.device.config_transaction import ConfigImage, read_config, write_config
-from backend.device.fault_frames import FaultFrame, clear_faults, fault_frames
-from backend.device.live_values import LiveValues, ask_values
-from backend.device.operation import Operation
-from backend.device.session import Session
+from backend.device.ebl.operations.config_transaction import ConfigImage, read_config, write_config
+from backend.device.ebl.operations.fault_frames import FaultFrame, clear_faults, fault_frames
+from backend.device.ebl.operations.live_values import LiveValues, ask_values
+from backend.device.ebl.session.operation import Operation
+from backend.device.ebl.session.session import Session
 from backend.device.states import LinkState
 from backend.device.stream import StreamBlock, StreamPlan
 from backend.errors import NoAnswer

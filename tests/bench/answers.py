@@ -1,7 +1,7 @@
 """How long an answer takes beside a stream as full as the unit admits it, in virtual time."""
 
-from backend.device.live_values import ask_values
-from backend.device.operation import Operation, ask
+from backend.device.ebl.operations.live_values import ask_values
+from backend.device.ebl.session.operation import Operation, ask
 from backend.device.stream import StreamPlan
 from backend.errors import DeviceRefused
 from firmware_protocol._generated import (

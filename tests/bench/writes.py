@@ -2,7 +2,7 @@
 itself takes for the same bytes and turn-arounds one after the other, with a step of the simulated
 line for each way. Requests under way together make it a little less."""
 
-from backend.device.config_transaction import read_config, write_config
+from backend.device.ebl.operations.config_transaction import read_config, write_config
 from firmware_protocol._generated import IMAGE_LENGTH
 from tests.bench.figures import Figure
 from tests.fakes.bench_unit import BenchUnit

@@ -16,7 +16,7 @@ from typing import Any
 
 import pytest
 
-from backend.device.live_values import values_of
+from backend.device.ebl.operations.live_values import values_of
 from firmware_protocol._generated import (
     CHANNELS,
     IMAGE_LENGTH,

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from backend.device.config_transaction import read_config, write_config
+from backend.device.ebl.operations.config_transaction import read_config, write_config
 from backend.device.stream import StreamPlan
 from firmware_protocol import codec
 from firmware_protocol._generated import PARAMETERS, REQUEST_BY_ID, RESPONSE_BY_ID, Event, MessageId

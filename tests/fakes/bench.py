@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any, Protocol, TypeVar
 
-from backend.device.operation import Operation
-from backend.device.schema import Schemas
-from backend.device.session import Session
+from backend.device.ebl.session.operation import Operation
+from backend.device.ebl.session.schema import Schemas
+from backend.device.ebl.session.session import Session
 from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.stream import StreamBlock, StreamPlan
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from sim_device.firmware.python._native import lib
 
-from backend.device.ride_logs import ENTRY
+from backend.device.ebl.operations.ride_logs import ENTRY
 from firmware_protocol import codec, framing
 from firmware_protocol._generated import (
     LogAckRequest,

@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
-from backend.device.operation import Operation
-from backend.device.session import Session
+from backend.device.ebl.session.operation import Operation
+from backend.device.ebl.session.session import Session
 from backend.device.states import LinkState
 from backend.device.stream import StreamPlan
 from backend.errors import LinkError

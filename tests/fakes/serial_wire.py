@@ -13,8 +13,8 @@ from typing import TypeVar
 
 from sim_device.firmware.python._native import ffi, lib
 
-from backend.device.operation import Operation
-from backend.device.session import Session
+from backend.device.ebl.session.operation import Operation
+from backend.device.ebl.session.session import Session
 from backend.device.states import LinkState
 from backend.device.stream import StreamPlan
 from tests.fakes.bench_unit import BenchUnit

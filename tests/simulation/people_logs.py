@@ -6,8 +6,8 @@ import random
 import zlib
 from typing import TYPE_CHECKING
 
-from backend.device.log_download import LogReceiver
-from backend.device.ride_logs import (
+from backend.device.ebl.operations.log_download import LogReceiver
+from backend.device.ebl.operations.ride_logs import (
     RideLog,
     RideLogs,
     close_log,

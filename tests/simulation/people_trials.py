@@ -5,8 +5,12 @@ from __future__ import annotations
 import random
 from typing import TYPE_CHECKING
 
-from backend.device.config_transaction import CommitUnanswered, ConfigImage, write_config
-from backend.device.config_trial import (
+from backend.device.ebl.operations.config_transaction import (
+    CommitUnanswered,
+    ConfigImage,
+    write_config,
+)
+from backend.device.ebl.operations.config_trial import (
     TrialStatus,
     confirm_config,
     rollback_config,

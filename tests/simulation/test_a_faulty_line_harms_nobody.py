@@ -17,10 +17,10 @@ from typing import Any
 
 import pytest
 
-from backend.device import config_transaction
-from backend.device.log_download import LogReceiver
-from backend.device.operation import Operation
-from backend.device.requests import RequestTable
+from backend.device.ebl.operations import config_transaction
+from backend.device.ebl.operations.log_download import LogReceiver
+from backend.device.ebl.session.operation import Operation
+from backend.device.ebl.session.requests import RequestTable
 from backend.device.stream import StreamReceiver
 from backend.errors import NoAnswer
 from tests.simulation import people_trials, workload

@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 from sim_device.firmware.python._native import ffi, lib
 
-from backend.device.log_download import LogReceiver
-from backend.device.ride_logs import (
+from backend.device.ebl.operations.log_download import LogReceiver
+from backend.device.ebl.operations.ride_logs import (
     RideLog,
     close_log,
     confirm_log,

@@ -10,8 +10,8 @@ from __future__ import annotations
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from backend.device.ebl.session.stream_account import Balance, StreamAccount
 from backend.device.stream import StreamPlan
-from backend.device.stream_account import Balance, StreamAccount
 from firmware_protocol.codec import Stream, decode
 from firmware_protocol.framing import FrameDecoder, encode_frame
 from sim_device.lockstep import LockstepUnit

@@ -11,19 +11,19 @@ import random
 import numpy as np
 import pytest
 
-from backend.device import handshake
-from backend.device.config_transaction import (
+from backend.device.ebl.operations.config_transaction import (
     ConfigImage,
     read_bank,
     read_config,
     write_config,
 )
-from backend.device.config_trial import confirm_config, rollback_config, trial_status
-from backend.device.fault_frames import clear_faults, fault_frames
-from backend.device.live_values import ask_values
-from backend.device.operation import ask
-from backend.device.schema import differences, unpack_schema
-from backend.device.simulation import simulation_get, simulation_set
+from backend.device.ebl.operations.config_trial import confirm_config, rollback_config, trial_status
+from backend.device.ebl.operations.fault_frames import clear_faults, fault_frames
+from backend.device.ebl.operations.live_values import ask_values
+from backend.device.ebl.operations.simulation import simulation_get, simulation_set
+from backend.device.ebl.session import handshake
+from backend.device.ebl.session.operation import ask
+from backend.device.ebl.session.schema import differences, unpack_schema
 from backend.device.states import LinkState
 from backend.device.stream import BATCH_DEFAULT, StreamPlan
 from backend.errors import (

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import pytest
 
-from backend.device.config_transaction import read_config, write_config
+from backend.device.ebl.operations.config_transaction import read_config, write_config
 from backend.errors import AccessDenied, NotStandingStill, TokenNeeded
 from firmware_protocol._generated import Access
 from firmware_protocol.layout import Value

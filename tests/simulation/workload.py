@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 import random
 
-from backend.device.config_settle import settle_write
-from backend.device.config_transaction import (
+from backend.device.ebl.operations.config_settle import settle_write
+from backend.device.ebl.operations.config_transaction import (
     CommitUnanswered,
     ConfigImage,
     read_config,
     write_config,
 )
-from backend.device.live_values import LiveValues, ask_values
+from backend.device.ebl.operations.live_values import LiveValues, ask_values
 from backend.device.states import LinkState
 from backend.errors import ConfigConflict, NoAnswer, PeerProtocolError
 from firmware_protocol.layout import Value

@@ -12,8 +12,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from backend.device.operation import Operation
-from backend.device.session import EVENTS_MAX, Session
+from backend.device.ebl.session.operation import Operation
+from backend.device.ebl.session.session import EVENTS_MAX, Session
 from backend.device.states import LinkState, StateChanged, UnitEvent
 from backend.device.stream import StreamBlock, StreamPlan
 from backend.errors import LinkError

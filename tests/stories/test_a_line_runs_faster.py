@@ -9,7 +9,7 @@ from __future__ import annotations
 import time
 
 from backend.device.driver import Driver
-from backend.device.operation import ask
+from backend.device.ebl.session.operation import ask
 from backend.device.stream import StreamPlan
 from backend.link import Opener
 from firmware_protocol._generated import AliveRequest, AliveResponse

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from backend.device import reasons
-from backend.device.reasons import code_of, port_reason
+from backend.device.ebl.session import reasons
+from backend.device.ebl.session.reasons import code_of, port_reason
 from backend.link import trouble
 
 ROOT = Path(__file__).resolve().parents[3]

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from backend.device import config_transaction
+from backend.device.ebl.operations import config_transaction
 from backend.errors import AccessDenied, DeviceRefused
 from firmware_protocol._generated import Status
 from sim_device.configure import read_image

@@ -6,9 +6,9 @@ answer to the question nothing is known.
 
 from __future__ import annotations
 
-from backend.device.config_trial import TrialStatus
+from backend.device.ebl.operations.config_trial import TrialStatus
+from backend.device.ebl.session.unit_notes import UnitNotes
 from backend.device.statistics import LinkStatistics
-from backend.device.unit_notes import UnitNotes
 from firmware_protocol._generated import ConfigProvisionalEvent, ConfigRolledBackEvent
 from firmware_protocol._generated import Event as EventCode
 from firmware_protocol.codec import Event

@@ -10,7 +10,7 @@ from __future__ import annotations
 import pytest
 from sim_device.firmware.python._native import lib
 
-from backend.device.config_transaction import ConfigImage, read_config, write_config
+from backend.device.ebl.operations.config_transaction import ConfigImage, read_config, write_config
 from backend.device.states import LinkState
 from backend.errors import DeviceRefused, NoAnswer
 from firmware_protocol import codec, framing

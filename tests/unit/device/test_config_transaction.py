@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import pytest
 
-from backend.device.config_transaction import (
+from backend.device.ebl.operations.config_transaction import (
     CommitUnanswered,
     ConfigImage,
     read_config,

@@ -16,9 +16,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from backend.device.config_transaction import read_config
 from backend.device.driver import Driver
-from backend.device.operation import ask
+from backend.device.ebl.operations.config_transaction import read_config
+from backend.device.ebl.session.operation import ask
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock, StreamPlan, StreamStarted
 from backend.errors import LinkError, NoAnswer

@@ -5,9 +5,9 @@ The operation is driven by hand; the unit's answers are written as its firmware 
 
 from __future__ import annotations
 
-from backend.device.fault_frames import FaultFrame, fault_frames
-from backend.device.faults import KNOWN, fault_names
-from backend.device.operation import Question
+from backend.device.ebl.operations.fault_frames import FaultFrame, fault_frames
+from backend.device.ebl.operations.faults import KNOWN, fault_names
+from backend.device.ebl.session.operation import Question
 from firmware_protocol._generated import (
     EvtFaultFreezeRequest,
     EvtFaultListRequest,

@@ -9,10 +9,14 @@ from collections.abc import Callable
 
 import pytest
 
-from backend.device.config_transaction import CommitUnanswered, ConfigImage, read_config
-from backend.device.config_transaction import write_config as write
-from backend.device.operation import ask
-from backend.device.session import Session
+from backend.device.ebl.operations.config_transaction import (
+    CommitUnanswered,
+    ConfigImage,
+    read_config,
+)
+from backend.device.ebl.operations.config_transaction import write_config as write
+from backend.device.ebl.session.operation import ask
+from backend.device.ebl.session.session import Session
 from backend.device.states import LinkState
 from backend.device.stream import StreamPlan
 from backend.errors import DeviceRefused

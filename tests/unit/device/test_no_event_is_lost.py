@@ -9,7 +9,7 @@ import random
 
 import pytest
 
-from backend.device.event_book import Arrival, EventBook
+from backend.device.ebl.session.event_book import Arrival, EventBook
 from backend.device.states import UnitEvent
 from backend.device.statistics import LinkStatistics
 from firmware_protocol._generated import BootEvent, FaultClearedEvent, FaultSetEvent

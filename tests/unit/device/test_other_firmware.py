@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from backend.device.config_transaction import read_config, write_config
+from backend.device.ebl.operations.config_transaction import read_config, write_config
 from backend.device.states import LinkState
 from backend.device.stream import StreamPlan
 from backend.store.schemas import SCHEMAS_MAX, SchemaFiles

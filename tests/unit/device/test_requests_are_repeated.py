@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import pytest
 
-from backend.device.config_transaction import read_config, write_config
-from backend.device.operation import Operation, Question, ask, ask_all
-from backend.device.requests import RequestTable
+from backend.device.ebl.operations.config_transaction import read_config, write_config
+from backend.device.ebl.session.operation import Operation, Question, ask, ask_all
+from backend.device.ebl.session.requests import RequestTable
 from backend.device.statistics import LinkStatistics
 from backend.errors import DeviceRefused, NoAnswer
 from firmware_protocol._generated import (

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from backend.device.operation import ask
+from backend.device.ebl.session.operation import ask
 from backend.device.states import LinkState
 from backend.device.stream import StreamPlan
 from backend.errors import LinkError, NoAnswer

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import pytest
 
-from backend.device.operation import ask
+from backend.device.ebl.session.operation import ask
 from backend.device.states import LinkState
 from backend.device.stream import StreamPlan
 from firmware_protocol._generated import (

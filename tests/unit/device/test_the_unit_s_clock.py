@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from backend.device.clock_sync import ClockEstimator, ClockSample
+from backend.device.ebl.session.clock_sync import ClockEstimator, ClockSample
 
 START_US = 40_000_000
 

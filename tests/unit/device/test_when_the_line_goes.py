@@ -18,7 +18,7 @@ from pathlib import Path
 import pytest
 
 from backend.device.driver import REOPEN_S_MAX, Driver
-from backend.device.session import Session
+from backend.device.ebl.session.session import Session
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock, StreamPlan
 from backend.errors import LinkError

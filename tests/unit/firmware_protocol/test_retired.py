@@ -7,7 +7,7 @@ import math
 
 import pytest
 
-from backend.device.parameters import unknown_names
+from backend.device.ebl.operations.parameters import unknown_names
 from firmware_protocol._generated import PARAMETER_BY_ID, PARAMETER_BY_NAME, RETIRED
 from firmware_protocol.layout import Value
 from firmware_protocol.retired import brought_forward

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from backend.device.config_transaction import read_config
+from backend.device.ebl.operations.config_transaction import read_config
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock
 from backend.errors import Conflict, InvalidRequest, NoAnswer, NotFound

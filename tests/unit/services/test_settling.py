@@ -10,7 +10,7 @@ from typing import Any, cast
 
 import pytest
 
-from backend.device.operation import Operation
+from backend.device.ebl.session.operation import Operation
 from backend.errors import LinkError, NoAnswer, NotFound, SpindleError
 from backend.services import settle
 from backend.services.connect import Devices

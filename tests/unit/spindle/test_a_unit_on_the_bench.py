@@ -11,7 +11,7 @@ import json
 import numpy as np
 import pytest
 
-from backend.device.simulation import simulation_set
+from backend.device.ebl.operations.simulation import simulation_set
 from backend.errors import NotStandingStill
 from sim_device.scenario_phase import ScenarioError
 from spindle.testing import DriveUnit

@@ -6,7 +6,7 @@ import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from backend.device.violations import host_violations
+from backend.device.ebl.operations.violations import host_violations
 from backend.errors import FieldError
 from firmware_protocol._generated import BAND_BY_NAME, ENUM_BY_NAME, PARAMETERS, RETIRED, Access
 from firmware_protocol.bands import band_limits

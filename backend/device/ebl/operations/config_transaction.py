@@ -12,7 +12,9 @@ import zlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from backend.device.operation import (
+from backend.device.ebl.operations.unlock import access_refused, show_token
+from backend.device.ebl.operations.violations import unit_violations
+from backend.device.ebl.session.operation import (
     Operation,
     ask,
     ask_all,
@@ -20,9 +22,7 @@ from backend.device.operation import (
     attempt_patiently,
     expect,
 )
-from backend.device.refusals import refused
-from backend.device.unlock import access_refused, show_token
-from backend.device.violations import unit_violations
+from backend.device.ebl.session.refusals import refused
 from backend.errors import (
     ConfigConflict,
     DeviceRefused,

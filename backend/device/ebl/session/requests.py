@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
-from backend.device.operation import Question
+from backend.device.ebl.session.operation import Question
 from backend.device.statistics import LinkStatistics
 from backend.errors import LinkError, NoAnswer, SpindleError
 from firmware_protocol._generated import Status

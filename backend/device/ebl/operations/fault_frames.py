@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from backend.device.faults import FAULT_BITS, KNOWN, fault_name
-from backend.device.live_values import LiveValues, values_of
-from backend.device.operation import Operation, ask, attempt, expect
+from backend.device.ebl.operations.faults import FAULT_BITS, KNOWN, fault_name
+from backend.device.ebl.operations.live_values import LiveValues, values_of
+from backend.device.ebl.session.operation import Operation, ask, attempt, expect
 from firmware_protocol._generated import (
     EvtFaultClearRequest,
     EvtFaultClearResponse,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from backend.device.handshake import VersionRefused, version_text
+from backend.device.ebl.session.handshake import VersionRefused, version_text
 from backend.device.identity import Identity
 from backend.errors import LinkError, NoAnswer
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from backend.device.clock_sync import ClockEstimate, ClockEstimator, ClockSample
-from backend.device.operation import Operation, attempt
+from backend.device.ebl.session.clock_sync import ClockEstimate, ClockEstimator, ClockSample
+from backend.device.ebl.session.operation import Operation, attempt
 from backend.device.statistics import LinkStatistics
 from firmware_protocol._generated import TimSetRequest, TimSyncRequest, TimSyncResponse
 

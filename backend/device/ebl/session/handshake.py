@@ -10,11 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from backend.device.config_trial import TrialStatus, trial_status
+from backend.device.ebl.operations.config_trial import TrialStatus, trial_status
+from backend.device.ebl.session.operation import Operation, ask, attempt, expect
+from backend.device.ebl.session.refusals import refused
+from backend.device.ebl.session.schema import Schemas, differences, known_schema, shared_channels
 from backend.device.identity import Identity
-from backend.device.operation import Operation, ask, attempt, expect
-from backend.device.refusals import refused
-from backend.device.schema import Schemas, differences, known_schema, shared_channels
 from backend.errors import DeviceRefused, NoAnswer, PeerProtocolError
 from firmware_protocol._generated import (
     CHANNELS,

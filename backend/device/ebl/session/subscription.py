@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from backend.device.operation import Operation, ask, attempt, expect
+from backend.device.ebl.session.operation import Operation, ask, attempt, expect
+from backend.device.ebl.session.stream_account import Balance
 from backend.device.statistics import LinkStatistics
 from backend.device.stream import (
     LEASE_S,
@@ -13,7 +14,6 @@ from backend.device.stream import (
     StreamReceiver,
     StreamStarted,
 )
-from backend.device.stream_account import Balance
 from backend.errors import NoAnswer
 from firmware_protocol._generated import (
     CONTROL_PERIOD_US,

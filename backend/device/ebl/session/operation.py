@@ -14,7 +14,7 @@ from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias, TypeVar
 
-from backend.device.refusals import refused
+from backend.device.ebl.session.refusals import refused
 from backend.errors import PeerProtocolError
 from firmware_protocol._generated import Status
 from firmware_protocol.codec import Response

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from backend.device.operation import Operation, ask
+from backend.device.ebl.session.operation import Operation, ask
 from backend.device.stream import StreamBlock
 from backend.domain.channels import ChannelSpec
 from firmware_protocol._generated import CHANNELS, StrSnapshotRequest, StrSnapshotResponse

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from backend.device.config_trial import TrialStatus
-from backend.device.faults import fault_names
-from backend.device.handshake import Acquaintance
+from backend.device.ebl.operations.config_trial import TrialStatus
+from backend.device.ebl.operations.faults import fault_names
+from backend.device.ebl.session.handshake import Acquaintance
 from backend.device.states import UnitEvent
 from backend.device.statistics import LinkStatistics
 from firmware_protocol._generated import (

@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any, TypeVar
 
-from backend.device.operation import Operation, Question
-from backend.device.requests import RequestTable
+from backend.device.ebl.session.operation import Operation, Question
+from backend.device.ebl.session.requests import RequestTable
 from backend.errors import LinkError, SpindleError
 from firmware_protocol.codec import Response
 

@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from backend.device.config_transaction import (
+from backend.device.ebl.operations.config_transaction import (
     CommitUnanswered,
     ConfigImage,
     compare,
     read_config,
 )
-from backend.device.operation import Operation, ask, attempt, expect
+from backend.device.ebl.session.operation import Operation, ask, attempt, expect
 from backend.errors import Conflict, LinkError, NoAnswer
 from firmware_protocol._generated import (
     MTU,

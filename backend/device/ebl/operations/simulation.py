@@ -7,7 +7,7 @@ import zlib
 from collections.abc import Mapping
 from typing import Any
 
-from backend.device.operation import Operation, ask, attempt, expect
+from backend.device.ebl.session.operation import Operation, ask, attempt, expect
 from backend.errors import FieldError, InvalidRequest, PeerProtocolError
 from firmware_protocol._generated import (
     SimGetRequest,

@@ -18,14 +18,14 @@ from dataclasses import replace
 from enum import Enum, auto
 from typing import TypeVar
 
-from backend.device.clock_keeper import ClockKeeper
-from backend.device.config_transaction import OrphanLeft
-from backend.device.event_book import NO_TID, Arrival, EventBook, acknowledgement
-from backend.device.handshake import Acquaintance, VersionRefused, become_acquainted
-from backend.device.line_rate import LineRate
-from backend.device.log_download import LogReceiver
-from backend.device.operation import Operation, attempt
-from backend.device.reasons import (
+from backend.device.ebl.operations.config_transaction import OrphanLeft
+from backend.device.ebl.operations.log_download import LogReceiver
+from backend.device.ebl.session.clock_keeper import ClockKeeper
+from backend.device.ebl.session.event_book import NO_TID, Arrival, EventBook, acknowledgement
+from backend.device.ebl.session.handshake import Acquaintance, VersionRefused, become_acquainted
+from backend.device.ebl.session.line_rate import LineRate
+from backend.device.ebl.session.operation import Operation, attempt
+from backend.device.ebl.session.reasons import (
     deaf_reason,
     greeted_reason,
     greeting_reason,
@@ -41,16 +41,16 @@ from backend.device.reasons import (
     silent_reason,
     version_reason,
 )
-from backend.device.requests import RequestTable
-from backend.device.runner import OnError, OnResult, OperationRunner
-from backend.device.schema import Schemas
-from backend.device.state_keeper import StateKeeper
+from backend.device.ebl.session.requests import RequestTable
+from backend.device.ebl.session.runner import OnError, OnResult, OperationRunner
+from backend.device.ebl.session.schema import Schemas
+from backend.device.ebl.session.state_keeper import StateKeeper
+from backend.device.ebl.session.stream_keeper import StreamKeeper
+from backend.device.ebl.session.subscription import Subscription
+from backend.device.ebl.session.unit_notes import UnitNotes
 from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.statistics import LinkStatistics
 from backend.device.stream import StreamBlock, StreamPlan, StreamStarted
-from backend.device.stream_keeper import StreamKeeper
-from backend.device.subscription import Subscription
-from backend.device.unit_notes import UnitNotes
 from backend.errors import LinkError, NoAnswer, SpindleError
 from firmware_protocol._generated import (
     MTU,

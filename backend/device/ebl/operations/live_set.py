@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from backend.device.config_transaction import MESSAGE_OVERHEAD_BYTES, read_config
-from backend.device.operation import Operation, ask, ask_all, attempt
-from backend.device.refusals import refused
-from backend.device.violations import unit_violations
+from backend.device.ebl.operations.config_transaction import MESSAGE_OVERHEAD_BYTES, read_config
+from backend.device.ebl.operations.violations import unit_violations
+from backend.device.ebl.session.operation import Operation, ask, ask_all, attempt
+from backend.device.ebl.session.refusals import refused
 from backend.errors import (
     AccessDenied,
     FieldError,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from backend.device.config_trial import TrialStatus
-from backend.device.handshake import unit_state
-from backend.device.runner import OperationRunner
-from backend.device.unit_notes import UnitNotes
+from backend.device.ebl.operations.config_trial import TrialStatus
+from backend.device.ebl.session.handshake import unit_state
+from backend.device.ebl.session.runner import OperationRunner
+from backend.device.ebl.session.unit_notes import UnitNotes
 from backend.errors import NoAnswer
 
 

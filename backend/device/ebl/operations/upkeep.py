@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from backend.device.operation import Operation, ask
+from backend.device.ebl.session.operation import Operation, ask
 from firmware_protocol._generated import (
     CfgSlotsRequest,
     CfgSlotsResponse,

@@ -6,8 +6,8 @@ proven, and a host that finds nobody tries the first rate and then the last one 
 
 from __future__ import annotations
 
-from backend.device.operation import Operation, attempt, expect
-from backend.device.requests import RequestTable
+from backend.device.ebl.session.operation import Operation, attempt, expect
+from backend.device.ebl.session.requests import RequestTable
 from backend.errors import NoAnswer, SpindleError
 from firmware_protocol._generated import (
     BaudRates,

@@ -13,7 +13,7 @@ import zlib
 from collections.abc import Iterator, Mapping, MutableMapping, Sequence
 from typing import Any
 
-from backend.device.operation import Operation, ask
+from backend.device.ebl.session.operation import Operation, ask
 from backend.errors import PeerProtocolError
 from firmware_protocol._generated import (
     BANDS,

@@ -6,8 +6,8 @@ import hashlib
 import struct
 from collections.abc import Mapping
 
-from backend.device.operation import Operation, attempt, expect
-from backend.device.refusals import refused
+from backend.device.ebl.session.operation import Operation, attempt, expect
+from backend.device.ebl.session.refusals import refused
 from backend.errors import (
     AccessDenied,
     FieldError,

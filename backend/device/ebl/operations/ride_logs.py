@@ -5,8 +5,8 @@ from __future__ import annotations
 import struct
 from dataclasses import dataclass
 
-from backend.device.log_download import LogReceiver
-from backend.device.operation import Operation, ask, attempt, expect
+from backend.device.ebl.operations.log_download import LogReceiver
+from backend.device.ebl.session.operation import Operation, ask, attempt, expect
 from backend.errors import DeviceRefused, NoAnswer, PeerProtocolError, SpindleError
 from firmware_protocol._generated import (
     LogCloseRequest,

@@ -1,0 +1,1 @@
+"""Units that speak EBL, the protocol of firmware_protocol/SPEC.md."""
