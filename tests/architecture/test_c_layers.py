@@ -46,7 +46,7 @@ def includes(path: Path) -> list[tuple[str, str]]:
 
 
 def files(room: str) -> list[Path]:
-    return sorted(ROOMS[room].glob("*.[ch]"))
+    return sorted(ROOMS[room].rglob("*.[ch]"))
 
 
 @pytest.mark.parametrize("room", sorted(ROOMS))

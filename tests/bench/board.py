@@ -30,9 +30,9 @@ ROOMS = (
 )
 
 # Files of app/ by what they are for; the others are configuration and product.
-LINK = ("link", "line_rate", "dispatch", "telemetry", "admission", "events", "requests_system",
-        "requests_line", "requests_stream", "requests_time")  # fmt: skip
-UNLOCKING = ("sha512", "signature", "unlock", "unlock_store", "requests_unlock")
+LINK = ("link", "baud_rate", "dispatch", "telemetry", "stream_budget", "events", "system_service",
+        "line_service", "stream_service", "time_service")  # fmt: skip
+UNLOCKING = ("sha512", "signature", "unlock", "unlock_store", "unlock_service")
 
 # Files of the codec that hold the parameters.
 PARAMETERS = ("ebl_config", "ebl_registry", "ebl_values")
@@ -174,7 +174,7 @@ def linked(text: str) -> Iterable[tuple[str, int]]:
 
 def room_of(name: str) -> str:
     def holds(folder: str) -> bool:
-        return (ROOT / folder / f"{name}.c").exists()
+        return any((ROOT / folder).rglob(f"{name}.c"))
 
     if name == "ebl_schema":
         return "description of itself"
@@ -186,7 +186,7 @@ def room_of(name: str) -> str:
         return "unlocking"
     if not holds("sim_device/firmware/app"):
         return "board" if (emulator.BOARD_FOLDER / f"{name}.c").exists() else "compiler's own"
-    if name.startswith("ride_log") or name == "requests_log":
+    if holds("sim_device/firmware/app/ride_log") or name == "log_service":
         return "ride logs"
     return "link and requests" if name in LINK else "configuration and product"
 

@@ -23,7 +23,7 @@ POINTERS = {
     "main_count:nothing": COUNTED,
     "main_*:*": HAL,
     "flash:*": HAL,
-    "requests_*:*": HANDLERS,
+    "*_service:*": HANDLERS,
     "app:requests_log_bulk": BULK,
     "startup:*": VECTORS,
 }
@@ -31,19 +31,23 @@ POINTERS = {
 # Which source file calls through pointers, and through which. No other does.
 CALLERS = {
     "app": {HAL},
+    "baud_rate": {HAL},
+    "bulk": {HAL},
+    "check": {HAL},
     "config_items": {HAL},
     "config_slot": {HAL},
-    "config_transaction": {HAL},
     "counters": {HAL},
     "dispatch": {HAL, HANDLERS},
     "flash_verify": {HAL},
-    "line_rate": {HAL},
     "link": {HAL, BULK},
+    "log": {HAL},
     "main_count": {COUNTED},
-    "requests_*": {HAL},
-    "ride_log*": {HAL},
+    "pages": {HAL},
     "step_watch": {HAL},
+    "store": {HAL},
+    "transaction": {HAL},
     "unlock*": {HAL},
+    "*_service": {HAL},
 }
 
 # What interrupts what: the board leaves all its interrupts at one priority, above them are faults,

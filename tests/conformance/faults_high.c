@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "ebl_bytes.h"      // EBL_OK
-#include "faults.h"         // faults_latch, faults_step
-#include "ride_log_pages.h" // ride_log_events_put
+#include "faults/faults.h"  // faults_latch, faults_step
+#include "ride_log/pages.h" // ride_log_events_put
 
 static void show(const char *what, uint32_t value)
 {

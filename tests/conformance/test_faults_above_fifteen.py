@@ -22,7 +22,7 @@ from tests.conformance.test_wire_sanitized import STRICT, compiler
 ROOT = Path(__file__).resolve().parents[2]
 FIRMWARE = ROOT / "sim_device" / "firmware"
 ROOMS = [FIRMWARE / "app", FIRMWARE / "control", FIRMWARE / "hal"]
-UNIT = ["app/faults.c", "app/fault_signs.c", "app/fault_motion.c", "app/ride_log_pages.c"]
+UNIT = ["app/faults/faults.c", "app/faults/signs.c", "app/faults/motion.c", "app/ride_log/pages.c"]
 LATCHED, WARNING = 1 << 29, 1 << 30
 
 

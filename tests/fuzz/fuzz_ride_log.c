@@ -8,10 +8,10 @@
 
 #include "ebl_registry.h"   // EBL_MTU
 #include "log_flash.h"      // log_flash_open
-#include "ride_log_block.h" // ride_log_block_seal
-#include "ride_log_bulk.h"  // ride_log_bulk_frame
-#include "ride_log_check.h" // ride_log_check_poll
-#include "ride_log_store.h" // ride_log_store_boot
+#include "ride_log/block.h" // ride_log_block_seal
+#include "ride_log/bulk.h"  // ride_log_bulk_frame
+#include "ride_log/check.h" // ride_log_check_poll
+#include "ride_log/store.h" // ride_log_store_boot
 
 #define BLOCK_BYTES 1024u
 #define BLOCKS 16u

@@ -72,7 +72,7 @@ def compiler(folder: Path) -> str | None:
 def build(name: str, target: str, folder: Path) -> Path:
     """The program of a target."""
     program = folder / f"fuzz_{target}"
-    sources = [path for part in SOURCE_FOLDERS for path in sorted((ROOT / part).glob("*.c"))]
+    sources = [path for part in SOURCE_FOLDERS for path in sorted((ROOT / part).rglob("*.c"))]
     sources += [ROOT / "sim_device/firmware/boards/host" / file for file in BOARD]
     command = [name, *OPTIONS, *(f"-I{ROOT / part}" for part in INCLUDES)]
     command += [str(HERE / f"fuzz_{target}.c"), *map(str, sources), "-o", str(program)]

@@ -2,10 +2,10 @@
 
 #include <string.h>
 
-#include "dispatch.h"   // dispatch_frame, requests_log_poll
-#include "float32.h"    // float32_min, float32_missing
-#include "market.h"     // market_profile_of
-#include "parameters.h" // parameters_to_assist
+#include "requests/dispatch.h" // dispatch_frame, requests_log_poll
+#include "float32.h"           // float32_min, float32_missing
+#include "market.h"            // market_profile_of
+#include "config/parameters.h" // parameters_to_assist
 
 #define RECEIVE_BLOCK_BYTES 64
 

@@ -8,25 +8,25 @@
 
 #include <stdint.h>
 
-#include "assist.h"             // assist_config, assist_state, assist_output
-#include "config_live.h"        // config_live
-#include "config_store.h"       // config_store
-#include "config_transaction.h" // config_transaction
-#include "config_trial.h"       // config_trial
-#include "counters.h"           // counters
-#include "ebl_registry.h"       // ebl_config
-#include "events.h"             // event_log
-#include "faults.h"             // fault_list
-#include "hal.h"                // hal
-#include "line_rate.h"          // line_rate
-#include "link.h"               // unit_link
-#include "ride_log.h"           // ride_log
-#include "ride_log_bulk.h"      // ride_log_bulk
-#include "ride_log_check.h"     // ride_log_check
-#include "step_watch.h"         // step_watch
-#include "telemetry.h"          // telemetry
-#include "unlock.h"             // unlock
-#include "wheel_speed.h"        // wheel_speed
+#include "assist.h"               // assist_config, assist_state, assist_output
+#include "config/live.h"          // config_live
+#include "storage/config_store.h" // config_store
+#include "config/transaction.h"   // config_transaction
+#include "config/trial.h"         // config_trial
+#include "storage/counters.h"     // counters
+#include "ebl_registry.h"         // ebl_config
+#include "line/events.h"          // event_log
+#include "faults/faults.h"        // fault_list
+#include "hal.h"                  // hal
+#include "line/baud_rate.h"       // line_rate
+#include "line/link.h"            // unit_link
+#include "ride_log/log.h"         // ride_log
+#include "ride_log/bulk.h"        // ride_log_bulk
+#include "ride_log/check.h"       // ride_log_check
+#include "faults/step_watch.h"    // step_watch
+#include "line/telemetry.h"       // telemetry
+#include "config/unlock.h"        // unlock
+#include "wheel_speed.h"          // wheel_speed
 
 /* A response the host may ask for again because it was lost: executing twice is not an option. */
 typedef struct {

@@ -66,7 +66,7 @@ typedef struct {
 
     /* Safe stop. The stage lets go by itself where no new torque comes for two control periods; the
      * watchdog, which the board starts and which takes longer than STEP_DEADLINE_US of
-     * step_watch.h, does motor_off where no kick comes in its time. motor_off:
+     * faults/step_watch.h, does motor_off where no kick comes in its time. motor_off:
      * by hardware, at once, from any context, an interrupt's too; nothing but the next start of the
      * unit ends it, and the board makes that start. `cause`, and reset_cause of the start: an
      * ebl_reset_cause. */

@@ -35,9 +35,9 @@ HEADERS: tuple[str, ...] = (
     "sim_device/firmware/control/rotor_receiver.h",
     "sim_device/firmware/control/wheel_speed.h",
     "sim_device/firmware/hal/hal.h",
-    "sim_device/firmware/app/step_watch.h",
-    "sim_device/firmware/app/sha512.h",
-    "sim_device/firmware/app/signature.h",
+    "sim_device/firmware/app/faults/step_watch.h",
+    "sim_device/firmware/app/config/sha512.h",
+    "sim_device/firmware/app/config/signature.h",
     "sim_device/firmware/boards/host/bench_board.h",
     "sim_device/physics/road.h",
     "sim_device/physics/rider.h",
@@ -82,7 +82,7 @@ def sources() -> list[str]:
     return [
         str(path.relative_to(ROOT))
         for folder in SOURCE_FOLDERS
-        for path in sorted((ROOT / folder).glob("*.c"))
+        for path in sorted((ROOT / folder).rglob("*.c"))
         if not path.name.startswith("main_")
     ]
 
@@ -91,8 +91,14 @@ def included() -> list[str]:
     """Every header of those folders: a change in one compiles the sources again."""
     folders = (*SOURCE_FOLDERS, HAL_FOLDER)
     return [
-        str(path.relative_to(ROOT)) for folder in folders for path in (ROOT / folder).glob("*.h")
+        str(path.relative_to(ROOT)) for folder in folders for path in (ROOT / folder).rglob("*.h")
     ]
+
+
+def as_included(header: str) -> str:
+    """The header's path from the folder that the compiler is told of."""
+    folders = (*SOURCE_FOLDERS, HAL_FOLDER)
+    return next(header.removeprefix(f"{at}/") for at in folders if header.startswith(f"{at}/"))
 
 
 ffibuilder = FFI()
@@ -100,7 +106,7 @@ ffibuilder.cdef("\n".join(declarations(header) for header in HEADERS))
 ffibuilder.cdef(CALLBACKS)
 ffibuilder.set_source(
     "sim_device.firmware.python._native",
-    "\n".join(f'#include "{Path(header).name}"' for header in HEADERS),
+    "\n".join(f'#include "{as_included(header)}"' for header in HEADERS),
     sources=sources(),
     include_dirs=[*SOURCE_FOLDERS, HAL_FOLDER],
     depends=sorted(included()),

@@ -51,7 +51,7 @@ def sanitized(tmp_path_factory: pytest.TempPathFactory) -> Path:
     if COMPILER is None:
         pytest.skip("no gcc or clang here")
     program = tmp_path_factory.mktemp("sanitized") / "unit"
-    sources = [path for folder in FOLDERS[:4] for path in sorted((ROOT / folder).glob("*.c"))]
+    sources = [path for folder in FOLDERS[:4] for path in sorted((ROOT / folder).rglob("*.c"))]
     command = [COMPILER, "-std=c99", "-g", "-O1", "-ffp-contract=off", "-fno-math-errno"]
     command += ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
     command += [f"-I{ROOT / folder}" for folder in FOLDERS]

@@ -8,11 +8,11 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "app.h"       // app_control_step
-#include "chip.h"      // CHIP_SYSTICK
-#include "ebl_bytes.h" // ebl_put_u16
-#include "ebl_frame.h" // ebl_frame_encode
-#include "signature.h" // signature_is_valid
+#include "app.h"              // app_control_step
+#include "chip.h"             // CHIP_SYSTICK
+#include "ebl_bytes.h"        // ebl_put_u16
+#include "ebl_frame.h"        // ebl_frame_encode
+#include "config/signature.h" // signature_is_valid
 
 #define STEPS 2000
 #define PINGS 200

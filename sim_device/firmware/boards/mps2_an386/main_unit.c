@@ -1,14 +1,14 @@
 /* The drive unit on the AN386: what a product's main() is. */
 #include <stddef.h>
 
-#include "app.h"        // app_init
-#include "chip.h"       // chip_sleep
-#include "clock.h"      // clock_now_us
-#include "flash.h"      // flash_connect
-#include "plant.h"      // plant_inputs
-#include "safe_stop.h"  // safe_stop_kick
-#include "step_watch.h" // steps_due
-#include "uart.h"       // uart_read
+#include "app.h"               // app_init
+#include "chip.h"              // chip_sleep
+#include "clock.h"             // clock_now_us
+#include "flash.h"             // flash_connect
+#include "plant.h"             // plant_inputs
+#include "safe_stop.h"         // safe_stop_kick
+#include "faults/step_watch.h" // steps_due
+#include "uart.h"              // uart_read
 
 #define HOST_BAUD 1000000u /* where bytes take no time, as in QEMU */
 #define HOST_BAUDS                                                                                 \

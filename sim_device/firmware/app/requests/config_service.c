@@ -1,0 +1,261 @@
+/* What the host asks about the configuration. */
+#include <string.h>
+
+#include "dispatch.h"          // reply_ok, reply_with
+#include "ebl_bytes.h"         // EBL_OK
+#include "ebl_registry.h"      // ebl_cfg_read_request_get
+#include "config/parameters.h" // parameters_default_image
+
+#define MS_PER_S 1000u
+
+static uint64_t now(const app *unit) { return unit->board->now_us(unit->board->context); }
+
+static void info(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_cfg_info_response response = {unit->store.generation, unit->store.crc32, EBL_IMAGE_LENGTH,
+                                      unit->store.on_trial ? EBL_CONFIG_STATE_PROVISIONAL
+                                                           : unit->transaction.state};
+    size_t length = 0;
+    int put;
+
+    (void)request;
+    put =
+        ebl_cfg_info_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
+    reply_with(answer, put, length);
+}
+
+/* A staged image has the generation it is built on, the default has none. */
+static uint8_t bank_read(const app *unit, uint8_t bank, uint8_t *image, uint32_t *generation)
+{
+    *generation = unit->store.generation;
+    switch (bank) {
+    case EBL_BANK_ACTIVE: memcpy(image, unit->store.image, EBL_IMAGE_LENGTH); return EBL_STATUS_OK;
+    case EBL_BANK_STAGED:
+        if (unit->transaction.state == EBL_CONFIG_STATE_IDLE) return EBL_STATUS_NOT_FOUND;
+        memcpy(image, unit->transaction.image, EBL_IMAGE_LENGTH);
+        return EBL_STATUS_OK;
+    case EBL_BANK_PREVIOUS:
+        return config_store_previous(&unit->store, unit->board, image, generation)
+                   ? EBL_STATUS_OK
+                   : EBL_STATUS_NOT_FOUND;
+    case EBL_BANK_DEFAULT:
+        *generation = 0;
+        parameters_default_image(image);
+        return EBL_STATUS_OK;
+    default: return EBL_STATUS_RANGE;
+    }
+}
+
+static void read_bank(app *unit, const ebl_header *request, reply *answer)
+{
+    uint8_t image[EBL_IMAGE_LENGTH];
+    ebl_cfg_read_request asked;
+    ebl_cfg_read_response response;
+    size_t room = reply_capacity(answer) - EBL_CFG_READ_RESPONSE_LENGTH;
+    uint8_t status;
+    size_t length = 0;
+    int put;
+
+    if (ebl_cfg_read_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_READ_REQUEST_LENGTH);
+        return;
+    }
+    status = bank_read(unit, asked.bank, image, &response.generation);
+    if (status == EBL_STATUS_OK && asked.offset > EBL_IMAGE_LENGTH) status = EBL_STATUS_RANGE;
+    if (status != EBL_STATUS_OK) {
+        reply_refuse(answer, status, asked.bank);
+        return;
+    }
+    response.total_length = EBL_IMAGE_LENGTH;
+    response.data = image + asked.offset;
+    response.data_length = (size_t)(EBL_IMAGE_LENGTH - asked.offset);
+    if (response.data_length > asked.length) response.data_length = asked.length;
+    if (response.data_length > room) response.data_length = room;
+    put =
+        ebl_cfg_read_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
+    reply_with(answer, put, length);
+}
+
+static void begin(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_cfg_begin_request asked;
+    ebl_cfg_begin_response response;
+    uint16_t detail = 0;
+    uint8_t status;
+    size_t length = 0;
+    int put;
+
+    if (ebl_cfg_begin_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_BEGIN_REQUEST_LENGTH);
+        return;
+    }
+    if (unit->store.on_trial) {
+        /* What it would overwrite is where a return leads to. */
+        uint32_t left_ms = trial_left_ms(&unit->trial, &unit->store, now(unit));
+
+        reply_refuse(answer, EBL_STATUS_BUSY, (uint16_t)((left_ms + MS_PER_S - 1) / MS_PER_S));
+        return;
+    }
+    status = transaction_begin(&unit->transaction, &unit->store, &asked, now(unit), &detail);
+    if (status != EBL_STATUS_OK) {
+        reply_refuse(answer, status, detail);
+        return;
+    }
+    response.transaction = unit->transaction.id;
+    response.lease_ms = TRANSACTION_LEASE_MS;
+    put = ebl_cfg_begin_response_put(&response, reply_fields(answer), reply_capacity(answer),
+                                     &length);
+    reply_with(answer, put, length);
+}
+
+static void set(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_cfg_set_request asked;
+    uint16_t detail = 0;
+    uint8_t status;
+
+    if (ebl_cfg_set_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_SET_REQUEST_LENGTH);
+        return;
+    }
+    status =
+        transaction_set(&unit->transaction, &asked, app_access_to_stage(unit), now(unit), &detail);
+    reply_status(answer, status, detail);
+}
+
+static void validate(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_cfg_validate_request asked;
+    ebl_refusal found[REFUSALS_MAX];
+    uint16_t detail = 0;
+    uint8_t status;
+
+    if (ebl_cfg_validate_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_VALIDATE_REQUEST_LENGTH);
+        return;
+    }
+    status = transaction_validate(&unit->transaction, asked.transaction, now(unit), found,
+                                  REFUSALS_MAX, &detail);
+    if (status == EBL_STATUS_INVALID_CONFIG) {
+        reply_refusals(answer, found, detail);
+    } else {
+        reply_status(answer, status, detail);
+    }
+}
+
+static void staged_crc(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_cfg_staged_crc_request asked;
+    ebl_cfg_staged_crc_response response;
+    uint16_t detail = 0;
+    uint8_t status;
+    size_t length = 0;
+    int put;
+
+    if (ebl_cfg_staged_crc_request_get(&asked, request->payload, request->payload_length) !=
+        EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_STAGED_CRC_REQUEST_LENGTH);
+        return;
+    }
+    status = transaction_staged_crc(&unit->transaction, asked.transaction, now(unit),
+                                    &response.crc32, &detail);
+    if (status != EBL_STATUS_OK) {
+        reply_refuse(answer, status, detail);
+        return;
+    }
+    put = ebl_cfg_staged_crc_response_put(&response, reply_fields(answer), reply_capacity(answer),
+                                          &length);
+    reply_with(answer, put, length);
+}
+
+/* A new generation is active, and a token was good for one; a defaulted unit is well again. */
+static void committed(app *unit, uint8_t confirm_s)
+{
+    app_lock(unit);
+    if (unit->store.on_trial) {
+        trial_begin(&unit->trial, confirm_s, now(unit));
+        unit->live.active = 0;
+        app_config_apply(unit);
+        event_config_provisional(&unit->events, &unit->link, now(unit), unit->store.generation,
+                                 unit->store.crc32, confirm_s);
+        return;
+    }
+    app_config_changed(unit, EBL_EVENT_CONFIG_COMMITTED);
+    app_config_well(unit);
+}
+
+/* Only for what could be committed otherwise: the rest is the transaction's to refuse. */
+static uint8_t commit_access(app *unit, const ebl_cfg_commit_request *asked, uint16_t *detail)
+{
+    uint32_t crc32;
+    uint8_t status =
+        transaction_staged_crc(&unit->transaction, asked->transaction, now(unit), &crc32, detail);
+
+    if (status != EBL_STATUS_OK || unit->transaction.state != EBL_CONFIG_STATE_VALID) {
+        return EBL_STATUS_OK;
+    }
+    if (crc32 != asked->staged_crc32) return EBL_STATUS_OK;
+    return app_access_check(unit, unit->transaction.image, detail);
+}
+
+static void commit(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_cfg_commit_request asked;
+    ebl_cfg_commit_response response;
+    uint32_t generation_before = unit->store.generation;
+    uint16_t detail = 0;
+    uint8_t status;
+    size_t length = 0;
+    int put;
+
+    if (ebl_cfg_commit_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_COMMIT_REQUEST_LENGTH);
+        return;
+    }
+    status = commit_access(unit, &asked, &detail);
+    if (status == EBL_STATUS_OK) {
+        status =
+            transaction_commit(&unit->transaction, &unit->store, unit->board, app_speed_kmh(unit),
+                               &asked, now(unit), unit->counters.operating_s, &detail);
+    }
+    if (status != EBL_STATUS_OK) {
+        reply_refuse(answer, status, detail);
+        return;
+    }
+    if (unit->store.generation != generation_before) committed(unit, asked.confirm_s);
+    response.generation = unit->store.generation;
+    response.crc32 = unit->store.crc32;
+    response.state = unit->store.on_trial ? EBL_CONFIG_STATE_PROVISIONAL : unit->transaction.state;
+    put = ebl_cfg_commit_response_put(&response, reply_fields(answer), reply_capacity(answer),
+                                      &length);
+    reply_with(answer, put, length);
+}
+
+static void abort_transaction(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_cfg_abort_request asked;
+    uint16_t detail = 0;
+    uint8_t status;
+
+    if (ebl_cfg_abort_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_ABORT_REQUEST_LENGTH);
+        return;
+    }
+    status = transaction_abort(&unit->transaction, asked.transaction, now(unit), &detail);
+    reply_status(answer, status, detail);
+}
+
+request_handler requests_config(uint16_t message_id)
+{
+    switch (message_id) {
+    case EBL_MSG_CFG_INFO: return info;
+    case EBL_MSG_CFG_READ: return read_bank;
+    case EBL_MSG_CFG_BEGIN: return begin;
+    case EBL_MSG_CFG_SET: return set;
+    case EBL_MSG_CFG_VALIDATE: return validate;
+    case EBL_MSG_CFG_STAGED_CRC: return staged_crc;
+    case EBL_MSG_CFG_COMMIT: return commit;
+    case EBL_MSG_CFG_ABORT: return abort_transaction;
+    default: return NULL;
+    }
+}

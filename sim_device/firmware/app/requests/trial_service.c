@@ -1,0 +1,162 @@
+/* What the host asks about a configuration that is tried: on trial, or live. */
+#include <string.h>
+
+#include "config/wear.h"       // config_wear_wait_s
+#include "dispatch.h"          // reply_ok, reply_with
+#include "ebl_bytes.h"         // EBL_OK
+#include "ebl_registry.h"      // ebl_cfg_confirm_request_get
+#include "config/parameters.h" // parameters_get
+
+static uint64_t now(const app *unit) { return unit->board->now_us(unit->board->context); }
+
+static void confirm(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_cfg_confirm_request asked;
+    int was_on_trial = unit->store.on_trial;
+    uint16_t detail = 0;
+    uint8_t status;
+
+    if (ebl_cfg_confirm_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_CONFIRM_REQUEST_LENGTH);
+        return;
+    }
+    status = trial_confirm(&unit->store, unit->board, &asked, &detail);
+    reply_status(answer, status, detail);
+    if (status != EBL_STATUS_OK || !was_on_trial) return;
+    event_config(&unit->events, &unit->link, now(unit), EBL_EVENT_CONFIG_COMMITTED,
+                 unit->store.generation, unit->store.crc32);
+    app_config_apply(unit); /* what held it back may be over */
+    app_config_well(unit);
+}
+
+static void rollback(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_cfg_rollback_response response;
+    size_t length = 0;
+    int put;
+
+    (void)request;
+    if (!unit->store.on_trial) {
+        reply_refuse(answer, EBL_STATUS_STATE, 0);
+        return;
+    }
+    trial_return(&unit->trial, &unit->store, unit->board, EBL_ROLLBACK_CAUSE_ASKED);
+    app_config_changed(unit, EBL_EVENT_CONFIG_ROLLED_BACK);
+    response.generation = unit->store.generation;
+    response.crc32 = unit->store.crc32;
+    put = ebl_cfg_rollback_response_put(&response, reply_fields(answer), reply_capacity(answer),
+                                        &length);
+    reply_with(answer, put, length);
+}
+
+static void config_status(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_cfg_status_response response;
+    size_t length = 0;
+    int put;
+
+    (void)request;
+    response.state = unit->store.on_trial ? EBL_CONFIG_STATE_PROVISIONAL : unit->transaction.state;
+    response.generation = unit->store.generation;
+    response.crc32 = unit->store.crc32;
+    response.confirm_left_ms = trial_left_ms(&unit->trial, &unit->store, now(unit));
+    response.live_left_ms = live_left_ms(&unit->live, now(unit));
+    response.commit_wait_ms = transaction_commit_wait_ms(&unit->transaction, &unit->store,
+                                                         now(unit), unit->counters.operating_s);
+    response.rollback_cause = unit->trial.cause;
+    response.rolled_back_generation = unit->trial.returned_generation;
+    put = ebl_cfg_status_response_put(&response, reply_fields(answer), reply_capacity(answer),
+                                      &length);
+    reply_with(answer, put, length);
+}
+
+static void wear(app *unit, const ebl_header *request, reply *answer)
+{
+    uint32_t operating_s = unit->counters.operating_s;
+    ebl_cfg_wear_response response = {
+        config_wear_wait_s(unit->store.worn_until_s, operating_s),
+        config_wear_writes_free(unit->store.worn_until_s, operating_s)};
+    size_t length = 0;
+    int put;
+
+    (void)request;
+    put =
+        ebl_cfg_wear_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
+    reply_with(answer, put, length);
+}
+
+static void slots(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_cfg_slots_response response;
+    size_t length = 0;
+    int put;
+
+    (void)request;
+    response.active_slot = unit->store.slot;
+    for (uint8_t i = 0; i < CONFIG_SLOTS; i++) {
+        config_slot seen;
+
+        config_slot_look(unit->board, i, &seen);
+        response.states[i] = seen.state;
+        response.generations[i] = seen.generation;
+        response.erases[i] = seen.erases;
+    }
+    put = ebl_cfg_slots_response_put(&response, reply_fields(answer), reply_capacity(answer),
+                                     &length);
+    reply_with(answer, put, length);
+}
+
+static void param_get(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_param_get_request asked;
+    size_t length = 0;
+    uint16_t detail = 0;
+    uint8_t status;
+
+    if (ebl_param_get_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_PARAM_GET_REQUEST_LENGTH);
+        return;
+    }
+    status = parameters_get(live_image(&unit->live, &unit->store), asked.ids, asked.ids_length,
+                            reply_fields(answer), reply_capacity(answer), &length, &detail);
+    if (status != EBL_STATUS_OK) {
+        reply_refuse(answer, status, detail);
+    } else {
+        reply_with(answer, EBL_OK, length);
+    }
+}
+
+static void live_values(app *unit, const ebl_header *request, reply *answer)
+{
+    ebl_live_set_request asked;
+    ebl_refusal found[REFUSALS_MAX];
+    uint16_t detail = 0;
+    uint8_t status;
+
+    if (ebl_live_set_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
+        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LIVE_SET_REQUEST_LENGTH);
+        return;
+    }
+    status = live_set(&unit->live, &unit->store, &asked, EBL_ACCESS_DEALER, now(unit), found,
+                      REFUSALS_MAX, &detail);
+    if (status == EBL_STATUS_INVALID_CONFIG) {
+        reply_refusals(answer, found, detail);
+    } else {
+        reply_status(answer, status, detail);
+    }
+    if (status == EBL_STATUS_OK) app_config_apply(unit);
+}
+
+request_handler requests_trial(uint16_t message_id)
+{
+    switch (message_id) {
+    case EBL_MSG_CFG_CONFIRM: return confirm;
+    case EBL_MSG_CFG_ROLLBACK: return rollback;
+    case EBL_MSG_CFG_STATUS: return config_status;
+    case EBL_MSG_CFG_WEAR: return wear;
+    case EBL_MSG_CFG_SLOTS: return slots;
+    case EBL_MSG_PARAM_GET: return param_get;
+    case EBL_MSG_LIVE_SET: return live_values;
+    default: return NULL;
+    }
+}
