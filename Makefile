@@ -78,8 +78,9 @@ fix: $(STAMP)/python ## format, and mend what the linters can
 	.ci/lint-c --fix
 
 .PHONY: gen
-gen: $(STAMP)/native $(STAMP)/web-modules ## regenerate everything that comes from the registry and the API
+gen: $(STAMP)/python $(STAMP)/web-modules ## regenerate everything that comes from the registry and the API
 	$(BIN)/python -m firmware_protocol.generate
+	@$(MAKE) --no-print-directory $(STAMP)/native
 	cd frontend && npm run --silent gen
 
 .PHONY: bench

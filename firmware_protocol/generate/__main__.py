@@ -4,17 +4,30 @@ import argparse
 import sys
 from pathlib import Path
 
-from firmware_protocol.generate import a2l, c_header, c_source, python, spec, typescript, wireshark
+from firmware_protocol.generate import (
+    a2l,
+    c_header,
+    c_source,
+    python,
+    released,
+    spec,
+    typescript,
+    vectors,
+    wireshark,
+)
 from firmware_protocol.generate.registry import load
 from firmware_protocol.generate.schema import compress, schema_hash
+from firmware_protocol.generate.tables import BadRegistry
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
 def outputs(root: Path) -> dict[Path, str]:
-    """Every generated file under `root` with the text it must have."""
+    """Every generated file under `root` with the text it must have. Raises BadRegistry."""
     folder = root / "firmware_protocol"
     registry = load(folder / "registry.toml")
+    release = released.read(folder / "released.json")
+    released.check(release, registry)
     schema_file = folder / "c" / "ebl_schema.c"
     committed = schema_file.read_text(encoding="utf-8") if schema_file.exists() else ""
     compressed = compress(registry.schema, committed)
@@ -31,16 +44,17 @@ def outputs(root: Path) -> dict[Path, str]:
         folder / "wireshark" / "ebl.lua": wireshark.dissector(registry, logic),
         folder / "a2l" / "ebl.a2l": a2l.description(registry, digest),
         spec_file: spec.filled(spec_file.read_text(encoding="utf-8"), registry),
+        **vectors.files(registry, folder / "vectors", released.new_names(release, registry)),
     }
 
 
 def stale(root: Path) -> list[Path]:
     """The generated files under `root` that are missing or differ from the registry."""
-    return [
-        path
-        for path, text in outputs(root).items()
-        if not path.exists() or path.read_text(encoding="utf-8") != text
-    ]
+    return [path for path, text in outputs(root).items() if _differs(path, text)]
+
+
+def _differs(path: Path, text: str) -> bool:
+    return not path.exists() or path.read_text(encoding="utf-8") != text
 
 
 def main(arguments: list[str]) -> int:
@@ -48,8 +62,12 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="firmware_protocol.generate", description=__doc__)
     parser.add_argument("--check", action="store_true", help="write nothing, fail on a difference")
     check = parser.parse_args(arguments).check
-    texts = outputs(ROOT)
-    changed = stale(ROOT)
+    try:
+        texts = outputs(ROOT)
+    except BadRegistry as refused:
+        sys.stderr.write(f"firmware_protocol/registry.toml: {refused}\n")
+        return 1
+    changed = [path for path, text in texts.items() if _differs(path, text)]
     for path in changed:
         sys.stdout.write(f"{'stale' if check else 'wrote'} {path.relative_to(ROOT)}\n")
         if not check:

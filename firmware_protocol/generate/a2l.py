@@ -3,7 +3,8 @@
 Two pieces of memory are described, neither of which is a processor's: see `ABOUT`.
 """
 
-from firmware_protocol.generate.registry import NOTICE, Registry, Table
+from firmware_protocol.generate.registry import NOTICE, Registry
+from firmware_protocol.generate.tables import Table
 from firmware_protocol.layout import HALF_BITS, Channel, Parameter
 
 LIVE_ROW = 0x10000

@@ -1,6 +1,7 @@
 """How registry names are spelled in C, and the pieces the C targets share."""
 
-from firmware_protocol.generate.registry import NOTICE, SIZES, Layout, Registry, Table
+from firmware_protocol.generate.registry import NOTICE, Layout, Registry
+from firmware_protocol.generate.tables import SIZES, Table
 from firmware_protocol.layout import Field, Parameter
 
 FIRST_LINE = f"/* {NOTICE} */"

@@ -1,6 +1,7 @@
 """_generated.py: IntEnums, message classes and the tables, as plain typed Python."""
 
-from firmware_protocol.generate.registry import NOTICE, Layout, Registry, Table
+from firmware_protocol.generate.registry import NOTICE, Layout, Registry
+from firmware_protocol.generate.tables import Table
 from firmware_protocol.layout import Band, Channel, Fault, Field, Parameter
 
 FIRST_LINE = f'"""{NOTICE}"""'

@@ -2,17 +2,17 @@
 
 import json
 import re
-import struct
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from firmware_protocol.generate.parameter_rows import parameters
+from firmware_protocol.generate.tables import SIZES, BadRegistry, Table
 from firmware_protocol.layout import (
     STRUCT_CODES,
     Band,
     Channel,
-    Default,
     Fault,
     Field,
     Order,
@@ -28,24 +28,6 @@ PROSE = ("doc", "rider_text", "mechanic_text")
 
 FAULT_BITS = (*range(15), *range(16, 31))
 """Bits 15 and 31 would be the sign of the channel that carries them."""
-
-MAKERS_RECORDS = ("MARKET", "FACTORY")
-"""Records of parameters that nobody changes without a token of the maker."""
-
-SIZES = {name: struct.calcsize("<" + code) for name, code in STRUCT_CODES.items()}
-
-
-class BadRegistry(ValueError):
-    """registry.toml breaks one of its own rules; the message names the row."""
-
-
-@dataclass(frozen=True)
-class Table:
-    """An enumeration, or flags whose values are bit numbers."""
-
-    name: str
-    doc: str
-    members: dict[str, int]
 
 
 @dataclass(frozen=True)
@@ -131,7 +113,7 @@ def load(path: Path) -> Registry:
             for row in raw["message"]
         ),
         events=tuple((name, _layout(rows, name)) for name, rows in raw["event_fields"].items()),
-        parameters=_parameters(raw["parameter"], enums),
+        parameters=parameters(raw["parameter"], enums),
         orders=tuple(
             Order(row["low"], row["high"], row["violation"]) for row in raw.get("order", [])
         ),
@@ -183,54 +165,6 @@ def _high_half(owner: str, name: str, text: str, mark: list[str], before: list[F
     return Field(name, "u16", 1, low)
 
 
-def _parameters(rows: list[dict[str, Any]], enums: tuple[Table, ...]) -> tuple[Parameter, ...]:
-    access = next(table for table in enums if table.name == "access").members
-    records = next(table for table in enums if table.name == "record").members
-    parameters = []
-    offset = 0
-    for row in sorted(rows, key=lambda row: int(row["id"])):
-        enum = row.get("enum")
-        choices = next((table.members for table in enums if table.name == enum), None)
-        if enum is not None and (
-            choices is None or list(choices.values()) != [*range(len(choices))]
-        ):
-            raise BadRegistry(f"{row['name']}: enum {enum} must exist and count up from 0")
-        parameter = Parameter(
-            id=row["id"],
-            name=row["name"],
-            group=row["group"],
-            type=row["type"],
-            unit=row["unit"],
-            shape=tuple(row.get("shape", ())),
-            length=row["length"] if row["type"] == "text" else SIZES[row["type"]],
-            min=row.get("min"),
-            max=row.get("max"),
-            enum=enum,
-            increasing=row.get("increasing", False),
-            default=_tuples(row["default"]),
-            access=access[row["access"]],
-            image_offset=offset,
-            doc=row["doc"],
-            ratchet=row.get("ratchet", False),
-            least_step=row.get("least_step", 0.0),
-            record=row.get("record", "TUNABLE"),
-        )
-        if parameter.increasing != (parameter.least_step > 0):
-            raise BadRegistry(f"{parameter.name}: increasing values need a least_step, others none")
-        if parameter.record not in records:
-            raise BadRegistry(f"{parameter.name}: a record is one of {', '.join(records)}")
-        if (parameter.record in MAKERS_RECORDS) != (parameter.access == access["FACTORY"]):
-            raise BadRegistry(f"{parameter.name}: what the maker keeps, only the maker changes")
-        if parameter.ratchet and (parameter.type == "text" or enum is not None):
-            raise BadRegistry(f"{parameter.name}: only numbers can be a ratchet")
-        limits = [limit is not None for limit in (parameter.min, parameter.max)]
-        if limits != [parameter.type != "text" and enum is None] * 2:
-            raise BadRegistry(f"{parameter.name}: numbers need min and max, others have none")
-        offset += parameter.size
-        parameters.append(parameter)
-    return tuple(parameters)
-
-
 def _band(row: dict[str, Any]) -> Band:
     within_pct, within = row.get("within_pct"), row.get("within")
     if (within_pct is None) == (within is None):
@@ -261,13 +195,6 @@ def _faults(
         )
         for row in sorted(rows, key=lambda row: bits[row["flag"]])
     )
-
-
-def _tuples(value: Any) -> Default:
-    if isinstance(value, list):
-        return tuple(_tuples(item) for item in value)
-    result: Default = value
-    return result
 
 
 def _without_prose(value: Any) -> Any:

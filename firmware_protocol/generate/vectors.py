@@ -1,47 +1,56 @@
-"""`python -m firmware_protocol.generate.vectors`: writes the golden vectors, all but seed.json.
+"""The golden vectors, all but seed.json, which was written by hand.
 
-They are written when the registry grows and then stay: a case that is in a file already is kept as
-it stands, so that a changed wire shows as a test that fails. `make gen` never touches them.
+A case of something that was released stays as it stands in its file, so that a changed wire shows
+as a test that fails. What came after the release follows the registry.
 """
 
 import json
-import sys
+import re
 from pathlib import Path
 from typing import Any
 
 from firmware_protocol.generate import vector_frames, vector_images, vector_messages
-from firmware_protocol.generate.registry import load
+from firmware_protocol.generate.registry import Registry
 
-FOLDER = Path(__file__).resolve().parents[1]
+Cases = list[dict[str, Any]]
 
 
-def files() -> dict[str, str]:
-    """The text of every vector file by its name, one case to a line."""
-    registry = load(FOLDER / "registry.toml")
-    sets: dict[str, list[Any]] = {
+def files(registry: Registry, folder: Path, new_names: frozenset[str]) -> dict[Path, str]:
+    """The text of every vector file in `folder`, one case to a line.
+
+    new_names: parameters, messages and events that are in no release.
+    """
+    sets: dict[str, Cases] = {
         "messages.json": vector_messages.cases(registry),
         "framing.json": vector_frames.framing_cases(),
         "damage.json": vector_frames.damage_cases(int(registry.protocol["mtu"])),
         "verdicts.json": vector_frames.verdict_cases(registry),
         "images.json": vector_images.cases(registry),
     }
-    return {name: _text(grown(FOLDER / "vectors" / name, cases)) for name, cases in sets.items()}
+    return {
+        folder / name: _text(grown(_written(folder / name), cases, new_names))
+        for name, cases in sets.items()
+    }
 
 
-def grown(path: Path, cases: list[Any]) -> list[Any]:
-    """The cases with those of the file at `path` kept to the byte, in their place."""
-    old = json.loads(path.read_text(encoding="utf-8"))["cases"] if path.exists() else []
-    names = {case["name"] for case in cases}
-    kept = [case for case in old if case["name"] in names]
+def grown(written: Cases, cases: Cases, new_names: frozenset[str]) -> Cases:
+    """The written cases in their order, those of `new_names` as in `cases`, then the rest."""
+    wanted = {case["name"]: case for case in cases}
+    kept = [
+        wanted[case["name"]] if new_names.intersection(re.findall(r"\w+", case["name"])) else case
+        for case in written
+        if case["name"] in wanted
+    ]
     known = {case["name"] for case in kept}
     return kept + [case for case in cases if case["name"] not in known]
 
 
-def _text(cases: list[Any]) -> str:
+def _written(path: Path) -> Cases:
+    if not path.exists():
+        return []
+    found: Cases = json.loads(path.read_text(encoding="utf-8"))["cases"]
+    return found
+
+
+def _text(cases: Cases) -> str:
     return '{"cases": [\n' + ",\n".join(json.dumps(case) for case in cases) + "\n]}\n"
-
-
-if __name__ == "__main__":
-    for name, text in files().items():
-        (FOLDER / "vectors" / name).write_text(text, encoding="utf-8", newline="\n")
-        sys.stdout.write(f"wrote {name}\n")
