@@ -1,15 +1,51 @@
 // House rules a tool can hold. The zones: shared -> features -> app; no feature knows a feature;
-// fetch and WebSocket live in shared only.
+// a folder of shared knows those of SHARED only; fetch and WebSocket live in shared only.
 import js from '@eslint/js'
 import svelte from 'eslint-plugin-svelte'
 import globals from 'globals'
+import { readdirSync } from 'node:fs'
 import ts from 'typescript-eslint'
 import svelteConfig from './svelte.config.js'
+
+// Each folder of src/shared with the folders it may import. It names only folders above it, so that
+// there is no circle.
+const SHARED = {
+  api: [],
+  stream: [],
+  ui: [],
+  i18n: ['api'],
+  units: ['i18n'],
+  context: ['api', 'i18n', 'ui', 'units'],
+  charts: ['context', 'i18n', 'stream', 'ui'],
+  device: ['api', 'context', 'i18n', 'stream', 'ui', 'units'],
+  config: ['api', 'context', 'device', 'i18n', 'ui', 'units'],
+}
 
 const zone = (message, ...regexes) => [
   'error',
   { patterns: regexes.map((regex) => ({ regex, message })) },
 ]
+
+/** One zone for each folder of src/shared; throws where SHARED is not what is there. */
+function sharedFolders() {
+  const entries = Object.entries(SHARED)
+  const folders = readdirSync(new URL('src/shared', import.meta.url)).sort()
+  if (folders.join() !== Object.keys(SHARED).sort().join()) {
+    throw new Error(`src/shared holds ${folders}: SHARED in eslint.config.js names others`)
+  }
+  return entries.map(([folder, known], i) => {
+    const later = known.find((name) => entries.findIndex(([other]) => other === name) >= i)
+    if (later) throw new Error(`SHARED: ${folder} may not know ${later}, which stands below it`)
+    const may = known.join(', ') || 'no other folder'
+    const outside = `^(\\.\\./|\\$shared/)(?!(${known.join('|') || '-'})/)`
+    return {
+      files: [`src/shared/${folder}/**`],
+      rules: {
+        'no-restricted-imports': zone(`of shared, ${folder} knows ${may}`, outside),
+      },
+    }
+  })
+}
 
 export default ts.config(
   { ignores: ['dist/', 'node_modules/', 'src/generated/'] },
@@ -35,12 +71,7 @@ export default ts.config(
   },
   { files: ['scripts/*.mjs'], rules: { 'no-console': 'off' } },
   { files: ['**/*.test.{ts,mjs}'], rules: { 'max-lines-per-function': 'off' } },
-  {
-    files: ['src/shared/**'],
-    rules: {
-      'no-restricted-imports': zone('shared knows neither features nor app', '/(features|app)/'),
-    },
-  },
+  sharedFolders(),
   {
     files: ['src/features/**'],
     rules: {

@@ -1,7 +1,7 @@
 // Composition root: builds everything once and mounts the application.
 import { openHttp } from '$shared/api/client'
 import { Server } from '$shared/api/server'
-import { Drafts } from '$shared/config/config_draft.svelte'
+import { Drafts } from '$shared/config/drafts'
 import type { Desk } from '$shared/context/desk'
 import { DeviceWatch } from '$shared/context/device_watch.svelte'
 import { HealthWatch } from '$shared/context/health_watch.svelte'
@@ -30,7 +30,6 @@ const desk: Desk = {
   server,
   devices,
   health,
-  drafts: new Drafts(server),
   locale,
   units: new Units(locale, chosen.units),
   theme,
@@ -43,4 +42,4 @@ devices.start()
 health.start()
 
 const target = document.getElementById('app')
-if (target) mount(App, { target, props: { desk, router } })
+if (target) mount(App, { target, props: { desk, drafts: new Drafts(server), router } })

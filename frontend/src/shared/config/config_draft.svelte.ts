@@ -175,18 +175,6 @@ export class ConfigDraft {
   }
 }
 
-/** Drafts by unit and page, so that each page edits and writes its own. */
-export class Drafts {
-  private readonly byKey: Record<string, ConfigDraft> = {}
-
-  constructor(private readonly server: Server) {}
-
-  of(device_id: string, page: string): ConfigDraft {
-    const key = `${device_id}\n${page}`
-    return (this.byKey[key] ??= new ConfigDraft(device_id, this.server))
-  }
-}
-
 function differingNames(a: Edits, b: Edits): string[] {
   return Object.keys({ ...a, ...b }).filter((name) => !same(a[name], b[name]))
 }

@@ -4,7 +4,8 @@ import { describe, expect, it } from 'vitest'
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
 import type { Parameter, ParameterValue } from '../api/types'
-import { ConfigDraft, Drafts } from './config_draft.svelte'
+import { ConfigDraft } from './config_draft.svelte'
+import { Drafts } from './drafts'
 
 const parameter = (name: string): Parameter => ({
   id: 1,

@@ -1,7 +1,6 @@
 // What every page may use, made once by app/main.ts and handed down through Svelte's context.
 import { getContext, setContext } from 'svelte'
 import type { Server } from '../api/server'
-import type { Drafts } from '../config/config_draft.svelte'
 import type { Locale } from '../i18n/locale.svelte'
 import type { Foot } from '../ui/foot.svelte'
 import type { Theme } from '../ui/theme.svelte'
@@ -14,7 +13,6 @@ export interface Desk {
   server: Server
   devices: DeviceWatch
   health: HealthWatch
-  drafts: Drafts
   locale: Locale
   units: Units
   theme: Theme
