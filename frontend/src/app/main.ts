@@ -2,7 +2,7 @@
 import { openHttp } from '$shared/api/client'
 import { Server } from '$shared/api/server'
 import { Drafts } from '$shared/config/drafts'
-import type { Desk } from '$shared/context/desk'
+import type { AppContext } from '$shared/context/app_context'
 import { DeviceWatch } from '$shared/context/device_watch.svelte'
 import { HealthWatch } from '$shared/context/health_watch.svelte'
 import { Locale } from '$shared/i18n/locale.svelte'
@@ -26,7 +26,7 @@ await locale.speak(chosen.language).catch(() => undefined)
 const router = new Router()
 const devices = new DeviceWatch(server, chosen.device_id)
 const health = new HealthWatch(server)
-const desk: Desk = {
+const context: AppContext = {
   server,
   devices,
   health,
@@ -42,4 +42,4 @@ devices.start()
 health.start()
 
 const target = document.getElementById('app')
-if (target) mount(App, { target, props: { desk, drafts: new Drafts(server), router } })
+if (target) mount(App, { target, props: { context, drafts: new Drafts(server), router } })

@@ -2,15 +2,15 @@
    is a dash with its reason, never a zero. */
 import type { Server } from '$shared/api/server'
 import type { Dashboard } from '$shared/api/types'
-import type { Desk } from '$shared/context/desk'
+import type { AppContext } from '$shared/context/app_context'
 import { Locale } from '$shared/i18n/locale.svelte'
 import { Units } from '$shared/units/units.svelte'
 import { mount, unmount } from 'svelte'
 import { afterEach, expect, it, vi } from 'vitest'
 import RiderRow from './RiderRow.svelte'
 
-const desk = vi.hoisted(() => ({ now: null as unknown }))
-vi.mock('$shared/context/desk', () => ({ useDesk: () => desk.now }))
+const context = vi.hoisted(() => ({ now: null as unknown }))
+vi.mock('$shared/context/app_context', () => ({ useAppContext: () => context.now }))
 
 const told: Dashboard = {
   t_us: 5_000_000,
@@ -29,7 +29,7 @@ let shown: ReturnType<typeof mount> | null = null
 async function show(dashboard: Server['dashboard'], stale = false) {
   const locale = new Locale()
   const units = new Units(locale, 'metric')
-  desk.now = { locale, units, server: { dashboard } } as Partial<Omit<Desk, 'server'>>
+  context.now = { locale, units, server: { dashboard } } as Partial<Omit<AppContext, 'server'>>
   document.body.innerHTML = ''
   shown = mount(RiderRow, { target: document.body, props: { id: 'a', stale } })
   const row = () => document.querySelector<HTMLElement>('[data-testid=rider-row]')

@@ -1,5 +1,5 @@
 // What every page may use, made once by app/main.ts and handed down through Svelte's context.
-import { getContext, setContext } from 'svelte'
+import { createContext } from 'svelte'
 import type { Server } from '../api/server'
 import type { Locale } from '../i18n/locale.svelte'
 import type { Foot } from '../ui/foot.svelte'
@@ -9,7 +9,7 @@ import type { Units } from '../units/units.svelte'
 import type { DeviceWatch } from './device_watch.svelte'
 import type { HealthWatch } from './health_watch.svelte'
 
-export interface Desk {
+export interface AppContext {
   server: Server
   devices: DeviceWatch
   health: HealthWatch
@@ -22,12 +22,4 @@ export interface Desk {
   go: (path: string) => void
 }
 
-const KEY = Symbol('desk')
-
-export function provideDesk(desk: Desk): void {
-  setContext(KEY, desk)
-}
-
-export function useDesk(): Desk {
-  return getContext<Desk>(KEY)
-}
+export const [useAppContext, provideAppContext] = createContext<AppContext>()
