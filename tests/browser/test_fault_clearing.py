@@ -159,7 +159,7 @@ def test_a_fault_that_comes_is_told_once_and_one_that_goes_by_itself_too(
         """() => {
         window.told = []
         new MutationObserver(() => {
-            for (const node of document.querySelectorAll('[data-testid=fault-told]')) {
+            for (const node of document.querySelectorAll('[data-testid=fault-announced]')) {
                 if (window.told.at(-1) !== node.textContent) window.told.push(node.textContent)
             }
         }).observe(document.body, { subtree: true, childList: true, characterData: true })

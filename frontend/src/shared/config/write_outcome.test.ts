@@ -14,12 +14,12 @@ it('does not know what became of a change whose last answer is missing', () => {
 })
 
 it('believes the server where it asked the unit again', () => {
-  const told = (outcome: Refusal['outcome']) =>
+  const outcomeOf = (outcome: Refusal['outcome']) =>
     writeOutcome(new Refusal(504, 'commit_unanswered', '', [], null, outcome))
 
-  expect(told('changed')).toBe('changed')
-  expect(told('unchanged')).toBe('silent')
-  expect(told('unknown')).toBe('unknown')
+  expect(outcomeOf('changed')).toBe('changed')
+  expect(outcomeOf('unchanged')).toBe('silent')
+  expect(outcomeOf('unknown')).toBe('unknown')
 })
 
 it('tells a silent unit from one that refuses', () => {

@@ -34,7 +34,7 @@ export function riderText(locale: Locale, name: string): string {
   return row ? locale.said('fault', name, row.rider_text) : locale.t('faults.newer_text')
 }
 
-/** bad: the motor gives nothing. warn: told only. null: no fault. */
+/** bad: the motor gives nothing. warn: warnings only. null: no fault. */
 export function faultTone(device: Device | null): 'bad' | 'warn' | null {
   const names = device?.faults_active ?? []
   if (names.length === 0) return null
@@ -44,7 +44,7 @@ export function faultTone(device: Device | null): 'bad' | 'warn' | null {
 /** "1 fault", "2 faults", or of warnings alone "1 warning". */
 export function faultCount(locale: Locale, device: Device): string {
   const count = device.faults_active.length
-  const only_told = faultTone(device) === 'warn'
-  if (count === 1) return locale.t(only_told ? 'faults.warning_one' : 'faults.one')
-  return locale.t(only_told ? 'faults.warning_many' : 'faults.many', { count })
+  const only_warnings = faultTone(device) === 'warn'
+  if (count === 1) return locale.t(only_warnings ? 'faults.warning_one' : 'faults.one')
+  return locale.t(only_warnings ? 'faults.warning_many' : 'faults.many', { count })
 }

@@ -156,7 +156,7 @@ export const enUnit = {
   'counter.stream_frames_foreign': 'Foreign stream frames',
   'counter.stream_frames_repeated': 'Repeated stream frames',
   'counter.unit_events': 'Events of the unit',
-  'counter.unit_events_again': 'Events told again',
+  'counter.unit_events_again': 'Repeated events',
   'counter.bits_per_second': 'Line rate (bit/s)',
   'counter.unit_frames_built': 'Frames the unit built',
   'counter.unit_frames_dropped': 'Frames the unit dropped',

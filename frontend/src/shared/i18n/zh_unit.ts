@@ -158,7 +158,7 @@ export const zhUnit: Record<keyof typeof enUnit, string> = {
   'counter.stream_frames_foreign': '外来流帧',
   'counter.stream_frames_repeated': '重复流帧',
   'counter.unit_events': '单元事件',
-  'counter.unit_events_again': '重复告知的事件',
+  'counter.unit_events_again': '重复收到的事件',
   'counter.bits_per_second': '线路速率 (bit/s)',
   'counter.unit_frames_built': '单元生成帧',
   'counter.unit_frames_dropped': '单元丢弃帧',
