@@ -1,8 +1,8 @@
-// Which units there are and how their links stand, asked once a second while the page is seen.
+// Which units there are and how their links stand, asked once a second while the page is visible.
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
 import type { Device } from '../api/types'
-import { WhileSeen } from './while_seen'
+import { PollWhileVisible } from './poll_while_visible'
 
 const PERIOD_MS = 1000
 
@@ -14,7 +14,7 @@ export class DeviceWatch {
   now_ms = $state(Date.now())
   current = $derived(this.items.find((d) => d.id === this.chosen_id) ?? this.items[0] ?? null)
   private seen_ms = $state.raw<Record<string, number>>({})
-  private readonly asking = new WhileSeen(() => this.refresh(), PERIOD_MS)
+  private readonly polling = new PollWhileVisible(() => this.refresh(), PERIOD_MS)
 
   constructor(
     private readonly server: Server,
@@ -24,11 +24,11 @@ export class DeviceWatch {
   }
 
   start(): void {
-    this.asking.start()
+    this.polling.start()
   }
 
   stop(): void {
-    this.asking.stop()
+    this.polling.stop()
   }
 
   /** Whether the current unit answers and may be written to. */

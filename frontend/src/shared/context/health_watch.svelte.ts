@@ -1,24 +1,24 @@
-// Whether everything that is to be kept is kept, asked every few seconds while the page is seen.
+// Whether everything that is to be kept is kept, asked every few seconds while the page is visible.
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
 import type { Health, RecorderHealth } from '../api/types'
-import { WhileSeen } from './while_seen'
+import { PollWhileVisible } from './poll_while_visible'
 
 const PERIOD_MS = 5000
 
 export class HealthWatch {
   /** The server's last word; null until it came, and while the server does not answer. */
   now = $state.raw<Health | null>(null)
-  private readonly asking = new WhileSeen(() => this.refresh(), PERIOD_MS)
+  private readonly polling = new PollWhileVisible(() => this.refresh(), PERIOD_MS)
 
   constructor(private readonly server: Server) {}
 
   start(): void {
-    this.asking.start()
+    this.polling.start()
   }
 
   stop(): void {
-    this.asking.stop()
+    this.polling.stop()
   }
 
   /** What became of a unit's rows since the server started; null while nobody knows. */

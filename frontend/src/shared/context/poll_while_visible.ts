@@ -1,5 +1,5 @@
-// Does something again and again while the page is seen, and at once when it is seen again.
-export class WhileSeen {
+// Polls while the page is visible, and at once when it becomes visible again.
+export class PollWhileVisible {
   private timer: ReturnType<typeof setTimeout> | null = null
   private stopped = false
 
