@@ -1,4 +1,13 @@
-// English names of what the drive unit speaks of: parameters, channels, flags, counters.
+// English names of what the drive unit speaks of: parameters, channels, flags, counters. The type
+// check says here which name of the registry is missing, and in zh_unit.ts which translation.
+import type { ChannelName, FaultName, FLAGS, ParameterName } from '$generated/registry'
+
+type OfTheRegistry =
+  | `parameter.${ParameterName}`
+  | `channel.${ChannelName}`
+  | `fault_flag.${FaultName}`
+  | `limit.${keyof typeof FLAGS.limit_flags}`
+
 export const enUnit = {
   'parameter.sensor_offset_counts': 'Sensor offset',
   'parameter.sensor_gain_nm_per_count': 'Sensor gain',
@@ -78,18 +87,26 @@ export const enUnit = {
 
   'channel.speed_kmh': 'Speed',
   'channel.cadence_rpm': 'Cadence',
+  'channel.crank_angle_deg': 'Crank angle',
   'channel.rider_torque_nm': 'Rider torque',
   'channel.rider_torque_raw': 'Raw reading',
   'channel.rider_torque_filtered_nm': 'Rider torque over the stroke',
   'channel.torque_rate': 'Torque rate',
   'channel.motor_torque_nm': 'Motor torque at the shaft',
   'channel.motor_torque_crank_nm': 'Motor torque at the crank',
+  'channel.motor_current_a': 'Motor current',
+  'channel.motor_speed_rpm': 'Motor speed',
   'channel.battery_current_a': 'Battery current',
   'channel.battery_voltage_v': 'Battery voltage',
   'channel.battery_soc_pct': 'Battery charge',
   'channel.assist_ratio': 'Assist ratio',
   'channel.fuzzy_gain': 'Gain',
+  'channel.assist_mode': 'Assist mode',
+  'channel.limit_flags': 'Limits at work',
+  'channel.motor_temperature_degc': 'Motor temperature',
   'channel.sensor_temperature_degc': 'Sensor temperature',
+  'channel.fault_flags': 'Faults',
+  'channel.fault_flags_high': 'Faults, bits 16 up',
   'channel.rider_power_w': 'rider',
   'channel.motor_power_w': 'motor',
   'channel.heart_rate_bpm': 'Heart rate',
@@ -163,4 +180,4 @@ export const enUnit = {
   'counter.connections': 'Connections',
   'counter.events_dropped': 'Events dropped',
   'counter.round_trip_ms': 'Round trip (ms)',
-}
+} satisfies Record<OfTheRegistry, string> & Record<string, string>
