@@ -4,6 +4,7 @@
 #ifndef SPINDLE_EBL_BYTES_H
 #define SPINDLE_EBL_BYTES_H
 
+#include <stddef.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -89,6 +90,20 @@ static inline void ebl_put_f32(uint8_t *bytes, float value)
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
     ebl_put_u32(bytes, bits);
+}
+
+/* Numbers of `size` bytes each, `length` bytes in all, to or from their little-endian bytes: the
+ * same either way. */
+static inline void ebl_copy_numbers(uint8_t *to, const uint8_t *from, size_t size, size_t length)
+{
+    const uint16_t one = 1;
+    uint8_t first;
+
+    memcpy(&first, &one, sizeof first);
+    const size_t flip = first == 1 ? 0 : size - 1; /* a processor that is big-endian */
+    for (size_t at = 0; at < length; at++) {
+        to[at] = from[at ^ flip];
+    }
 }
 
 #endif

@@ -549,9 +549,8 @@ void ebl_config_default(ebl_config *config);
 void ebl_config_pack(const ebl_config *config, uint8_t *image);
 void ebl_config_unpack(ebl_config *config, const uint8_t *image);
 
-/* Messages. get: EBL_OK, or EBL_ERROR_LENGTH if a field is missing; a tail points into
- * `bytes`. put: EBL_OK and the length, or EBL_ERROR_SPACE. A response's bytes start
- * after the status; an event's after code and time. */
+/* Messages and their layouts, see ebl_layout.h. A response's bytes start after the
+ * status, an event's after code and time. */
 #define EBL_HELLO_REQUEST_LENGTH 14
 typedef struct {
     uint8_t major_min;
@@ -560,9 +559,7 @@ typedef struct {
     uint16_t host_mtu;
     uint8_t host_nonce[8];
 } ebl_hello_request;
-int ebl_hello_request_get(ebl_hello_request *message, const uint8_t *bytes, size_t length);
-int ebl_hello_request_put(const ebl_hello_request *message, uint8_t *bytes, size_t capacity,
-                         size_t *length);
+extern const uint8_t ebl_hello_request_layout[];
 
 #define EBL_HELLO_RESPONSE_LENGTH 75
 typedef struct {
@@ -586,18 +583,14 @@ typedef struct {
     uint32_t features;
     uint64_t uptime_us;
 } ebl_hello_response;
-int ebl_hello_response_get(ebl_hello_response *message, const uint8_t *bytes, size_t length);
-int ebl_hello_response_put(const ebl_hello_response *message, uint8_t *bytes, size_t capacity,
-                          size_t *length);
+extern const uint8_t ebl_hello_response_layout[];
 
 #define EBL_SCHEMA_READ_REQUEST_LENGTH 6
 typedef struct {
     uint32_t offset;
     uint16_t length;
 } ebl_schema_read_request;
-int ebl_schema_read_request_get(ebl_schema_read_request *message, const uint8_t *bytes, size_t length);
-int ebl_schema_read_request_put(const ebl_schema_read_request *message, uint8_t *bytes, size_t capacity,
-                               size_t *length);
+extern const uint8_t ebl_schema_read_request_layout[];
 
 #define EBL_SCHEMA_READ_RESPONSE_LENGTH 4
 typedef struct {
@@ -605,26 +598,20 @@ typedef struct {
     const uint8_t *data;
     size_t data_length;
 } ebl_schema_read_response;
-int ebl_schema_read_response_get(ebl_schema_read_response *message, const uint8_t *bytes, size_t length);
-int ebl_schema_read_response_put(const ebl_schema_read_response *message, uint8_t *bytes, size_t capacity,
-                                size_t *length);
+extern const uint8_t ebl_schema_read_response_layout[];
 
 #define EBL_SET_BAUD_REQUEST_LENGTH 4
 typedef struct {
     uint32_t bits_per_second;
 } ebl_set_baud_request;
-int ebl_set_baud_request_get(ebl_set_baud_request *message, const uint8_t *bytes, size_t length);
-int ebl_set_baud_request_put(const ebl_set_baud_request *message, uint8_t *bytes, size_t capacity,
-                            size_t *length);
+extern const uint8_t ebl_set_baud_request_layout[];
 
 #define EBL_SET_BAUD_RESPONSE_LENGTH 4
 typedef struct {
     uint16_t switch_after_ms;
     uint16_t prove_within_ms;
 } ebl_set_baud_response;
-int ebl_set_baud_response_get(ebl_set_baud_response *message, const uint8_t *bytes, size_t length);
-int ebl_set_baud_response_put(const ebl_set_baud_response *message, uint8_t *bytes, size_t capacity,
-                             size_t *length);
+extern const uint8_t ebl_set_baud_response_layout[];
 
 #define EBL_STATS_RESPONSE_LENGTH 20
 typedef struct {
@@ -634,9 +621,7 @@ typedef struct {
     uint32_t overflows;
     uint32_t dropped_tx;
 } ebl_stats_response;
-int ebl_stats_response_get(ebl_stats_response *message, const uint8_t *bytes, size_t length);
-int ebl_stats_response_put(const ebl_stats_response *message, uint8_t *bytes, size_t capacity,
-                          size_t *length);
+extern const uint8_t ebl_stats_response_layout[];
 
 #define EBL_COUNTERS_RESPONSE_LENGTH 16
 typedef struct {
@@ -645,9 +630,7 @@ typedef struct {
     uint32_t saved_distance_m;
     uint32_t saved_operating_s;
 } ebl_counters_response;
-int ebl_counters_response_get(ebl_counters_response *message, const uint8_t *bytes, size_t length);
-int ebl_counters_response_put(const ebl_counters_response *message, uint8_t *bytes, size_t capacity,
-                             size_t *length);
+extern const uint8_t ebl_counters_response_layout[];
 
 #define EBL_ALIVE_RESPONSE_LENGTH 23
 typedef struct {
@@ -658,9 +641,7 @@ typedef struct {
     uint8_t events_waiting;
     uint16_t events_pushed_out;
 } ebl_alive_response;
-int ebl_alive_response_get(ebl_alive_response *message, const uint8_t *bytes, size_t length);
-int ebl_alive_response_put(const ebl_alive_response *message, uint8_t *bytes, size_t capacity,
-                          size_t *length);
+extern const uint8_t ebl_alive_response_layout[];
 
 #define EBL_START_INFO_RESPONSE_LENGTH 9
 typedef struct {
@@ -668,9 +649,7 @@ typedef struct {
     uint8_t reset_cause;
     uint32_t steps_missed;
 } ebl_start_info_response;
-int ebl_start_info_response_get(ebl_start_info_response *message, const uint8_t *bytes, size_t length);
-int ebl_start_info_response_put(const ebl_start_info_response *message, uint8_t *bytes, size_t capacity,
-                               size_t *length);
+extern const uint8_t ebl_start_info_response_layout[];
 
 #define EBL_CFG_INFO_RESPONSE_LENGTH 11
 typedef struct {
@@ -679,9 +658,7 @@ typedef struct {
     uint16_t image_length;
     uint8_t state;
 } ebl_cfg_info_response;
-int ebl_cfg_info_response_get(ebl_cfg_info_response *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_info_response_put(const ebl_cfg_info_response *message, uint8_t *bytes, size_t capacity,
-                             size_t *length);
+extern const uint8_t ebl_cfg_info_response_layout[];
 
 #define EBL_CFG_READ_REQUEST_LENGTH 5
 typedef struct {
@@ -689,9 +666,7 @@ typedef struct {
     uint16_t offset;
     uint16_t length;
 } ebl_cfg_read_request;
-int ebl_cfg_read_request_get(ebl_cfg_read_request *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_read_request_put(const ebl_cfg_read_request *message, uint8_t *bytes, size_t capacity,
-                            size_t *length);
+extern const uint8_t ebl_cfg_read_request_layout[];
 
 #define EBL_CFG_READ_RESPONSE_LENGTH 6
 typedef struct {
@@ -700,27 +675,21 @@ typedef struct {
     const uint8_t *data;
     size_t data_length;
 } ebl_cfg_read_response;
-int ebl_cfg_read_response_get(ebl_cfg_read_response *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_read_response_put(const ebl_cfg_read_response *message, uint8_t *bytes, size_t capacity,
-                             size_t *length);
+extern const uint8_t ebl_cfg_read_response_layout[];
 
 #define EBL_PARAM_GET_REQUEST_LENGTH 0
 typedef struct {
     const uint8_t *ids;
     size_t ids_length;
 } ebl_param_get_request;
-int ebl_param_get_request_get(ebl_param_get_request *message, const uint8_t *bytes, size_t length);
-int ebl_param_get_request_put(const ebl_param_get_request *message, uint8_t *bytes, size_t capacity,
-                             size_t *length);
+extern const uint8_t ebl_param_get_request_layout[];
 
 #define EBL_PARAM_GET_RESPONSE_LENGTH 0
 typedef struct {
     const uint8_t *items;
     size_t items_length;
 } ebl_param_get_response;
-int ebl_param_get_response_get(ebl_param_get_response *message, const uint8_t *bytes, size_t length);
-int ebl_param_get_response_put(const ebl_param_get_response *message, uint8_t *bytes, size_t capacity,
-                              size_t *length);
+extern const uint8_t ebl_param_get_response_layout[];
 
 #define EBL_CFG_SLOTS_RESPONSE_LENGTH 19
 typedef struct {
@@ -729,9 +698,7 @@ typedef struct {
     uint32_t generations[2];
     uint32_t erases[2];
 } ebl_cfg_slots_response;
-int ebl_cfg_slots_response_get(ebl_cfg_slots_response *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_slots_response_put(const ebl_cfg_slots_response *message, uint8_t *bytes, size_t capacity,
-                              size_t *length);
+extern const uint8_t ebl_cfg_slots_response_layout[];
 
 #define EBL_LIVE_SET_REQUEST_LENGTH 1
 typedef struct {
@@ -739,27 +706,21 @@ typedef struct {
     const uint8_t *items;
     size_t items_length;
 } ebl_live_set_request;
-int ebl_live_set_request_get(ebl_live_set_request *message, const uint8_t *bytes, size_t length);
-int ebl_live_set_request_put(const ebl_live_set_request *message, uint8_t *bytes, size_t capacity,
-                            size_t *length);
+extern const uint8_t ebl_live_set_request_layout[];
 
 #define EBL_CFG_BEGIN_REQUEST_LENGTH 8
 typedef struct {
     uint32_t base_generation;
     uint32_t base_crc32;
 } ebl_cfg_begin_request;
-int ebl_cfg_begin_request_get(ebl_cfg_begin_request *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_begin_request_put(const ebl_cfg_begin_request *message, uint8_t *bytes, size_t capacity,
-                             size_t *length);
+extern const uint8_t ebl_cfg_begin_request_layout[];
 
 #define EBL_CFG_BEGIN_RESPONSE_LENGTH 4
 typedef struct {
     uint16_t transaction;
     uint16_t lease_ms;
 } ebl_cfg_begin_response;
-int ebl_cfg_begin_response_get(ebl_cfg_begin_response *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_begin_response_put(const ebl_cfg_begin_response *message, uint8_t *bytes, size_t capacity,
-                              size_t *length);
+extern const uint8_t ebl_cfg_begin_response_layout[];
 
 #define EBL_CFG_SET_REQUEST_LENGTH 2
 typedef struct {
@@ -767,33 +728,25 @@ typedef struct {
     const uint8_t *items;
     size_t items_length;
 } ebl_cfg_set_request;
-int ebl_cfg_set_request_get(ebl_cfg_set_request *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_set_request_put(const ebl_cfg_set_request *message, uint8_t *bytes, size_t capacity,
-                           size_t *length);
+extern const uint8_t ebl_cfg_set_request_layout[];
 
 #define EBL_CFG_VALIDATE_REQUEST_LENGTH 2
 typedef struct {
     uint16_t transaction;
 } ebl_cfg_validate_request;
-int ebl_cfg_validate_request_get(ebl_cfg_validate_request *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_validate_request_put(const ebl_cfg_validate_request *message, uint8_t *bytes, size_t capacity,
-                                size_t *length);
+extern const uint8_t ebl_cfg_validate_request_layout[];
 
 #define EBL_CFG_STAGED_CRC_REQUEST_LENGTH 2
 typedef struct {
     uint16_t transaction;
 } ebl_cfg_staged_crc_request;
-int ebl_cfg_staged_crc_request_get(ebl_cfg_staged_crc_request *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_staged_crc_request_put(const ebl_cfg_staged_crc_request *message, uint8_t *bytes, size_t capacity,
-                                  size_t *length);
+extern const uint8_t ebl_cfg_staged_crc_request_layout[];
 
 #define EBL_CFG_STAGED_CRC_RESPONSE_LENGTH 4
 typedef struct {
     uint32_t crc32;
 } ebl_cfg_staged_crc_response;
-int ebl_cfg_staged_crc_response_get(ebl_cfg_staged_crc_response *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_staged_crc_response_put(const ebl_cfg_staged_crc_response *message, uint8_t *bytes, size_t capacity,
-                                   size_t *length);
+extern const uint8_t ebl_cfg_staged_crc_response_layout[];
 
 #define EBL_CFG_COMMIT_REQUEST_LENGTH 8
 typedef struct {
@@ -802,9 +755,7 @@ typedef struct {
     uint8_t flags;
     uint8_t confirm_s;
 } ebl_cfg_commit_request;
-int ebl_cfg_commit_request_get(ebl_cfg_commit_request *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_commit_request_put(const ebl_cfg_commit_request *message, uint8_t *bytes, size_t capacity,
-                              size_t *length);
+extern const uint8_t ebl_cfg_commit_request_layout[];
 
 #define EBL_CFG_COMMIT_RESPONSE_LENGTH 9
 typedef struct {
@@ -812,35 +763,27 @@ typedef struct {
     uint32_t crc32;
     uint8_t state;
 } ebl_cfg_commit_response;
-int ebl_cfg_commit_response_get(ebl_cfg_commit_response *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_commit_response_put(const ebl_cfg_commit_response *message, uint8_t *bytes, size_t capacity,
-                               size_t *length);
+extern const uint8_t ebl_cfg_commit_response_layout[];
 
 #define EBL_CFG_CONFIRM_REQUEST_LENGTH 8
 typedef struct {
     uint32_t generation;
     uint32_t crc32;
 } ebl_cfg_confirm_request;
-int ebl_cfg_confirm_request_get(ebl_cfg_confirm_request *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_confirm_request_put(const ebl_cfg_confirm_request *message, uint8_t *bytes, size_t capacity,
-                               size_t *length);
+extern const uint8_t ebl_cfg_confirm_request_layout[];
 
 #define EBL_CFG_ROLLBACK_RESPONSE_LENGTH 8
 typedef struct {
     uint32_t generation;
     uint32_t crc32;
 } ebl_cfg_rollback_response;
-int ebl_cfg_rollback_response_get(ebl_cfg_rollback_response *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_rollback_response_put(const ebl_cfg_rollback_response *message, uint8_t *bytes, size_t capacity,
-                                 size_t *length);
+extern const uint8_t ebl_cfg_rollback_response_layout[];
 
 #define EBL_CFG_ABORT_REQUEST_LENGTH 2
 typedef struct {
     uint16_t transaction;
 } ebl_cfg_abort_request;
-int ebl_cfg_abort_request_get(ebl_cfg_abort_request *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_abort_request_put(const ebl_cfg_abort_request *message, uint8_t *bytes, size_t capacity,
-                             size_t *length);
+extern const uint8_t ebl_cfg_abort_request_layout[];
 
 #define EBL_CFG_STATUS_RESPONSE_LENGTH 24
 typedef struct {
@@ -853,18 +796,14 @@ typedef struct {
     uint8_t rollback_cause;
     uint32_t rolled_back_generation;
 } ebl_cfg_status_response;
-int ebl_cfg_status_response_get(ebl_cfg_status_response *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_status_response_put(const ebl_cfg_status_response *message, uint8_t *bytes, size_t capacity,
-                               size_t *length);
+extern const uint8_t ebl_cfg_status_response_layout[];
 
 #define EBL_CFG_WEAR_RESPONSE_LENGTH 6
 typedef struct {
     uint32_t wait_s;
     uint16_t writes_free;
 } ebl_cfg_wear_response;
-int ebl_cfg_wear_response_get(ebl_cfg_wear_response *message, const uint8_t *bytes, size_t length);
-int ebl_cfg_wear_response_put(const ebl_cfg_wear_response *message, uint8_t *bytes, size_t capacity,
-                             size_t *length);
+extern const uint8_t ebl_cfg_wear_response_layout[];
 
 #define EBL_STR_SUBSCRIBE_REQUEST_LENGTH 6
 typedef struct {
@@ -876,9 +815,7 @@ typedef struct {
     const uint8_t *channel_ids;
     size_t channel_ids_length;
 } ebl_str_subscribe_request;
-int ebl_str_subscribe_request_get(ebl_str_subscribe_request *message, const uint8_t *bytes, size_t length);
-int ebl_str_subscribe_request_put(const ebl_str_subscribe_request *message, uint8_t *bytes, size_t capacity,
-                                 size_t *length);
+extern const uint8_t ebl_str_subscribe_request_layout[];
 
 #define EBL_STR_SUBSCRIBE_RESPONSE_LENGTH 12
 typedef struct {
@@ -888,26 +825,20 @@ typedef struct {
     uint16_t start_seq;
     uint32_t bytes_per_s;
 } ebl_str_subscribe_response;
-int ebl_str_subscribe_response_get(ebl_str_subscribe_response *message, const uint8_t *bytes, size_t length);
-int ebl_str_subscribe_response_put(const ebl_str_subscribe_response *message, uint8_t *bytes, size_t capacity,
-                                  size_t *length);
+extern const uint8_t ebl_str_subscribe_response_layout[];
 
 #define EBL_STR_UNSUBSCRIBE_REQUEST_LENGTH 1
 typedef struct {
     uint8_t stream_id;
 } ebl_str_unsubscribe_request;
-int ebl_str_unsubscribe_request_get(ebl_str_unsubscribe_request *message, const uint8_t *bytes, size_t length);
-int ebl_str_unsubscribe_request_put(const ebl_str_unsubscribe_request *message, uint8_t *bytes, size_t capacity,
-                                   size_t *length);
+extern const uint8_t ebl_str_unsubscribe_request_layout[];
 
 #define EBL_STR_RENEW_REQUEST_LENGTH 2
 typedef struct {
     uint8_t stream_id;
     uint8_t lease_s;
 } ebl_str_renew_request;
-int ebl_str_renew_request_get(ebl_str_renew_request *message, const uint8_t *bytes, size_t length);
-int ebl_str_renew_request_put(const ebl_str_renew_request *message, uint8_t *bytes, size_t capacity,
-                             size_t *length);
+extern const uint8_t ebl_str_renew_request_layout[];
 
 #define EBL_STR_LIST_RESPONSE_LENGTH 4
 typedef struct {
@@ -915,18 +846,14 @@ typedef struct {
     const uint8_t *entries;
     size_t entries_length;
 } ebl_str_list_response;
-int ebl_str_list_response_get(ebl_str_list_response *message, const uint8_t *bytes, size_t length);
-int ebl_str_list_response_put(const ebl_str_list_response *message, uint8_t *bytes, size_t capacity,
-                             size_t *length);
+extern const uint8_t ebl_str_list_response_layout[];
 
 #define EBL_STR_SNAPSHOT_REQUEST_LENGTH 0
 typedef struct {
     const uint8_t *channel_ids;
     size_t channel_ids_length;
 } ebl_str_snapshot_request;
-int ebl_str_snapshot_request_get(ebl_str_snapshot_request *message, const uint8_t *bytes, size_t length);
-int ebl_str_snapshot_request_put(const ebl_str_snapshot_request *message, uint8_t *bytes, size_t capacity,
-                                size_t *length);
+extern const uint8_t ebl_str_snapshot_request_layout[];
 
 #define EBL_STR_SNAPSHOT_RESPONSE_LENGTH 8
 typedef struct {
@@ -934,34 +861,26 @@ typedef struct {
     const uint8_t *values;
     size_t values_length;
 } ebl_str_snapshot_response;
-int ebl_str_snapshot_response_get(ebl_str_snapshot_response *message, const uint8_t *bytes, size_t length);
-int ebl_str_snapshot_response_put(const ebl_str_snapshot_response *message, uint8_t *bytes, size_t capacity,
-                                 size_t *length);
+extern const uint8_t ebl_str_snapshot_response_layout[];
 
 #define EBL_EVT_ACK_REQUEST_LENGTH 2
 typedef struct {
     uint16_t seq;
 } ebl_evt_ack_request;
-int ebl_evt_ack_request_get(ebl_evt_ack_request *message, const uint8_t *bytes, size_t length);
-int ebl_evt_ack_request_put(const ebl_evt_ack_request *message, uint8_t *bytes, size_t capacity,
-                           size_t *length);
+extern const uint8_t ebl_evt_ack_request_layout[];
 
 #define EBL_EVT_FAULT_LIST_RESPONSE_LENGTH 2
 #define EBL_EVT_FAULT_LIST_RESPONSE_LENGTH_WHOLE 4 /* with the high half */
 typedef struct {
     uint32_t fault_flags;
 } ebl_evt_fault_list_response;
-int ebl_evt_fault_list_response_get(ebl_evt_fault_list_response *message, const uint8_t *bytes, size_t length);
-int ebl_evt_fault_list_response_put(const ebl_evt_fault_list_response *message, uint8_t *bytes, size_t capacity,
-                                   size_t *length);
+extern const uint8_t ebl_evt_fault_list_response_layout[];
 
 #define EBL_EVT_FAULT_FREEZE_REQUEST_LENGTH 1
 typedef struct {
     uint8_t fault_bit;
 } ebl_evt_fault_freeze_request;
-int ebl_evt_fault_freeze_request_get(ebl_evt_fault_freeze_request *message, const uint8_t *bytes, size_t length);
-int ebl_evt_fault_freeze_request_put(const ebl_evt_fault_freeze_request *message, uint8_t *bytes, size_t capacity,
-                                    size_t *length);
+extern const uint8_t ebl_evt_fault_freeze_request_layout[];
 
 #define EBL_EVT_FAULT_FREEZE_RESPONSE_LENGTH 11
 typedef struct {
@@ -971,35 +890,27 @@ typedef struct {
     const uint8_t *values;
     size_t values_length;
 } ebl_evt_fault_freeze_response;
-int ebl_evt_fault_freeze_response_get(ebl_evt_fault_freeze_response *message, const uint8_t *bytes, size_t length);
-int ebl_evt_fault_freeze_response_put(const ebl_evt_fault_freeze_response *message, uint8_t *bytes, size_t capacity,
-                                     size_t *length);
+extern const uint8_t ebl_evt_fault_freeze_response_layout[];
 
 #define EBL_EVT_FAULT_CLEAR_REQUEST_LENGTH 2
 #define EBL_EVT_FAULT_CLEAR_REQUEST_LENGTH_WHOLE 4 /* with the high half */
 typedef struct {
     uint32_t fault_flags;
 } ebl_evt_fault_clear_request;
-int ebl_evt_fault_clear_request_get(ebl_evt_fault_clear_request *message, const uint8_t *bytes, size_t length);
-int ebl_evt_fault_clear_request_put(const ebl_evt_fault_clear_request *message, uint8_t *bytes, size_t capacity,
-                                   size_t *length);
+extern const uint8_t ebl_evt_fault_clear_request_layout[];
 
 #define EBL_EVT_FAULT_CLEAR_RESPONSE_LENGTH 2
 #define EBL_EVT_FAULT_CLEAR_RESPONSE_LENGTH_WHOLE 4 /* with the high half */
 typedef struct {
     uint32_t fault_flags;
 } ebl_evt_fault_clear_response;
-int ebl_evt_fault_clear_response_get(ebl_evt_fault_clear_response *message, const uint8_t *bytes, size_t length);
-int ebl_evt_fault_clear_response_put(const ebl_evt_fault_clear_response *message, uint8_t *bytes, size_t capacity,
-                                    size_t *length);
+extern const uint8_t ebl_evt_fault_clear_response_layout[];
 
 #define EBL_TIM_SYNC_REQUEST_LENGTH 8
 typedef struct {
     uint64_t host_us;
 } ebl_tim_sync_request;
-int ebl_tim_sync_request_get(ebl_tim_sync_request *message, const uint8_t *bytes, size_t length);
-int ebl_tim_sync_request_put(const ebl_tim_sync_request *message, uint8_t *bytes, size_t capacity,
-                            size_t *length);
+extern const uint8_t ebl_tim_sync_request_layout[];
 
 #define EBL_TIM_SYNC_RESPONSE_LENGTH 32
 typedef struct {
@@ -1008,9 +919,7 @@ typedef struct {
     uint64_t answered_us;
     uint64_t unix_us;
 } ebl_tim_sync_response;
-int ebl_tim_sync_response_get(ebl_tim_sync_response *message, const uint8_t *bytes, size_t length);
-int ebl_tim_sync_response_put(const ebl_tim_sync_response *message, uint8_t *bytes, size_t capacity,
-                             size_t *length);
+extern const uint8_t ebl_tim_sync_response_layout[];
 
 #define EBL_TIM_SET_REQUEST_LENGTH 14
 typedef struct {
@@ -1018,18 +927,14 @@ typedef struct {
     int16_t utc_offset_min;
     uint32_t uncertainty_us;
 } ebl_tim_set_request;
-int ebl_tim_set_request_get(ebl_tim_set_request *message, const uint8_t *bytes, size_t length);
-int ebl_tim_set_request_put(const ebl_tim_set_request *message, uint8_t *bytes, size_t capacity,
-                           size_t *length);
+extern const uint8_t ebl_tim_set_request_layout[];
 
 #define EBL_LOG_LIST_REQUEST_LENGTH 3
 typedef struct {
     uint16_t start;
     uint8_t count;
 } ebl_log_list_request;
-int ebl_log_list_request_get(ebl_log_list_request *message, const uint8_t *bytes, size_t length);
-int ebl_log_list_request_put(const ebl_log_list_request *message, uint8_t *bytes, size_t capacity,
-                            size_t *length);
+extern const uint8_t ebl_log_list_request_layout[];
 
 #define EBL_LOG_LIST_RESPONSE_LENGTH 18
 typedef struct {
@@ -1040,9 +945,7 @@ typedef struct {
     const uint8_t *entries;
     size_t entries_length;
 } ebl_log_list_response;
-int ebl_log_list_response_get(ebl_log_list_response *message, const uint8_t *bytes, size_t length);
-int ebl_log_list_response_put(const ebl_log_list_response *message, uint8_t *bytes, size_t capacity,
-                             size_t *length);
+extern const uint8_t ebl_log_list_response_layout[];
 
 #define EBL_LOG_OPEN_REQUEST_LENGTH 14
 typedef struct {
@@ -1052,9 +955,7 @@ typedef struct {
     uint8_t window;
     uint8_t session;
 } ebl_log_open_request;
-int ebl_log_open_request_get(ebl_log_open_request *message, const uint8_t *bytes, size_t length);
-int ebl_log_open_request_put(const ebl_log_open_request *message, uint8_t *bytes, size_t capacity,
-                            size_t *length);
+extern const uint8_t ebl_log_open_request_layout[];
 
 #define EBL_LOG_OPEN_RESPONSE_LENGTH 7
 typedef struct {
@@ -1062,9 +963,7 @@ typedef struct {
     uint16_t chunk;
     uint8_t window;
 } ebl_log_open_response;
-int ebl_log_open_response_get(ebl_log_open_response *message, const uint8_t *bytes, size_t length);
-int ebl_log_open_response_put(const ebl_log_open_response *message, uint8_t *bytes, size_t capacity,
-                             size_t *length);
+extern const uint8_t ebl_log_open_response_layout[];
 
 #define EBL_LOG_ACK_REQUEST_LENGTH 13
 typedef struct {
@@ -1072,17 +971,13 @@ typedef struct {
     uint32_t base;
     uint64_t bitmap;
 } ebl_log_ack_request;
-int ebl_log_ack_request_get(ebl_log_ack_request *message, const uint8_t *bytes, size_t length);
-int ebl_log_ack_request_put(const ebl_log_ack_request *message, uint8_t *bytes, size_t capacity,
-                           size_t *length);
+extern const uint8_t ebl_log_ack_request_layout[];
 
 #define EBL_LOG_CLOSE_REQUEST_LENGTH 1
 typedef struct {
     uint8_t session;
 } ebl_log_close_request;
-int ebl_log_close_request_get(ebl_log_close_request *message, const uint8_t *bytes, size_t length);
-int ebl_log_close_request_put(const ebl_log_close_request *message, uint8_t *bytes, size_t capacity,
-                             size_t *length);
+extern const uint8_t ebl_log_close_request_layout[];
 
 #define EBL_LOG_CRC_REQUEST_LENGTH 16
 typedef struct {
@@ -1091,34 +986,26 @@ typedef struct {
     uint32_t offset;
     uint32_t length;
 } ebl_log_crc_request;
-int ebl_log_crc_request_get(ebl_log_crc_request *message, const uint8_t *bytes, size_t length);
-int ebl_log_crc_request_put(const ebl_log_crc_request *message, uint8_t *bytes, size_t capacity,
-                           size_t *length);
+extern const uint8_t ebl_log_crc_request_layout[];
 
 #define EBL_LOG_CRC_RESPONSE_LENGTH 4
 typedef struct {
     uint32_t crc32;
 } ebl_log_crc_response;
-int ebl_log_crc_response_get(ebl_log_crc_response *message, const uint8_t *bytes, size_t length);
-int ebl_log_crc_response_put(const ebl_log_crc_response *message, uint8_t *bytes, size_t capacity,
-                            size_t *length);
+extern const uint8_t ebl_log_crc_response_layout[];
 
 #define EBL_LOG_ERASE_REQUEST_LENGTH 8
 typedef struct {
     uint32_t log_id;
     uint32_t generation;
 } ebl_log_erase_request;
-int ebl_log_erase_request_get(ebl_log_erase_request *message, const uint8_t *bytes, size_t length);
-int ebl_log_erase_request_put(const ebl_log_erase_request *message, uint8_t *bytes, size_t capacity,
-                             size_t *length);
+extern const uint8_t ebl_log_erase_request_layout[];
 
 #define EBL_LOG_ERASE_RESPONSE_LENGTH 4
 typedef struct {
     uint32_t erases;
 } ebl_log_erase_response;
-int ebl_log_erase_response_get(ebl_log_erase_response *message, const uint8_t *bytes, size_t length);
-int ebl_log_erase_response_put(const ebl_log_erase_response *message, uint8_t *bytes, size_t capacity,
-                              size_t *length);
+extern const uint8_t ebl_log_erase_response_layout[];
 
 #define EBL_LOG_CONFIRM_REQUEST_LENGTH 16
 typedef struct {
@@ -1127,17 +1014,13 @@ typedef struct {
     uint32_t length;
     uint32_t crc32;
 } ebl_log_confirm_request;
-int ebl_log_confirm_request_get(ebl_log_confirm_request *message, const uint8_t *bytes, size_t length);
-int ebl_log_confirm_request_put(const ebl_log_confirm_request *message, uint8_t *bytes, size_t capacity,
-                               size_t *length);
+extern const uint8_t ebl_log_confirm_request_layout[];
 
 #define EBL_AUTH_CHALLENGE_REQUEST_LENGTH 1
 typedef struct {
     uint8_t level;
 } ebl_auth_challenge_request;
-int ebl_auth_challenge_request_get(ebl_auth_challenge_request *message, const uint8_t *bytes, size_t length);
-int ebl_auth_challenge_request_put(const ebl_auth_challenge_request *message, uint8_t *bytes, size_t capacity,
-                                  size_t *length);
+extern const uint8_t ebl_auth_challenge_request_layout[];
 
 #define EBL_AUTH_CHALLENGE_RESPONSE_LENGTH 43
 typedef struct {
@@ -1148,9 +1031,7 @@ typedef struct {
     uint16_t ttl_s;
     uint64_t expires_us;
 } ebl_auth_challenge_response;
-int ebl_auth_challenge_response_get(ebl_auth_challenge_response *message, const uint8_t *bytes, size_t length);
-int ebl_auth_challenge_response_put(const ebl_auth_challenge_response *message, uint8_t *bytes, size_t capacity,
-                                   size_t *length);
+extern const uint8_t ebl_auth_challenge_response_layout[];
 
 #define EBL_AUTH_RESPONSE_REQUEST_LENGTH 74
 typedef struct {
@@ -1158,98 +1039,76 @@ typedef struct {
     uint64_t expires_us;
     uint8_t signature[64];
 } ebl_auth_response_request;
-int ebl_auth_response_request_get(ebl_auth_response_request *message, const uint8_t *bytes, size_t length);
-int ebl_auth_response_request_put(const ebl_auth_response_request *message, uint8_t *bytes, size_t capacity,
-                                 size_t *length);
+extern const uint8_t ebl_auth_response_request_layout[];
 
 #define EBL_AUTH_RESPONSE_RESPONSE_LENGTH 1
 typedef struct {
     uint8_t level;
 } ebl_auth_response_response;
-int ebl_auth_response_response_get(ebl_auth_response_response *message, const uint8_t *bytes, size_t length);
-int ebl_auth_response_response_put(const ebl_auth_response_response *message, uint8_t *bytes, size_t capacity,
-                                  size_t *length);
+extern const uint8_t ebl_auth_response_response_layout[];
 
 #define EBL_SIM_GET_RESPONSE_LENGTH 0
 typedef struct {
     const uint8_t *text;
     size_t text_length;
 } ebl_sim_get_response;
-int ebl_sim_get_response_get(ebl_sim_get_response *message, const uint8_t *bytes, size_t length);
-int ebl_sim_get_response_put(const ebl_sim_get_response *message, uint8_t *bytes, size_t capacity,
-                            size_t *length);
+extern const uint8_t ebl_sim_get_response_layout[];
 
 #define EBL_SIM_SET_REQUEST_LENGTH 0
 typedef struct {
     const uint8_t *text;
     size_t text_length;
 } ebl_sim_set_request;
-int ebl_sim_set_request_get(ebl_sim_set_request *message, const uint8_t *bytes, size_t length);
-int ebl_sim_set_request_put(const ebl_sim_set_request *message, uint8_t *bytes, size_t capacity,
-                           size_t *length);
+extern const uint8_t ebl_sim_set_request_layout[];
 
 #define EBL_SIM_SET_RESPONSE_LENGTH 0
 typedef struct {
     const uint8_t *text;
     size_t text_length;
 } ebl_sim_set_response;
-int ebl_sim_set_response_get(ebl_sim_set_response *message, const uint8_t *bytes, size_t length);
-int ebl_sim_set_response_put(const ebl_sim_set_response *message, uint8_t *bytes, size_t capacity,
-                            size_t *length);
+extern const uint8_t ebl_sim_set_response_layout[];
 
 #define EBL_BOOT_EVENT_LENGTH 5
 typedef struct {
     uint32_t boot_id;
     uint8_t reset_cause;
 } ebl_boot_event;
-int ebl_boot_event_get(ebl_boot_event *message, const uint8_t *bytes, size_t length);
-int ebl_boot_event_put(const ebl_boot_event *message, uint8_t *bytes, size_t capacity,
-                      size_t *length);
+extern const uint8_t ebl_boot_event_layout[];
 
 #define EBL_FAULT_SET_EVENT_LENGTH 2
 #define EBL_FAULT_SET_EVENT_LENGTH_WHOLE 4 /* with the high half */
 typedef struct {
     uint32_t fault_flags;
 } ebl_fault_set_event;
-int ebl_fault_set_event_get(ebl_fault_set_event *message, const uint8_t *bytes, size_t length);
-int ebl_fault_set_event_put(const ebl_fault_set_event *message, uint8_t *bytes, size_t capacity,
-                           size_t *length);
+extern const uint8_t ebl_fault_set_event_layout[];
 
 #define EBL_FAULT_CLEARED_EVENT_LENGTH 2
 #define EBL_FAULT_CLEARED_EVENT_LENGTH_WHOLE 4 /* with the high half */
 typedef struct {
     uint32_t fault_flags;
 } ebl_fault_cleared_event;
-int ebl_fault_cleared_event_get(ebl_fault_cleared_event *message, const uint8_t *bytes, size_t length);
-int ebl_fault_cleared_event_put(const ebl_fault_cleared_event *message, uint8_t *bytes, size_t capacity,
-                               size_t *length);
+extern const uint8_t ebl_fault_cleared_event_layout[];
 
 #define EBL_CONFIG_COMMITTED_EVENT_LENGTH 8
 typedef struct {
     uint32_t generation;
     uint32_t crc32;
 } ebl_config_committed_event;
-int ebl_config_committed_event_get(ebl_config_committed_event *message, const uint8_t *bytes, size_t length);
-int ebl_config_committed_event_put(const ebl_config_committed_event *message, uint8_t *bytes, size_t capacity,
-                                  size_t *length);
+extern const uint8_t ebl_config_committed_event_layout[];
 
 #define EBL_CONFIG_ROLLED_BACK_EVENT_LENGTH 8
 typedef struct {
     uint32_t generation;
     uint32_t crc32;
 } ebl_config_rolled_back_event;
-int ebl_config_rolled_back_event_get(ebl_config_rolled_back_event *message, const uint8_t *bytes, size_t length);
-int ebl_config_rolled_back_event_put(const ebl_config_rolled_back_event *message, uint8_t *bytes, size_t capacity,
-                                    size_t *length);
+extern const uint8_t ebl_config_rolled_back_event_layout[];
 
 #define EBL_CONFIG_DEFAULTED_EVENT_LENGTH 8
 typedef struct {
     uint32_t generation;
     uint32_t crc32;
 } ebl_config_defaulted_event;
-int ebl_config_defaulted_event_get(ebl_config_defaulted_event *message, const uint8_t *bytes, size_t length);
-int ebl_config_defaulted_event_put(const ebl_config_defaulted_event *message, uint8_t *bytes, size_t capacity,
-                                  size_t *length);
+extern const uint8_t ebl_config_defaulted_event_layout[];
 
 #define EBL_STREAM_STATS_EVENT_LENGTH 9
 typedef struct {
@@ -1257,18 +1116,14 @@ typedef struct {
     uint32_t built;
     uint32_t dropped_tx;
 } ebl_stream_stats_event;
-int ebl_stream_stats_event_get(ebl_stream_stats_event *message, const uint8_t *bytes, size_t length);
-int ebl_stream_stats_event_put(const ebl_stream_stats_event *message, uint8_t *bytes, size_t capacity,
-                              size_t *length);
+extern const uint8_t ebl_stream_stats_event_layout[];
 
 #define EBL_AUTH_CHANGED_EVENT_LENGTH 3
 typedef struct {
     uint8_t level;
     uint16_t failures;
 } ebl_auth_changed_event;
-int ebl_auth_changed_event_get(ebl_auth_changed_event *message, const uint8_t *bytes, size_t length);
-int ebl_auth_changed_event_put(const ebl_auth_changed_event *message, uint8_t *bytes, size_t capacity,
-                              size_t *length);
+extern const uint8_t ebl_auth_changed_event_layout[];
 
 #define EBL_CONFIG_PROVISIONAL_EVENT_LENGTH 9
 typedef struct {
@@ -1276,9 +1131,7 @@ typedef struct {
     uint32_t crc32;
     uint8_t confirm_s;
 } ebl_config_provisional_event;
-int ebl_config_provisional_event_get(ebl_config_provisional_event *message, const uint8_t *bytes, size_t length);
-int ebl_config_provisional_event_put(const ebl_config_provisional_event *message, uint8_t *bytes, size_t capacity,
-                                    size_t *length);
+extern const uint8_t ebl_config_provisional_event_layout[];
 
 #define EBL_STREAM_COUNTS_EVENT_LENGTH 14
 typedef struct {
@@ -1288,9 +1141,7 @@ typedef struct {
     uint32_t dropped_tx;
     uint32_t missed;
 } ebl_stream_counts_event;
-int ebl_stream_counts_event_get(ebl_stream_counts_event *message, const uint8_t *bytes, size_t length);
-int ebl_stream_counts_event_put(const ebl_stream_counts_event *message, uint8_t *bytes, size_t capacity,
-                               size_t *length);
+extern const uint8_t ebl_stream_counts_event_layout[];
 
 #define EBL_CONFIG_CONVERTED_EVENT_LENGTH 11
 typedef struct {
@@ -1300,9 +1151,7 @@ typedef struct {
     uint8_t dropped;
     uint8_t clamped;
 } ebl_config_converted_event;
-int ebl_config_converted_event_get(ebl_config_converted_event *message, const uint8_t *bytes, size_t length);
-int ebl_config_converted_event_put(const ebl_config_converted_event *message, uint8_t *bytes, size_t capacity,
-                                  size_t *length);
+extern const uint8_t ebl_config_converted_event_layout[];
 
 #define EBL_LOG_CLOSED_EVENT_LENGTH 12
 typedef struct {
@@ -1310,9 +1159,7 @@ typedef struct {
     uint32_t generation;
     uint32_t length;
 } ebl_log_closed_event;
-int ebl_log_closed_event_get(ebl_log_closed_event *message, const uint8_t *bytes, size_t length);
-int ebl_log_closed_event_put(const ebl_log_closed_event *message, uint8_t *bytes, size_t capacity,
-                            size_t *length);
+extern const uint8_t ebl_log_closed_event_layout[];
 
 #define EBL_LOG_OVERWRITTEN_EVENT_LENGTH 12
 typedef struct {
@@ -1320,8 +1167,6 @@ typedef struct {
     uint32_t generation;
     uint32_t overwritten;
 } ebl_log_overwritten_event;
-int ebl_log_overwritten_event_get(ebl_log_overwritten_event *message, const uint8_t *bytes, size_t length);
-int ebl_log_overwritten_event_put(const ebl_log_overwritten_event *message, uint8_t *bytes, size_t capacity,
-                                 size_t *length);
+extern const uint8_t ebl_log_overwritten_event_layout[];
 
 #endif

@@ -192,9 +192,8 @@ def _config(registry: Registry) -> list[str]:
 
 def _structs(registry: Registry) -> list[str]:
     lines = [
-        "/* Messages. get: EBL_OK, or EBL_ERROR_LENGTH if a field is missing; a tail points into",
-        " * `bytes`. put: EBL_OK and the length, or EBL_ERROR_SPACE. A response's bytes start",
-        " * after the status; an event's after code and time. */",
+        "/* Messages and their layouts, see ebl_layout.h. A response's bytes start after the",
+        " * status, an event's after code and time. */",
     ]
     for name, layout in layouts(registry):
         upper = name.upper()
@@ -204,11 +203,5 @@ def _structs(registry: Registry) -> list[str]:
         lines += ["typedef struct {"]
         for field in layout.members:
             lines += [f"    {text}" for text in member(field, layout.is_halved(field))]
-        lines += [
-            f"}} {name};",
-            f"int {name}_get({name} *message, const uint8_t *bytes, size_t length);",
-            f"int {name}_put(const {name} *message, uint8_t *bytes, size_t capacity,",
-            f"    {' ' * len(name)}    size_t *length);",
-            "",
-        ]
+        lines += [f"}} {name};", f"extern const uint8_t {name}_layout[];", ""]
     return lines

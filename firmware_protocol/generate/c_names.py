@@ -1,7 +1,7 @@
 """How registry names are spelled in C, and the pieces the C targets share."""
 
 from firmware_protocol.generate.registry import NOTICE, Layout, Registry
-from firmware_protocol.generate.tables import SIZES, Table
+from firmware_protocol.generate.tables import Table
 from firmware_protocol.layout import Field, Parameter
 
 FIRST_LINE = f"/* {NOTICE} */"
@@ -51,11 +51,6 @@ def config_member(parameter: Parameter) -> str:
     if parameter.type == "text":
         dimensions += f"[{parameter.length}]"
     return f"{C_TYPES[parameter.type]} {parameter.name}{dimensions};"
-
-
-def size(field: Field) -> int:
-    """Bytes of one field on the wire."""
-    return SIZES[field.type] * field.count
 
 
 def float_literal(value: float) -> str:

@@ -1,8 +1,14 @@
-"""ebl_registry.c, ebl_messages.c and ebl_schema.c: tables, and explicit little-endian copies."""
+"""ebl_registry.c, ebl_messages.c and ebl_schema.c: tables, and nothing but tables."""
 
-from firmware_protocol.generate.c_names import FIRST_LINE, float_literal, layouts, size
+from itertools import groupby
+
+from firmware_protocol.generate.c_names import FIRST_LINE, float_literal, layouts
 from firmware_protocol.generate.registry import Layout, Registry
+from firmware_protocol.generate.tables import SIZES
 from firmware_protocol.layout import Field, Parameter
+
+RUN_MAX = 31
+"""What the lower five bits of a run can say."""
 
 FIND = """\
 const {struct} *ebl_{row}_find({type} {key})
@@ -129,83 +135,35 @@ def _rows(parameter: Parameter) -> tuple[object, ...]:
 
 def messages_source(registry: Registry) -> str:
     """The text of ebl_messages.c."""
-    lines = [FIRST_LINE, '#include "ebl_registry.h"', "", "#include <string.h>", ""]
-    lines += ['#include "ebl_bytes.h" // ebl_get_u16, ebl_put_u16, EBL_OK', ""]
+    lines = [FIRST_LINE, '#include "ebl_registry.h"', "", '#include "ebl_layout.h" // EBL_U8', ""]
     for name, layout in layouts(registry):
-        lines += [*_get(name, layout), "", *_put(name, layout), ""]
-    return "\n".join(lines[:-1]) + "\n"
+        rows = ", ".join([f"{layout.length}", f"{layout.whole}", *_runs(name, layout), "EBL_END"])
+        lines += [f"const uint8_t {name}_layout[] = {{{rows}}};"]
+    return "\n".join(lines) + "\n"
 
 
-def _get(name: str, layout: Layout) -> list[str]:
-    lines = [f"int {name}_get({name} *message, const uint8_t *bytes, size_t length)", "{"]
-    if layout.length:
-        lines += [
-            f"    if (length < {layout.length}) {{",
-            "        return EBL_ERROR_LENGTH;",
-            "    }",
-        ]
-    at = 0
-    for field in layout.fields:
-        target, source = f"message->{field.name}", f"bytes + {at}"
-        if field.type == "bytes":
-            lines += [f"    {target} = {source};", f"    {target}_length = length - {at};"]
-            break
-        if field.high_of:
-            lines += [f"    if (length >= {at + size(field)}) {{"]
-            lines += [f"        message->{field.high_of} |= (uint32_t)ebl_get_u16({source}) << 16;"]
-            lines += ["    }"]
+def _runs(name: str, layout: Layout) -> list[str]:
+    """The fields as ebl_layout.h has them: numbers of one size side by side are one run."""
+    runs: list[str] = []
+    for kind, group in groupby(layout.fields, lambda field: _kind(layout, field)):
+        fields = list(group)
+        if kind in ("EBL_LOW", "EBL_HIGH"):
+            members = [field.high_of or field.name for field in fields]
+            runs += [f"{kind} | offsetof({name}, {member}) / 4" for member in members]
+        elif kind == "EBL_TAIL":
+            runs.append(kind)
         else:
-            lines += _copy(field, f"{target} = ebl_get_{field.type}({{}});", target, source, source)
-        at += size(field)
-    return [*lines, "    return EBL_OK;", "}"]
+            count = sum(field.count for field in fields)
+            runs += [f"{kind} | {min(count - at, RUN_MAX)}" for at in range(0, count, RUN_MAX)]
+    return runs
 
 
-def _put(name: str, layout: Layout) -> list[str]:
-    lines = [
-        f"int {name}_put(const {name} *message, uint8_t *bytes, size_t capacity,",
-        f"    {' ' * len(name)}    size_t *length)",
-        "{",
-    ]
-    total = f"{layout.whole}"
-    if layout.has_tail:
-        tail = f"message->{layout.fields[-1].name}_length"
-        lines += [f"    if (capacity < {total} || capacity - {total} < {tail}) {{"]
-        if not layout.whole:
-            lines[-1] = f"    if (capacity < {tail}) {{"
-        total = f"{total} + {tail}"
-    else:
-        lines += [f"    if (capacity < {total}) {{"]
-    lines += ["        return EBL_ERROR_SPACE;", "    }"]
-    at = 0
-    for field in layout.fields:
-        source, target = f"message->{field.name}", f"bytes + {at}"
-        if field.type == "bytes":
-            lines += [f"    if ({source}_length > 0) {{"]
-            lines += [f"        memcpy({target}, {source}, {source}_length);", "    }"]
-            break
-        if field.high_of:
-            source = f"(uint16_t)(message->{field.high_of} >> 16)"
-        elif layout.is_halved(field):
-            source = f"(uint16_t)({source} & 0xffffu)"
-        call = f"ebl_put_{field.type}({{}}, {source}" + ");"
-        lines += _copy(field, call, target, source, target)
-        at += size(field)
-    return [*lines, f"    *length = {total};", "    return EBL_OK;", "}"]
-
-
-def _copy(field: Field, call: str, target: str, source: str, bytes_at: str) -> list[str]:
-    """One field: a call, a memcpy for bytes, or a loop for an array of wider numbers."""
-    if field.count == 1:
-        return ["    " + call.format(bytes_at)]
-    if field.type == "u8":
-        return [f"    memcpy({target}, {source}, {field.count});"]
-    element = f"message->{field.name}"
-    step = call.format(f"{bytes_at} + {size(field) // field.count} * i")
-    return [
-        f"    for (size_t i = 0; i < {field.count}; i++) {{",
-        "        " + step.replace(element, element + "[i]"),
-        "    }",
-    ]
+def _kind(layout: Layout, field: Field) -> str:
+    if field.type == "bytes":
+        return "EBL_TAIL"
+    if field.high_of:
+        return "EBL_HIGH"
+    return "EBL_LOW" if layout.is_halved(field) else f"EBL_U{8 * SIZES[field.type]}"
 
 
 def schema_source(compressed: bytes, schema_hash: bytes) -> str:

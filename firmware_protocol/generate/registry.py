@@ -29,6 +29,9 @@ PROSE = ("doc", "rider_text", "mechanic_text")
 FAULT_BITS = (*range(15), *range(16, 31))
 """Bits 15 and 31 would be the sign of the channel that carries them."""
 
+FRAME_OVERHEAD = 4 + 5 + 4
+"""Bytes around a message's fields: a header, an event's code and time, a check value."""
+
 
 @dataclass(frozen=True)
 class Layout:
@@ -218,10 +221,20 @@ def _check(registry: Registry) -> None:
     for order in registry.orders:
         if not {order.low, order.high} <= names:
             raise BadRegistry(f"order of unknown parameters {order.low} and {order.high}")
+    _check_lengths(registry)
     _check_bands(registry)
     _check_retired(registry)
     if set(registry.enum("event").members) != {name for name, _ in registry.events}:
         raise BadRegistry("every event needs a row in event_fields, and the other way round")
+
+
+def _check_lengths(registry: Registry) -> None:
+    room = registry.protocol["mtu_before_hello"] - FRAME_OVERHEAD
+    named = [(row.name, row.request) for row in registry.messages]
+    named += [(row.name, row.response) for row in registry.messages]
+    for name, layout in [*named, *registry.events]:
+        if layout.whole > room:
+            raise BadRegistry(f"{name}: its fields are more than the {room} bytes of any frame")
 
 
 def _check_bands(registry: Registry) -> None:

@@ -78,8 +78,8 @@ def memory(image: Path) -> list[Figure]:
                codec <= 12_288,
                f"of it {parameters:,} are the tables of parameters and channels with their checks. "
                "The budget's list also names transactions, slots and the logs' window, counted in "
-               "other rooms above; with a copy written out for every field of every message it is "
-               "out of reach. Its description, which the host could bring along, is not counted"),
+               "other rooms above. Its description, which the host could bring along, is not "
+               "counted"),
         Figure(f"RAM of the protocol, frames of {MTU} bytes", f"{protocol:,} B", "", None,
                "four answers kept and four queued, four streams and four of their frames queued: "
                "4,096 B would hold seven such frames, so the budget is for short ones"),

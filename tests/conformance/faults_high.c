@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "ebl_bytes.h"      // EBL_OK
+#include "ebl_layout.h"     // EBL_MESSAGE, ebl_layout_put
 #include "faults/faults.h"  // faults_latch, faults_step
 #include "ride_log/pages.h" // ride_log_events_put
 
@@ -55,7 +56,10 @@ int main(void)
     faults_forget(&faults, both);
     show("forgotten", faults.frames[29].count + faults.frames[30].count);
 
-    if (ebl_fault_set_event_put(&event, bytes, sizeof bytes, &length) != EBL_OK) return 1;
+    if (ebl_layout_put(EBL_MESSAGE(ebl_fault_set_event, &event), bytes, sizeof bytes, &length) !=
+        EBL_OK) {
+        return 1;
+    }
     show_bytes("event", bytes, length);
     ride_log_events_put(bytes, logged, 2, &header);
     show_bytes("logged", bytes, header.length);

@@ -84,8 +84,9 @@ class BoardWire:
             # A shorter payload of an older peer grows by its high halves.
             capacity = len(payload) + CHECK_LENGTH
             target, length = room.empty(capacity), room.empty(WORD)
-            arguments = [message, target, capacity, length]
-            _must(self._integer(f"{struct_name}_put", arguments))
+            followed = self._board.address(f"{struct_name}_layout")
+            arguments = [followed, message, target, capacity, length]
+            _must(self._integer("ebl_layout_put", arguments))
             return room.read(target, room.word(length))
 
     def read_message(self, struct_name: str, payload: bytes) -> dict[str, Any]:
@@ -147,7 +148,9 @@ class BoardWire:
 
     def _get(self, room: _Room, struct_name: str, payload: bytes) -> int:
         message = room.empty(layout(ffi.typeof(struct_name))[0])
-        _must(self._integer(f"{struct_name}_get", [message, room.put(payload), len(payload)]))
+        followed = self._board.address(f"{struct_name}_layout")
+        arguments = [followed, message, room.put(payload), len(payload)]
+        _must(self._integer("ebl_layout_get", arguments))
         return message
 
     def _integer(self, name: str, words: list[int], floats: list[float] | None = None) -> int:

@@ -9,7 +9,8 @@
 #include "bench_board.h"  // bench_create
 #include "ebl_bytes.h"    // ebl_put_u32
 #include "ebl_frame.h"    // ebl_crc32
-#include "ebl_registry.h" // ebl_cfg_read_response_get
+#include "ebl_layout.h"   // EBL_MESSAGE, ebl_layout_get
+#include "ebl_registry.h" // ebl_cfg_read_response
 #include "ebl_values.h"   // ebl_image_violations
 
 #define FLASH_BLOCK_BYTES 1024
@@ -66,7 +67,8 @@ static int image_is_good(const uint8_t *frame, size_t length)
     if (ebl_frame_check(&header, frame, length) != EBL_OK) return 0;
     if (header.kind != EBL_KIND_RESPONSE || header.word != EBL_MSG_CFG_READ) return 0;
     if (header.payload[0] != EBL_STATUS_OK) abort();
-    if (ebl_cfg_read_response_get(&answer, header.payload + 1, header.payload_length - 1) != EBL_OK)
+    if (ebl_layout_get(EBL_MESSAGE(ebl_cfg_read_response, &answer), header.payload + 1,
+                       header.payload_length - 1) != EBL_OK)
         abort();
     if (answer.data_length != EBL_IMAGE_LENGTH) abort();
     return ebl_image_violations(answer.data, found, 4) == 0;

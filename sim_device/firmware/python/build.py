@@ -27,6 +27,7 @@ HAL_FOLDER = "sim_device/firmware/hal"
 HEADERS: tuple[str, ...] = (
     "firmware_protocol/c/ebl_result.h",
     "firmware_protocol/c/ebl_registry.h",
+    "firmware_protocol/c/ebl_layout.h",
     "firmware_protocol/c/ebl_frame.h",
     "firmware_protocol/c/ebl_values.h",
     "sim_device/firmware/control/fuzzy_table.h",

@@ -101,12 +101,13 @@ def copy_message(struct_name: str, payload: bytes) -> bytes:
 
     Raises WireRefused if the payload is too short.
     """
+    layout = getattr(lib, f"{struct_name}_layout")
     source = ffi.from_buffer("uint8_t[]", payload)
     message: Any = ffi.new(f"{struct_name} *")
-    _must(getattr(lib, f"{struct_name}_get")(message, source, len(payload)))
+    _must(lib.ebl_layout_get(layout, message, source, len(payload)))
     target = ffi.new("uint8_t[]", len(payload) + CHECK_LENGTH)
     length = ffi.new("size_t *")
-    _must(getattr(lib, f"{struct_name}_put")(message, target, len(target), length))
+    _must(lib.ebl_layout_put(layout, message, target, len(target), length))
     return bytes(ffi.buffer(target, length[0]))
 
 
@@ -115,9 +116,10 @@ def read_message(struct_name: str, payload: bytes) -> dict[str, Any]:
 
     Raises WireRefused if the payload is too short.
     """
+    layout = getattr(lib, f"{struct_name}_layout")
     source = ffi.from_buffer("uint8_t[]", payload)
     message: Any = ffi.new(f"{struct_name} *")
-    _must(getattr(lib, f"{struct_name}_get")(message, source, len(payload)))
+    _must(lib.ebl_layout_get(layout, message, source, len(payload)))
     fields: dict[str, Any] = {}
     for name, column in ffi.typeof(struct_name).fields:
         value = getattr(message, name)

@@ -27,6 +27,7 @@ def test_every_generated_file_is_what_the_registry_says() -> None:
         ('id = 2\nname = "cadence_rpm"', 'id = 1\nname = "cadence_rpm"', "share an id"),
         ('["offset", "u32"]', '["offset", "u24"]', "unknown type u24"),
         ('[["text", "bytes"]]', '[["text", "bytes"], ["late", "u8"]]', "must be the last field"),
+        ('["git", "u8[8]"]', '["git", "u8[80]"]', "HELLO: its fields are more than the 115 bytes"),
         ('enum = "label"', 'enum = "labels"', "enum labels must exist"),
         ('doc = "Teeth of the chainring."', 'dok = "Teeth."', "chainring_teeth: it needs doc"),
         ('doc = "Teeth of the chainring."', 'doc = ""\nstep = 1', "chainring_teeth: there is no s"),

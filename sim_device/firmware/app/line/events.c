@@ -2,9 +2,10 @@
 
 #include <string.h>
 
-#include "ebl_bytes.h"    // ebl_put_u16, ebl_put_u32
+#include "ebl_bytes.h"    // ebl_put_u32
 #include "ebl_frame.h"    // EBL_HEADER_LENGTH, ebl_header_put
-#include "ebl_registry.h" // ebl_boot_event_put
+#include "ebl_layout.h"   // EBL_MESSAGE, ebl_layout_put
+#include "ebl_registry.h" // ebl_boot_event
 
 #define EVENT_CHANNEL 0
 #define EVENT_HEAD_LENGTH 5 /* code u8, time u32 */
@@ -82,68 +83,60 @@ void events_poll(event_log *events, unit_link *link, uint64_t now_us)
 
 /* The number is used up even if the line has no room, so the host sees the gap. */
 static void event_send(event_log *events, unit_link *link, uint64_t now_us, uint8_t code,
-                       const uint8_t *fields, size_t length)
+                       const uint8_t *layout, const void *event)
 {
     uint8_t payload[EVENT_HEAD_LENGTH + EVENT_FIELDS_LENGTH_MAX];
+    size_t length;
 
     payload[0] = code;
     ebl_put_u32(payload + 1, (uint32_t)now_us);
-    memcpy(payload + EVENT_HEAD_LENGTH, fields, length);
-    if (is_kept(code)) keep(events, now_us, payload, EVENT_HEAD_LENGTH + length);
-    (void)frame_send(link, 0, events->seq, payload, EVENT_HEAD_LENGTH + length);
+    if (ebl_layout_put(layout, event, payload + EVENT_HEAD_LENGTH, EVENT_FIELDS_LENGTH_MAX,
+                       &length) != EBL_OK) {
+        return;
+    }
+    length += EVENT_HEAD_LENGTH;
+    if (is_kept(code)) keep(events, now_us, payload, length);
+    (void)frame_send(link, 0, events->seq, payload, length);
     events->seq++;
 }
 
 void event_boot(event_log *events, unit_link *link, uint64_t now_us, const hal *board)
 {
     ebl_boot_event event = {board->boot_id, board->reset_cause};
-    uint8_t fields[EBL_BOOT_EVENT_LENGTH];
-    size_t length;
 
-    if (ebl_boot_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
-    event_send(events, link, now_us, EBL_EVENT_BOOT, fields, length);
+    event_send(events, link, now_us, EBL_EVENT_BOOT, EBL_MESSAGE(ebl_boot_event, &event));
 }
 
 void event_faults_set(event_log *events, unit_link *link, uint64_t now_us, uint32_t fault_flags)
 {
     ebl_fault_set_event event = {fault_flags};
-    uint8_t fields[EBL_FAULT_SET_EVENT_LENGTH_WHOLE];
-    size_t length;
 
-    if (ebl_fault_set_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
-    event_send(events, link, now_us, EBL_EVENT_FAULT_SET, fields, length);
+    event_send(events, link, now_us, EBL_EVENT_FAULT_SET, EBL_MESSAGE(ebl_fault_set_event, &event));
 }
 
 void event_faults_cleared(event_log *events, unit_link *link, uint64_t now_us, uint32_t fault_flags)
 {
     ebl_fault_cleared_event event = {fault_flags};
-    uint8_t fields[EBL_FAULT_CLEARED_EVENT_LENGTH_WHOLE];
-    size_t length;
 
-    if (ebl_fault_cleared_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
-    event_send(events, link, now_us, EBL_EVENT_FAULT_CLEARED, fields, length);
+    event_send(events, link, now_us, EBL_EVENT_FAULT_CLEARED,
+               EBL_MESSAGE(ebl_fault_cleared_event, &event));
 }
 
 void event_config(event_log *events, unit_link *link, uint64_t now_us, uint8_t code,
                   uint32_t generation, uint32_t crc32)
 {
     ebl_config_committed_event event = {generation, crc32};
-    uint8_t fields[EBL_CONFIG_COMMITTED_EVENT_LENGTH];
-    size_t length;
 
-    if (ebl_config_committed_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
-    event_send(events, link, now_us, code, fields, length);
+    event_send(events, link, now_us, code, EBL_MESSAGE(ebl_config_committed_event, &event));
 }
 
 void event_config_provisional(event_log *events, unit_link *link, uint64_t now_us,
                               uint32_t generation, uint32_t crc32, uint8_t confirm_s)
 {
     ebl_config_provisional_event event = {generation, crc32, confirm_s};
-    uint8_t fields[EBL_CONFIG_PROVISIONAL_EVENT_LENGTH];
-    size_t length;
 
-    if (ebl_config_provisional_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
-    event_send(events, link, now_us, EBL_EVENT_CONFIG_PROVISIONAL, fields, length);
+    event_send(events, link, now_us, EBL_EVENT_CONFIG_PROVISIONAL,
+               EBL_MESSAGE(ebl_config_provisional_event, &event));
 }
 
 void event_config_converted(event_log *events, unit_link *link, uint64_t now_us,
@@ -151,52 +144,41 @@ void event_config_converted(event_log *events, unit_link *link, uint64_t now_us,
 {
     ebl_config_converted_event event = {store->generation, store->crc32, store->tally.added,
                                         store->tally.dropped, store->tally.clamped};
-    uint8_t fields[EBL_CONFIG_CONVERTED_EVENT_LENGTH];
-    size_t length;
 
-    if (ebl_config_converted_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
-    event_send(events, link, now_us, EBL_EVENT_CONFIG_CONVERTED, fields, length);
+    event_send(events, link, now_us, EBL_EVENT_CONFIG_CONVERTED,
+               EBL_MESSAGE(ebl_config_converted_event, &event));
 }
 
 void event_stream_counts(event_log *events, unit_link *link, uint64_t now_us,
                          const ebl_stream_counts_event *counts)
 {
-    uint8_t fields[EBL_STREAM_COUNTS_EVENT_LENGTH];
-    size_t length;
-
-    if (ebl_stream_counts_event_put(counts, fields, sizeof fields, &length) != EBL_OK) return;
-    event_send(events, link, now_us, EBL_EVENT_STREAM_COUNTS, fields, length);
+    event_send(events, link, now_us, EBL_EVENT_STREAM_COUNTS,
+               EBL_MESSAGE(ebl_stream_counts_event, counts));
 }
 
 void event_auth_changed(event_log *events, unit_link *link, uint64_t now_us, uint8_t level,
                         uint16_t failures)
 {
     ebl_auth_changed_event event = {level, failures};
-    uint8_t fields[EBL_AUTH_CHANGED_EVENT_LENGTH];
-    size_t length;
 
-    if (ebl_auth_changed_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
-    event_send(events, link, now_us, EBL_EVENT_AUTH_CHANGED, fields, length);
+    event_send(events, link, now_us, EBL_EVENT_AUTH_CHANGED,
+               EBL_MESSAGE(ebl_auth_changed_event, &event));
 }
 
 void event_log_closed(event_log *events, unit_link *link, uint64_t now_us, uint32_t log_id,
                       uint32_t generation, uint32_t length_bytes)
 {
     ebl_log_closed_event event = {log_id, generation, length_bytes};
-    uint8_t fields[EBL_LOG_CLOSED_EVENT_LENGTH];
-    size_t length;
 
-    if (ebl_log_closed_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
-    event_send(events, link, now_us, EBL_EVENT_LOG_CLOSED, fields, length);
+    event_send(events, link, now_us, EBL_EVENT_LOG_CLOSED,
+               EBL_MESSAGE(ebl_log_closed_event, &event));
 }
 
 void event_log_overwritten(event_log *events, unit_link *link, uint64_t now_us, uint32_t log_id,
                            uint32_t generation, uint32_t overwritten)
 {
     ebl_log_overwritten_event event = {log_id, generation, overwritten};
-    uint8_t fields[EBL_LOG_OVERWRITTEN_EVENT_LENGTH];
-    size_t length;
 
-    if (ebl_log_overwritten_event_put(&event, fields, sizeof fields, &length) != EBL_OK) return;
-    event_send(events, link, now_us, EBL_EVENT_LOG_OVERWRITTEN, fields, length);
+    event_send(events, link, now_us, EBL_EVENT_LOG_OVERWRITTEN,
+               EBL_MESSAGE(ebl_log_overwritten_event, &event));
 }

@@ -1,9 +1,8 @@
 /* What the host asks about the configuration. */
 #include <string.h>
 
-#include "dispatch.h"          // reply_ok, reply_with
-#include "ebl_bytes.h"         // EBL_OK
-#include "ebl_registry.h"      // ebl_cfg_read_request_get
+#include "dispatch.h"          // reply_message, request_read
+#include "ebl_registry.h"      // ebl_cfg_read_request
 #include "config/parameters.h" // parameters_default_image
 
 #define MS_PER_S 1000u
@@ -15,13 +14,9 @@ static void info(app *unit, const ebl_header *request, reply *answer)
     ebl_cfg_info_response response = {unit->store.generation, unit->store.crc32, EBL_IMAGE_LENGTH,
                                       unit->store.on_trial ? EBL_CONFIG_STATE_PROVISIONAL
                                                            : unit->transaction.state};
-    size_t length = 0;
-    int put;
 
     (void)request;
-    put =
-        ebl_cfg_info_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_cfg_info_response, &response));
 }
 
 /* A staged image has the generation it is built on, the default has none. */
@@ -53,13 +48,8 @@ static void read_bank(app *unit, const ebl_header *request, reply *answer)
     ebl_cfg_read_response response;
     size_t room = reply_capacity(answer) - EBL_CFG_READ_RESPONSE_LENGTH;
     uint8_t status;
-    size_t length = 0;
-    int put;
 
-    if (ebl_cfg_read_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_READ_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_read_request, &asked))) return;
     status = bank_read(unit, asked.bank, image, &response.generation);
     if (status == EBL_STATUS_OK && asked.offset > EBL_IMAGE_LENGTH) status = EBL_STATUS_RANGE;
     if (status != EBL_STATUS_OK) {
@@ -71,9 +61,7 @@ static void read_bank(app *unit, const ebl_header *request, reply *answer)
     response.data_length = (size_t)(EBL_IMAGE_LENGTH - asked.offset);
     if (response.data_length > asked.length) response.data_length = asked.length;
     if (response.data_length > room) response.data_length = room;
-    put =
-        ebl_cfg_read_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_cfg_read_response, &response));
 }
 
 static void begin(app *unit, const ebl_header *request, reply *answer)
@@ -82,13 +70,8 @@ static void begin(app *unit, const ebl_header *request, reply *answer)
     ebl_cfg_begin_response response;
     uint16_t detail = 0;
     uint8_t status;
-    size_t length = 0;
-    int put;
 
-    if (ebl_cfg_begin_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_BEGIN_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_begin_request, &asked))) return;
     if (unit->store.on_trial) {
         /* What it would overwrite is where a return leads to. */
         uint32_t left_ms = trial_left_ms(&unit->trial, &unit->store, now(unit));
@@ -103,9 +86,7 @@ static void begin(app *unit, const ebl_header *request, reply *answer)
     }
     response.transaction = unit->transaction.id;
     response.lease_ms = TRANSACTION_LEASE_MS;
-    put = ebl_cfg_begin_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                     &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_cfg_begin_response, &response));
 }
 
 static void set(app *unit, const ebl_header *request, reply *answer)
@@ -114,10 +95,7 @@ static void set(app *unit, const ebl_header *request, reply *answer)
     uint16_t detail = 0;
     uint8_t status;
 
-    if (ebl_cfg_set_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_SET_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_set_request, &asked))) return;
     status =
         transaction_set(&unit->transaction, &asked, app_access_to_stage(unit), now(unit), &detail);
     reply_status(answer, status, detail);
@@ -130,10 +108,7 @@ static void validate(app *unit, const ebl_header *request, reply *answer)
     uint16_t detail = 0;
     uint8_t status;
 
-    if (ebl_cfg_validate_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_VALIDATE_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_validate_request, &asked))) return;
     status = transaction_validate(&unit->transaction, asked.transaction, now(unit), found,
                                   REFUSALS_MAX, &detail);
     if (status == EBL_STATUS_INVALID_CONFIG) {
@@ -149,23 +124,15 @@ static void staged_crc(app *unit, const ebl_header *request, reply *answer)
     ebl_cfg_staged_crc_response response;
     uint16_t detail = 0;
     uint8_t status;
-    size_t length = 0;
-    int put;
 
-    if (ebl_cfg_staged_crc_request_get(&asked, request->payload, request->payload_length) !=
-        EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_STAGED_CRC_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_staged_crc_request, &asked))) return;
     status = transaction_staged_crc(&unit->transaction, asked.transaction, now(unit),
                                     &response.crc32, &detail);
     if (status != EBL_STATUS_OK) {
         reply_refuse(answer, status, detail);
         return;
     }
-    put = ebl_cfg_staged_crc_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                          &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_cfg_staged_crc_response, &response));
 }
 
 /* A new generation is active, and a token was good for one; a defaulted unit is well again. */
@@ -205,13 +172,8 @@ static void commit(app *unit, const ebl_header *request, reply *answer)
     uint32_t generation_before = unit->store.generation;
     uint16_t detail = 0;
     uint8_t status;
-    size_t length = 0;
-    int put;
 
-    if (ebl_cfg_commit_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_COMMIT_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_commit_request, &asked))) return;
     status = commit_access(unit, &asked, &detail);
     if (status == EBL_STATUS_OK) {
         status =
@@ -226,9 +188,7 @@ static void commit(app *unit, const ebl_header *request, reply *answer)
     response.generation = unit->store.generation;
     response.crc32 = unit->store.crc32;
     response.state = unit->store.on_trial ? EBL_CONFIG_STATE_PROVISIONAL : unit->transaction.state;
-    put = ebl_cfg_commit_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                      &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_cfg_commit_response, &response));
 }
 
 static void abort_transaction(app *unit, const ebl_header *request, reply *answer)
@@ -237,10 +197,7 @@ static void abort_transaction(app *unit, const ebl_header *request, reply *answe
     uint16_t detail = 0;
     uint8_t status;
 
-    if (ebl_cfg_abort_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_ABORT_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_abort_request, &asked))) return;
     status = transaction_abort(&unit->transaction, asked.transaction, now(unit), &detail);
     reply_status(answer, status, detail);
 }

@@ -32,14 +32,31 @@ void reply_status(reply *answer, uint8_t status, uint16_t detail)
     }
 }
 
-void reply_with(reply *answer, int put, size_t length)
+void reply_with(reply *answer, size_t length)
 {
-    if (put != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_INTERNAL, 0);
-        return;
-    }
     answer->bytes[0] = EBL_STATUS_OK;
     answer->length = STATUS_LENGTH + length;
+}
+
+void reply_message(reply *answer, const uint8_t *layout, const void *message)
+{
+    size_t length;
+
+    if (ebl_layout_put(layout, message, reply_fields(answer), reply_capacity(answer), &length) ==
+        EBL_OK) {
+        reply_with(answer, length);
+    } else {
+        reply_refuse(answer, EBL_STATUS_INTERNAL, 0);
+    }
+}
+
+int request_read(const ebl_header *request, reply *answer, const uint8_t *layout, void *message)
+{
+    if (ebl_layout_get(layout, message, request->payload, request->payload_length) == EBL_OK) {
+        return 1;
+    }
+    reply_refuse(answer, EBL_STATUS_LENGTH, layout[EBL_SHORTEST]);
+    return 0;
 }
 
 uint8_t *reply_fields(const reply *answer) { return answer->bytes + STATUS_LENGTH; }
@@ -87,12 +104,12 @@ static void board_reply(app *unit, const ebl_header *request, reply *answer)
     status = board->board_request(board->context, request->word, request->payload,
                                   request->payload_length, reply_fields(answer),
                                   reply_capacity(answer), &length);
-    if (status < 0 || status > UINT8_MAX) {
-        reply_refuse(answer, EBL_STATUS_INTERNAL, 0);
-    } else if (status != EBL_STATUS_OK) {
+    if (status > EBL_STATUS_OK && status <= UINT8_MAX) {
         board_refuse(answer, (uint8_t)status, length);
+    } else if (status == EBL_STATUS_OK && length <= reply_capacity(answer)) {
+        reply_with(answer, length);
     } else {
-        reply_with(answer, length <= reply_capacity(answer) ? EBL_OK : EBL_ERROR_SPACE, length);
+        reply_refuse(answer, EBL_STATUS_INTERNAL, 0);
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include "app.h"        // app
 #include "ebl_frame.h"  // ebl_header
+#include "ebl_layout.h" // EBL_MESSAGE
 #include "ebl_values.h" // ebl_refusal
 
 /* Where a handler puts its answer: the status byte, then the detail or the fields. */
@@ -23,11 +24,16 @@ void reply_ok(reply *answer);
 void reply_refuse(reply *answer, uint8_t status, uint16_t detail);
 void reply_status(reply *answer, uint8_t status, uint16_t detail); /* OK has no detail */
 
-/* OK with fields of `length` bytes that the handler has put at reply_fields, where `put` is the
- * ebl_result of putting them. */
-void reply_with(reply *answer, int put, size_t length);
+/* OK with a message's fields: reply_message(answer, EBL_MESSAGE(ebl_alive_response, &response)). */
+void reply_message(reply *answer, const uint8_t *layout, const void *message);
+
+/* OK with `length` bytes that the handler has put at reply_fields. */
+void reply_with(reply *answer, size_t length);
 uint8_t *reply_fields(const reply *answer);
 size_t reply_capacity(const reply *answer);
+
+/* Reads a request into the struct of an EBL_MESSAGE. False, and refused, where it is too short. */
+int request_read(const ebl_header *request, reply *answer, const uint8_t *layout, void *message);
 
 /* What REFUSALS_MAX violations of an image leave behind an INVALID_CONFIG: as many as the MTU
  * carries, `detail` says how many there are. */

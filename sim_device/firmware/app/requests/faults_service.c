@@ -1,18 +1,14 @@
 /* What the host asks about faults: which there are, and what the bike did when they came. */
-#include "dispatch.h"     // reply_refuse, reply_with
-#include "ebl_bytes.h"    // EBL_OK, ebl_put_i16
-#include "ebl_registry.h" // ebl_evt_fault_freeze_request_get
+#include "dispatch.h"     // reply_refuse, reply_message, request_read
+#include "ebl_bytes.h"    // ebl_put_i16
+#include "ebl_registry.h" // ebl_evt_fault_freeze_request
 
 static void fault_list_get(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_evt_fault_list_response response = {unit->faults.active};
-    size_t length = 0;
-    int put;
 
     (void)request;
-    put = ebl_evt_fault_list_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                          &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_evt_fault_list_response, &response));
 }
 
 static void freeze_get(app *unit, const ebl_header *request, reply *answer)
@@ -21,14 +17,8 @@ static void freeze_get(app *unit, const ebl_header *request, reply *answer)
     ebl_evt_fault_freeze_request asked;
     ebl_evt_fault_freeze_response response;
     const fault_frame *frame;
-    size_t length = 0;
-    int put;
 
-    if (ebl_evt_fault_freeze_request_get(&asked, request->payload, request->payload_length) !=
-        EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_EVT_FAULT_FREEZE_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_evt_fault_freeze_request, &asked))) return;
     if (asked.fault_bit >= FAULT_KINDS || unit->faults.frames[asked.fault_bit].count == 0) {
         reply_refuse(answer, EBL_STATUS_NOT_FOUND, asked.fault_bit);
         return;
@@ -40,32 +30,22 @@ static void freeze_get(app *unit, const ebl_header *request, reply *answer)
     response.t_us = frame->t_us;
     response.values = values;
     response.values_length = sizeof values;
-    put = ebl_evt_fault_freeze_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                            &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_evt_fault_freeze_response, &response));
 }
 
 static void faults_clear_request(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_evt_fault_clear_request asked;
     ebl_evt_fault_clear_response response;
-    size_t length = 0;
-    int put;
 
-    if (ebl_evt_fault_clear_request_get(&asked, request->payload, request->payload_length) !=
-        EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_EVT_FAULT_CLEAR_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_evt_fault_clear_request, &asked))) return;
     if (transaction_flash_status(unit->board, app_speed_kmh(unit)) != EBL_STATUS_NOT_STOPPED) {
         app_faults_cleared(unit, faults_clear_latched(&unit->faults, asked.fault_flags),
                            unit->board->now_us(unit->board->context));
     }
     faults_forget(&unit->faults, asked.fault_flags);
     response.fault_flags = unit->faults.active;
-    put = ebl_evt_fault_clear_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                           &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_evt_fault_clear_response, &response));
 }
 
 request_handler requests_faults(uint16_t message_id)

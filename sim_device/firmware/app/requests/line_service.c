@@ -1,8 +1,7 @@
 /* What the host asks of the line itself: another rate, whether it is still the same unit, and what
  * it has heard. */
-#include "dispatch.h"     // reply_refuse, reply_with
-#include "ebl_bytes.h"    // EBL_OK
-#include "ebl_registry.h" // ebl_set_baud_request_get
+#include "dispatch.h"     // reply_refuse, reply_message, request_read
+#include "ebl_registry.h" // ebl_set_baud_request
 
 static void set_baud(app *unit, const ebl_header *request, reply *answer)
 {
@@ -10,13 +9,8 @@ static void set_baud(app *unit, const ebl_header *request, reply *answer)
     ebl_set_baud_response response = {LINE_RATE_SWITCH_MS, LINE_RATE_PROVE_MS};
     uint16_t detail = 0;
     uint8_t status;
-    size_t length = 0;
-    int put;
 
-    if (ebl_set_baud_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_SET_BAUD_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_set_baud_request, &asked))) return;
     status = line_rate_check(&unit->line, unit->board, asked.bits_per_second, &detail);
     if (status == EBL_STATUS_OK && !telemetry_fits(&unit->telemetry, asked.bits_per_second)) {
         status = EBL_STATUS_BANDWIDTH;
@@ -26,9 +20,7 @@ static void set_baud(app *unit, const ebl_header *request, reply *answer)
         return;
     }
     line_rate_begin(&unit->line, unit->board, asked.bits_per_second);
-    put =
-        ebl_set_baud_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_set_baud_response, &response));
 }
 
 static void alive(app *unit, const ebl_header *request, reply *answer)
@@ -37,22 +29,16 @@ static void alive(app *unit, const ebl_header *request, reply *answer)
     ebl_alive_response response = {
         board->boot_id,     unit->session_id,        board->now_us(board->context),
         board->serial_baud, unit->events.kept_count, unit->events.pushed_out};
-    size_t length = 0;
-    int put;
 
     (void)request;
-    put = ebl_alive_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_alive_response, &response));
 }
 
 static void event_acknowledge(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_evt_ack_request asked;
 
-    if (ebl_evt_ack_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_EVT_ACK_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_evt_ack_request, &asked))) return;
     events_acknowledge(&unit->events, asked.seq);
     reply_ok(answer);
 }

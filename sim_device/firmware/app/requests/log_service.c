@@ -1,9 +1,9 @@
 /* What the host asks about ride logs. */
 #include <string.h>
 
-#include "dispatch.h"     // reply_ok, reply_with, dispatch_answer_later
-#include "ebl_bytes.h"    // EBL_OK, ebl_put_u32
-#include "ebl_registry.h" // ebl_log_list_request_get
+#include "dispatch.h"     // reply_ok, reply_message, request_read, dispatch_answer_later
+#include "ebl_bytes.h"    // ebl_put_u32
+#include "ebl_registry.h" // ebl_log_list_request
 
 #define ENTRY_LENGTH 40
 
@@ -28,7 +28,7 @@ static void entry_put(const ride_log_store *store, uint8_t place, uint8_t *bytes
     bytes[32] = log->flags;
 }
 
-/* The entries are put where they are sent from, behind what comes before them. */
+/* The entries follow the fields where they are sent from. */
 static void list(app *unit, const ebl_header *request, reply *answer)
 {
     const ride_log_store *store = &unit->ride_log.store;
@@ -36,28 +36,21 @@ static void list(app *unit, const ebl_header *request, reply *answer)
     ebl_log_list_request asked;
     ebl_log_list_response response = {0};
     size_t count = 0;
-    size_t length = 0;
-    int put;
 
-    if (ebl_log_list_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LOG_LIST_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_log_list_request, &asked))) return;
     if (asked.count < room) room = asked.count;
     response.total = ride_log_store_count(store);
     response.overwritten = store->overwritten;
     response.boot_id = unit->board->boot_id;
     response.now_us = now_us(unit);
-    put =
-        ebl_log_list_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
+    reply_message(answer, EBL_MESSAGE(ebl_log_list_response, &response));
     while (count < room && asked.start + count < response.total) {
         uint8_t place = ride_log_store_by_age(store, (uint16_t)(asked.start + count));
 
-        entry_put(store, place, reply_fields(answer) + length);
-        length += ENTRY_LENGTH;
+        entry_put(store, place, answer->bytes + answer->length);
+        answer->length += ENTRY_LENGTH;
         count++;
     }
-    reply_with(answer, put, length);
 }
 
 /* The place of a log that is not being recorded; refuses otherwise. */
@@ -92,13 +85,8 @@ static void open(app *unit, const ebl_header *request, reply *answer)
     ebl_log_open_request asked;
     ebl_log_open_response response;
     uint8_t place;
-    size_t length = 0;
-    int put;
 
-    if (ebl_log_open_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LOG_OPEN_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_log_open_request, &asked))) return;
     if (!find(unit, asked.log_id, asked.generation, &place, answer)) return;
     if (is_going(unit, place)) {
         reply_refuse(answer, EBL_STATUS_BUSY, ERASE_S);
@@ -115,18 +103,15 @@ static void open(app *unit, const ebl_header *request, reply *answer)
     }
     ride_log_bulk_open(&unit->bulk, store, place, asked.offset, response.chunk, response.window,
                        asked.session, now_us(unit));
-    put =
-        ebl_log_open_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_log_open_response, &response));
 }
 
 static void acknowledge(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_log_ack_request asked;
 
-    if (ebl_log_ack_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LOG_ACK_REQUEST_LENGTH);
-    } else if (unit->bulk.session == 0 || asked.session != unit->bulk.session) {
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_log_ack_request, &asked))) return;
+    if (unit->bulk.session == 0 || asked.session != unit->bulk.session) {
         reply_refuse(answer, EBL_STATUS_NOT_FOUND, asked.session);
     } else if (!ride_log_bulk_ack(&unit->bulk, asked.base, asked.bitmap, now_us(unit))) {
         reply_refuse(answer, EBL_STATUS_RANGE, asked.session);
@@ -139,10 +124,7 @@ static void close(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_log_close_request asked;
 
-    if (ebl_log_close_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LOG_CLOSE_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_log_close_request, &asked))) return;
     if (asked.session == unit->bulk.session) ride_log_bulk_end(&unit->bulk);
     reply_ok(answer);
 }
@@ -178,10 +160,7 @@ static void crc(app *unit, const ebl_header *request, reply *answer)
     ebl_log_crc_request asked;
     uint8_t place;
 
-    if (ebl_log_crc_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LOG_CRC_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_log_crc_request, &asked))) return;
     if (!find(unit, asked.log_id, asked.generation, &place, answer)) return;
     check_begin(unit, request, place, asked.offset, asked.length, answer);
 }
@@ -191,10 +170,7 @@ static void confirm(app *unit, const ebl_header *request, reply *answer)
     ebl_log_confirm_request asked;
     uint8_t place;
 
-    if (ebl_log_confirm_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LOG_CONFIRM_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_log_confirm_request, &asked))) return;
     if (!find(unit, asked.log_id, asked.generation, &place, answer)) return;
     if (unit->ride_log.store.logs[place].flags & EBL_LOG_CONFIRMED) {
         reply_ok(answer);
@@ -214,10 +190,7 @@ static void erase(app *unit, const ebl_header *request, reply *answer)
     uint16_t fetched_s;
     uint8_t place;
 
-    if (ebl_log_erase_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LOG_ERASE_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_log_erase_request, &asked))) return;
     if (!find(unit, asked.log_id, asked.generation, &place, answer)) return;
     if (!(unit->ride_log.store.logs[place].flags & EBL_LOG_CONFIRMED)) {
         reply_refuse(answer, EBL_STATUS_STATE, (uint16_t)asked.log_id);
@@ -237,8 +210,6 @@ static void erase_answer(app *unit, reply *answer)
     ride_log_store *store = &unit->ride_log.store;
     uint8_t place = unit->log_check.place;
     ebl_log_erase_response response;
-    size_t length = 0;
-    int put;
 
     if (ride_log_store_erase(store, unit->board, store->logs[place].first_block) < 0) {
         reply_refuse(answer, EBL_STATUS_FLASH_FAIL, 0);
@@ -246,9 +217,7 @@ static void erase_answer(app *unit, reply *answer)
     }
     ride_log_store_release(store, place);
     response.erases = unit->counters.log_erases + store->erases;
-    put = ebl_log_erase_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                     &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_log_erase_response, &response));
 }
 
 /* What the host is told once the check value is known. */
@@ -256,13 +225,9 @@ static void check_answer(app *unit, reply *answer)
 {
     ride_log_check *check = &unit->log_check;
     ebl_log_crc_response response = {check->crc32};
-    size_t length = 0;
-    int put;
 
     if (check->message_id == EBL_MSG_LOG_CRC) {
-        put = ebl_log_crc_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                       &length);
-        reply_with(answer, put, length);
+        reply_message(answer, EBL_MESSAGE(ebl_log_crc_response, &response));
     } else if (check->message_id == EBL_MSG_LOG_ERASE) {
         erase_answer(unit, answer);
     } else if (check->crc32 != check->expected) {

@@ -1,8 +1,8 @@
 /* What the host asks about telemetry. */
 #include "line/stream_budget.h" // admission_budget_bytes_per_s
-#include "dispatch.h"           // reply_ok, reply_with
-#include "ebl_bytes.h"          // EBL_OK, ebl_put_u32
-#include "ebl_registry.h"       // ebl_str_subscribe_request_get
+#include "dispatch.h"           // reply_message, request_read
+#include "ebl_bytes.h"          // ebl_put_u32
+#include "ebl_registry.h"       // ebl_str_subscribe_request
 
 #define ENTRY_LENGTH 14 /* of one stream in STR_LIST */
 #define US_PER_MS 1000u
@@ -14,23 +14,15 @@ static void subscribe(app *unit, const ebl_header *request, reply *answer)
     telemetry_line line = {unit->tx_mtu, line_rate_for_streams(&unit->line, unit->board)};
     uint16_t detail = 0;
     uint8_t status;
-    size_t length = 0;
-    int put;
 
-    if (ebl_str_subscribe_request_get(&asked, request->payload, request->payload_length) !=
-        EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_STR_SUBSCRIBE_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_str_subscribe_request, &asked))) return;
     status = telemetry_subscribe(&unit->telemetry, &asked, &line,
                                  unit->board->now_us(unit->board->context), &response, &detail);
     if (status != EBL_STATUS_OK) {
         reply_refuse(answer, status, detail);
         return;
     }
-    put = ebl_str_subscribe_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                         &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_str_subscribe_response, &response));
 }
 
 static void unsubscribe(app *unit, const ebl_header *request, reply *answer)
@@ -38,11 +30,7 @@ static void unsubscribe(app *unit, const ebl_header *request, reply *answer)
     ebl_str_unsubscribe_request asked;
     uint8_t status;
 
-    if (ebl_str_unsubscribe_request_get(&asked, request->payload, request->payload_length) !=
-        EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_STR_UNSUBSCRIBE_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_str_unsubscribe_request, &asked))) return;
     status = telemetry_unsubscribe(&unit->telemetry, &unit->events, &unit->link,
                                    unit->board->now_us(unit->board->context), asked.stream_id);
     reply_status(answer, status, asked.stream_id);
@@ -53,10 +41,7 @@ static void renew(app *unit, const ebl_header *request, reply *answer)
     ebl_str_renew_request asked;
     uint8_t status;
 
-    if (ebl_str_renew_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_STR_RENEW_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_str_renew_request, &asked))) return;
     status = telemetry_renew(&unit->telemetry, asked.stream_id, asked.lease_s,
                              unit->board->now_us(unit->board->context));
     reply_status(answer, status, asked.stream_id);
@@ -79,8 +64,6 @@ static void list(app *unit, const ebl_header *request, reply *answer)
 {
     uint8_t entries[TELEMETRY_STREAMS * ENTRY_LENGTH];
     ebl_str_list_response response = {0};
-    size_t length = 0;
-    int put;
 
     (void)request;
     response.budget_bytes_per_s =
@@ -94,9 +77,7 @@ static void list(app *unit, const ebl_header *request, reply *answer)
                   unit->board->now_us(unit->board->context));
         response.entries_length += ENTRY_LENGTH;
     }
-    put =
-        ebl_str_list_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_str_list_response, &response));
 }
 
 static void snapshot(app *unit, const ebl_header *request, reply *answer)
@@ -106,13 +87,8 @@ static void snapshot(app *unit, const ebl_header *request, reply *answer)
     ebl_str_snapshot_response response;
     uint16_t detail = 0;
     uint8_t status;
-    size_t length = 0;
-    int put;
 
-    if (ebl_str_snapshot_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_STR_SNAPSHOT_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_str_snapshot_request, &asked))) return;
     status = telemetry_snapshot(&unit->telemetry, asked.channel_ids, asked.channel_ids_length,
                                 values, &detail);
     if (status != EBL_STATUS_OK) {
@@ -122,9 +98,7 @@ static void snapshot(app *unit, const ebl_header *request, reply *answer)
     response.t_us = unit->telemetry.row_us;
     response.values = values;
     response.values_length = 2 * asked.channel_ids_length;
-    put = ebl_str_snapshot_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                        &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_str_snapshot_response, &response));
 }
 
 request_handler requests_stream(uint16_t message_id)

@@ -1,9 +1,8 @@
 /* Who the unit is, and whether it is there. */
 #include <string.h>
 
-#include "dispatch.h"     // reply_ok, reply_with
-#include "ebl_bytes.h"    // EBL_OK
-#include "ebl_registry.h" // ebl_hello_request_get
+#include "dispatch.h"     // reply_ok, reply_message, request_read
+#include "ebl_registry.h" // ebl_hello_request
 
 #define MTU_MIN EBL_MTU_BEFORE_HELLO
 
@@ -54,13 +53,8 @@ static void hello(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_hello_request asked;
     ebl_hello_response response;
-    size_t length = 0;
-    int put;
 
-    if (ebl_hello_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_HELLO_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_hello_request, &asked))) return;
     if (asked.major_min > EBL_MAJOR || asked.major_max < EBL_MAJOR) {
         reply_refuse(answer, EBL_STATUS_VERSION, EBL_MAJOR);
         return;
@@ -72,8 +66,7 @@ static void hello(app *unit, const ebl_header *request, reply *answer)
     session_start(unit);
     unit->tx_mtu = asked.host_mtu < LINK_MTU ? asked.host_mtu : LINK_MTU;
     hello_fill(unit, &response);
-    put = ebl_hello_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_hello_response, &response));
 }
 
 static void ping(app *unit, const ebl_header *request, reply *answer)
@@ -88,14 +81,9 @@ static void schema_read(app *unit, const ebl_header *request, reply *answer)
     ebl_schema_read_request asked;
     ebl_schema_read_response response;
     size_t room = reply_capacity(answer) - EBL_SCHEMA_READ_RESPONSE_LENGTH;
-    size_t length = 0;
-    int put;
 
     (void)unit;
-    if (ebl_schema_read_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_SCHEMA_READ_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_schema_read_request, &asked))) return;
     if (asked.offset > EBL_SCHEMA_LENGTH) {
         reply_refuse(answer, EBL_STATUS_RANGE, EBL_SCHEMA_LENGTH);
         return;
@@ -105,9 +93,7 @@ static void schema_read(app *unit, const ebl_header *request, reply *answer)
     response.data_length = EBL_SCHEMA_LENGTH - asked.offset;
     if (response.data_length > asked.length) response.data_length = asked.length;
     if (response.data_length > room) response.data_length = room;
-    put = ebl_schema_read_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                       &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_schema_read_response, &response));
 }
 
 static void stats(app *unit, const ebl_header *request, reply *answer)
@@ -115,12 +101,9 @@ static void stats(app *unit, const ebl_header *request, reply *answer)
     const ebl_counts *counts = &unit->link.decoder.counts;
     ebl_stats_response response = {counts->frames_ok, counts->crc_errors, counts->cobs_errors,
                                    counts->overflows, unit->link.dropped_tx};
-    size_t length = 0;
-    int put;
 
     (void)request;
-    put = ebl_stats_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_stats_response, &response));
 }
 
 static void counters_get(app *unit, const ebl_header *request, reply *answer)
@@ -128,26 +111,18 @@ static void counters_get(app *unit, const ebl_header *request, reply *answer)
     const counters *learned = &unit->counters;
     ebl_counters_response response = {learned->distance_m, learned->operating_s,
                                       learned->saved_distance_m, learned->saved_operating_s};
-    size_t length = 0;
-    int put;
 
     (void)request;
-    put =
-        ebl_counters_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_counters_response, &response));
 }
 
 static void start_info(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_start_info_response response = {unit->board->boot_id, unit->board->reset_cause,
                                         unit->watch.steps_missed};
-    size_t length = 0;
-    int put;
 
     (void)request;
-    put = ebl_start_info_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                      &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_start_info_response, &response));
 }
 
 static void bye(app *unit, const ebl_header *request, reply *answer)

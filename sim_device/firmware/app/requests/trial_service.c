@@ -2,9 +2,8 @@
 #include <string.h>
 
 #include "config/wear.h"       // config_wear_wait_s
-#include "dispatch.h"          // reply_ok, reply_with
-#include "ebl_bytes.h"         // EBL_OK
-#include "ebl_registry.h"      // ebl_cfg_confirm_request_get
+#include "dispatch.h"          // reply_message, request_read
+#include "ebl_registry.h"      // ebl_cfg_confirm_request
 #include "config/parameters.h" // parameters_get
 
 static uint64_t now(const app *unit) { return unit->board->now_us(unit->board->context); }
@@ -16,10 +15,7 @@ static void confirm(app *unit, const ebl_header *request, reply *answer)
     uint16_t detail = 0;
     uint8_t status;
 
-    if (ebl_cfg_confirm_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_CFG_CONFIRM_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_confirm_request, &asked))) return;
     status = trial_confirm(&unit->store, unit->board, &asked, &detail);
     reply_status(answer, status, detail);
     if (status != EBL_STATUS_OK || !was_on_trial) return;
@@ -32,8 +28,6 @@ static void confirm(app *unit, const ebl_header *request, reply *answer)
 static void rollback(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_cfg_rollback_response response;
-    size_t length = 0;
-    int put;
 
     (void)request;
     if (!unit->store.on_trial) {
@@ -44,16 +38,12 @@ static void rollback(app *unit, const ebl_header *request, reply *answer)
     app_config_changed(unit, EBL_EVENT_CONFIG_ROLLED_BACK);
     response.generation = unit->store.generation;
     response.crc32 = unit->store.crc32;
-    put = ebl_cfg_rollback_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                        &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_cfg_rollback_response, &response));
 }
 
 static void config_status(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_cfg_status_response response;
-    size_t length = 0;
-    int put;
 
     (void)request;
     response.state = unit->store.on_trial ? EBL_CONFIG_STATE_PROVISIONAL : unit->transaction.state;
@@ -65,9 +55,7 @@ static void config_status(app *unit, const ebl_header *request, reply *answer)
                                                          now(unit), unit->counters.operating_s);
     response.rollback_cause = unit->trial.cause;
     response.rolled_back_generation = unit->trial.returned_generation;
-    put = ebl_cfg_status_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                      &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_cfg_status_response, &response));
 }
 
 static void wear(app *unit, const ebl_header *request, reply *answer)
@@ -76,20 +64,14 @@ static void wear(app *unit, const ebl_header *request, reply *answer)
     ebl_cfg_wear_response response = {
         config_wear_wait_s(unit->store.worn_until_s, operating_s),
         config_wear_writes_free(unit->store.worn_until_s, operating_s)};
-    size_t length = 0;
-    int put;
 
     (void)request;
-    put =
-        ebl_cfg_wear_response_put(&response, reply_fields(answer), reply_capacity(answer), &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_cfg_wear_response, &response));
 }
 
 static void slots(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_cfg_slots_response response;
-    size_t length = 0;
-    int put;
 
     (void)request;
     response.active_slot = unit->store.slot;
@@ -101,9 +83,7 @@ static void slots(app *unit, const ebl_header *request, reply *answer)
         response.generations[i] = seen.generation;
         response.erases[i] = seen.erases;
     }
-    put = ebl_cfg_slots_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                     &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_cfg_slots_response, &response));
 }
 
 static void param_get(app *unit, const ebl_header *request, reply *answer)
@@ -113,16 +93,13 @@ static void param_get(app *unit, const ebl_header *request, reply *answer)
     uint16_t detail = 0;
     uint8_t status;
 
-    if (ebl_param_get_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_PARAM_GET_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_param_get_request, &asked))) return;
     status = parameters_get(live_image(&unit->live, &unit->store), asked.ids, asked.ids_length,
                             reply_fields(answer), reply_capacity(answer), &length, &detail);
     if (status != EBL_STATUS_OK) {
         reply_refuse(answer, status, detail);
     } else {
-        reply_with(answer, EBL_OK, length);
+        reply_with(answer, length);
     }
 }
 
@@ -133,10 +110,7 @@ static void live_values(app *unit, const ebl_header *request, reply *answer)
     uint16_t detail = 0;
     uint8_t status;
 
-    if (ebl_live_set_request_get(&asked, request->payload, request->payload_length) != EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_LIVE_SET_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_live_set_request, &asked))) return;
     status = live_set(&unit->live, &unit->store, &asked, EBL_ACCESS_DEALER, now(unit), found,
                       REFUSALS_MAX, &detail);
     if (status == EBL_STATUS_INVALID_CONFIG) {

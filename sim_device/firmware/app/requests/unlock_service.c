@@ -1,8 +1,7 @@
 /* What the host asks to be allowed, and what it may not write without. */
 #include "config/transaction.h" // transaction_staged_crc, transaction_flash_status
-#include "dispatch.h"           // reply_ok, reply_with
-#include "ebl_bytes.h"          // EBL_OK
-#include "ebl_registry.h"       // ebl_auth_challenge_request_get
+#include "dispatch.h"           // reply_ok, reply_message, request_read
+#include "ebl_registry.h"       // ebl_auth_challenge_request
 
 static uint64_t now(const app *unit) { return unit->board->now_us(unit->board->context); }
 
@@ -20,22 +19,14 @@ static void challenge(app *unit, const ebl_header *request, reply *answer)
     ebl_auth_challenge_response response;
     uint16_t detail = 0;
     uint8_t status;
-    size_t length = 0;
-    int put;
 
-    if (ebl_auth_challenge_request_get(&asked, request->payload, request->payload_length) !=
-        EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_AUTH_CHALLENGE_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_auth_challenge_request, &asked))) return;
     status = unlock_challenge(&unit->lock, unit->board, asked.level, &response, &detail);
     if (status != EBL_STATUS_OK) {
         reply_refuse(answer, status, detail);
         return;
     }
-    put = ebl_auth_challenge_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                          &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_auth_challenge_response, &response));
 }
 
 /* Nothing is spent before there is something to be allowed and the bike stands: the check takes
@@ -57,14 +48,8 @@ static void respond(app *unit, const ebl_header *request, reply *answer)
     ebl_auth_response_response response;
     uint16_t detail = 0;
     uint8_t status;
-    size_t length = 0;
-    int put;
 
-    if (ebl_auth_response_request_get(&asked, request->payload, request->payload_length) !=
-        EBL_OK) {
-        reply_refuse(answer, EBL_STATUS_LENGTH, EBL_AUTH_RESPONSE_REQUEST_LENGTH);
-        return;
-    }
+    if (!request_read(request, answer, EBL_MESSAGE(ebl_auth_response_request, &asked))) return;
     status = may_be_asked(unit, asked.transaction, &detail);
     if (status == EBL_STATUS_OK) {
         status = unlock_respond(&unit->lock, unit->board, &asked, unit->transaction.image, &detail);
@@ -75,9 +60,7 @@ static void respond(app *unit, const ebl_header *request, reply *answer)
         return;
     }
     response.level = unit->lock.granted_level;
-    put = ebl_auth_response_response_put(&response, reply_fields(answer), reply_capacity(answer),
-                                         &length);
-    reply_with(answer, put, length);
+    reply_message(answer, EBL_MESSAGE(ebl_auth_response_response, &response));
 }
 
 static void drop(app *unit, const ebl_header *request, reply *answer)

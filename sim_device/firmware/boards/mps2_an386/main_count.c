@@ -12,6 +12,7 @@
 #include "chip.h"             // CHIP_SYSTICK
 #include "ebl_bytes.h"        // ebl_put_u16
 #include "ebl_frame.h"        // ebl_frame_encode
+#include "ebl_layout.h"       // EBL_MESSAGE, ebl_layout_put
 #include "config/signature.h" // signature_is_valid
 
 #define STEPS 2000
@@ -259,7 +260,8 @@ static void subscribe(void)
     wanted.lease_s = 255;
     wanted.channel_ids = channels;
     wanted.channel_ids_length = sizeof channels;
-    (void)ebl_str_subscribe_request_put(&wanted, payload, sizeof payload, &length);
+    (void)ebl_layout_put(EBL_MESSAGE(ebl_str_subscribe_request, &wanted), payload, sizeof payload,
+                         &length);
     request(2, EBL_MSG_STR_SUBSCRIBE, payload, length);
     app_poll(&unit);
 }
