@@ -8,7 +8,7 @@ STAMP := .make
 
 # Most tests wait more than they compute: twice the two cores of a small machine.
 WORKERS ?= 4
-PARALLEL := -n $(WORKERS) --dist loadfile
+PARALLEL := -n $(WORKERS) --dist loadgroup --no-loadscope-reorder
 
 # What runs against the emulated board; `make test-board-all` adds what takes minutes there.
 BOARD_TESTS := tests/board tests/conformance tests/unit/sim_device_app tests/stories
@@ -16,6 +16,11 @@ BOARD_TESTS := tests/board tests/conformance tests/unit/sim_device_app tests/sto
 C_SOURCES := $(wildcard firmware_protocol/c/*.[ch] sim_device/firmware/*/*.[ch] \
 	sim_device/firmware/app/*/*.[ch] sim_device/firmware/boards/host/*.[ch] sim_device/physics/*.[ch] third_party/*/*.[ch])
 WEB_SOURCES := $(shell find frontend -type f -not -path '*/node_modules/*' -not -path '*/dist/*')
+
+# Tests start hundreds of processes, which would otherwise compile our Python anew each time.
+test prove test-fast test-board test-board-all: export PYTHONDONTWRITEBYTECODE =
+# Their folders are in memory where there is room: rides and databases wait for the disk too often.
+test prove test-fast: export PYTEST_DEBUG_TEMPROOT = $(shell .ci/folder-in-memory)
 
 .PHONY: help
 help: ## what can be made
@@ -38,17 +43,21 @@ test: setup $(STAMP)/chromium lint ## every test there is, a real browser includ
 	$(BIN)/pytest -m serial
 	$(BIN)/pytest -m "not serial" $(PARALLEL)
 
+.PHONY: prove
+prove: setup ## the large counts of which `make test` does a tenth, all of them
+	$(BIN)/pytest --prove -m large_count $(PARALLEL)
+
 .PHONY: test-board
 test-board: setup $(STAMP)/arm ## the unit's tests against the firmware on an emulated Cortex-M4F
 	$(BIN)/pytest --unit=qemu -m "not board_long" $(BOARD_TESTS)
 
 .PHONY: test-board-all
 test-board-all: setup $(STAMP)/arm ## the same with the longest: power cuts at every byte, ten thousand guesses
-	$(BIN)/pytest --unit=qemu $(BOARD_TESTS)
+	$(BIN)/pytest --unit=qemu --prove $(BOARD_TESTS)
 
 .PHONY: test-fast
-test-fast: $(STAMP)/native ## unit and conformance tests without the slow ones
-	$(BIN)/pytest -m "not slow" tests/unit tests/conformance
+test-fast: $(STAMP)/native ## unit and conformance tests without the slow ones; ONLY=path for some
+	$(BIN)/pytest -m "not slow and not serial" $(PARALLEL) $(or $(ONLY),tests/unit tests/conformance)
 
 .PHONY: simulate
 simulate: $(STAMP)/native ## the story of one seed of the simulated link: make simulate SEED=123

@@ -17,8 +17,12 @@ def main() -> None:
     clang = harness.compiler(folder)
     if clang is None:
         print("C: no clang with libFuzzer here (apt-get install clang libclang-rt-14-dev)")
+    objects = folder / "objects"
+    objects.mkdir()
+    if clang:
+        harness.compile_unit(clang, objects)
     for target in harness.TARGETS if clang else ():
-        program = harness.build(str(clang), target, folder)
+        program = harness.build(str(clang), target, objects, folder)
         done = harness.run(program, harness.write_corpus(target, folder), seconds, folder)
         print(f"C {target}: {harness.executions(done.stderr):,} inputs", flush=True)
         if done.returncode != 0:

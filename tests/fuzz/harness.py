@@ -69,17 +69,27 @@ def compiler(folder: Path) -> str | None:
     return None
 
 
-def build(name: str, target: str, folder: Path) -> Path:
-    """The program of a target."""
-    program = folder / f"fuzz_{target}"
+def compile_unit(name: str, folder: Path) -> None:
+    """The unit's sources as objects in `folder`: what every target is linked with."""
     sources = [path for part in SOURCE_FOLDERS for path in sorted((ROOT / part).rglob("*.c"))]
     sources += [ROOT / "sim_device/firmware/boards/host" / file for file in BOARD]
-    command = [name, *OPTIONS, *(f"-I{ROOT / part}" for part in INCLUDES)]
-    command += [str(HERE / f"fuzz_{target}.c"), *map(str, sources), "-o", str(program)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    includes = [f"-I{ROOT / part}" for part in INCLUDES]
+    _run([name, *OPTIONS, *includes, "-c", *map(str, sources)], folder)
+
+
+def build(name: str, target: str, objects: Path, folder: Path) -> Path:
+    """The program of a target, linked with what `compile_unit` made."""
+    program = folder / f"fuzz_{target}"
+    includes = [f"-I{ROOT / part}" for part in INCLUDES]
+    unit = map(str, sorted(objects.glob("*.o")))
+    _run([name, *OPTIONS, *includes, str(HERE / f"fuzz_{target}.c"), *unit, "-o", str(program)])
+    return program
+
+
+def _run(command: list[str], folder: Path | None = None) -> None:
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise RuntimeError(done.stderr)
-    return program
 
 
 def write_corpus(target: str, folder: Path) -> Path:

@@ -1,6 +1,6 @@
 """Goal: no input makes the unit's C break a rule of C, nor the host's Python fail unexpectedly.
 
-Method: coverage-guided fuzzing. Here each target runs for a few seconds from the golden vectors;
+Method: coverage-guided fuzzing. Here each target runs for some seconds from the golden vectors;
 `make fuzz SECONDS=3600` runs them as long as one likes. Without clang's libFuzzer the C targets are
 skipped; the seeded storm of tests/conformance/wire_storm.c runs everywhere.
 """
@@ -13,12 +13,13 @@ from pathlib import Path
 
 import pytest
 
+from tests import counts
+from tests.fakes.built_once import built_once
 from tests.fuzz import harness
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.large_count, pytest.mark.spread]
 
-SECONDS = 4
-PYTHON_SECONDS = 4
+SECONDS = counts.of(20)
 
 
 @pytest.fixture(scope="module")
@@ -29,9 +30,19 @@ def clang(tmp_path_factory: pytest.TempPathFactory) -> str:
     return found
 
 
+@pytest.fixture(scope="module")
+def objects(clang: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The unit's sources, compiled for all targets."""
+    return built_once(
+        tmp_path_factory, "fuzz_objects", lambda folder: harness.compile_unit(clang, folder)
+    )
+
+
 @pytest.mark.parametrize("target", harness.TARGETS)
-def test_no_input_found_breaks_the_unit(clang: str, target: str, tmp_path: Path) -> None:
-    program = harness.build(clang, target, tmp_path)
+def test_no_input_found_breaks_the_unit(
+    clang: str, objects: Path, target: str, tmp_path: Path
+) -> None:
+    program = harness.build(clang, target, objects, tmp_path)
     corpus = harness.write_corpus(target, tmp_path)
 
     done = harness.run(program, corpus, SECONDS, tmp_path)
@@ -50,7 +61,7 @@ def test_no_input_found_breaks_the_host(target: str, tmp_path: Path) -> None:
             "-m",
             "tests.fuzz.host",
             target,
-            f"-max_total_time={PYTHON_SECONDS}",
+            f"-max_total_time={SECONDS}",
             "-seed=1",
             f"-artifact_prefix={tmp_path}/",
         ],
@@ -58,7 +69,7 @@ def test_no_input_found_breaks_the_host(target: str, tmp_path: Path) -> None:
         capture_output=True,
         text=True,
         check=False,
-        timeout=PYTHON_SECONDS + 120,
+        timeout=SECONDS + 120,
     )
 
     assert done.returncode == 0, done.stderr[-4000:]

@@ -15,7 +15,7 @@ def main() -> None:
     started_s = time.perf_counter()
     missed = []
     with tempfile.TemporaryDirectory(prefix="spindle-mutation-") as folder:
-        workshop = Workshop(Path(folder))
+        workshop = Workshop(Path(folder)).set_up()
         for one in breaks():
             try:
                 done = workshop.broken(one)

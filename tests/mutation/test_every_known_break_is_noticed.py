@@ -2,7 +2,8 @@
 noticed by the quick tests named for it.
 
 Method: breaks.toml applied one by one to a copy of the sources, the C compiled anew, the named
-tests run until the first fails. About 70 s; `make mutate` prints the list.
+tests run until the first fails. `make test` plants those that are marked `always` there, one in
+ten; `make prove` all. `make mutate` prints the list.
 """
 
 from __future__ import annotations
@@ -11,27 +12,35 @@ import shutil
 
 import pytest
 
+from tests import counts
+from tests.fakes.built_once import built_once
 from tests.mutation.workshop import FAILED, PASSED, Break, Workshop, breaks
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.spread]
+
+PLANTED = [one for one in breaks() if one.always or counts.proving()]
 
 
 @pytest.fixture(scope="module")
 def workshop(tmp_path_factory: pytest.TempPathFactory) -> Workshop:
     if shutil.which("cc") is None:
         pytest.skip("no C compiler on this machine")
-    return Workshop(tmp_path_factory.mktemp("workshop"))
+    made = built_once(tmp_path_factory, "workshop", lambda folder: Workshop(folder).set_up())
+    own = tmp_path_factory.mktemp("own") / "workshop"
+    return Workshop(shutil.copytree(made, own))
 
 
+@pytest.mark.large_count
 def test_the_unbroken_copy_passes(workshop: Workshop) -> None:
-    named = tuple(sorted({file for one in breaks() for file in one.caught_by}))
+    named = tuple(sorted({file for one in PLANTED for file in one.caught_by}))
 
     done = workshop.tests(named)
 
     assert done.returncode == PASSED, done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("one", breaks(), ids=lambda one: one.name)
+@pytest.mark.large_count
+@pytest.mark.parametrize("one", PLANTED, ids=lambda one: one.name)
 def test_a_known_break_is_noticed(workshop: Workshop, one: Break) -> None:
     done = workshop.broken(one)
 
@@ -39,5 +48,6 @@ def test_a_known_break_is_noticed(workshop: Workshop, one: Break) -> None:
     assert done.returncode == FAILED, f"{who} did not notice:\n{done.stdout}{done.stderr}"
 
 
-def test_there_are_twenty_of_them() -> None:
+def test_there_are_twenty_of_them_and_a_tenth_is_always_planted() -> None:
     assert len({one.name for one in breaks()}) >= 20
+    assert len([one for one in breaks() if one.always]) >= len(breaks()) // 10

@@ -31,12 +31,13 @@ from schemathesis.specs.openapi.checks import (
 )
 
 from backend.api.app import ApiSettings, create_app
+from tests import counts
 from tests.fakes.server import SpindleServer
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.large_count]
 
 # Enough to find what is wrong with a route at first sight; a night finds more.
-EXAMPLES = 6
+EXAMPLES = counts.of(6, least=2)
 CHECKS = [
     not_a_server_error,
     status_code_conformance,

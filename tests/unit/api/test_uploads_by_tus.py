@@ -22,6 +22,7 @@ from backend.api.app import ApiSettings, create_app
 from backend.ingest.outcome import rejected
 from backend.services.upload import Uploads
 from backend.store import open_store
+from tests import counts
 
 CHUNK = {"tus-resumable": "1.0.0", "content-type": "application/offset+octet-stream"}
 LENGTH = 10
@@ -89,8 +90,11 @@ ANY_VALUE = st.binary(max_size=40).filter(lambda v: not set(v) & {0, 10, 13}) | 
 )
 
 
+@pytest.mark.large_count
 @settings(
-    max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    max_examples=counts.of(150),
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
 )
 @given(
     header=st.sampled_from(

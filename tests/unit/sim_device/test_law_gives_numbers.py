@@ -30,12 +30,12 @@ from sim_device.firmware.python.law import (
     native_config,
     pack_inputs,
 )
+from tests import counts
 from tests.fakes.accepted_laws import DENORMAL, accepted_config, points_of, readings
-from tests.fakes.effort import EFFORT
 
-SWEEP_CONFIGS = 400 * EFFORT
+SWEEP_CONFIGS = counts.of(4000)
 SWEEP_STEPS = 60
-EXAMPLES = 150 * EFFORT
+EXAMPLES = counts.of(1500)
 RAD_PER_S_PER_RPM = math.pi / 30.0
 ROUNDING = 1e-4
 """Room for float32: the limits here are computed in double."""
@@ -199,6 +199,7 @@ def test_what_is_remembered_and_no_number_costs_one_step_and_is_gone(
     np.testing.assert_allclose(after[-1]["motor_torque_nm"], before[-1]["motor_torque_nm"], 1e-3)
 
 
+@pytest.mark.large_count
 def test_every_accepted_configuration_keeps_every_limit_on_every_reading() -> None:
     random = np.random.default_rng(20261121)
 
@@ -209,6 +210,7 @@ def test_every_accepted_configuration_keeps_every_limit_on_every_reading() -> No
     assert driven > SWEEP_CONFIGS
 
 
+@pytest.mark.large_count
 def test_what_the_law_alone_would_take_gives_numbers_too() -> None:
     """The law's own check is wider than the registry: a millionth to a million."""
     random = np.random.default_rng(7)
@@ -235,6 +237,7 @@ def test_what_the_law_alone_would_take_gives_numbers_too() -> None:
     assert steps > 100
 
 
+@pytest.mark.large_count
 @settings(max_examples=EXAMPLES, deadline=None)
 @given(st.integers(0, 2**32 - 1))
 def test_no_configuration_and_ride_that_hypothesis_finds_breaks_a_limit(seed: int) -> None:
@@ -243,6 +246,7 @@ def test_no_configuration_and_ride_that_hypothesis_finds_breaks_a_limit(seed: in
     judge(accepted_config(random), readings(random, 8))
 
 
+@pytest.mark.large_count
 @settings(max_examples=EXAMPLES, deadline=None)
 @given(
     st.integers(0, 2**32 - 1),

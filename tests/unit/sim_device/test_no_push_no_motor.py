@@ -19,11 +19,11 @@ from firmware_protocol._generated import Status
 from firmware_protocol.layout import Value
 from firmware_protocol.parameters import default_config
 from sim_device.firmware.python.law import OUTPUT_DTYPE, STEP_S, native_config, pack_inputs
+from tests import counts
 from tests.fakes.accepted_laws import RIDING, accepted_config
 from tests.fakes.bench_unit import BenchUnit
-from tests.fakes.effort import EFFORT
 
-CONFIGS = 300 * EFFORT
+CONFIGS = counts.of(3000)
 FUZZY_GAIN_MAX = 0.5
 ROUNDING = 0.01
 """Room for a reading in float32 beside an offset of 30,000 counts."""
@@ -56,7 +56,7 @@ def ride(config: dict[str, Any], state: Any, steps: int, **readings: float) -> n
     return outputs
 
 
-def counts(config: dict[str, Any], torque_nm: float) -> float:
+def raw_counts(config: dict[str, Any], torque_nm: float) -> float:
     """What the sensor reads at this torque, calibrated as configured."""
     offset, gain = config["sensor_offset_counts"], config["sensor_gain_nm_per_count"]
     return float(offset + torque_nm / gain)
@@ -68,10 +68,15 @@ def pushed(
     """A rider who pushed steadily for 3 s: his torque and mode, and the outputs."""
     torque_nm = float(random.uniform(5.0, 80.0))
     speed_kmh, mode = float(random.uniform(0.0, 20.0)), int(random.integers(1, 5))
-    rider = {"torque_raw_counts": counts(config, torque_nm), "speed_kmh": speed_kmh, "mode": mode}
+    rider = {
+        "torque_raw_counts": raw_counts(config, torque_nm),
+        "speed_kmh": speed_kmh,
+        "mode": mode,
+    }
     return torque_nm, mode, ride(config, state, 300, **rider)
 
 
+@pytest.mark.large_count
 def test_whatever_is_configured_the_motor_gives_no_more_than_the_mode_says() -> None:
     random = np.random.default_rng(7)
     driven = 0
@@ -89,6 +94,7 @@ def test_whatever_is_configured_the_motor_gives_no_more_than_the_mode_says() -> 
     assert driven > CONFIGS // 5
 
 
+@pytest.mark.large_count
 @pytest.mark.parametrize("turning_rpm", [1e-3, 60.0, 150.0])
 def test_whatever_is_configured_legs_that_turn_and_do_not_push_soon_get_nothing(
     turning_rpm: float,
@@ -100,7 +106,7 @@ def test_whatever_is_configured_legs_that_turn_and_do_not_push_soon_get_nothing(
         config, state = drawn(random), ffi.new("assist_state *")
         _, _, before = pushed(config, state, random)
         driven += bool(before["motor_torque_nm"][-1] > 0)
-        resting = {"torque_raw_counts": counts(config, 0.0), "cadence_rpm": turning_rpm}
+        resting = {"torque_raw_counts": raw_counts(config, 0.0), "cadence_rpm": turning_rpm}
 
         after = ride(config, state, 1000, **resting, mode=int(random.integers(1, 5)))
 
@@ -109,6 +115,7 @@ def test_whatever_is_configured_legs_that_turn_and_do_not_push_soon_get_nothing(
     assert driven > CONFIGS // 15
 
 
+@pytest.mark.large_count
 def test_whatever_is_configured_legs_that_push_and_do_not_turn_soon_get_nothing() -> None:
     random = np.random.default_rng(13)
     driven = 0
@@ -117,7 +124,7 @@ def test_whatever_is_configured_legs_that_push_and_do_not_turn_soon_get_nothing(
         config, state = drawn(random), ffi.new("assist_state *")
         torque_nm, _, before = pushed(config, state, random)
         driven += bool(before["motor_torque_nm"][-1] > 0)
-        standing = {"torque_raw_counts": counts(config, torque_nm), "cadence_rpm": 0.0}
+        standing = {"torque_raw_counts": raw_counts(config, torque_nm), "cadence_rpm": 0.0}
 
         after = ride(config, state, 300, **standing, mode=int(random.integers(1, 5)))
 
@@ -135,9 +142,9 @@ def test_a_rider_with_one_leg_is_helped_through_the_half_turn_without_a_push() -
     half_turn_s = 1.0
     push_nm = 60.0 * np.sin(np.pi * np.arange(0.0, half_turn_s, STEP_S) / half_turn_s)
     for torque_nm in push_nm:
-        ride(config, state, 1, torque_raw_counts=counts(config, float(torque_nm)))
+        ride(config, state, 1, torque_raw_counts=raw_counts(config, float(torque_nm)))
 
-    after = ride(config, state, len(push_nm), torque_raw_counts=counts(config, 0.0))
+    after = ride(config, state, len(push_nm), torque_raw_counts=raw_counts(config, 0.0))
 
     assert not (after["limit_flags"] & PEDAL_STOP).any()
 

@@ -21,11 +21,12 @@ from firmware_protocol._generated import (
 from firmware_protocol.bands import band_holds, band_limits
 from firmware_protocol.layout import Band, Value
 from sim_device.firmware.python import wire
+from tests import counts
 from tests.fakes.bench_unit import BenchUnit
 from tests.fakes.maker import Maker, challenged, commit, provision, respond, staged, staged_anyhow
 
 MAKER = Maker()
-ROUNDS = 3000
+ROUNDS = counts.of(3000)
 CIRCUMFERENCE_M = 2.073451
 COMMIT_PAUSE_S = 2.5
 FACTORY_NEEDED = (Status.ACCESS, Access.FACTORY)
@@ -141,6 +142,7 @@ def test_the_middle_of_a_band_and_the_pulses_are_the_factory_s(band: Band) -> No
     assert staged_anyhow(bench, {"wheel_pulses_per_turn": 18}).status == Status.ACCESS
 
 
+@pytest.mark.large_count
 def test_host_and_unit_draw_the_same_line_to_the_last_bit() -> None:
     draw = random.Random(7)
     for _ in range(ROUNDS):

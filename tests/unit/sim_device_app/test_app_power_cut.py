@@ -1,8 +1,8 @@
 """Goal: a commit that loses power leaves exactly the old configuration or exactly the new one.
 
 Method: the flash counts every byte it erases and programs; the power is cut after every one of
-them in turn, until the commit goes through, and the unit is started again each time. Damage to a
-slot is done by hand.
+them in turn (in `make test` after every eleventh), until the commit goes through, and the unit is
+started again each time. Damage to a slot is done by hand.
 """
 
 import numpy as np
@@ -17,6 +17,7 @@ from firmware_protocol._generated import (
     Event,
     Status,
 )
+from tests import counts
 from tests.fakes.bench_unit import FLASH_BLOCK_BYTES, BenchUnit, crc32
 from tests.fakes.config_flash import AT_CONFIRMED, AT_RECORDS, AT_TABLE, AT_VOID
 
@@ -57,6 +58,7 @@ def commit_with_power_for(unit: BenchUnit, steps: int) -> Status | int:
     return unit.write({"assist_cutoff_kmh": NEW_CUTOFF_KMH}).status
 
 
+@pytest.mark.large_count
 @pytest.mark.board_long
 @pytest.mark.parametrize("commits_before", [0, 1, 2])
 def test_power_lost_after_any_byte_leaves_the_old_or_the_new_configuration(
@@ -91,7 +93,7 @@ def test_power_lost_after_any_byte_leaves_the_old_or_the_new_configuration(
         if status == Status.OK:
             break
         assert status == Status.FLASH_FAIL
-        steps += 1
+        steps += counts.stride()
 
     assert booted[0] == old
     assert booted[-1] == new
@@ -99,6 +101,7 @@ def test_power_lost_after_any_byte_leaves_the_old_or_the_new_configuration(
     assert steps > SLOT_BYTES + len(new[1])
 
 
+@pytest.mark.large_count
 @pytest.mark.board_long
 @pytest.mark.parametrize("commits_before", [0, 1, 2])
 def test_power_lost_anywhere_in_a_trial_brings_back_the_old_configuration(
@@ -125,7 +128,7 @@ def test_power_lost_anywhere_in_a_trial_brings_back_the_old_configuration(
         if status == Status.OK:
             break
         assert status == Status.FLASH_FAIL
-        steps += 1
+        steps += counts.stride()
 
     assert steps > SLOT_BYTES + len(old[1])
 

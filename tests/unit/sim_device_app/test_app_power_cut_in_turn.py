@@ -2,8 +2,9 @@
 the next block, the old records of which are erased for it.
 
 Method: small blocks, filled up to the last place; then the power is cut after every byte of the
-erase and of the record behind it. What comes back is the count before or the count after, and the
-next record is kept again. Places within a block: test_app_counters.py, test_app_unlock.py.
+erase and of the record behind it (in `make test` after every eleventh). What comes back is the
+count before or the count after, and the next record is kept again. Places within a block:
+test_app_counters.py, test_app_unlock.py.
 """
 
 from itertools import count
@@ -19,6 +20,7 @@ from firmware_protocol._generated import (
     Status,
 )
 from firmware_protocol.unlock_token import Token
+from tests import counts
 from tests.fakes.bench_unit import BenchUnit
 from tests.fakes.maker import Maker, challenged, provision, respond, staged
 
@@ -35,7 +37,7 @@ RAISED = {"assist_cutoff_kmh": 25.0}
 JUNK = Token(2**63, bytes(64))
 DELAY_S_MAX = 60
 
-pytestmark = pytest.mark.board_long
+pytestmark = [pytest.mark.board_long, pytest.mark.large_count]
 
 
 def operating_s(unit: BenchUnit) -> int:
@@ -53,26 +55,27 @@ def test_counters_survive_the_erase_of_their_next_block(blocks_full: int) -> Non
     flash = unit.flash().copy()
     unit.boot()
     before = operating_s(unit)
-    found = []
+    found: dict[int, int] = {}
 
-    for steps in count():
+    for steps in count(step=counts.stride()):
         unit.flash()[:] = flash
         unit.boot()
         lib.bench_flash_cut_after(unit.board, steps)
         unit.advance(MINUTE_S)
         taken = lib.bench_flash_steps(unit.board)
         unit.boot()
-        found.append(operating_s(unit) - before)
+        found[steps] = operating_s(unit) - before
         for _ in range(2):
             unit.advance(MINUTE_S)
         unit.boot()
-        assert operating_s(unit) > before + found[-1] + 60
+        assert operating_s(unit) > before + found[steps] + 60
         if taken < steps:
             break
 
-    assert len(found) - 2 == BLOCK_BYTES + COUNTER_RECORD_BYTES
-    assert set(found[:-2]) == {0}
-    assert set(found[-2:]) <= {59, 60}
+    enough = BLOCK_BYTES + COUNTER_RECORD_BYTES
+    assert {more_s for steps, more_s in found.items() if steps < enough} == {0}
+    assert {more_s for steps, more_s in found.items() if steps >= enough} <= {59, 60}
+    assert max(found) > enough
 
 
 def delay_s(unit: BenchUnit) -> int:
@@ -103,7 +106,7 @@ def test_attempts_survive_the_erase_of_their_next_block() -> None:
     assert 0 < before_s < after_s
     found = []
 
-    for steps in count():
+    for steps in count(step=counts.stride()):
         unit.flash()[:] = flash
         unit.boot()
         status = guess(unit, steps)
@@ -120,4 +123,4 @@ def test_attempts_survive_the_erase_of_their_next_block() -> None:
     assert found[0] == before_s
     assert found[-1] == after_s
     assert found == sorted(found)
-    assert len(found) > BLOCK_BYTES
+    assert steps > BLOCK_BYTES

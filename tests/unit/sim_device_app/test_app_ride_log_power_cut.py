@@ -4,7 +4,8 @@ Method: every operation on the flash in one whole ride is noted, from the first 
 END. Then the flash is laid out as it is after every single byte of every one of them, and the unit
 starts on it: the older log is untouched, the cut one holds every row of every block that was
 finished. That is quick, because nobody rides again for it. With the firmware still running into a
-dead flash, which costs a ride each time, the same at every 61st byte.
+dead flash, which costs a ride each time, the same at every 61st byte. Of all these places
+`make test` tries every eleventh.
 """
 
 from collections.abc import Iterator
@@ -17,6 +18,7 @@ from sim_device.firmware.python._native import ffi, lib
 from backend.ingest.blocks import DATA, scan
 from backend.ingest.ride_logs import read_blocks
 from firmware_protocol._generated import LogFlags
+from tests import counts
 from tests.fakes.bench_logs import Entry, fetch, logs, ride, unit_with_log
 from tests.fakes.bench_unit import BenchUnit
 
@@ -136,6 +138,7 @@ def cut() -> Cut:
     return Cut()
 
 
+@pytest.mark.large_count
 def test_power_lost_after_any_byte_costs_at_most_the_block_being_written(cut: Cut) -> None:
     cut.flash[:] = cut.before
     bytes_cut = pages_finished = 0
@@ -149,6 +152,8 @@ def test_power_lost_after_any_byte_costs_at_most_the_block_being_written(cut: Cu
                 continue
             cut.flash[at] = byte
             bytes_cut += 1
+            if bytes_cut % counts.stride():
+                continue
             found = cut.boot()
             assert found[0] == cut.older
             if found != last:
@@ -162,9 +167,10 @@ def test_power_lost_after_any_byte_costs_at_most_the_block_being_written(cut: Cu
     assert bytes_cut > len(cut.whole) // 2
 
 
+@pytest.mark.large_count
 def test_a_unit_that_runs_on_into_a_dead_flash_leaves_it_as_it_was_cut(cut: Cut) -> None:
     last_pages = 0
-    for steps in [*range(0, cut.steps_total, STRIDE), cut.steps_total]:
+    for steps in [*range(0, cut.steps_total, STRIDE * counts.stride()), cut.steps_total]:
         cut.flash[:] = cut.before
         cut.unit.boot()
         lib.bench_log_cut_after(cut.unit.board, steps)
@@ -183,9 +189,10 @@ def test_a_unit_that_runs_on_into_a_dead_flash_leaves_it_as_it_was_cut(cut: Cut)
     assert last_pages * 512 == len(cut.whole)
 
 
+@pytest.mark.large_count
 def test_after_a_cut_the_next_ride_makes_a_whole_log() -> None:
     unit = unit_with_log(BLOCK_BYTES, LOG_BYTES)
-    for steps in range(1, 9000, 331):
+    for steps in range(1, 9000, 331 * counts.stride()):
         lib.bench_log_cut_after(unit.board, steps)
         do_short_ride(unit)
         unit.boot()
@@ -200,6 +207,7 @@ def test_after_a_cut_the_next_ride_makes_a_whole_log() -> None:
         unit.boot()
 
 
+@pytest.mark.large_count
 def test_a_block_that_was_erased_halfway_and_a_log_given_up_halfway_leave_nothing_behind() -> None:
     unit = unit_with_log(BLOCK_BYTES, 16 * BLOCK_BYTES)
     for _ in range(3):
@@ -208,7 +216,7 @@ def test_a_block_that_was_erased_halfway_and_a_log_given_up_halfway_leave_nothin
     kept = {log.log_id: fetch(unit, log) for log in logs(unit)}
     victim = min(kept)
 
-    for steps in range(0, 5000, 57):
+    for steps in range(0, 5000, 57 * counts.stride()):
         unit.boot()
         lib.bench_log_cut_after(unit.board, steps)
         do_short_ride(unit)

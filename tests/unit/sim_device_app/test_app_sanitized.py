@@ -26,6 +26,7 @@ from firmware_protocol._generated import (
     MessageId,
     StrSubscribeRequest,
 )
+from tests import counts
 from tests.fakes.bench_unit import BenchUnit, crc32
 
 # Processes, compilers or hundreds of files: left out of `make test-fast`.
@@ -141,7 +142,7 @@ def a_hosts_story(unit: RecordedUnit) -> None:
 def noise_on_an_open_transaction(unit: RecordedUnit) -> None:
     noise = random.Random(5)
     image = parameters.pack_image(parameters.default_config())
-    for _ in range(3000):
+    for _ in range(counts.of(3000)):
         message_id = noise.choice(list(REQUEST_BY_ID))
         transaction = struct.pack("<H", noise.randrange(1, 4))
         row = noise.choice(PARAMETERS)
@@ -164,6 +165,7 @@ def noise_on_an_open_transaction(unit: RecordedUnit) -> None:
             unit.advance(noise.choice([0.01, 0.2, 1.0]))
 
 
+@pytest.mark.large_count
 @pytest.mark.host_build("compiles for the host")
 @pytest.mark.parametrize("story", [a_hosts_story, noise_on_an_open_transaction])
 def test_a_watched_build_touches_nothing_it_must_not_and_says_the_same(
