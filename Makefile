@@ -30,6 +30,10 @@ help: ## what can be made
 run: setup ## start Spindle with one simulated drive unit; Ctrl-C stops all of it
 	@exec $(BIN)/spindle serve
 
+.PHONY: dev
+dev: $(STAMP)/native $(STAMP)/web-modules ## both halves with live reload, on ports that it prints; Ctrl-C stops all
+	@exec $(BIN)/python -m backend.dev
+
 .PHONY: sim
 sim: setup ## a simulated drive unit alone, on tcp port 7500
 	@exec $(BIN)/spindle sim --tcp 7500

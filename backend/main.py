@@ -216,15 +216,21 @@ def serve(settings: Settings) -> int:
 
     Raises SpindleError with what to do if it cannot start.
     """
+    try:
+        with listening_socket(settings.host, settings.port) as listening:
+            return serve_on(listening, settings)
+    except KeyboardInterrupt:
+        return 0
+
+
+def serve_on(listening: socket.socket, settings: Settings) -> int:
+    """Runs the server on a socket that listens already; as `serve`."""
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s %(name)s: %(message)s")
     # uvicorn hands SIGTERM back once it has stopped; by default that would end the process before
     # rides and units are closed.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        with (
-            listening_socket(settings.host, settings.port) as listening,
-            open_services(settings) as services,
-        ):
+        with open_services(settings) as services:
             server = AnnouncingServer(server_config(build_app(settings, services)))
             server.run(sockets=[listening])
             return 0 if server.started else 1

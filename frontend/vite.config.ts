@@ -21,7 +21,8 @@ export default defineConfig({
   build: { target: 'es2022', chunkSizeWarningLimit: 1500, modulePreload: { polyfill: false } },
   server: {
     host: '127.0.0.1',
-    proxy: { '/api': { target: server, ws: true, changeOrigin: true } },
+    // With the Host the browser names: the server takes no request whose Origin is another's.
+    proxy: { '/api': { target: server, ws: true, changeOrigin: false } },
   },
   test: {
     environment: 'happy-dom',
