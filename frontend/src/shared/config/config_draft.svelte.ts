@@ -1,4 +1,5 @@
 // Edits to a unit's configuration that live here, not in the unit, until they are written.
+import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
 import type { ConfigChange, Parameter, ParameterValue } from '../api/types'
 
@@ -10,6 +11,12 @@ export interface DraftChange {
   value: ParameterValue
 }
 
+/** Which configuration a unit has, as the unit counts and sums it. */
+export interface ConfigStamp {
+  generation: number
+  crc32: number
+}
+
 const HISTORY_MAX = 200
 
 /** The draft of one page for one unit; it outlives the page, so that leaving loses nothing. */
@@ -18,6 +25,8 @@ export class ConfigDraft {
   tag = $state('')
   generation = $state(0)
   loaded = $state(false)
+  private crc32: number | null = null
+  private writing = false
   private baseline = $state.raw<Edits>({})
   private edits = $state.raw<Edits>({})
   private past = $state.raw<Edits[]>([])
@@ -36,10 +45,24 @@ export class ConfigDraft {
       this.server.config(this.device_id),
     ])
     this.parameters = parameters
-    this.baseline = config.parameters
-    this.generation = config.generation
-    this.tag = tag
+    this.take(config, config.parameters, tag)
     this.loaded = true
+  }
+
+  /** Reads the configuration unless it is the one the draft has, or a write is about to say which
+      it is. stamp: of what the unit has; null where it does not tell. */
+  async follow(stamp: ConfigStamp | null): Promise<void> {
+    const same_one = stamp?.generation === this.generation && stamp.crc32 === this.crc32
+    if (this.writing || (this.loaded && same_one)) return
+    await this.load()
+  }
+
+  /** What the unit has, by its own word: the one place where that comes in. */
+  private take(stamp: ConfigStamp, parameters: Edits, tag: string): void {
+    this.baseline = parameters
+    this.generation = stamp.generation
+    this.crc32 = stamp.crc32
+    this.tag = tag
   }
 
   parameter(name: string): Parameter | undefined {
@@ -116,17 +139,7 @@ export class ConfigDraft {
       Refusal. */
   async write(reason: string, confirm_s = 0, token: string | null = null): Promise<ConfigChange> {
     const parameters = Object.fromEntries(this.changes.map((c) => [c.parameter.name, c.value]))
-    const [result, tag] = await this.server.writeConfig(
-      this.device_id,
-      parameters,
-      reason,
-      this.tag,
-      confirm_s,
-      token,
-    )
-    this.baseline = { ...this.baseline, ...parameters }
-    this.generation = result.generation
-    this.tag = tag
+    const result = await this.send(parameters, reason, confirm_s, token)
     // An edit made while the write was on its way is not in the unit yet.
     const later = ([name, value]: [string, ParameterValue]) => {
       const written = parameters[name]
@@ -135,23 +148,46 @@ export class ConfigDraft {
     this.edits = Object.fromEntries(Object.entries(this.edits).filter(later))
     this.past = []
     this.future = []
-    // The change is in the unit and verified, whatever becomes of this look at it.
-    await this.load().catch(() => undefined)
     return result
   }
 
-  /** Writes the values a change replaced. Throws Refusal. */
+  /** Writes the values a change replaced, over what somebody else may have written since. Throws
+      Refusal. */
   async takeBack(change: ConfigChange, reason: string): Promise<ConfigChange> {
-    await this.load()
     const old = change.changed.flatMap((c) => (c.old === null ? [] : [[c.name, c.old] as const]))
-    const [result] = await this.server.writeConfig(
-      this.device_id,
-      Object.fromEntries(old),
-      reason,
-      this.tag,
-    )
-    await this.load().catch(() => undefined)
-    return result
+    const parameters = Object.fromEntries(old)
+    try {
+      return await this.send(parameters, reason)
+    } catch (error) {
+      if (!(error instanceof Refusal) || error.code !== 'config_changed') throw error
+      await this.load()
+      return await this.send(parameters, reason)
+    }
+  }
+
+  private async send(
+    parameters: Edits,
+    reason: string,
+    confirm_s = 0,
+    token: string | null = null,
+  ): Promise<ConfigChange> {
+    this.writing = true
+    try {
+      const [result, tag] = await this.server.writeConfig(
+        this.device_id,
+        parameters,
+        reason,
+        this.tag,
+        confirm_s,
+        token,
+      )
+      this.take(result, { ...this.baseline, ...parameters }, tag)
+      // The change is in the unit and verified, whatever becomes of this look at it.
+      await this.load().catch(() => undefined)
+      return result
+    } finally {
+      this.writing = false
+    }
   }
 
   /** How many values differ, each element of a table counted. */

@@ -20,7 +20,7 @@ const parameter = (name: string): Parameter => ({
   access: 'DEALER',
   value: 25,
   choices: null,
-    free: null,
+  free: null,
   description: '',
 })
 
@@ -28,19 +28,22 @@ const parameter = (name: string): Parameter => ({
 class FakeServer {
   values: Record<string, ParameterValue> = { assist_cutoff_kmh: 25, fixed_taper_end_kmh: 24 }
   generation = 1
+  reads = 0
   written: [Record<string, ParameterValue>, string, string][] = []
 
   parameters = async () => Object.keys(this.values).map(parameter)
-  config = async () => [
-    { generation: this.generation, crc32: 0, parameters: { ...this.values } },
-    `"${this.generation}"`,
-  ]
+  config = async () => {
+    this.reads += 1
+    const stamp = { generation: this.generation, crc32: 1000 + this.generation }
+    return [{ ...stamp, parameters: { ...this.values } }, `"${this.generation}"`]
+  }
   writeConfig = async (
     _id: string,
     changes: Record<string, ParameterValue>,
     reason: string,
     tag: string,
   ) => {
+    if (tag !== `"${this.generation}"`) throw new Refusal(409, 'config_changed', 'Read it again.')
     this.written.push([changes, reason, tag])
     const changed = Object.entries(changes).map(([name, value]) => ({
       name,
@@ -51,7 +54,7 @@ class FakeServer {
     this.generation += 1
     const result = {
       generation: this.generation,
-      crc32: 0,
+      crc32: 1000 + this.generation,
       state: 'committed',
       verified: true,
       changed,
@@ -120,6 +123,45 @@ describe('a draft', () => {
     await draft.takeBack(change, 'undo')
 
     expect(server.values['assist_cutoff_kmh']).toBe(25)
+  })
+
+  it('takes a change back over what somebody else has written since', async () => {
+    const { server, draft } = await loadedDraft()
+    draft.set('assist_cutoff_kmh', 20)
+    const change = await draft.write('')
+    server.values['fixed_taper_end_kmh'] = 22
+    server.generation += 1
+
+    await draft.takeBack(change, 'undo')
+
+    expect(server.values).toEqual({ assist_cutoff_kmh: 25, fixed_taper_end_kmh: 22 })
+    expect(draft.base('fixed_taper_end_kmh')).toBe(22)
+  })
+
+  it('reads again only when the unit has another configuration', async () => {
+    const { server, draft } = await loadedDraft()
+
+    await draft.follow({ generation: 1, crc32: 1001 })
+    expect(server.reads).toBe(1)
+    server.generation = 2
+    await draft.follow({ generation: 2, crc32: 1002 })
+    await draft.follow(null) // a unit that does not tell which one it has
+
+    expect(server.reads).toBe(3)
+  })
+
+  it('does not read what a write is about to tell', async () => {
+    const { server, draft } = await loadedDraft()
+    draft.set('assist_cutoff_kmh', 20)
+
+    const writing = draft.write('')
+    await draft.follow({ generation: 2, crc32: 1002 }) // the watch may see it before the answer
+    expect(server.reads).toBe(1)
+    await writing
+    const reads = server.reads
+    await draft.follow({ generation: 2, crc32: 1002 })
+
+    expect(server.reads).toBe(reads)
   })
 
   it('is the same one when the page is opened again', () => {

@@ -23,8 +23,18 @@ export interface ElementChange {
 
 /** What a parameter is called; a new one is called by its name in words. */
 export function parameterLabel(locale: Locale, name: string): string {
-  const words = name.replace(/_(nm|rpm|kmh|v|a|s|ms|degc|m|pct)(?=_|$)/g, '').replaceAll('_', ' ')
-  return locale.lookup(`parameter.${name}`, words.charAt(0).toUpperCase() + words.slice(1))
+  const plain = name.replace(/_(nm|rpm|kmh|v|a|s|ms|degc|m|pct)(?=_|$)/g, '')
+  return locale.lookup(`parameter.${name}`, inWords(plain))
+}
+
+function inWords(name: string): string {
+  const words = name.replaceAll('_', ' ')
+  return words.charAt(0).toUpperCase() + words.slice(1)
+}
+
+/** What a group of parameters is called; a new one by its name in words. */
+export function groupLabel(locale: Locale, group: string): string {
+  return locale.lookup(`group.${group}`, inWords(group))
 }
 
 /** What a choice of an enumeration is called. */

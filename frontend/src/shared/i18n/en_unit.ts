@@ -60,6 +60,10 @@ export const enUnit = {
   'parameter.sensor_gain_nm_per_count_factory': "Sensor gain, the factory's",
   'parameter.sensor_offset_counts_factory': "Sensor offset, the factory's",
 
+  'group.sensor': 'Sensor',
+  'group.fuzzy': 'Fuzzy table',
+  'group.second_table': 'Second fuzzy table',
+
   'choice.OFF': 'off',
   'choice.FIXED': 'fixed',
   'choice.FUZZY': 'fuzzy',

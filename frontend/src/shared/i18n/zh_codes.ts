@@ -59,6 +59,8 @@ const refusal = {
   token_delay: '之前有过错误的令牌，单元暂不接受令牌。请稍候再写入。',
   no_token: '这不是令牌。',
   not_standing_still: '车轮或电机在转动。请先停车。',
+  capability_missing: '此单元不支持此操作。',
+  name_first: '此单元没有序列号：请先给它命名，再写入。',
   conflict: '当前状态不允许此操作。',
   not_found: '没有找到所指的设备、骑行或文件。',
   bad_file: '文件无法读取。',

@@ -42,6 +42,17 @@ export const zhState: Record<keyof typeof enState, string> = {
   'outcome.changed': '应答丢失，但再次询问后确认：修改已在单元中。',
   'outcome.unknown': '不知单元是否已有此修改；单元应答后即会显示。',
 
+  'cannot.read_config': '此单元不提供其设置。',
+  'cannot.write_config': '此单元的设置在这里只能读取，不能修改。',
+  'cannot.unit_trial': '此单元不支持试用：写入的内容一直有效。',
+  'cannot.stream': '此单元不发送实时数值。',
+  'cannot.rider_torque': '此单元不提供骑手扭矩。',
+  'cannot.calibrate': '此单元的扭矩传感器不能在这里标定。',
+  'cannot.logs': '此单元自身不保存骑行记录。',
+  'cannot.fuzzy_table': '此单元的助力不使用规则表。以下是它的设置。',
+  'review.needs_restart': '已写入 {count} 个参数，第 {generation} 代。重启单元后生效。',
+  'review.undone_needs_restart': '旧值已写回，第 {generation} 代。重启单元后生效。',
+
   'token.title': '需要制造商的令牌',
   'token.factory': '属于出厂设定：需要制造商的令牌。',
   'token.step_ask': '用下方按钮向单元索取质询；此步不写入任何内容。',

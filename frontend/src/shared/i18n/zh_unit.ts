@@ -53,6 +53,10 @@ export const zhUnit: Record<keyof typeof enUnit, string> = {
   'parameter.sensor_gain_nm_per_count_factory': '传感器增益（出厂值）',
   'parameter.sensor_offset_counts_factory': '传感器零点（出厂值）',
 
+  'group.sensor': '传感器',
+  'group.fuzzy': '模糊规则表',
+  'group.second_table': '第二模糊规则表',
+
   'choice.OFF': '关闭',
   'choice.FIXED': '固定比',
   'choice.FUZZY': '模糊',

@@ -1,0 +1,19 @@
+// Which groups of parameters stand on this page as plain forms, in which order.
+import type { Device, Parameter } from '$shared/api/types'
+import { can, hasPage } from '$shared/device/capabilities'
+
+const FIRST = ['assist', 'limits', 'market', 'drivetrain']
+const OF_TABLES = ['fuzzy', 'second_table']
+
+/** The groups of a unit but those that its tables and its sensor's page show; groups that this
+    Spindle does not know come last, in the unit's own order. */
+export function groupsOf(parameters: readonly Parameter[], device: Device | null): string[] {
+  const elsewhere = [
+    ...(can(device, 'fuzzy_table') ? OF_TABLES : []),
+    ...(hasPage(device, 'sensor') ? ['sensor'] : []),
+  ]
+  const found = [...new Set(parameters.map((parameter) => parameter.group))]
+  const here = found.filter((group) => !elsewhere.includes(group))
+  const known = FIRST.filter((group) => here.includes(group))
+  return [...known, ...here.filter((group) => !known.includes(group))]
+}

@@ -1,0 +1,47 @@
+// The draft of a page for the unit that is chosen, kept up with what that unit has.
+import { untrack } from 'svelte'
+import type { Refusal } from '../api/client'
+import { useAppContext } from '../context/app_context'
+import { can } from '../device/capabilities'
+import { refusalText } from '../i18n/refusal_text'
+import type { ConfigDraft } from './config_draft.svelte'
+import { useDrafts } from './drafts'
+
+export interface PageDraft {
+  /** Null while there is no unit. */
+  readonly draft: ConfigDraft | null
+  /** Why the unit's configuration could not be read; null if it could. */
+  readonly trouble: string | null
+}
+
+/** Follows the chosen unit; called while a component is made. */
+export function pageDraft(page: string): PageDraft {
+  const { devices, locale } = useAppContext()
+  const drafts = useDrafts()
+  let trouble = $state<string | null>(null)
+  const device = $derived(devices.current)
+  const device_id = $derived(device?.id ?? null)
+  const readable = $derived(devices.ready && can(device, 'read_config'))
+  const generation = $derived(device?.config?.generation)
+  const crc32 = $derived(device?.config?.crc32)
+  const draft = $derived(device_id ? drafts.of(device_id, page) : null)
+
+  $effect(() => {
+    if (!readable || !draft) return
+    const stamped = generation !== undefined && crc32 !== undefined
+    const stamp = stamped ? { generation, crc32 } : null
+    // What the draft learns meanwhile is no reason to ask again.
+    untrack(() => draft.follow(stamp)).then(
+      () => (trouble = null),
+      (error: Refusal) => (trouble = refusalText(locale, error)),
+    )
+  })
+  return {
+    get draft() {
+      return draft
+    },
+    get trouble() {
+      return trouble
+    },
+  }
+}

@@ -1,0 +1,142 @@
+"""Goal: what a unit cannot do is not offered, and a page about it says so in one sentence.
+
+The list of units is answered in its place, with a unit that lacks something; all else is the real
+server, which would answer for what the page must not ask.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page, Route, expect
+
+from tests.browser.conftest import OpenDesk
+from tests.browser.desk import Desk
+from tests.browser.test_pages_for_everyone import JUDGE
+from tests.fakes.server import SpindleServer
+
+ALL = [
+    "read_config",
+    "write_config",
+    "unit_trial",
+    "stream",
+    "rider_torque",
+    "calibrate",
+    "live_set",
+    "logs",
+    "unlock",
+    "unit_limits",
+    "unique_id",
+    "fuzzy_table",
+    "assist_modes",
+    "limits",
+    "simulation",
+]
+
+
+def lacking(desk: Desk, server: SpindleServer, *missing: str) -> list[str]:
+    """The unit lists everything but this from now on; what the page asks of it comes back."""
+    asked: list[str] = []
+    capabilities = [name for name in ALL if name not in missing]
+
+    def answer(route: Route) -> None:
+        found: dict[str, Any] = server.get("/devices")
+        items = [one | {"capabilities": capabilities} for one in found["items"]]
+        route.fulfill(json=found | {"items": items})
+
+    desk.page.route("**/api/v1/devices", answer)
+    desk.page.on("request", lambda request: asked.append(request.url))
+    desk.page.on("websocket", lambda socket: asked.append(socket.url))
+    return asked
+
+
+def pages_offered(page: Page) -> list[str]:
+    """The names in the navigation."""
+    return page.locator("nav ul a span:not(.hidden)").all_inner_texts()
+
+
+def test_a_unit_without_live_values_has_no_page_of_them(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    asked = lacking(desk, server, "stream", "unit_trial", "logs")
+
+    page = desk.open("/live")
+
+    expect(page.get_by_test_id("not-offered")).to_contain_text("sends no live values")
+    assert pages_offered(page) == ["Bike", "Tune", "Rides", "Service", "Settings"]
+    assert not [url for url in asked if url.endswith("/snapshot") or "/live?" in url]
+
+
+def test_a_unit_without_logs_is_not_asked_for_them(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    asked = lacking(desk, server, "stream", "unit_trial", "logs")
+
+    page = desk.open("/rides")
+
+    expect(page.get_by_test_id("no-logs")).to_have_text("This unit keeps no rides of its own.")
+    expect(page.get_by_test_id("unit-logs")).to_have_count(0)
+    assert not [url for url in asked if url.endswith("/logs")]
+
+
+def test_a_unit_without_trials_is_written_for_good_only(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    lacking(desk, server, "stream", "unit_trial", "logs")
+    page = desk.open("/tune")
+    page.get_by_text("Limits", exact=True).click()
+    page.get_by_label("Cut-off speed", exact=True).fill("24")
+
+    page.get_by_role("button", name="Review").click()
+
+    expect(page.get_by_test_id("no-trial")).to_contain_text("nothing on trial")
+    expect(page.get_by_role("radio")).to_have_count(1)
+
+
+def test_a_unit_without_tables_shows_all_its_settings(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    lacking(desk, server, "fuzzy_table", "stream")
+
+    page = desk.open("/tune")
+
+    expect(page.get_by_test_id("no-table")).to_be_visible()
+    for name in ("fuzzy_falling_torque", "sensor_offset_counts", "assist_cutoff_kmh"):
+        expect(page.locator(f"[data-parameter={name}]")).to_be_visible()
+
+
+def test_settings_that_only_can_be_read_cannot_be_edited(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    lacking(desk, server, "fuzzy_table", "write_config")
+
+    page = desk.open("/tune")
+
+    expect(page.get_by_label("Cut-off speed", exact=True)).to_be_disabled()
+    expect(page.get_by_test_id("draft-bar")).to_have_count(0)
+    expect(page.get_by_role("main")).to_contain_text("read here, not changed")
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("width", [390, 1440])
+@pytest.mark.parametrize("path", ["/", "/live", "/tune", "/rides"])
+def test_such_pages_are_for_everyone(
+    open_desk: OpenDesk,
+    server: SpindleServer,
+    standing: str,
+    axe: str,
+    path: str,
+    width: int,
+    theme: str,
+) -> None:
+    desk = open_desk(width=width, height=844, language="zh-CN", theme=theme)
+    lacking(desk, server, "stream", "unit_trial", "logs", "fuzzy_table")
+
+    page = desk.open(path)
+    page.wait_for_selector("[data-testid=device-pill]")
+
+    assert page.evaluate("document.documentElement.scrollWidth") == width
+    page.evaluate(axe)
+    assert page.evaluate(JUDGE) == []
+    desk.picture(f"lacking{path.replace('/', '-')}-{width}-{theme}", full=True)
