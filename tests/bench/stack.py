@@ -42,7 +42,6 @@ CALLERS = {
     "link": {HAL, BULK},
     "log": {HAL},
     "main_count": {COUNTED},
-    "pages": {HAL},
     "step_watch": {HAL},
     "store": {HAL},
     "transaction": {HAL},
