@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,8 @@ from tests.browser.long_ride import write_long_ride
 from tests.fakes.server import SpindleServer
 
 OpenDesk = Callable[..., Desk]
+# With a window, slow enough to follow.
+SLOW_MOTION_MS = 150
 
 # As long as a page is waited for: a machine that is busy is no reason to fail.
 expect.set_options(timeout=30_000)
@@ -46,7 +49,8 @@ def playwright() -> Iterator[Playwright]:
 
 @pytest.fixture(scope="session")
 def launch(playwright: Playwright) -> Callable[..., Browser]:
-    """Starts a Chromium; extra words go to its command line."""
+    """Starts a Chromium; extra words go to its command line. SPINDLE_HEADED=1 shows its window."""
+    headed = bool(os.environ.get("SPINDLE_HEADED"))
     try:
         path = find_chromium(playwright.chromium.executable_path)
     except NoChromium as none:
@@ -54,7 +58,12 @@ def launch(playwright: Playwright) -> Callable[..., Browser]:
 
     # No sandbox: it needs rights that containers of test machines do not give.
     def start(*words: str) -> Browser:
-        return playwright.chromium.launch(executable_path=path, args=["--no-sandbox", *words])
+        return playwright.chromium.launch(
+            executable_path=path,
+            args=["--no-sandbox", *words],
+            headless=not headed,
+            slow_mo=SLOW_MOTION_MS if headed else 0,
+        )
 
     return start
 
