@@ -870,7 +870,6 @@ typedef struct {
 extern const uint8_t ebl_evt_ack_request_layout[];
 
 #define EBL_EVT_FAULT_LIST_RESPONSE_LENGTH 2
-#define EBL_EVT_FAULT_LIST_RESPONSE_LENGTH_WHOLE 4 /* with the high half */
 typedef struct {
     uint32_t fault_flags;
 } ebl_evt_fault_list_response;
@@ -893,14 +892,12 @@ typedef struct {
 extern const uint8_t ebl_evt_fault_freeze_response_layout[];
 
 #define EBL_EVT_FAULT_CLEAR_REQUEST_LENGTH 2
-#define EBL_EVT_FAULT_CLEAR_REQUEST_LENGTH_WHOLE 4 /* with the high half */
 typedef struct {
     uint32_t fault_flags;
 } ebl_evt_fault_clear_request;
 extern const uint8_t ebl_evt_fault_clear_request_layout[];
 
 #define EBL_EVT_FAULT_CLEAR_RESPONSE_LENGTH 2
-#define EBL_EVT_FAULT_CLEAR_RESPONSE_LENGTH_WHOLE 4 /* with the high half */
 typedef struct {
     uint32_t fault_flags;
 } ebl_evt_fault_clear_response;
@@ -1076,14 +1073,12 @@ typedef struct {
 extern const uint8_t ebl_boot_event_layout[];
 
 #define EBL_FAULT_SET_EVENT_LENGTH 2
-#define EBL_FAULT_SET_EVENT_LENGTH_WHOLE 4 /* with the high half */
 typedef struct {
     uint32_t fault_flags;
 } ebl_fault_set_event;
 extern const uint8_t ebl_fault_set_event_layout[];
 
 #define EBL_FAULT_CLEARED_EVENT_LENGTH 2
-#define EBL_FAULT_CLEARED_EVENT_LENGTH_WHOLE 4 /* with the high half */
 typedef struct {
     uint32_t fault_flags;
 } ebl_fault_cleared_event;

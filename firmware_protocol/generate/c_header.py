@@ -196,10 +196,7 @@ def _structs(registry: Registry) -> list[str]:
         " * status, an event's after code and time. */",
     ]
     for name, layout in layouts(registry):
-        upper = name.upper()
-        lines += [f"#define {upper}_LENGTH {layout.length}"]
-        if layout.whole != layout.length:
-            lines += [f"#define {upper}_LENGTH_WHOLE {layout.whole} /* with the high half */"]
+        lines += [f"#define {name.upper()}_LENGTH {layout.length}"]
         lines += ["typedef struct {"]
         for field in layout.members:
             lines += [f"    {text}" for text in member(field, layout.is_halved(field))]
