@@ -31,8 +31,8 @@ ROOMS = (
 
 # Files of app/ by what they are for; the others are configuration and product.
 LINK = ("link", "baud_rate", "dispatch", "telemetry", "stream_budget", "events", "system_service",
-        "line_service", "stream_service", "time_service")  # fmt: skip
-UNLOCKING = ("sha512", "signature", "unlock", "unlock_store", "unlock_service")
+        "line_service", "stream_service", "time_service", "board_service", "reply")  # fmt: skip
+UNLOCKING = ("sha512", "signature", "unlock", "unlock_store", "unlock_service", "permission")
 
 # Files of the codec that hold the parameters.
 PARAMETERS = ("ebl_config", "ebl_registry", "ebl_values")
@@ -42,9 +42,14 @@ PARTS = {
     "link (decoder, three queues, frame in and out)": ("link",),
     "four answers kept for repeats": ("answered",),
     "four streams": ("telemetry",),
-    "four images of the configuration": ("store", "transaction", "live", "config"),
+    "four images of the configuration": (
+        "config.store",
+        "config.transaction",
+        "config.live",
+        "config.in_force",
+    ),
     "ride logs": ("ride_log", "bulk", "log_check"),
-    "law": ("assist_config", "assist_config_next", "assist_state", "output"),
+    "law": ("config.law", "assist_state", "output"),
     "faults with freeze frames": ("faults",),
 }
 
@@ -144,7 +149,8 @@ def app_parts(frame_bytes: int) -> dict[str, int]:
     """Bytes of the product's state by what it is for, with frames of at most this size."""
     names = {name for members in PARTS.values() for name in members} | {"whole"}
     source = '#include "app.h"\n' + "".join(
-        f"char size_{name}[sizeof({'app' if name == 'whole' else f'((app *)0)->{name}'})];\n"
+        f"char size_{name.replace('.', '_')}"
+        f"[sizeof({'app' if name == 'whole' else f'((app *)0)->{name}'})];\n"
         for name in sorted(names)
     )
     with tempfile.TemporaryDirectory() as folder:
@@ -156,7 +162,10 @@ def app_parts(frame_bytes: int) -> dict[str, int]:
             input=source, text=True, check=True, capture_output=True,
         )  # fmt: skip
         sizes = {row[3].removeprefix("size_"): int(row[1], 16) for row in symbols(made)}
-    parts = {title: sum(sizes[name] for name in members) for title, members in PARTS.items()}
+    parts = {
+        title: sum(sizes[name.replace(".", "_")] for name in members)
+        for title, members in PARTS.items()
+    }
     return parts | {"rest": sizes["whole"] - sum(parts.values())}
 
 

@@ -22,7 +22,14 @@ from tests.conformance.test_wire_sanitized import STRICT, compiler
 ROOT = Path(__file__).resolve().parents[2]
 FIRMWARE = ROOT / "sim_device" / "firmware"
 ROOMS = [FIRMWARE / "app", FIRMWARE / "control", FIRMWARE / "hal"]
-UNIT = ["app/faults/faults.c", "app/faults/signs.c", "app/faults/motion.c", "app/ride_log/pages.c"]
+UNIT = [
+    "app/faults/faults.c",
+    "app/faults/signs.c",
+    "app/faults/motion.c",
+    "app/faults/inputs.c",
+    "control/wheel_speed.c",
+    "app/ride_log/pages.c",
+]
 LATCHED, WARNING = 1 << 29, 1 << 30
 
 

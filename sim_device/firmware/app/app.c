@@ -2,14 +2,14 @@
 
 #include <string.h>
 
-#include "requests/dispatch.h" // dispatch_frame, requests_log_poll
 #include "float32.h"           // float32_min, float32_missing
 #include "market.h"            // market_profile_of
-#include "config/parameters.h" // parameters_to_assist
+#include "private/report.h"    // report_faults_cleared, report_faults_set
+#include "private/unit.h"      // app
+#include "requests/dispatch.h" // dispatch_frame
+#include "requests/services.h" // requests_log_poll
 
 #define RECEIVE_BLOCK_BYTES 64
-
-#define WALKING_PACE_KMH 6.0f /* where walk assist ends (EN 15194 4.2.12) */
 
 /* Above either the bike is being ridden, and a ride log is kept. */
 #define MOVING_KMH 1.0f
@@ -18,33 +18,6 @@
 /* Bytes served in one poll: at 1 Mbaud the line brings 100 in a millisecond, and a flood must not
  * keep the unit from its other work. */
 #define RECEIVE_BLOCKS_MAX 32
-
-/* What is lost of the configuration has a default in its place, which nobody chose: a limit that
- * was lowered is up again, a sensor's zero is off. At a walking pace none of it is a hazard.
- * Without its market a unit does not know what is lawful, and does nothing. */
-static void hold_back(assist_config *assist, uint8_t lost)
-{
-    if (lost == 0) return;
-    assist->assist_cutoff_kmh = float32_min(assist->assist_cutoff_kmh, WALKING_PACE_KMH);
-    assist->assist_cutoff_extra_kmh = 0.0f;
-    if ((lost >> EBL_RECORD_MARKET & 1u) != 0) assist->market = MARKET_COUNT;
-}
-
-void app_config_apply(app *unit)
-{
-    ebl_config_unpack(&unit->config, live_image(&unit->live, &unit->store));
-    parameters_to_assist(&unit->config, &unit->assist_config_next);
-    hold_back(&unit->assist_config_next, unit->store.lost);
-    unit->assist_config_pending = 1;
-}
-
-void app_config_changed(app *unit, uint8_t event_code)
-{
-    unit->live.active = 0;
-    app_config_apply(unit);
-    event_config(&unit->events, &unit->link, unit->board->now_us(unit->board->context), event_code,
-                 unit->store.generation, unit->store.crc32);
-}
 
 /* A fault of the start itself, which no control step sees. */
 static void fault_at_start(app *unit, uint32_t flag)
@@ -60,28 +33,18 @@ static void fault_at_start(app *unit, uint32_t flag)
 static void config_tell(app *unit)
 {
     uint64_t now_us = unit->board->now_us(unit->board->context);
-    const config_tally *tally = &unit->store.tally;
+    const config_tally *tally = &unit->config.store.tally;
     uint32_t fault =
-        unit->store.is_provisioned ? EBL_FAULT_CONFIG_DEFAULTED : EBL_FAULT_NOT_PROVISIONED;
+        unit->config.store.is_provisioned ? EBL_FAULT_CONFIG_DEFAULTED : EBL_FAULT_NOT_PROVISIONED;
 
     if (tally->added != 0 || tally->dropped != 0 || tally->clamped != 0) {
-        event_config_converted(&unit->events, &unit->link, now_us, &unit->store);
+        event_config_converted(&unit->events, &unit->link, now_us, &unit->config.store);
     }
-    if (unit->store.lost == 0) return;
+    if (unit->config.store.lost == 0) return;
     event_config(&unit->events, &unit->link, now_us, EBL_EVENT_CONFIG_DEFAULTED,
-                 unit->store.generation, unit->store.crc32);
+                 unit->config.store.generation, unit->config.store.crc32);
     fault_at_start(unit, fault);
     faults_hold(&unit->faults, fault);
-}
-
-void app_config_well(app *unit)
-{
-    uint32_t over = EBL_FAULT_CONFIG_DEFAULTED | EBL_FAULT_NOT_PROVISIONED;
-    uint32_t cleared = faults_clear(&unit->faults, over);
-
-    if (cleared == 0) return;
-    event_faults_cleared(&unit->events, &unit->link, unit->board->now_us(unit->board->context),
-                         cleared);
 }
 
 /* EN 15194 4.2.13: a unit that stopped itself while it drove does not drive on by itself. */
@@ -103,23 +66,23 @@ void app_init(app *unit, const hal *board)
     unit->board = board;
     unit->tx_mtu = EBL_MTU_BEFORE_HELLO;
     unit->output.fuzzy_gain = float32_missing();
-    wheel_speed_init(&unit->wheel);
+    road_speed_init(&unit->speed);
     link_init(&unit->link);
-    line_rate_init(&unit->line, board);
+    baud_rate_init(&unit->baud_rate, board);
     telemetry_init(&unit->telemetry);
-    config_store_boot(&unit->store, board);
-    trial_boot(&unit->trial, &unit->store);
+    config_store_boot(&unit->config.store, board);
+    trial_boot(&unit->config.trial, &unit->config.store);
     counters_boot(&unit->counters, board, config_store_flash_bytes(board));
-    unlock_boot(&unit->lock, board, flash_before_unlock(board));
+    unlock_boot(&unit->config.unlock, board, flash_before_unlock(board));
     ride_log_init(&unit->ride_log, board);
     unit->link.bulk = requests_log_bulk;
     unit->link.bulk_context = unit;
     step_watch_init(&unit->watch, board->now_us(board->context));
     event_boot(&unit->events, &unit->link, board->now_us(board->context), board);
-    if (unit->store.returned_generation != 0) {
-        app_config_changed(unit, EBL_EVENT_CONFIG_ROLLED_BACK);
+    if (unit->config.store.returned_generation != 0) {
+        config_rolled_back(&unit->config, &unit->events, &unit->link, board);
     } else {
-        app_config_apply(unit);
+        config_apply(&unit->config);
     }
     config_tell(unit);
     if (stopped_itself(board->reset_cause)) fault_at_start(unit, EBL_FAULT_SAFE_STOP);
@@ -170,11 +133,11 @@ static void receive(app *unit)
 
 /* A rate that was given back leaves answers behind that promised it. A host that was not heard for
  * seconds has no streams, and at the first rate they might not fit. */
-static void line_rate_serve(app *unit, uint64_t now_us)
+static void baud_rate_serve(app *unit, uint64_t now_us)
 {
-    switch (line_rate_poll(&unit->line, &unit->link, unit->board, now_us)) {
-    case LINE_RATE_GIVEN_BACK: dispatch_forget(unit, EBL_MSG_SET_BAUD); break;
-    case LINE_RATE_FORGOTTEN: telemetry_end_all(&unit->telemetry); break;
+    switch (baud_rate_poll(&unit->baud_rate, &unit->link, unit->board, now_us)) {
+    case BAUD_RATE_GIVEN_BACK: dispatch_forget(unit, EBL_MSG_SET_BAUD); break;
+    case BAUD_RATE_FORGOTTEN: telemetry_end_all(&unit->telemetry); break;
     default: break;
     }
 }
@@ -183,18 +146,19 @@ void app_poll(app *unit)
 {
     uint64_t now_us = unit->board->now_us(unit->board->context);
 
-    transaction_poll(&unit->transaction, now_us);
-    if (trial_is_over(&unit->trial, &unit->store, now_us)) {
-        trial_return(&unit->trial, &unit->store, unit->board, EBL_ROLLBACK_CAUSE_TIME_OUT);
-        app_config_changed(unit, EBL_EVENT_CONFIG_ROLLED_BACK);
+    transaction_poll(&unit->config.transaction, now_us);
+    if (trial_is_over(&unit->config.trial, &unit->config.store, now_us)) {
+        trial_return(&unit->config.trial, &unit->config.store, unit->board,
+                     EBL_ROLLBACK_CAUSE_TIME_OUT);
+        config_rolled_back(&unit->config, &unit->events, &unit->link, unit->board);
     }
-    if (live_expire(&unit->live, now_us)) app_config_apply(unit);
+    if (live_expire(&unit->config.live, now_us)) config_apply(&unit->config);
     counters_poll(&unit->counters, unit->board, now_us);
     telemetry_poll(&unit->telemetry, &unit->events, &unit->link, now_us);
     receive(unit);
-    line_rate_serve(unit, now_us);
+    baud_rate_serve(unit, now_us);
     events_poll(&unit->events, &unit->link, now_us);
-    ride_log_poll(&unit->ride_log, unit->board, &unit->store, &unit->events, &unit->link);
+    ride_log_poll(&unit->ride_log, unit->board, &unit->config.store, &unit->events, &unit->link);
     requests_log_poll(unit);
     unit->counters.log_erases += unit->ride_log.store.erases;
     unit->ride_log.store.erases = 0;
@@ -206,7 +170,7 @@ void app_poll(app *unit)
 static uint8_t mode_select(const app *unit, const hal_inputs *inputs)
 {
     if (inputs->mode_selected < ASSIST_MODE_SLOTS) return inputs->mode_selected;
-    return unit->config.assist_mode_at_start;
+    return unit->config.in_force.assist_mode_at_start;
 }
 
 /* The law refuses what is not a number, so that is what a broken sensor becomes. */
@@ -214,7 +178,7 @@ static void assist_input_from(const hal_inputs *inputs, float speed_kmh, uint8_t
                               assist_input *input)
 {
     memset(input, 0, sizeof *input);
-    input->torque_raw_counts = faults_torque_is_plausible(inputs->torque_raw_counts)
+    input->torque_raw_counts = inputs_torque_is_plausible(inputs->torque_raw_counts)
                                    ? inputs->torque_raw_counts
                                    : float32_missing();
     input->speed_kmh = speed_kmh;
@@ -231,13 +195,6 @@ static void assist_input_from(const hal_inputs *inputs, float speed_kmh, uint8_t
     input->inhibit = (uint8_t)inhibit;
 }
 
-void app_faults_cleared(app *unit, uint32_t cleared, uint64_t now_us)
-{
-    if (cleared == 0) return;
-    event_faults_cleared(&unit->events, &unit->link, now_us, cleared);
-    ride_log_event_add(&unit->ride_log, EBL_LOG_EVENT_FAULT_CLEARED, cleared, now_us);
-}
-
 static void faults_report(app *unit, const hal_inputs *inputs, float speed_kmh, uint64_t now_us)
 {
     const fault_law law = {unit->output.motor_torque_nm, unit->assist_state.torque_filtered_nm,
@@ -245,13 +202,10 @@ static void faults_report(app *unit, const hal_inputs *inputs, float speed_kmh, 
     uint32_t set;
     uint32_t cleared;
 
-    faults_step(&unit->faults, inputs, &unit->config, &law, &set, &cleared);
+    faults_step(&unit->faults, inputs, &unit->config.in_force, &law, &set, &cleared);
     unit->faults_new = set;
-    if (set != 0) {
-        event_faults_set(&unit->events, &unit->link, now_us, set);
-        ride_log_event_add(&unit->ride_log, EBL_LOG_EVENT_FAULT_SET, set, now_us);
-    }
-    app_faults_cleared(unit, cleared, now_us);
+    if (set != 0) report_faults_set(unit, set, now_us);
+    if (cleared != 0) report_faults_cleared(unit, cleared, now_us);
 }
 
 static int is_moving(const hal_inputs *inputs, float speed_kmh)
@@ -259,46 +213,15 @@ static int is_moving(const hal_inputs *inputs, float speed_kmh)
     return speed_kmh > MOVING_KMH || inputs->cadence_rpm > MOVING_RPM;
 }
 
-void app_inputs_prepare(hal_inputs *inputs)
-{
-    memset(inputs, 0, sizeof *inputs);
-    inputs->sensor_temperature_degc = float32_missing();
-    inputs->motor_temperature_degc = float32_missing();
-    inputs->controller_temperature_degc = float32_missing();
-    inputs->battery_current_a = float32_missing();
-    inputs->mode_selected = HAL_MODE_NOT_SELECTED;
-}
-
 /* Once more before the motor: whatever the law says, only a number within the limit goes there. */
 static void motor_drive(app *unit, int result)
 {
     float motor_nm = unit->output.motor_torque_nm;
-    int sound = motor_nm >= 0.0f && motor_nm <= unit->assist_config.motor_torque_nm_max;
+    int sound = motor_nm >= 0.0f && motor_nm <= unit->config.law.motor_torque_nm_max;
 
     unit->law_lost = result == ASSIST_RESULT_LOST || !sound;
     if (!sound) unit->output.motor_torque_nm = 0.0f;
     unit->board->motor_torque_set(unit->board->context, unit->output.motor_torque_nm);
-}
-
-static float pulse_m(const app *unit)
-{
-    return unit->config.wheel_circumference_m / (float)unit->config.wheel_pulses_per_turn;
-}
-
-float app_speed_kmh(const app *unit)
-{
-    uint64_t now_us = unit->board->now_us(unit->board->context);
-
-    if (unit->speed_not_measured) return float32_missing();
-    return wheel_speed_kmh(&unit->wheel, pulse_m(unit), now_us);
-}
-
-/* Returns the way since the step before. */
-static float wheel_look(app *unit, const hal_inputs *inputs)
-{
-    unit->speed_not_measured = inputs->speed_age_ms == HAL_SPEED_NOT_MEASURED;
-    return wheel_speed_pulses(&unit->wheel, pulse_m(unit), inputs->wheel_pulses,
-                              inputs->wheel_pulse_us);
 }
 
 void app_control_step(app *unit)
@@ -310,21 +233,15 @@ void app_control_step(app *unit)
     float way_m;
 
     if (step_watch_begin(&unit->watch, now_us) > 0) assist_interrupted(&unit->assist_state);
-    if (unit->assist_config_pending) {
-        unit->assist_config = unit->assist_config_next;
-        unit->assist_config_pending = 0;
-    }
-    app_inputs_prepare(&inputs);
-    unit->board->inputs_read(unit->board->context, &inputs);
-    way_m = wheel_look(unit, &inputs);
-    sources.speed_kmh = app_speed_kmh(unit);
+    inputs_take(unit->board, &inputs);
+    way_m = road_speed_step(&unit->speed, &unit->config.in_force, &inputs);
+    sources.speed_kmh = road_speed_kmh(&unit->speed, &unit->config.in_force, now_us);
     sources.mode = mode_select(unit, &inputs);
     /* Before the law: what it finds holds in this step. */
     faults_report(unit, &inputs, sources.speed_kmh, now_us);
     assist_input_from(&inputs, sources.speed_kmh, sources.mode, faults_inhibit(&unit->faults),
                       &input);
-    motor_drive(unit,
-                assist_step(&unit->assist_config, &unit->assist_state, &input, &unit->output));
+    motor_drive(unit, assist_step(&unit->config.law, &unit->assist_state, &input, &unit->output));
 
     counters_step(&unit->counters, sources.speed_kmh, way_m);
     ride_log_mode_set(&unit->ride_log, sources.mode, now_us);

@@ -4,8 +4,8 @@
 #ifndef SPINDLE_ASSIST_STEPS_H
 #define SPINDLE_ASSIST_STEPS_H
 
-#include "assist.h"  // assist_config, assist_state, assist_input, assist_output
-#include "float32.h" // float32_missing
+#include "assist_types.h" // assist_config, assist_state, assist_input, assist_output
+#include "float32.h"      // float32_missing
 
 /* sensor.c */
 float sensor_torque_nm(const assist_config *config, float torque_raw_counts);
@@ -58,7 +58,7 @@ float battery_torque_nm(const assist_config *config, assist_state *state, const 
                         float resistance_ohm, float back_emf_v);
 int battery_sags(const assist_config *config, const assist_input *input);
 
-/* market.c: the last word. */
+/* market_limit.c: the last word. */
 float apply_market(const assist_config *config, assist_state *state, const assist_input *input,
                    float motor_nm, assist_output *output);
 

@@ -9,7 +9,7 @@
 #ifndef SPINDLE_MARKET_H
 #define SPINDLE_MARKET_H
 
-#include "assist.h" // assist_config
+#include "assist_types.h" // assist_config
 
 #include <stdint.h>
 

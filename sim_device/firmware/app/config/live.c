@@ -2,8 +2,9 @@
 
 #include <string.h>
 
-#include "parameters.h" // parameters_set
-#include "unlock.h"     // unlock_level_needed
+#include "parameters.h"           // parameters_set
+#include "storage/config_image.h" // config_image_is_valid
+#include "unlock.h"               // unlock_level_needed
 
 #define US_PER_MS 1000u
 #define US_PER_S 1000000u
@@ -29,7 +30,7 @@ uint8_t live_set(config_live *live, const config_store *store, const ebl_live_se
     status = parameters_set(image, request->items, request->items_length, access, detail);
     if (status != EBL_STATUS_OK) return status;
     *detail = (uint16_t)ebl_image_violations(image, found, capacity);
-    if (*detail > 0 || !parameters_image_is_valid(image)) return EBL_STATUS_INVALID_CONFIG;
+    if (*detail > 0 || !config_image_is_valid(image)) return EBL_STATUS_INVALID_CONFIG;
     *detail = unlock_level_needed(store->image, image);
     if (*detail != EBL_ACCESS_RIDER) return EBL_STATUS_ACCESS;
     memcpy(live->image, image, sizeof image);

@@ -1,26 +1,11 @@
-/* The configuration as the host writes it (items into an image) and as the law wants it. */
+/* The configuration as the host writes and reads it: items of an image. */
 #ifndef SPINDLE_PARAMETERS_H
 #define SPINDLE_PARAMETERS_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-#include "assist.h"       // assist_config
-#include "ebl_registry.h" // ebl_config, ebl_status
-
-/* The law's view of a configuration; `step_s` is the control period. */
-void parameters_to_assist(const ebl_config *config, assist_config *assist);
-
-/* The factory default as an image. */
-void parameters_default_image(uint8_t *image);
-
-/* An image whose only fault is that points are nearer than their least step, as firmware without
- * that rule took them: moves each just far enough from the one before it, and back from the end of
- * the range. Any other image stays as it is. Returns how many points were moved. */
-size_t parameters_points_spread(uint8_t *image);
-
-/* True if every value is within its range and the law accepts the whole. */
-int parameters_image_is_valid(const uint8_t *image);
+#include "ebl_registry.h" // ebl_status
 
 /* Writes the items of CFG_SET (id u16, first index u8, count u8, values) into the image: all, or
  * none. Returns an ebl_status; `detail` then is the parameter's id, or for ACCESS the level that

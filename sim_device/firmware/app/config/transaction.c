@@ -2,10 +2,12 @@
 
 #include <string.h>
 
-#include "app.h"        // app_inputs_prepare
-#include "wear.h"       // config_wear_wait_s, config_wear_spend
-#include "ebl_frame.h"  // ebl_crc32
-#include "parameters.h" // parameters_set, parameters_image_is_valid
+#include "faults/inputs.h"        // inputs_take
+#include "storage/config_image.h" // config_image_is_valid
+#include "storage/flash_verify.h" // STORAGE_OK
+#include "wear.h"                 // config_wear_wait_s, config_wear_spend
+#include "ebl_frame.h"            // ebl_crc32
+#include "parameters.h"           // parameters_set
 
 #define US_PER_MS 1000u
 #define US_PER_S 1000000u
@@ -81,7 +83,7 @@ uint8_t transaction_validate(config_transaction *transaction, uint16_t id, uint6
 
     if (status != EBL_STATUS_OK) return status;
     *detail = (uint16_t)ebl_image_violations(transaction->image, found, capacity);
-    if (*detail > 0 || !parameters_image_is_valid(transaction->image)) {
+    if (*detail > 0 || !config_image_is_valid(transaction->image)) {
         transaction->state = EBL_CONFIG_STATE_STAGING;
         return EBL_STATUS_INVALID_CONFIG;
     }
@@ -106,8 +108,7 @@ uint8_t transaction_flash_status(const hal *board, float speed_kmh)
 {
     hal_inputs inputs;
 
-    app_inputs_prepare(&inputs);
-    board->inputs_read(board->context, &inputs);
+    inputs_take(board, &inputs);
     if (inputs.speed_age_ms == HAL_SPEED_NOT_MEASURED ||
         !magnitude_is_below(speed_kmh, STANDSTILL_SPEED_KMH_MAX) ||
         !magnitude_is_below(inputs.motor_speed_rpm, STANDSTILL_MOTOR_SPEED_RPM_MAX)) {
@@ -140,9 +141,9 @@ static uint8_t commit_check(config_transaction *transaction, const hal *board, f
 static uint8_t store_status(int result)
 {
     switch (result) {
-    case CONFIG_STORE_OK: return EBL_STATUS_OK;
-    case CONFIG_STORE_NO_SPACE: return EBL_STATUS_NO_SPACE;
-    case CONFIG_STORE_VERIFY_FAIL: return EBL_STATUS_VERIFY_FAIL;
+    case STORAGE_OK: return EBL_STATUS_OK;
+    case STORAGE_NO_SPACE: return EBL_STATUS_NO_SPACE;
+    case STORAGE_VERIFY_FAIL: return EBL_STATUS_VERIFY_FAIL;
     default: return EBL_STATUS_FLASH_FAIL;
     }
 }

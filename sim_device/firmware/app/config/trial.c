@@ -1,5 +1,7 @@
 #include "trial.h"
 
+#include "storage/flash_verify.h" // STORAGE_OK
+
 #define US_PER_MS 1000u
 #define US_PER_S 1000000u
 
@@ -37,8 +39,8 @@ uint8_t trial_confirm(config_store *store, const hal *board, const ebl_cfg_confi
     *detail = 0;
     if (!store->on_trial) return EBL_STATUS_OK;
     switch (config_store_confirm(store, board)) {
-    case CONFIG_STORE_OK: return EBL_STATUS_OK;
-    case CONFIG_STORE_VERIFY_FAIL: return EBL_STATUS_VERIFY_FAIL;
+    case STORAGE_OK: return EBL_STATUS_OK;
+    case STORAGE_VERIFY_FAIL: return EBL_STATUS_VERIFY_FAIL;
     default: return EBL_STATUS_FLASH_FAIL;
     }
 }

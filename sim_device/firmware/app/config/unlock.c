@@ -5,7 +5,7 @@
 #include "ebl_bytes.h"  // ebl_put_u32, ebl_put_u64
 #include "ebl_values.h" // ebl_band_holds
 #include "monocypher.h" // crypto_verify64
-#include "signature.h"  // signature_is_valid
+#include "signature.h"  // SIGNATURE_KEY_LENGTH, signature_is_valid
 
 #define US_PER_S 1000000u
 #define UID_LENGTH 12
@@ -19,6 +19,9 @@ enum {
     DIGEST_AT = EXPIRES_AT + 8,
     MESSAGE_LENGTH = DIGEST_AT + SHA512_LENGTH
 };
+
+/* What is kept is what a signature is checked with. */
+typedef char a_key_is_a_key[UNLOCK_KEY_LENGTH == SIGNATURE_KEY_LENGTH ? 1 : -1];
 
 /* 1, 2, 4 .. 60 s after 1, 2, 3 .. failures; longer for who does not stop. */
 static uint64_t delay_us(uint32_t failures)

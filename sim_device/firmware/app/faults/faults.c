@@ -55,7 +55,7 @@ void faults_step(fault_list *faults, const hal_inputs *inputs, const ebl_config 
 
     *set = 0;
     *cleared = 0;
-    fault_signs(faults, inputs, config, law, signs);
+    fault_signs(&faults->watch, faults->active, inputs, config, law, signs);
     for (unsigned bit = 0; bit < FAULT_KINDS; bit++) {
         fault_count(faults, bit, signs[bit], set, cleared);
     }

@@ -3,7 +3,9 @@
 #ifndef SPINDLE_FAULT_MOTION_H
 #define SPINDLE_FAULT_MOTION_H
 
-#include "signs.h" // fault_sign, fault_watch, fault_law
+#include "ebl_registry.h" // ebl_config
+#include "evidence.h"     // fault_sign, fault_watch, fault_law
+#include "hal.h"          // hal_inputs
 
 /* The motor drives the chain far faster than the wheel is said to turn. */
 fault_sign fault_motion_mismatch(const hal_inputs *inputs, const ebl_config *config,

@@ -1,11 +1,9 @@
 #include "signs.h"
 
+#include "inputs.h"  // inputs_torque_is_plausible
 #include "motion.h"  // fault_motion_mismatch
 #include "float32.h" // float32_abs, float32_max, float32_min
 #include "heat.h"    // HEAT_MOTOR_HOT_DEGC
-
-/* The converter's word has 16 bits: at its ends a broken bridge arm looks like a strong rider. */
-#define TORQUE_RAW_COUNTS_MAX 32767.0f
 
 /* No e-bike goes faster; what does is a disturbed speed sensor. */
 #define SPEED_KMH_MAX 150.0f
@@ -48,23 +46,18 @@
 #define S_PER_MIN 60.0f
 #define STEP_S ((float)EBL_CONTROL_PERIOD_US / 1000000.0f)
 
-int faults_torque_is_plausible(float torque_raw_counts)
-{
-    return torque_raw_counts > -TORQUE_RAW_COUNTS_MAX && torque_raw_counts < TORQUE_RAW_COUNTS_MAX;
-}
-
 static fault_sign speed_sign(const hal_inputs *inputs, const fault_law *law)
 {
     return fault_sign_of(!(law->speed_kmh >= 0.0f && law->speed_kmh < SPEED_KMH_MAX) ||
                          inputs->speed_age_ms > SPEED_AGE_MS_MAX);
 }
 
-static fault_sign battery_low_sign(const fault_list *faults, const hal_inputs *inputs,
+static fault_sign battery_low_sign(uint32_t active, const hal_inputs *inputs,
                                    const ebl_config *config)
 {
     float floor_v = config->battery_voltage_v_min;
 
-    if (faults->active & EBL_FAULT_BATTERY_LOW) floor_v += BATTERY_RECOVERY_V;
+    if (active & EBL_FAULT_BATTERY_LOW) floor_v += BATTERY_RECOVERY_V;
     return fault_sign_of(!(inputs->battery_voltage_v >= floor_v));
 }
 
@@ -80,10 +73,10 @@ static fault_sign current_sign(const hal_inputs *inputs, const ebl_config *confi
 }
 
 /* Hot sets it, and only what has cooled to where the assist is whole again is good. */
-static fault_sign heat_sign(const fault_list *faults, uint32_t flag, float temperature_degc,
-                            float warm_degc, float hot_degc)
+static fault_sign heat_sign(uint32_t active, uint32_t flag, float temperature_degc, float warm_degc,
+                            float hot_degc)
 {
-    return fault_sign_of(temperature_degc >= ((faults->active & flag) ? warm_degc : hot_degc));
+    return fault_sign_of(temperature_degc >= ((active & flag) ? warm_degc : hot_degc));
 }
 
 static void turn_begin(fault_watch *watch, float raw_counts)
@@ -138,7 +131,7 @@ static fault_sign drift_sign(fault_watch *watch, const hal_inputs *inputs, const
     int resting = float32_abs(law->speed_kmh) < REST_KMH &&
                   float32_abs(inputs->cadence_rpm) < REST_RPM &&
                   inputs->torque_age_ms <= TORQUE_HOLD_MS &&
-                  faults_torque_is_plausible(inputs->torque_raw_counts);
+                  inputs_torque_is_plausible(inputs->torque_raw_counts);
 
     if (!resting) {
         watch->rest_steps = 0;
@@ -167,8 +160,8 @@ static void sign_set(fault_sign *signs, uint32_t flag, fault_sign sign)
     signs[__builtin_ctz(flag)] = sign;
 }
 
-void fault_signs(fault_list *faults, const hal_inputs *inputs, const ebl_config *config,
-                 const fault_law *law, fault_sign *signs)
+void fault_signs(fault_watch *watch, uint32_t active, const hal_inputs *inputs,
+                 const ebl_config *config, const fault_law *law, fault_sign *signs)
 {
     int fresh = inputs->torque_age_ms <= TORQUE_HOLD_MS;
     float deep_v =
@@ -177,25 +170,25 @@ void fault_signs(fault_list *faults, const hal_inputs *inputs, const ebl_config 
     for (unsigned bit = 0; bit < FAULT_KINDS; bit++) signs[bit] = FAULT_SIGN_NONE;
     if (fresh) {
         sign_set(signs, EBL_FAULT_TORQUE_SENSOR,
-                 fault_sign_of(!faults_torque_is_plausible(inputs->torque_raw_counts)));
-        sign_set(signs, EBL_FAULT_TORQUE_STUCK, stuck_sign(&faults->watch, inputs, law));
+                 fault_sign_of(!inputs_torque_is_plausible(inputs->torque_raw_counts)));
+        sign_set(signs, EBL_FAULT_TORQUE_STUCK, stuck_sign(watch, inputs, law));
     }
     sign_set(signs, EBL_FAULT_SPEED_SENSOR, speed_sign(inputs, law));
-    sign_set(signs, EBL_FAULT_BATTERY_LOW, battery_low_sign(faults, inputs, config));
+    sign_set(signs, EBL_FAULT_BATTERY_LOW, battery_low_sign(active, inputs, config));
     sign_set(signs, EBL_FAULT_OVER_CURRENT, current_sign(inputs, config));
     sign_set(signs, EBL_FAULT_UNDER_VOLTAGE, fault_sign_of(inputs->battery_voltage_v < deep_v));
     sign_set(signs, EBL_FAULT_BATTERY_CUT, fault_sign_of(inputs->battery_cut));
     sign_set(signs, EBL_FAULT_MOTOR_TEMPERATURE,
-             heat_sign(faults, EBL_FAULT_MOTOR_TEMPERATURE, inputs->motor_temperature_degc,
+             heat_sign(active, EBL_FAULT_MOTOR_TEMPERATURE, inputs->motor_temperature_degc,
                        HEAT_MOTOR_WARM_DEGC, HEAT_MOTOR_HOT_DEGC));
     sign_set(signs, EBL_FAULT_CONTROLLER_TEMPERATURE,
-             heat_sign(faults, EBL_FAULT_CONTROLLER_TEMPERATURE,
+             heat_sign(active, EBL_FAULT_CONTROLLER_TEMPERATURE,
                        inputs->controller_temperature_degc, HEAT_CONTROLLER_WARM_DEGC,
                        HEAT_CONTROLLER_HOT_DEGC));
-    sign_set(signs, EBL_FAULT_TORQUE_DRIFT, drift_sign(&faults->watch, inputs, law));
+    sign_set(signs, EBL_FAULT_TORQUE_DRIFT, drift_sign(watch, inputs, law));
     sign_set(signs, EBL_FAULT_TORQUE_LINK, fault_sign_of(!fresh));
     sign_set(signs, EBL_FAULT_SPEED_MISMATCH, fault_motion_mismatch(inputs, config, law));
-    sign_set(signs, EBL_FAULT_SPEED_STUCK, fault_motion_stuck(&faults->watch, inputs, config, law));
+    sign_set(signs, EBL_FAULT_SPEED_STUCK, fault_motion_stuck(watch, inputs, config, law));
     sign_set(signs, EBL_FAULT_MOTOR_HALL, fault_motion_hall(inputs, config, law));
     sign_set(signs, EBL_FAULT_LAW_RESULT, fault_sign_of(law->lost));
 }

@@ -2,15 +2,13 @@
 #ifndef SPINDLE_FAULT_SIGNS_H
 #define SPINDLE_FAULT_SIGNS_H
 
-#include "faults.h" // fault_list, fault_law
+#include "ebl_registry.h" // ebl_config
+#include "evidence.h"     // fault_sign, fault_watch, fault_law
+#include "hal.h"          // hal_inputs
 
-/* NONE: this step cannot tell. */
-typedef enum { FAULT_SIGN_GOOD = 0, FAULT_SIGN_BAD = 1, FAULT_SIGN_NONE = 2 } fault_sign;
-
-static inline fault_sign fault_sign_of(int bad) { return bad ? FAULT_SIGN_BAD : FAULT_SIGN_GOOD; }
-
-/* One sign for each fault, by its bit. Follows what takes several steps in faults->watch. */
-void fault_signs(fault_list *faults, const hal_inputs *inputs, const ebl_config *config,
-                 const fault_law *law, fault_sign *signs);
+/* One sign for each fault, by its bit. `active`: the faults there are, which some signs outlast.
+ * Follows what takes several steps in `watch`. */
+void fault_signs(fault_watch *watch, uint32_t active, const hal_inputs *inputs,
+                 const ebl_config *config, const fault_law *law, fault_sign *signs);
 
 #endif

@@ -22,13 +22,13 @@ static const struct {
     {1000000, EBL_BAUD_RATES_BAUD_1000000}, {2000000, EBL_BAUD_RATES_BAUD_2000000},
 };
 
-void line_rate_init(line_rate *line, const hal *board)
+void baud_rate_init(baud_rate *line, const hal *board)
 {
     memset(line, 0, sizeof *line);
     line->first = board->serial_baud;
 }
 
-uint16_t line_rate_offered(const hal *board)
+uint16_t baud_rate_offered(const hal *board)
 {
     return board->serial_baud_set == NULL ? 0 : board->serial_bauds;
 }
@@ -36,82 +36,82 @@ uint16_t line_rate_offered(const hal *board)
 static int is_offered(const hal *board, uint32_t baud)
 {
     for (size_t i = 0; i < RATES; i++) {
-        if (rates[i].baud == baud) return (line_rate_offered(board) & rates[i].bit) != 0;
+        if (rates[i].baud == baud) return (baud_rate_offered(board) & rates[i].bit) != 0;
     }
     return 0;
 }
 
-uint8_t line_rate_check(const line_rate *line, const hal *board, uint32_t baud, uint16_t *detail)
+uint8_t baud_rate_check(const baud_rate *line, const hal *board, uint32_t baud, uint16_t *detail)
 {
     *detail = 0;
-    if (line->state != LINE_RATE_STEADY) return EBL_STATUS_BUSY;
+    if (line->state != BAUD_RATE_STEADY) return EBL_STATUS_BUSY;
     if (!is_offered(board, baud)) {
-        *detail = line_rate_offered(board);
+        *detail = baud_rate_offered(board);
         return EBL_STATUS_UNSUPPORTED;
     }
     return EBL_STATUS_OK;
 }
 
-void line_rate_begin(line_rate *line, const hal *board, uint32_t baud)
+void baud_rate_begin(baud_rate *line, const hal *board, uint32_t baud)
 {
     uint64_t now_us = board->now_us(board->context);
 
-    line->state = LINE_RATE_ANSWERING;
+    line->state = BAUD_RATE_ANSWERING;
     line->before = board->serial_baud;
     line->next = baud;
     line->end_us = now_us + ANSWER_US_MAX;
-    line->due_us = now_us + LINE_RATE_SWITCH_MS * US_PER_MS;
+    line->due_us = now_us + BAUD_RATE_SWITCH_MS * US_PER_MS;
 }
 
-uint32_t line_rate_for_streams(const line_rate *line, const hal *board)
+uint32_t baud_rate_for_streams(const baud_rate *line, const hal *board)
 {
     uint32_t baud = board->serial_baud;
 
-    return line->state != LINE_RATE_STEADY && line->next < baud ? line->next : baud;
+    return line->state != BAUD_RATE_STEADY && line->next < baud ? line->next : baud;
 }
 
-void line_rate_heard(line_rate *line, uint64_t now_us)
+void baud_rate_heard(baud_rate *line, uint64_t now_us)
 {
     line->heard_us = now_us;
-    if (line->state == LINE_RATE_PROVING) line->state = LINE_RATE_STEADY;
+    if (line->state == BAUD_RATE_PROVING) line->state = BAUD_RATE_STEADY;
 }
 
-static line_rate_change give_back(line_rate *line, const hal *board)
+static baud_rate_change give_back(baud_rate *line, const hal *board)
 {
     (void)board->serial_baud_set(board->context, line->before);
-    line->state = LINE_RATE_STEADY;
-    return LINE_RATE_GIVEN_BACK;
+    line->state = BAUD_RATE_STEADY;
+    return BAUD_RATE_GIVEN_BACK;
 }
 
-static line_rate_change answering(line_rate *line, const unit_link *link, const hal *board,
+static baud_rate_change answering(baud_rate *line, const unit_link *link, const hal *board,
                                   uint64_t now_us)
 {
     if (!link_has_answered(link) || !board->serial_drained(board->context)) {
-        line->due_us = now_us + LINE_RATE_SWITCH_MS * US_PER_MS;
-        if (now_us < line->end_us) return LINE_RATE_KEPT;
-        line->state = LINE_RATE_STEADY;
-        return LINE_RATE_GIVEN_BACK;
+        line->due_us = now_us + BAUD_RATE_SWITCH_MS * US_PER_MS;
+        if (now_us < line->end_us) return BAUD_RATE_KEPT;
+        line->state = BAUD_RATE_STEADY;
+        return BAUD_RATE_GIVEN_BACK;
     }
-    if (now_us < line->due_us) return LINE_RATE_KEPT;
+    if (now_us < line->due_us) return BAUD_RATE_KEPT;
     if (board->serial_baud_set(board->context, line->next) < 0) return give_back(line, board);
-    line->state = LINE_RATE_PROVING;
-    line->due_us = now_us + LINE_RATE_PROVE_MS * US_PER_MS;
-    return LINE_RATE_SWITCHED;
+    line->state = BAUD_RATE_PROVING;
+    line->due_us = now_us + BAUD_RATE_PROVE_MS * US_PER_MS;
+    return BAUD_RATE_SWITCHED;
 }
 
-line_rate_change line_rate_poll(line_rate *line, unit_link *link, const hal *board, uint64_t now_us)
+baud_rate_change baud_rate_poll(baud_rate *line, unit_link *link, const hal *board, uint64_t now_us)
 {
-    line_rate_change change = LINE_RATE_KEPT;
+    baud_rate_change change = BAUD_RATE_KEPT;
 
-    if (line->state == LINE_RATE_ANSWERING) {
+    if (line->state == BAUD_RATE_ANSWERING) {
         change = answering(line, link, board, now_us);
-    } else if (line->state == LINE_RATE_PROVING && now_us >= line->due_us) {
+    } else if (line->state == BAUD_RATE_PROVING && now_us >= line->due_us) {
         change = give_back(line, board);
-    } else if (line->state == LINE_RATE_STEADY && board->serial_baud_set != NULL &&
+    } else if (line->state == BAUD_RATE_STEADY && board->serial_baud_set != NULL &&
                board->serial_baud != line->first && now_us - line->heard_us >= FORGOTTEN_US) {
         (void)board->serial_baud_set(board->context, line->first);
-        change = LINE_RATE_FORGOTTEN;
+        change = BAUD_RATE_FORGOTTEN;
     }
-    link->answers_only = line->state != LINE_RATE_STEADY;
+    link->answers_only = line->state != BAUD_RATE_STEADY;
     return change;
 }

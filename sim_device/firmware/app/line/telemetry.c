@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "stream_budget.h" // admission_bytes_per_s
+#include "stream_budget.h" // stream_bytes_per_s
 #include "ebl_bytes.h"     // ebl_put_i16, ebl_put_u32
 #include "ebl_frame.h"     // EBL_HEADER_LENGTH, ebl_header_put
 #include "ebl_values.h"    // ebl_channel_counts
@@ -10,7 +10,7 @@
 
 #define COUNT_MAX 32767    /* what a value beyond the range of its channel becomes */
 #define FLAGS_MASK 0x7fffu /* what an int16 carries of them: bits 15 and 31 are never given */
-#define STREAM_OVERHEAD (EBL_HEADER_LENGTH + ADMISSION_STREAM_HEAD_LENGTH)
+#define STREAM_OVERHEAD (EBL_HEADER_LENGTH + STREAM_HEAD_LENGTH)
 #define FLAG_OVERRUN 0x08
 #define FLAG_CLIPPED 0x10
 #define EPOCH_MASK 0x07
@@ -204,14 +204,14 @@ static uint16_t batch_max(uint16_t tx_mtu, size_t channel_count)
 
 uint32_t telemetry_bytes_per_s(const telemetry_stream *stream)
 {
-    return admission_bytes_per_s(stream->channel_count, stream->batch, stream->divider);
+    return stream_bytes_per_s(stream->channel_count, stream->batch, stream->divider);
 }
 
 /* What the line has left for the stream of this id, and whether that is enough. */
 static uint8_t bandwidth_check(const telemetry *state, const ebl_str_subscribe_request *request,
                                uint32_t baud, uint16_t *detail)
 {
-    uint32_t left = admission_budget_bytes_per_s(baud);
+    uint32_t left = stream_budget_bytes_per_s(baud);
     size_t channels = request->channel_ids_length;
 
     if (baud == 0) return EBL_STATUS_OK;
@@ -222,10 +222,10 @@ static uint8_t bandwidth_check(const telemetry *state, const ebl_str_subscribe_r
         if (!other->active || other->stream_id == request->stream_id) continue;
         left = left > needed ? left - needed : 0;
     }
-    if (admission_bytes_per_s(channels, request->batch, request->divider) <= left) {
+    if (stream_bytes_per_s(channels, request->batch, request->divider) <= left) {
         return EBL_STATUS_OK;
     }
-    *detail = admission_rate_hz_max(left, channels, request->batch);
+    *detail = stream_rate_hz_max(left, channels, request->batch);
     return EBL_STATUS_BANDWIDTH;
 }
 
@@ -236,7 +236,7 @@ int telemetry_fits(const telemetry *state, uint32_t baud)
     for (size_t i = 0; i < TELEMETRY_STREAMS; i++) {
         if (state->streams[i].active) needed += telemetry_bytes_per_s(&state->streams[i]);
     }
-    return baud == 0 || needed <= admission_budget_bytes_per_s(baud);
+    return baud == 0 || needed <= stream_budget_bytes_per_s(baud);
 }
 
 static uint8_t subscription_check(const ebl_str_subscribe_request *request, uint16_t tx_mtu,

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "assist.h"       // assist_output
+#include "assist_types.h" // assist_output
 #include "ebl_registry.h" // EBL_CHANNEL_COUNT
 #include "events.h"       // event_log
 #include "hal.h"          // hal_inputs

@@ -1,9 +1,11 @@
 /* What the host asks about the configuration. */
 #include <string.h>
 
-#include "dispatch.h"          // reply_message, request_read
-#include "ebl_registry.h"      // ebl_cfg_read_request
-#include "config/parameters.h" // parameters_default_image
+#include "permission.h"           // permission_end, permission_to_activate, permission_to_stage
+#include "reply.h"                // reply_message, request_read
+#include "services.h"             // request_handler
+#include "ebl_registry.h"         // ebl_cfg_read_request
+#include "storage/config_image.h" // config_image_default
 
 #define MS_PER_S 1000u
 
@@ -11,9 +13,10 @@ static uint64_t now(const app *unit) { return unit->board->now_us(unit->board->c
 
 static void info(app *unit, const ebl_header *request, reply *answer)
 {
-    ebl_cfg_info_response response = {unit->store.generation, unit->store.crc32, EBL_IMAGE_LENGTH,
-                                      unit->store.on_trial ? EBL_CONFIG_STATE_PROVISIONAL
-                                                           : unit->transaction.state};
+    ebl_cfg_info_response response = {unit->config.store.generation, unit->config.store.crc32,
+                                      EBL_IMAGE_LENGTH,
+                                      unit->config.store.on_trial ? EBL_CONFIG_STATE_PROVISIONAL
+                                                                  : unit->config.transaction.state};
 
     (void)request;
     reply_message(answer, EBL_MESSAGE(ebl_cfg_info_response, &response));
@@ -22,20 +25,22 @@ static void info(app *unit, const ebl_header *request, reply *answer)
 /* A staged image has the generation it is built on, the default has none. */
 static uint8_t bank_read(const app *unit, uint8_t bank, uint8_t *image, uint32_t *generation)
 {
-    *generation = unit->store.generation;
+    *generation = unit->config.store.generation;
     switch (bank) {
-    case EBL_BANK_ACTIVE: memcpy(image, unit->store.image, EBL_IMAGE_LENGTH); return EBL_STATUS_OK;
+    case EBL_BANK_ACTIVE:
+        memcpy(image, unit->config.store.image, EBL_IMAGE_LENGTH);
+        return EBL_STATUS_OK;
     case EBL_BANK_STAGED:
-        if (unit->transaction.state == EBL_CONFIG_STATE_IDLE) return EBL_STATUS_NOT_FOUND;
-        memcpy(image, unit->transaction.image, EBL_IMAGE_LENGTH);
+        if (unit->config.transaction.state == EBL_CONFIG_STATE_IDLE) return EBL_STATUS_NOT_FOUND;
+        memcpy(image, unit->config.transaction.image, EBL_IMAGE_LENGTH);
         return EBL_STATUS_OK;
     case EBL_BANK_PREVIOUS:
-        return config_store_previous(&unit->store, unit->board, image, generation)
+        return config_store_previous(&unit->config.store, unit->board, image, generation)
                    ? EBL_STATUS_OK
                    : EBL_STATUS_NOT_FOUND;
     case EBL_BANK_DEFAULT:
         *generation = 0;
-        parameters_default_image(image);
+        config_image_default(image);
         return EBL_STATUS_OK;
     default: return EBL_STATUS_RANGE;
     }
@@ -72,19 +77,20 @@ static void begin(app *unit, const ebl_header *request, reply *answer)
     uint8_t status;
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_begin_request, &asked))) return;
-    if (unit->store.on_trial) {
+    if (unit->config.store.on_trial) {
         /* What it would overwrite is where a return leads to. */
-        uint32_t left_ms = trial_left_ms(&unit->trial, &unit->store, now(unit));
+        uint32_t left_ms = trial_left_ms(&unit->config.trial, &unit->config.store, now(unit));
 
         reply_refuse(answer, EBL_STATUS_BUSY, (uint16_t)((left_ms + MS_PER_S - 1) / MS_PER_S));
         return;
     }
-    status = transaction_begin(&unit->transaction, &unit->store, &asked, now(unit), &detail);
+    status = transaction_begin(&unit->config.transaction, &unit->config.store, &asked, now(unit),
+                               &detail);
     if (status != EBL_STATUS_OK) {
         reply_refuse(answer, status, detail);
         return;
     }
-    response.transaction = unit->transaction.id;
+    response.transaction = unit->config.transaction.id;
     response.lease_ms = TRANSACTION_LEASE_MS;
     reply_message(answer, EBL_MESSAGE(ebl_cfg_begin_response, &response));
 }
@@ -96,8 +102,8 @@ static void set(app *unit, const ebl_header *request, reply *answer)
     uint8_t status;
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_set_request, &asked))) return;
-    status =
-        transaction_set(&unit->transaction, &asked, app_access_to_stage(unit), now(unit), &detail);
+    status = transaction_set(&unit->config.transaction, &asked, permission_to_stage(unit),
+                             now(unit), &detail);
     reply_status(answer, status, detail);
 }
 
@@ -109,7 +115,7 @@ static void validate(app *unit, const ebl_header *request, reply *answer)
     uint8_t status;
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_validate_request, &asked))) return;
-    status = transaction_validate(&unit->transaction, asked.transaction, now(unit), found,
+    status = transaction_validate(&unit->config.transaction, asked.transaction, now(unit), found,
                                   REFUSALS_MAX, &detail);
     if (status == EBL_STATUS_INVALID_CONFIG) {
         reply_refusals(answer, found, detail);
@@ -126,7 +132,7 @@ static void staged_crc(app *unit, const ebl_header *request, reply *answer)
     uint8_t status;
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_staged_crc_request, &asked))) return;
-    status = transaction_staged_crc(&unit->transaction, asked.transaction, now(unit),
+    status = transaction_staged_crc(&unit->config.transaction, asked.transaction, now(unit),
                                     &response.crc32, &detail);
     if (status != EBL_STATUS_OK) {
         reply_refuse(answer, status, detail);
@@ -138,56 +144,58 @@ static void staged_crc(app *unit, const ebl_header *request, reply *answer)
 /* A new generation is active, and a token was good for one; a defaulted unit is well again. */
 static void committed(app *unit, uint8_t confirm_s)
 {
-    app_lock(unit);
-    if (unit->store.on_trial) {
-        trial_begin(&unit->trial, confirm_s, now(unit));
-        unit->live.active = 0;
-        app_config_apply(unit);
-        event_config_provisional(&unit->events, &unit->link, now(unit), unit->store.generation,
-                                 unit->store.crc32, confirm_s);
+    permission_end(unit);
+    if (unit->config.store.on_trial) {
+        trial_begin(&unit->config.trial, confirm_s, now(unit));
+        unit->config.live.active = 0;
+        config_apply(&unit->config);
+        event_config_provisional(&unit->events, &unit->link, now(unit),
+                                 unit->config.store.generation, unit->config.store.crc32,
+                                 confirm_s);
         return;
     }
-    app_config_changed(unit, EBL_EVENT_CONFIG_COMMITTED);
-    app_config_well(unit);
+    config_committed(&unit->config, &unit->events, &unit->link, unit->board);
+    config_well(&unit->faults, &unit->events, &unit->link, unit->board);
 }
 
 /* Only for what could be committed otherwise: the rest is the transaction's to refuse. */
 static uint8_t commit_access(app *unit, const ebl_cfg_commit_request *asked, uint16_t *detail)
 {
     uint32_t crc32;
-    uint8_t status =
-        transaction_staged_crc(&unit->transaction, asked->transaction, now(unit), &crc32, detail);
+    uint8_t status = transaction_staged_crc(&unit->config.transaction, asked->transaction,
+                                            now(unit), &crc32, detail);
 
-    if (status != EBL_STATUS_OK || unit->transaction.state != EBL_CONFIG_STATE_VALID) {
+    if (status != EBL_STATUS_OK || unit->config.transaction.state != EBL_CONFIG_STATE_VALID) {
         return EBL_STATUS_OK;
     }
     if (crc32 != asked->staged_crc32) return EBL_STATUS_OK;
-    return app_access_check(unit, unit->transaction.image, detail);
+    return permission_to_activate(unit, unit->config.transaction.image, detail);
 }
 
 static void commit(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_cfg_commit_request asked;
     ebl_cfg_commit_response response;
-    uint32_t generation_before = unit->store.generation;
+    uint32_t generation_before = unit->config.store.generation;
     uint16_t detail = 0;
     uint8_t status;
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_commit_request, &asked))) return;
     status = commit_access(unit, &asked, &detail);
     if (status == EBL_STATUS_OK) {
-        status =
-            transaction_commit(&unit->transaction, &unit->store, unit->board, app_speed_kmh(unit),
-                               &asked, now(unit), unit->counters.operating_s, &detail);
+        status = transaction_commit(&unit->config.transaction, &unit->config.store, unit->board,
+                                    road_speed_kmh(&unit->speed, &unit->config.in_force, now(unit)),
+                                    &asked, now(unit), unit->counters.operating_s, &detail);
     }
     if (status != EBL_STATUS_OK) {
         reply_refuse(answer, status, detail);
         return;
     }
-    if (unit->store.generation != generation_before) committed(unit, asked.confirm_s);
-    response.generation = unit->store.generation;
-    response.crc32 = unit->store.crc32;
-    response.state = unit->store.on_trial ? EBL_CONFIG_STATE_PROVISIONAL : unit->transaction.state;
+    if (unit->config.store.generation != generation_before) committed(unit, asked.confirm_s);
+    response.generation = unit->config.store.generation;
+    response.crc32 = unit->config.store.crc32;
+    response.state =
+        unit->config.store.on_trial ? EBL_CONFIG_STATE_PROVISIONAL : unit->config.transaction.state;
     reply_message(answer, EBL_MESSAGE(ebl_cfg_commit_response, &response));
 }
 
@@ -198,7 +206,7 @@ static void abort_transaction(app *unit, const ebl_header *request, reply *answe
     uint8_t status;
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_abort_request, &asked))) return;
-    status = transaction_abort(&unit->transaction, asked.transaction, now(unit), &detail);
+    status = transaction_abort(&unit->config.transaction, asked.transaction, now(unit), &detail);
     reply_status(answer, status, detail);
 }
 

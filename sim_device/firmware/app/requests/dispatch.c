@@ -2,133 +2,33 @@
 
 #include <string.h>
 
-#include "ebl_bytes.h" // ebl_put_u16, EBL_OK
+#include "ebl_bytes.h" // EBL_OK
+#include "services.h"  // request_handler, requests_system
 
-#define STATUS_LENGTH 1
-#define REFUSAL_LENGTH 3 /* status u8, detail u16 */
-#define REFUSAL_BYTES 4  /* of one violation: id u16, index u8, code u8 */
-#define BOARD_MESSAGE_FIRST 0x7000
 #define LATE_ANSWER_LENGTH_MAX 8
 
-void reply_ok(reply *answer)
+static request_handler handler_of(const app *unit, uint16_t message_id)
 {
-    answer->bytes[0] = EBL_STATUS_OK;
-    answer->length = STATUS_LENGTH;
-}
+    request_handler handler = requests_system(message_id);
 
-void reply_refuse(reply *answer, uint8_t status, uint16_t detail)
-{
-    answer->bytes[0] = status;
-    ebl_put_u16(answer->bytes + STATUS_LENGTH, detail);
-    answer->length = REFUSAL_LENGTH;
-}
-
-void reply_status(reply *answer, uint8_t status, uint16_t detail)
-{
-    if (status == EBL_STATUS_OK) {
-        reply_ok(answer);
-    } else {
-        reply_refuse(answer, status, detail);
-    }
-}
-
-void reply_with(reply *answer, size_t length)
-{
-    answer->bytes[0] = EBL_STATUS_OK;
-    answer->length = STATUS_LENGTH + length;
-}
-
-void reply_message(reply *answer, const uint8_t *layout, const void *message)
-{
-    size_t length;
-
-    if (ebl_layout_put(layout, message, reply_fields(answer), reply_capacity(answer), &length) ==
-        EBL_OK) {
-        reply_with(answer, length);
-    } else {
-        reply_refuse(answer, EBL_STATUS_INTERNAL, 0);
-    }
-}
-
-int request_read(const ebl_header *request, reply *answer, const uint8_t *layout, void *message)
-{
-    if (ebl_layout_get(layout, message, request->payload, request->payload_length) == EBL_OK) {
-        return 1;
-    }
-    reply_refuse(answer, EBL_STATUS_LENGTH, layout[EBL_SHORTEST]);
-    return 0;
-}
-
-uint8_t *reply_fields(const reply *answer) { return answer->bytes + STATUS_LENGTH; }
-
-size_t reply_capacity(const reply *answer) { return answer->capacity - STATUS_LENGTH; }
-
-void reply_refusals(reply *answer, const ebl_refusal *found, uint16_t detail)
-{
-    size_t count = detail < REFUSALS_MAX ? detail : REFUSALS_MAX;
-
-    reply_refuse(answer, EBL_STATUS_INVALID_CONFIG, detail);
-    for (size_t i = 0; i < count && answer->length + REFUSAL_BYTES <= answer->capacity; i++) {
-        uint8_t *bytes = answer->bytes + answer->length;
-
-        ebl_put_u16(bytes, found[i].id);
-        bytes[2] = found[i].index;
-        bytes[3] = found[i].code;
-        answer->length += REFUSAL_BYTES;
-    }
-}
-
-/* What a board gives with a refusal are its words for it: they follow the detail, as far as they
- * fit. */
-static void board_refuse(reply *answer, uint8_t status, size_t length)
-{
-    size_t room = answer->capacity - REFUSAL_LENGTH;
-
-    if (length > room) length = room;
-    memmove(answer->bytes + REFUSAL_LENGTH, reply_fields(answer), length);
-    reply_refuse(answer, status, 0);
-    answer->length += length;
-}
-
-/* What the board says, as it says it; a board that writes more than it may is not believed. */
-static void board_reply(app *unit, const ebl_header *request, reply *answer)
-{
-    const hal *board = unit->board;
-    size_t length = 0;
-    int status;
-
-    if (board->board_request == NULL) {
-        reply_refuse(answer, EBL_STATUS_UNKNOWN_MSG, request->word);
-        return;
-    }
-    status = board->board_request(board->context, request->word, request->payload,
-                                  request->payload_length, reply_fields(answer),
-                                  reply_capacity(answer), &length);
-    if (status > EBL_STATUS_OK && status <= UINT8_MAX) {
-        board_refuse(answer, (uint8_t)status, length);
-    } else if (status == EBL_STATUS_OK && length <= reply_capacity(answer)) {
-        reply_with(answer, length);
-    } else {
-        reply_refuse(answer, EBL_STATUS_INTERNAL, 0);
-    }
+    if (handler == NULL) handler = requests_line(message_id);
+    if (handler == NULL) handler = requests_config(message_id);
+    if (handler == NULL) handler = requests_trial(message_id);
+    if (handler == NULL) handler = requests_unlock(message_id);
+    if (handler == NULL) handler = requests_stream(message_id);
+    if (handler == NULL) handler = requests_faults(message_id);
+    if (handler == NULL) handler = requests_time(message_id);
+    if (handler == NULL) handler = requests_log(unit, message_id);
+    if (handler == NULL) handler = requests_board(unit, message_id);
+    return handler;
 }
 
 static void request_execute(app *unit, const ebl_header *request, reply *answer)
 {
-    request_handler handler = requests_system(request->word);
+    request_handler handler = handler_of(unit, request->word);
 
-    if (handler == NULL) handler = requests_line(request->word);
-    if (handler == NULL) handler = requests_config(request->word);
-    if (handler == NULL) handler = requests_trial(request->word);
-    if (handler == NULL) handler = requests_unlock(request->word);
-    if (handler == NULL) handler = requests_stream(request->word);
-    if (handler == NULL) handler = requests_faults(request->word);
-    if (handler == NULL) handler = requests_time(request->word);
-    if (handler == NULL) handler = requests_log(unit, request->word);
     if (handler != NULL) {
         handler(unit, request, answer);
-    } else if (request->word >= BOARD_MESSAGE_FIRST) {
-        board_reply(unit, request, answer);
     } else {
         reply_refuse(answer, EBL_STATUS_UNKNOWN_MSG, request->word);
     }
@@ -258,7 +158,7 @@ void dispatch_frame(app *unit, const uint8_t *frame, size_t length)
 
     if (readable != EBL_OK && readable != EBL_ERROR_VERSION) return;
     if (request.kind != EBL_KIND_REQUEST) return;
-    line_rate_heard(&unit->line, unit->board->now_us(unit->board->context));
+    baud_rate_heard(&unit->baud_rate, unit->board->now_us(unit->board->context));
     if (readable == EBL_OK && is_acknowledgement(&request)) {
         acknowledgement(unit, &request);
         return;

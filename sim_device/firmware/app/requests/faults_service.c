@@ -1,7 +1,10 @@
 /* What the host asks about faults: which there are, and what the bike did when they came. */
-#include "dispatch.h"     // reply_refuse, reply_message, request_read
-#include "ebl_bytes.h"    // ebl_put_i16
-#include "ebl_registry.h" // ebl_evt_fault_freeze_request
+#include "private/report.h" // report_faults_cleared
+#include "permission.h"     // permission_to_write_flash
+#include "reply.h"          // reply_refuse, reply_message, request_read
+#include "services.h"       // request_handler
+#include "ebl_bytes.h"      // ebl_put_i16
+#include "ebl_registry.h"   // ebl_evt_fault_freeze_request
 
 static void fault_list_get(app *unit, const ebl_header *request, reply *answer)
 {
@@ -39,9 +42,12 @@ static void faults_clear_request(app *unit, const ebl_header *request, reply *an
     ebl_evt_fault_clear_response response;
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_evt_fault_clear_request, &asked))) return;
-    if (transaction_flash_status(unit->board, app_speed_kmh(unit)) != EBL_STATUS_NOT_STOPPED) {
-        app_faults_cleared(unit, faults_clear_latched(&unit->faults, asked.fault_flags),
-                           unit->board->now_us(unit->board->context));
+    if (permission_to_write_flash(unit) != EBL_STATUS_NOT_STOPPED) {
+        uint32_t cleared = faults_clear_latched(&unit->faults, asked.fault_flags);
+
+        if (cleared != 0) {
+            report_faults_cleared(unit, cleared, unit->board->now_us(unit->board->context));
+        }
     }
     faults_forget(&unit->faults, asked.fault_flags);
     response.fault_flags = unit->faults.active;

@@ -1,17 +1,18 @@
 /* What the host asks of the line itself: another rate, whether it is still the same unit, and what
  * it has heard. */
-#include "dispatch.h"     // reply_refuse, reply_message, request_read
+#include "reply.h"        // reply_refuse, reply_message, request_read
+#include "services.h"     // request_handler
 #include "ebl_registry.h" // ebl_set_baud_request
 
 static void set_baud(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_set_baud_request asked;
-    ebl_set_baud_response response = {LINE_RATE_SWITCH_MS, LINE_RATE_PROVE_MS};
+    ebl_set_baud_response response = {BAUD_RATE_SWITCH_MS, BAUD_RATE_PROVE_MS};
     uint16_t detail = 0;
     uint8_t status;
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_set_baud_request, &asked))) return;
-    status = line_rate_check(&unit->line, unit->board, asked.bits_per_second, &detail);
+    status = baud_rate_check(&unit->baud_rate, unit->board, asked.bits_per_second, &detail);
     if (status == EBL_STATUS_OK && !telemetry_fits(&unit->telemetry, asked.bits_per_second)) {
         status = EBL_STATUS_BANDWIDTH;
     }
@@ -19,7 +20,7 @@ static void set_baud(app *unit, const ebl_header *request, reply *answer)
         reply_refuse(answer, status, detail);
         return;
     }
-    line_rate_begin(&unit->line, unit->board, asked.bits_per_second);
+    baud_rate_begin(&unit->baud_rate, unit->board, asked.bits_per_second);
     reply_message(answer, EBL_MESSAGE(ebl_set_baud_response, &response));
 }
 

@@ -1,7 +1,9 @@
 /* What the host asks about ride logs. */
 #include <string.h>
 
-#include "dispatch.h"     // reply_ok, reply_message, request_read, dispatch_answer_later
+#include "dispatch.h"     // dispatch_answer_later
+#include "reply.h"        // reply_ok, reply_message, request_read
+#include "services.h"     // request_handler
 #include "ebl_bytes.h"    // ebl_put_u32
 #include "ebl_registry.h" // ebl_log_list_request
 

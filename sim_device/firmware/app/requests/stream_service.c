@@ -1,6 +1,7 @@
 /* What the host asks about telemetry. */
-#include "line/stream_budget.h" // admission_budget_bytes_per_s
-#include "dispatch.h"           // reply_message, request_read
+#include "line/stream_budget.h" // stream_budget_bytes_per_s
+#include "reply.h"              // reply_message, request_read
+#include "services.h"           // request_handler
 #include "ebl_bytes.h"          // ebl_put_u32
 #include "ebl_registry.h"       // ebl_str_subscribe_request
 
@@ -11,7 +12,7 @@ static void subscribe(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_str_subscribe_request asked;
     ebl_str_subscribe_response response;
-    telemetry_line line = {unit->tx_mtu, line_rate_for_streams(&unit->line, unit->board)};
+    telemetry_line line = {unit->tx_mtu, baud_rate_for_streams(&unit->baud_rate, unit->board)};
     uint16_t detail = 0;
     uint8_t status;
 
@@ -67,7 +68,7 @@ static void list(app *unit, const ebl_header *request, reply *answer)
 
     (void)request;
     response.budget_bytes_per_s =
-        admission_budget_bytes_per_s(line_rate_for_streams(&unit->line, unit->board));
+        stream_budget_bytes_per_s(baud_rate_for_streams(&unit->baud_rate, unit->board));
     response.entries = entries;
     for (size_t i = 0; i < TELEMETRY_STREAMS; i++) {
         const telemetry_stream *stream = &unit->telemetry.streams[i];

@@ -1,7 +1,9 @@
 /* Who the unit is, and whether it is there. */
 #include <string.h>
 
-#include "dispatch.h"     // reply_ok, reply_message, request_read
+#include "permission.h"   // permission_end
+#include "reply.h"        // reply_ok, reply_message, request_read
+#include "services.h"     // request_handler
 #include "ebl_registry.h" // ebl_hello_request
 
 #define MTU_MIN EBL_MTU_BEFORE_HELLO
@@ -20,8 +22,8 @@ static void session_start(app *unit)
 {
     unit->session_id++;
     telemetry_end_all(&unit->telemetry);
-    transaction_drop(&unit->transaction);
-    app_lock(unit);
+    transaction_drop(&unit->config.transaction);
+    permission_end(unit);
     log_session_end(unit);
     events_attend(&unit->events, 1, unit->board->now_us(unit->board->context));
     memset(unit->answered, 0, sizeof unit->answered);
@@ -39,13 +41,13 @@ static void hello_fill(const app *unit, ebl_hello_response *response)
     response->boot_id = unit->board->boot_id;
     response->session_id = unit->session_id;
     memcpy(response->schema_hash, ebl_schema_hash, sizeof response->schema_hash);
-    response->config_generation = unit->store.generation;
-    response->config_crc32 = unit->store.crc32;
+    response->config_generation = unit->config.store.generation;
+    response->config_crc32 = unit->config.store.crc32;
     response->rx_mtu = LINK_MTU;
     response->tx_mtu = unit->tx_mtu;
     response->max_outstanding = EBL_MAX_OUTSTANDING;
     response->access = EBL_ACCESS_DEALER;
-    response->baud_bitmap = line_rate_offered(unit->board);
+    response->baud_bitmap = baud_rate_offered(unit->board);
     response->uptime_us = unit->board->now_us(unit->board->context);
 }
 
@@ -129,8 +131,8 @@ static void bye(app *unit, const ebl_header *request, reply *answer)
 {
     (void)request;
     telemetry_end_all(&unit->telemetry);
-    transaction_drop(&unit->transaction);
-    app_lock(unit);
+    transaction_drop(&unit->config.transaction);
+    permission_end(unit);
     log_session_end(unit);
     events_attend(&unit->events, 0, unit->board->now_us(unit->board->context));
     reply_ok(answer);

@@ -1,5 +1,6 @@
 /* What time it is: the unit's, the host's and the world's. */
-#include "dispatch.h"     // reply_ok, reply_message, request_read
+#include "reply.h"        // reply_ok, reply_message, request_read
+#include "services.h"     // request_handler
 #include "ebl_registry.h" // ebl_tim_sync_request
 
 static uint64_t now(const app *unit) { return unit->board->now_us(unit->board->context); }

@@ -32,7 +32,7 @@ static void row_take(ride_log *log, const int16_t *row, uint64_t now_us)
 
     if (rows->rows == ROWS_PER_BLOCK) {
         if (log->full.rows > 0) {
-            log->rows_lost += rows->rows;
+            log->totals.rows_lost += rows->rows;
             log->due |= DUE_CONFIG | DUE_SCHEMA;
         } else {
             log->full = *rows;
@@ -58,7 +58,7 @@ void ride_log_step(ride_log *log, const int16_t *row, uint64_t now_us, int movin
         }
     } else if (log->state == RECORDING && now_us - log->moved_us >= STANDSTILL_US) {
         log->state = CLOSING;
-        log->reason = REASON_STANDSTILL;
+        log->totals.reason = REASON_STANDSTILL;
     }
     if (log->state != STARTING && log->state != RECORDING) return;
     if (--log->steps_left > 0) return;
@@ -72,7 +72,7 @@ void ride_log_event_add(ride_log *log, uint8_t code, uint32_t flags, uint64_t no
 
     if (log->state == IDLE) return;
     if (log->event_count == RIDE_LOG_EVENTS_MAX) {
-        log->events_lost++;
+        log->totals.events_lost++;
         return;
     }
     event->t_us = now_us;
@@ -128,7 +128,7 @@ static void spare_begin(ride_log *log, const hal *board, uint64_t now_us)
         log->erase_us = now_us + REFUSED_PERIOD_US;
         if (log->state == STARTING) return;
         log->state = CLOSING;
-        log->reason = REASON_FULL;
+        log->totals.reason = REASON_FULL;
         log->no_room = 1;
         return;
     }
@@ -182,7 +182,7 @@ static void log_begin(ride_log *log, const hal *board)
     entry->first_block = log->spare;
     entry->flags = EBL_LOG_RECORDING;
     log->seq = 0;
-    log->rows_written = 0;
+    log->totals.rows_written = 0;
     log->state = RECORDING;
 }
 
@@ -196,8 +196,8 @@ static void log_end(ride_log *log, event_log *events, unit_link *link, uint64_t 
     log->place = RIDE_LOG_NONE;
     log->no_room = 0;
     log->state = IDLE;
-    log->rows_lost += (uint32_t)log->filling.rows + log->full.rows;
-    log->events_lost += log->event_count;
+    log->totals.rows_lost += (uint32_t)log->filling.rows + log->full.rows;
+    log->totals.events_lost += log->event_count;
     log->filling.rows = 0;
     log->full.rows = 0;
     log->event_count = 0;
@@ -242,7 +242,7 @@ static int block_choose(ride_log *log, const config_store *config, const hal *bo
         rows_put(log, &log->filling, header);
     } else if (log->state == CLOSING) {
         header->t0_us = log->store.logs[log->place].t1_us;
-        ride_log_end_put(payload, log, header);
+        ride_log_end_put(payload, &log->totals, header);
     } else {
         return 0;
     }
@@ -262,10 +262,10 @@ static void block_write(ride_log *log, const hal *board, ride_log_header *header
     crc32 = ride_log_block_seal(log->page, header);
     if (log->seq == 0) entry->generation = crc32;
     if (board->log_program(board->log_context, address, log->page, sizeof log->page) < 0) {
-        if (header->type == RIDE_LOG_DATA) log->rows_lost += header->n;
+        if (header->type == RIDE_LOG_DATA) log->totals.rows_lost += header->n;
         log->due |= DUE_CONFIG | DUE_SCHEMA;
     } else if (header->type == RIDE_LOG_DATA) {
-        log->rows_written += header->n;
+        log->totals.rows_written += header->n;
         entry->t1_us = header->t0_us + (uint64_t)header->n * ride_log_row_period_us();
     }
     log->seq++;
@@ -287,7 +287,7 @@ static void repeat_check(ride_log *log, const config_store *config, uint64_t now
     if (config->generation != log->config_generation) log->due |= DUE_CONFIG;
     if (log->state == RECORDING && log->seq + 3u >= pages_max(log)) {
         log->state = CLOSING;
-        log->reason = REASON_FULL;
+        log->totals.reason = REASON_FULL;
     }
 }
 

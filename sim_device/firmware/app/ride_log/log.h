@@ -13,16 +13,8 @@
 #include "line/events.h"          // event_log
 #include "hal.h"                  // hal
 #include "line/link.h"            // unit_link
+#include "pages.h"                // ride_log_event, ride_log_totals
 #include "store.h"                // ride_log_store
-
-#define RIDE_LOG_ROW_BYTES (2 * EBL_CHANNEL_COUNT)
-#define RIDE_LOG_EVENTS_MAX 16
-
-typedef struct {
-    uint64_t t_us;
-    uint32_t flags;
-    uint8_t code;
-} ride_log_event;
 
 /* A DATA block in the making. */
 typedef struct {
@@ -35,9 +27,8 @@ typedef struct {
     ride_log_store store;
     uint8_t state;
     uint8_t place; /* of the log being written */
-    uint8_t reason;
-    uint8_t mode; /* as last told */
-    uint8_t due;  /* blocks to be written before the next rows */
+    uint8_t mode;  /* as last told */
+    uint8_t due;   /* blocks to be written before the next rows */
     uint8_t steps_left;
     uint8_t spare_state;
     uint8_t no_room; /* for another block of this log */
@@ -45,9 +36,7 @@ typedef struct {
     uint16_t spare;  /* erased block for what comes next */
     uint16_t block;  /* being written */
     uint32_t seq;
-    uint32_t rows_written;
-    uint32_t rows_lost;         /* since boot */
-    uint32_t events_lost;       /* since boot */
+    ride_log_totals totals;
     uint32_t config_generation; /* as last written */
     uint64_t unix_offset_us;    /* Unix time minus the unit's, as last told; 0: not known */
     uint64_t moved_us;

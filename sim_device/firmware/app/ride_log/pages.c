@@ -89,12 +89,12 @@ void ride_log_sync_put(uint8_t *payload, uint64_t unix_us, ride_log_header *head
     header->length = SYNC_LENGTH;
 }
 
-void ride_log_end_put(uint8_t *payload, const ride_log *log, ride_log_header *header)
+void ride_log_end_put(uint8_t *payload, const ride_log_totals *totals, ride_log_header *header)
 {
-    ebl_put_u32(payload, log->rows_written);
-    ebl_put_u32(payload + 4, log->rows_lost);
-    payload[8] = log->reason;
-    ebl_put_u32(payload + 9, log->events_lost);
+    ebl_put_u32(payload, totals->rows_written);
+    ebl_put_u32(payload + 4, totals->rows_lost);
+    payload[8] = totals->reason;
+    ebl_put_u32(payload + 9, totals->events_lost);
     header->type = RIDE_LOG_END;
     header->length = END_LENGTH;
 }

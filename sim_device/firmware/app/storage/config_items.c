@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-#include "ebl_bytes.h"         // ebl_get_u16, ebl_put_f32
-#include "ebl_values.h"        // ebl_image_violations
-#include "config/parameters.h" // parameters_default_image, parameters_image_is_valid
+#include "ebl_bytes.h"    // ebl_get_u16, ebl_put_f32
+#include "ebl_values.h"   // ebl_image_violations
+#include "config_image.h" // config_image_default, config_image_is_valid
 
 /* Elements are read into a piece of this length; the longest is a table's name. */
 #define ELEMENT_LENGTH_MAX 32
@@ -189,9 +189,9 @@ int config_items_settle(uint8_t *image, config_tally *tally)
     ebl_refusal found[REFUSALS_AT_ONCE];
     uint8_t defaults[EBL_IMAGE_LENGTH];
 
-    if (parameters_points_spread(image) > 0) count_up(&tally->clamped);
-    if (parameters_image_is_valid(image)) return 1;
-    parameters_default_image(defaults);
+    if (config_image_points_spread(image) > 0) count_up(&tally->clamped);
+    if (config_image_is_valid(image)) return 1;
+    config_image_default(defaults);
     for (int round = 0; round < SETTLE_ROUNDS_MAX; round++) {
         size_t count = ebl_image_violations(image, found, REFUSALS_AT_ONCE);
 
@@ -201,14 +201,14 @@ int config_items_settle(uint8_t *image, config_tally *tally)
             count_up(&tally->clamped);
         }
     }
-    return parameters_image_is_valid(image);
+    return config_image_is_valid(image);
 }
 
 void config_items_default(uint8_t *image, uint8_t records)
 {
     uint8_t defaults[EBL_IMAGE_LENGTH];
 
-    parameters_default_image(defaults);
+    config_image_default(defaults);
     for (size_t row = 0; row < EBL_PARAMETER_COUNT; row++) {
         if ((records >> ebl_parameters[row].record & 1u) == 0) continue;
         default_put(image, defaults, &ebl_parameters[row]);

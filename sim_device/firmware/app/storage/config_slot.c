@@ -3,10 +3,9 @@
 #include <string.h>
 
 #include "config_slot_ebl2.h" // ebl2_is_whole, ebl2_image_read
-#include "config_store.h"     // CONFIG_STORE_OK
 #include "ebl_bytes.h"        // ebl_get_u32, ebl_put_u32
 #include "ebl_frame.h"        // ebl_crc32
-#include "flash_verify.h"     // flash_program_verified, flash_crc32
+#include "flash_verify.h"     // STORAGE_OK, flash_program_verified, flash_crc32
 
 #define SLOT_MAGIC 0x334C4245u /* "EBL3" */
 #define SLOT_VERSION 1
@@ -196,10 +195,10 @@ static int slot_erase(const hal *board, uint8_t slot_index)
 
     for (size_t at = 0; at < stride; at += board->flash_block_size) {
         if (board->flash_erase(board->context, slot_index * stride + at) < 0) {
-            return CONFIG_STORE_FLASH_FAIL;
+            return STORAGE_FLASH_FAIL;
         }
     }
-    return CONFIG_STORE_OK;
+    return STORAGE_OK;
 }
 
 static int word_write(const hal *board, uint8_t slot_index, size_t at)
@@ -224,12 +223,12 @@ int config_slot_void(const hal *board, uint8_t slot_index)
 static int record_write(const hal *board, size_t address, uint8_t record, const uint8_t *image,
                         config_record *written)
 {
-    int result = CONFIG_STORE_OK;
+    int result = STORAGE_OK;
 
     written->crc32 = 0;
     written->length = 0;
     written->version = RECORD_VERSION;
-    for (size_t i = 0; i < EBL_PARAMETER_COUNT && result == CONFIG_STORE_OK; i++) {
+    for (size_t i = 0; i < EBL_PARAMETER_COUNT && result == STORAGE_OK; i++) {
         const ebl_parameter *row = &ebl_parameters[i];
         const uint8_t *values = image + row->image_offset;
         size_t values_length = (size_t)row->count * row->length;
@@ -242,7 +241,7 @@ static int record_write(const hal *board, size_t address, uint8_t record, const 
         written->crc32 = ebl_crc32(written->crc32, head, sizeof head);
         written->crc32 = ebl_crc32(written->crc32, values, values_length);
         result = flash_program_verified(board, address + written->length, head, sizeof head);
-        if (result != CONFIG_STORE_OK) break;
+        if (result != STORAGE_OK) break;
         written->length = (uint16_t)(written->length + sizeof head);
         result = flash_program_verified(board, address + written->length, values, values_length);
         written->length = (uint16_t)(written->length + values_length);
@@ -277,10 +276,10 @@ static int summary_write(const hal *board, uint8_t slot_index, const config_slot
 
     summary_put(summary, slot);
     result = flash_program_verified(board, address + AT_COPY, summary, SUMMARY_LENGTH);
-    if (result != CONFIG_STORE_OK) return result;
+    if (result != STORAGE_OK) return result;
     result =
         flash_program_verified(board, address + AT_TABLE, summary + HEADER_LENGTH, TABLE_LENGTH);
-    if (result != CONFIG_STORE_OK) return result;
+    if (result != STORAGE_OK) return result;
     return flash_program_verified(board, address, summary, HEADER_LENGTH);
 }
 
@@ -289,13 +288,13 @@ int config_slot_write(const hal *board, uint8_t slot_index, config_slot *slot, c
     size_t word = slot->state == EBL_SLOT_STATE_PROVISIONAL ? AT_PROVISIONAL : AT_CONFIRMED;
     int result = slot_erase(board, slot_index);
 
-    for (uint8_t i = 0; i < CONFIG_RECORDS && result == CONFIG_STORE_OK; i++) {
+    for (uint8_t i = 0; i < CONFIG_RECORDS && result == STORAGE_OK; i++) {
         result = record_write(board, record_address(board, slot_index, slot, i), i, image,
                               &slot->records[i]);
     }
-    if (result == CONFIG_STORE_OK) result = summary_write(board, slot_index, slot);
-    if (result == CONFIG_STORE_OK) result = word_write(board, slot_index, word);
-    if (result != CONFIG_STORE_OK) {
+    if (result == STORAGE_OK) result = summary_write(board, slot_index, slot);
+    if (result == STORAGE_OK) result = word_write(board, slot_index, word);
+    if (result != STORAGE_OK) {
         /* The host is told that nothing changed, so a half-confirmed slot must not boot later. */
         (void)config_slot_void(board, slot_index);
     }

@@ -56,11 +56,11 @@ uint8_t config_slot_read(const hal *board, uint8_t slot_index, const config_slot
 
 /* Erases the slot and writes image and header, then the word that makes it count: on trial where
  * `slot->state` says PROVISIONAL, else for good. `slot->records` is filled in. Returns a
- * CONFIG_STORE_ result; a slot that failed is void. */
+ * STORAGE_ result; a slot that failed is void. */
 int config_slot_write(const hal *board, uint8_t slot_index, config_slot *slot,
                       const uint8_t *image);
 
-/* The words that are written later. Return a CONFIG_STORE_ result. */
+/* The words that are written later. Return a STORAGE_ result. */
 int config_slot_confirm(const hal *board, uint8_t slot_index);
 int config_slot_void(const hal *board, uint8_t slot_index);
 

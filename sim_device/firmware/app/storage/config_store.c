@@ -2,8 +2,9 @@
 
 #include <string.h>
 
-#include "ebl_frame.h"         // ebl_crc32
-#include "config/parameters.h" // parameters_default_image
+#include "ebl_frame.h"    // ebl_crc32
+#include "config_image.h" // config_image_default, config_image_is_valid
+#include "flash_verify.h" // STORAGE_OK
 
 #define DEALERS_RECORDS ((1u << EBL_RECORD_CALIBRATION) | (1u << EBL_RECORD_TUNABLE))
 
@@ -36,15 +37,15 @@ static uint8_t image_load(const hal *board, const config_slot *slots, uint8_t in
     uint8_t lost;
 
     memset(tally, 0, sizeof *tally);
-    parameters_default_image(image);
+    config_image_default(image);
     lost = config_slot_read(board, index, &slots[index], &slots[other_slot(index)], image, tally);
     if (lost != 0) config_items_default(image, lost);
     config_items_account(image, tally, CONFIG_RECORDS_ALL & ~lost);
     if (tally->market_unknown) lost |= 1u << EBL_RECORD_MARKET;
     if (config_items_settle(image, tally)) return lost;
     config_items_default(image, DEALERS_RECORDS);
-    if (parameters_image_is_valid(image)) return (uint8_t)(lost | DEALERS_RECORDS);
-    parameters_default_image(image);
+    if (config_image_is_valid(image)) return (uint8_t)(lost | DEALERS_RECORDS);
+    config_image_default(image);
     return CONFIG_RECORDS_ALL;
 }
 
@@ -71,7 +72,7 @@ static void slot_choose(config_store *store, const hal *board)
     store->is_provisioned = is_untouched(slots) ? 0 : 1;
     if (store->slot == CONFIG_STORE_NO_SLOT) {
         memset(&store->tally, 0, sizeof store->tally);
-        parameters_default_image(store->image);
+        config_image_default(store->image);
         store->lost = CONFIG_RECORDS_ALL;
     } else {
         store->lost = image_load(board, slots, store->slot, store->image, &store->tally);
@@ -127,13 +128,13 @@ int config_store_write(config_store *store, const hal *board, const uint8_t *ima
     config_slot slot = {0};
     int result;
 
-    if (config_slot_stride(board) == 0) return CONFIG_STORE_NO_SPACE;
+    if (config_slot_stride(board) == 0) return STORAGE_NO_SPACE;
     slot.state = on_trial ? EBL_SLOT_STATE_PROVISIONAL : EBL_SLOT_STATE_CONFIRMED;
     slot.generation = store->generation + 1;
     slot.erases = erases_so_far(board, target) + 1;
     slot.worn_until_s = store->worn_until_s;
     result = config_slot_write(board, target, &slot, image);
-    if (result != CONFIG_STORE_OK) return result;
+    if (result != STORAGE_OK) return result;
 
     memcpy(store->image, image, EBL_IMAGE_LENGTH);
     store->crc32 = ebl_crc32(0, image, EBL_IMAGE_LENGTH);
@@ -141,17 +142,17 @@ int config_store_write(config_store *store, const hal *board, const uint8_t *ima
     store->slot = target;
     store->on_trial = on_trial ? 1 : 0;
     if (!on_trial) settled(store, board);
-    return CONFIG_STORE_OK;
+    return STORAGE_OK;
 }
 
 int config_store_confirm(config_store *store, const hal *board)
 {
     int result = config_slot_confirm(board, store->slot);
 
-    if (result != CONFIG_STORE_OK) return result;
+    if (result != STORAGE_OK) return result;
     store->on_trial = 0;
     settled(store, board);
-    return CONFIG_STORE_OK;
+    return STORAGE_OK;
 }
 
 void config_store_return(config_store *store, const hal *board)
@@ -165,9 +166,9 @@ int config_store_provision(const hal *board, const uint8_t *image)
     config_slot slots[CONFIG_SLOTS];
     config_slot first = {0};
 
-    if (config_slot_stride(board) == 0) return CONFIG_STORE_NO_SPACE;
+    if (config_slot_stride(board) == 0) return STORAGE_NO_SPACE;
     for (uint8_t i = 0; i < CONFIG_SLOTS; i++) config_slot_look(board, i, &slots[i]);
-    if (!is_untouched(slots)) return CONFIG_STORE_OK;
+    if (!is_untouched(slots)) return STORAGE_OK;
     first.state = EBL_SLOT_STATE_CONFIRMED;
     first.generation = 1;
     first.erases = 1;

@@ -19,13 +19,6 @@
 /* Lost, only the maker can say what they were. */
 #define CONFIG_STORE_MAKERS_RECORDS ((1u << EBL_RECORD_MARKET) | (1u << EBL_RECORD_FACTORY))
 
-enum {
-    CONFIG_STORE_OK = 0,
-    CONFIG_STORE_NO_SPACE = -1,   /* the flash is too small for two slots */
-    CONFIG_STORE_FLASH_FAIL = -2, /* erase or program refused */
-    CONFIG_STORE_VERIFY_FAIL = -3 /* what was read back differs */
-};
-
 typedef struct {
     uint8_t image[EBL_IMAGE_LENGTH]; /* the active one */
     uint32_t crc32;                  /* of the image */

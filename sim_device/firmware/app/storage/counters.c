@@ -2,11 +2,10 @@
 
 #include <string.h>
 
-#include "config_store.h" // CONFIG_STORE_OK
 #include "ebl_bytes.h"    // ebl_get_u32, ebl_put_u32
 #include "ebl_frame.h"    // ebl_crc32
 #include "ebl_registry.h" // EBL_CONTROL_PERIOD_US
-#include "flash_verify.h" // flash_program_verified, flash_is_blank
+#include "flash_verify.h" // STORAGE_OK, flash_program_verified, flash_is_blank
 
 #define AREAS COUNTERS_BLOCKS
 #define SAVE_PERIOD_US 60000000u
@@ -124,7 +123,7 @@ void counters_poll(counters *state, const hal *board, uint64_t now_us)
     ebl_put_u32(record + AT_LOG_ERASES, state->log_erases);
     ebl_put_u32(record + AT_CRC, ebl_crc32(0, record, AT_CRC));
     if (flash_program_verified(board, record_address(state, state->next), record, RECORD_LENGTH) ==
-        CONFIG_STORE_OK) {
+        STORAGE_OK) {
         state->sequence++;
         state->saved_distance_m = state->distance_m;
         state->saved_operating_s = state->operating_s;

@@ -2,8 +2,7 @@
 
 #include <string.h>
 
-#include "config_store.h" // CONFIG_STORE_OK
-#include "ebl_frame.h"    // ebl_crc32
+#include "ebl_frame.h" // ebl_crc32
 
 #define PIECE_BYTES 32 /* so that the stack stays small */
 #define BYTE_ERASED 0xFF
@@ -13,17 +12,17 @@ int flash_program_verified(const hal *board, size_t address, const uint8_t *byte
     uint8_t piece[PIECE_BYTES];
 
     if (board->flash_program(board->context, address, bytes, length) < 0) {
-        return CONFIG_STORE_FLASH_FAIL;
+        return STORAGE_FLASH_FAIL;
     }
     for (size_t at = 0; at < length; at += sizeof piece) {
         size_t count = length - at < sizeof piece ? length - at : sizeof piece;
 
         if (board->flash_read(board->context, address + at, piece, count) < 0) {
-            return CONFIG_STORE_FLASH_FAIL;
+            return STORAGE_FLASH_FAIL;
         }
-        if (memcmp(piece, bytes + at, count) != 0) return CONFIG_STORE_VERIFY_FAIL;
+        if (memcmp(piece, bytes + at, count) != 0) return STORAGE_VERIFY_FAIL;
     }
-    return CONFIG_STORE_OK;
+    return STORAGE_OK;
 }
 
 int flash_crc32(const hal *board, size_t address, size_t length, uint32_t *crc)

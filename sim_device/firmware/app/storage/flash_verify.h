@@ -7,7 +7,15 @@
 
 #include "hal.h" // hal
 
-/* CONFIG_STORE_OK, CONFIG_STORE_FLASH_FAIL or CONFIG_STORE_VERIFY_FAIL. */
+/* What becomes of writing. */
+enum {
+    STORAGE_OK = 0,
+    STORAGE_NO_SPACE = -1,   /* the flash is too small */
+    STORAGE_FLASH_FAIL = -2, /* erase or program refused */
+    STORAGE_VERIFY_FAIL = -3 /* what was read back differs */
+};
+
+/* STORAGE_OK, STORAGE_FLASH_FAIL or STORAGE_VERIFY_FAIL. */
 int flash_program_verified(const hal *board, size_t address, const uint8_t *bytes, size_t length);
 
 /* Goes on with a check value over so many bytes of flash. Negative where it cannot be read. */

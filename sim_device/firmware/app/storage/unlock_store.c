@@ -10,7 +10,7 @@
 
 enum {
     KEY_AT = 4,
-    KEY_CRC_AT = KEY_AT + SIGNATURE_KEY_LENGTH,
+    KEY_CRC_AT = KEY_AT + UNLOCK_KEY_LENGTH,
     KEY_RECORD_LENGTH = KEY_CRC_AT + 4,
     FAILURES_AT = 4,
     RECORD_CRC_AT = 8,
@@ -45,7 +45,7 @@ static int key_read(const hal *board, uint8_t *key)
     if (board->flash_read(board->context, key_address(board), record, sizeof record) < 0) return 0;
     if (ebl_get_u32(record) != KEY_MAGIC) return 0;
     if (ebl_get_u32(record + KEY_CRC_AT) != ebl_crc32(0, record, KEY_CRC_AT)) return 0;
-    memcpy(key, record + KEY_AT, SIGNATURE_KEY_LENGTH);
+    memcpy(key, record + KEY_AT, UNLOCK_KEY_LENGTH);
     return 1;
 }
 
@@ -120,12 +120,12 @@ int unlock_store_provision(const hal *board, size_t reserved, const uint8_t *key
 
     if (!has_room(board, reserved)) return -1;
     if (!flash_is_blank(board, key_address(board), sizeof record)) {
-        uint8_t kept[SIGNATURE_KEY_LENGTH];
+        uint8_t kept[UNLOCK_KEY_LENGTH];
 
         return key_read(board, kept) && memcmp(kept, key, sizeof kept) == 0 ? 0 : -1;
     }
     ebl_put_u32(record, KEY_MAGIC);
-    memcpy(record + KEY_AT, key, SIGNATURE_KEY_LENGTH);
+    memcpy(record + KEY_AT, key, UNLOCK_KEY_LENGTH);
     ebl_put_u32(record + KEY_CRC_AT, ebl_crc32(0, record, KEY_CRC_AT));
     return flash_program_verified(board, key_address(board), record, sizeof record);
 }

@@ -8,13 +8,13 @@
 
 #include <stdint.h>
 
-#include "hal.h"              // hal
-#include "config/signature.h" // SIGNATURE_KEY_LENGTH
+#include "hal.h" // hal
 
 #define UNLOCK_STORE_BLOCKS 3
+#define UNLOCK_KEY_LENGTH 32 /* of Ed25519 */
 
 typedef struct {
-    uint8_t key[SIGNATURE_KEY_LENGTH];
+    uint8_t key[UNLOCK_KEY_LENGTH];
     uint8_t has_key;
     uint8_t block;     /* that takes records now, 0 or 1 */
     uint16_t next;     /* place of the next record in it */

@@ -279,13 +279,13 @@ void bench_uid(bench_board *board, const uint8_t *uid)
 /* Eight pulses of the past: more than bounces that nobody believes, and enough for the window. */
 static void wheel_roll(bench_board *board)
 {
-    const ebl_config *config = &board->app.config;
+    const ebl_config *config = &board->app.config.in_force;
     double pulse_m = (double)config->wheel_circumference_m / (double)config->wheel_pulses_per_turn;
     float pulse = config->wheel_circumference_m / (float)config->wheel_pulses_per_turn;
     hal_inputs *inputs = &board->inputs;
 
-    wheel_speed_init(&board->app.wheel);
-    (void)wheel_speed_pulses(&board->app.wheel, pulse, inputs->wheel_pulses, 0);
+    wheel_speed_init(&board->app.speed.wheel);
+    (void)wheel_speed_pulses(&board->app.speed.wheel, pulse, inputs->wheel_pulses, 0);
     board->pulse_period_us = 0.0;
     if (!(board->wheel_kmh > 0.0f)) return;
     board->pulse_period_us = pulse_m * 3.6e6 / (double)board->wheel_kmh;
@@ -295,7 +295,7 @@ static void wheel_roll(bench_board *board)
 
         inputs->wheel_pulses++;
         inputs->wheel_pulse_us = board->now_us - (uint64_t)ago_us;
-        (void)wheel_speed_pulses(&board->app.wheel, pulse, inputs->wheel_pulses,
+        (void)wheel_speed_pulses(&board->app.speed.wheel, pulse, inputs->wheel_pulses,
                                  inputs->wheel_pulse_us);
     }
     board->pulse_due_us = (double)board->now_us + board->pulse_period_us;
@@ -352,9 +352,9 @@ void bench_hurt_law(bench_board *board, int which)
 {
     switch (which) {
     case 0: board->app.assist_state.torque_filtered_nm = __builtin_nanf(""); break;
-    case 1: board->app.assist_config.table.gain_points[4] = __builtin_nanf(""); break;
-    case 2: board->app.assist_config.motor_torque_nm_max = __builtin_nanf(""); break;
-    default: board->app.assist_config.gear_ratio = __builtin_nanf("");
+    case 1: board->app.config.law.table.gain_points[4] = __builtin_nanf(""); break;
+    case 2: board->app.config.law.motor_torque_nm_max = __builtin_nanf(""); break;
+    default: board->app.config.law.gear_ratio = __builtin_nanf("");
     }
 }
 
@@ -462,7 +462,7 @@ uint32_t bench_unlock_nonces(bench_board *board, uint8_t level, uint32_t count, 
     uint16_t detail;
 
     for (uint32_t i = 0; i < count; i++) {
-        if (unlock_challenge(&board->app.lock, &board->hal, level, &given, &detail) !=
+        if (unlock_challenge(&board->app.config.unlock, &board->hal, level, &given, &detail) !=
             EBL_STATUS_OK) {
             return i;
         }
@@ -477,7 +477,8 @@ uint8_t bench_unlock_attempt(bench_board *board, const uint8_t *signature, uint1
 
     token.expires_us = UINT64_MAX;
     memcpy(token.signature, signature, sizeof token.signature);
-    return unlock_respond(&board->app.lock, &board->hal, &token, board->app.store.image, detail);
+    return unlock_respond(&board->app.config.unlock, &board->hal, &token,
+                          board->app.config.store.image, detail);
 }
 
 size_t bench_app_bytes(void) { return sizeof(app); }

@@ -8,8 +8,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "assist.h" // assist_output
-#include "hal.h"    // hal_inputs
+#include "assist_types.h" // assist_output
+#include "hal.h"          // hal_inputs
 
 #define BENCH_LINE_BYTES 65536
 

@@ -4,14 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app.h"          // app_poll
-#include "byte_queue.h"   // byte_queue_put
-#include "ebl_registry.h" // EBL_DEVICE_CLASS_MID_DRIVE_SIMULATED
-#include "ebl_values.h"   // ebl_config_violations
-#include "hal.h"          // hal
-#include "log_flash.h"    // log_flash_open
-#include "unit_senses.h"  // senses_read
-#include "uart_line.h"    // uart_line_advance
+#include "app.h"           // app_poll
+#include "byte_queue.h"    // byte_queue_put
+#include "ebl_registry.h"  // EBL_DEVICE_CLASS_MID_DRIVE_SIMULATED
+#include "ebl_values.h"    // ebl_config_violations
+#include "faults/inputs.h" // inputs_prepare
+#include "hal.h"           // hal
+#include "log_flash.h"     // log_flash_open
+#include "unit_senses.h"   // senses_read
+#include "uart_line.h"     // uart_line_advance
 
 #define PHYSICS_PERIOD_US 1000u
 #define CONTROL_PERIOD_US 10000u
@@ -100,7 +101,7 @@ static void board_inputs_read(void *context, hal_inputs *inputs)
 
 void unit_inputs(unit *self, hal_inputs *inputs)
 {
-    app_inputs_prepare(inputs);
+    inputs_prepare(inputs);
     board_inputs_read(self, inputs);
     inputs->wheel_pulse_us = self->now_us - inputs->wheel_pulse_us;
 }
@@ -109,7 +110,7 @@ void unit_drive(unit *self, const assist_output *output, uint8_t mode)
 {
     self->stimulus.motor_torque_nm = (double)output->motor_torque_nm;
     self->app.output = *output;
-    self->app.config.assist_mode_at_start = mode;
+    self->app.config.in_force.assist_mode_at_start = mode;
 }
 
 static void board_motor_torque_set(void *context, float motor_torque_nm)
@@ -391,7 +392,7 @@ void unit_observe(const unit *self, unit_observation *seen)
         .energy_balance_error_pct = physics_energy_balance_error_pct(&self->bike, state),
         .assist_mode = self->mode_selected < ASSIST_MODE_SLOTS
                            ? self->mode_selected
-                           : self->app.config.assist_mode_at_start,
+                           : self->app.config.in_force.assist_mode_at_start,
         .limit_flags = law->limit_flags,
         .fault_flags = self->app.faults.active,
         .crank_engaged = state->crank_engaged,

@@ -8,9 +8,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "assist.h"  // assist_output
-#include "hal.h"     // hal_inputs
-#include "physics.h" // physics_config
+#include "assist_types.h" // assist_output
+#include "hal.h"          // hal_inputs
+#include "physics.h"      // physics_config
 
 #define UNIT_UID_LENGTH 12
 #define UNIT_UNLOCK_KEY_LENGTH 32

@@ -6,9 +6,10 @@
 #include "clock.h"             // clock_now_us
 #include "flash.h"             // flash_connect
 #include "plant.h"             // plant_inputs
-#include "safe_stop.h"         // safe_stop_kick
+#include "safe_stop.h"         // safe_stop_note
 #include "faults/step_watch.h" // steps_due
 #include "uart.h"              // uart_read
+#include "watchdog.h"          // watchdog_kick
 
 #define HOST_BAUD 1000000u /* where bytes take no time, as in QEMU */
 #define HOST_BAUDS                                                                                 \
@@ -75,10 +76,10 @@ static void motor_torque_set(void *context, float motor_torque_nm)
     plant_motor_set(motor_torque_nm);
 }
 
-static void watchdog_kick(void *context)
+static void kick(void *context)
 {
     (void)context;
-    safe_stop_kick();
+    watchdog_kick();
 }
 
 static void motor_off(void *context, uint8_t cause)
@@ -106,7 +107,7 @@ static void board_connect(void)
     board.serial_baud = HOST_BAUD;
     board.inputs_read = inputs_read;
     board.motor_torque_set = motor_torque_set;
-    board.watchdog_kick = watchdog_kick;
+    board.watchdog_kick = kick;
     board.motor_off = motor_off;
     board.board_request = board_request;
     board.device_class = EBL_DEVICE_CLASS_MID_DRIVE_SIMULATED;
@@ -145,11 +146,11 @@ int main(void)
         plant_poll();
         round_us = clock_now_us();
         /* Halted by the bench, as by a debugger. */
-        if (!clock_runs() && !unit.watch.stopped) safe_stop_kick();
+        if (!clock_runs() && !unit.watch.stopped) watchdog_kick();
         if (clock_runs() && plant_steps_come() && steps_due(&next_step_us, round_us, &step_us)) {
             round_us = step_us;
             app_control_step(&unit);
-            plant_step_tell(app_output(&unit), unit.config.assist_mode_at_start);
+            plant_step_tell(app_output(&unit), unit.config.in_force.assist_mode_at_start);
         }
         app_poll(&unit);
         passing = clock_pass();

@@ -5,8 +5,8 @@
 #include "chip.h"         // chip_sleep
 #include "clock.h"        // clock_hand_over
 #include "ebl_registry.h" // EBL_STATUS_UNKNOWN_MSG
-#include "safe_stop.h"    // safe_stop_kick
 #include "uart.h"         // uart_read
+#include "watchdog.h"     // watchdog_kick
 
 #define BENCH_BAUD 1000000u
 #define ANSWER_WAIT_US 2000000u
@@ -81,7 +81,7 @@ void plant_open(void)
     if (PLANT_REGISTERS->has_clock) clock_stop();
     look();
     while (PLANT_REGISTERS->has_clock && !plant.present) {
-        safe_stop_kick(); /* a bench that is late hangs nothing */
+        watchdog_kick(); /* a bench that is late hangs nothing */
         plant_poll();
     }
 }
@@ -146,7 +146,7 @@ int plant_request(uint16_t message_id, const uint8_t *request, size_t length, ui
     ring();
     while (PLANT_REGISTERS->answers != number) {
         if (clock_timer_us() - begin_us > ANSWER_WAIT_US) return EBL_STATUS_INTERNAL;
-        safe_stop_kick();
+        watchdog_kick();
         chip_sleep();
     }
     length = PLANT_REGISTERS->answer_length;

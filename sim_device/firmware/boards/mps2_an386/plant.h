@@ -10,8 +10,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "assist.h" // assist_output
-#include "hal.h"    // hal_inputs
+#include "assist_types.h" // assist_output
+#include "hal.h"          // hal_inputs
 
 #define PLANT_REQUEST_BYTES 1024
 

@@ -1,11 +1,11 @@
 #include "safe_stop.h"
 
-#include "chip.h"         // CHIP_WATCHDOG
+#include "chip.h"         // CHIP_RESET
 #include "ebl_registry.h" // EBL_RESET_CAUSE_WATCHDOG
 #include "plant.h"        // plant_motor_off
+#include "watchdog.h"     // watchdog_open
 
 #define NOTE_MAGIC 0x53544F50u
-#define WATCHDOG_TICKS (CHIP_CLOCK_HZ / 1000000u * SAFE_STOP_WATCHDOG_US)
 
 /* Kept over a reset. After power on it holds anything: a note counts with its complement alone. */
 typedef struct {
@@ -26,18 +26,8 @@ uint8_t safe_stop_open(void)
 
     note.cause = 0;
     note.complement = 0;
-    CHIP_WATCHDOG_LOCK = CHIP_WATCHDOG_UNLOCK;
-    CHIP_WATCHDOG->load = WATCHDOG_TICKS;
-    CHIP_WATCHDOG->control = CHIP_WATCHDOG_RUN;
-    CHIP_WATCHDOG_LOCK = 0;
+    watchdog_open();
     return is_noted ? (uint8_t)cause : EBL_RESET_CAUSE_POWER_ON;
-}
-
-void safe_stop_kick(void)
-{
-    CHIP_WATCHDOG_LOCK = CHIP_WATCHDOG_UNLOCK;
-    CHIP_WATCHDOG->clear = 1;
-    CHIP_WATCHDOG_LOCK = 0;
 }
 
 /* What was noted first is the cause; what follows from it is not. */
