@@ -104,6 +104,10 @@ bench: setup $(STAMP)/rivals ## ratios against named rivals in one run, into doc
 reproduction: $(STAMP)/native ## the thesis beside what the simulator does, into docs/
 	$(BIN)/python -m tests.reproduction
 
+.PHONY: release-data
+release-data: setup ## what a version leaves on a disk, kept for every later one to open: VERSION=0.3.0
+	$(BIN)/python -m tests.releases.make $(VERSION) $(CODE)
+
 .PHONY: lock
 lock: $(STAMP)/python ## pin versions and hashes again, without registry addresses
 	$(BIN)/uv pip compile -q pyproject.toml --universal --generate-hashes --no-emit-index-url \

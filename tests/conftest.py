@@ -62,7 +62,7 @@ def share_out(items: list[pytest.Item]) -> None:
         spread = item.get_closest_marker("spread") is not None
         slow = item.get_closest_marker("slow") is not None
         if not spread:
-            item.add_marker(pytest.mark.xdist_group(item.path.stem))
+            item.add_marker(pytest.mark.xdist_group(f"{item.path.parent.name}/{item.path.stem}"))
         turn = 0 if spread else TURNS.get(item.path.parent.name, 1 if slow else 3)
         turns[item.path] = min(turn, turns.get(item.path, turn))
     items.sort(key=lambda item: turns[item.path])

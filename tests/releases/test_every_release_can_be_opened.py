@@ -1,0 +1,106 @@
+"""Goal: what any released version left on a disk is opened by this one, and nothing of it is lost.
+
+Method: `make release-data` keeps a data folder of every release with what that version said of it.
+Here a copy is opened, every row of every ride read, and the server started on it with its unit,
+whose flash lies in the folder too.
+"""
+
+from __future__ import annotations
+
+import json
+import tarfile
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from backend.store import open_store
+from backend.store.check import check_store
+from tests.fakes.server import SpindleServer
+from tests.releases.make import BYTES_MAX, CHANGED, NAME, REASON, UNIT
+
+RELEASES = sorted(path.parent for path in Path(__file__).parent.glob("*/told.json"))
+
+
+@pytest.fixture(params=RELEASES, ids=lambda release: release.name)
+def release(request: pytest.FixtureRequest) -> Path:
+    path: Path = request.param
+    return path
+
+
+@pytest.fixture
+def data(release: Path, tmp_path: Path) -> Path:
+    """A copy of its data folder."""
+    with tarfile.open(release / "data.tar.xz") as archive:
+        archive.extractall(tmp_path, filter="data")
+    return tmp_path
+
+
+@pytest.fixture
+def told(release: Path) -> dict[str, Any]:
+    """What the version itself said of its data."""
+    found: dict[str, Any] = json.loads((release / "told.json").read_text(encoding="utf-8"))
+    return found
+
+
+def spelled(value: object) -> object:
+    """Without upper case: the spelling of choices is a version's own affair."""
+    if isinstance(value, list):
+        return [spelled(one) for one in value]
+    return value.casefold() if isinstance(value, str) else value
+
+
+def test_it_is_small(release: Path) -> None:
+    assert sum(path.stat().st_size for path in release.iterdir()) < BYTES_MAX
+
+
+def test_every_ride_is_read_row_by_row(data: Path, told: dict[str, Any]) -> None:
+    urls = (f"sqlite:///{data}/spindle.db", (data / "objects").as_uri())
+
+    with open_store(*urls) as store:
+        rides = {ride.id: ride for ride in store.rides.list().items}
+        for known in told["rides"]:
+            ride = rides.pop(known["id"])
+            reader = store.rides.reader(ride.id)
+            counts = reader.counts([channel.name for channel in ride.channels], 0, ride.row_count)
+
+            assert (ride.name, ride.origin) == (known["name"], known["origin"])
+            assert {len(rows) for rows in counts.values()} == {known["row_count"]}
+            if ride.upload_id is not None:
+                upload = store.uploads.get(ride.upload_id)
+                assert upload is not None
+                assert upload.object_key is not None
+                assert (data / "objects" / upload.object_key).is_file()
+
+    assert rides == {}
+    assert NAME in [known["name"] for known in told["rides"]]
+    assert check_store(*urls).is_fine
+
+
+@pytest.mark.slow
+def test_the_server_starts_on_it_and_the_unit_keeps_its_settings(
+    data: Path, told: dict[str, Any]
+) -> None:
+    server = SpindleServer(data, [UNIT]).start()
+    device = server.ready_device()
+    parameters = server.get(f"/devices/{device}/config")["parameters"]
+    revisions = server.get(f"/devices/{device}/config/revisions")["items"]
+    rides = server.get("/rides")["items"]
+    series = [server.get(f"/rides/{ride['id']}/series?channels=speed_kmh") for ride in rides]
+    server.stop()
+
+    kept = {name: value for name, value in told["parameters"].items() if name in parameters}
+    assert set(CHANGED) <= set(kept)
+    assert {name: spelled(parameters[name]) for name in kept} == {
+        name: spelled(value) for name, value in kept.items()
+    }
+    for known in told["revisions"]:
+        assert known in [
+            {"generation": one["generation"], "reason": one["reason"]} for one in revisions
+        ]
+    assert REASON in [one["reason"] for one in revisions]
+    assert {ride["id"]: ride["name"] for ride in rides} == {
+        known["id"]: known["name"] for known in told["rides"]
+    }
+    for one in series:
+        assert one["channels"][0]["max"]
