@@ -8,7 +8,7 @@ STAMP := .make
 
 # Most tests wait more than they compute: twice the two cores of a small machine.
 WORKERS ?= 4
-PARALLEL := -n $(WORKERS) --dist loadgroup --no-loadscope-reorder
+PARALLEL := --dist loadgroup --no-loadscope-reorder -n
 
 # What runs against the emulated board; `make test-board-all` adds what takes minutes there.
 BOARD_TESTS := tests/board tests/conformance tests/unit/sim_device_app tests/stories
@@ -45,11 +45,11 @@ setup: $(STAMP)/native $(STAMP)/web ## install and build everything, start nothi
 test: setup $(STAMP)/chromium lint ## every test there is, a real browser included
 	cd frontend && npm run --silent test
 	$(BIN)/pytest -m serial
-	$(BIN)/pytest -m "not serial" $(PARALLEL)
+	$(BIN)/pytest -m "not serial" $(PARALLEL) $(WORKERS)
 
 .PHONY: prove
 prove: setup ## the large counts of which `make test` does a tenth, all of them
-	$(BIN)/pytest --prove -m large_count $(PARALLEL)
+	$(BIN)/pytest --prove -m large_count $(PARALLEL) $(WORKERS)
 
 .PHONY: test-board
 test-board: setup $(STAMP)/arm ## the unit's tests against the firmware on an emulated Cortex-M4F
@@ -61,7 +61,8 @@ test-board-all: setup $(STAMP)/arm ## the same with the longest: power cuts at e
 
 .PHONY: test-fast
 test-fast: $(STAMP)/native ## unit and conformance tests without the slow ones; ONLY=path for some
-	$(BIN)/pytest -m "not slow and not serial" $(PARALLEL) $(or $(ONLY),tests/unit tests/conformance)
+	$(BIN)/pytest -m "not slow and not serial and not large_count" $(PARALLEL) 2 \
+		$(or $(ONLY),tests/unit tests/conformance)
 
 .PHONY: simulate
 simulate: $(STAMP)/native ## the story of one seed of the simulated link: make simulate SEED=123

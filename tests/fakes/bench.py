@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
 from typing import Any, Protocol, TypeVar
 
@@ -13,7 +14,6 @@ from backend.device.stream import StreamBlock, StreamPlan
 
 Result = TypeVar("Result")
 
-STEP_S = 0.010
 PATIENCE_S = 30.0
 
 
@@ -37,15 +37,50 @@ def bytewise(data: bytes) -> Iterable[bytes]:
     return [data[at : at + 1] for at in range(len(data))]
 
 
-class Bench:
+class SessionBench(ABC):
+    """A session in virtual time; what lies between it and its unit, a `step` moves."""
+
+    STEP_S = 0.010
+
+    def __init__(self, plan: StreamPlan | None = None, schemas: Schemas | None = None) -> None:
+        self.now_s = 100.0
+        self.session = Session(self.now_s, plan, schemas)
+
+    @abstractmethod
+    def step(self) -> None:
+        """Let STEP_S pass for the unit, the line and the session."""
+
+    def run(self, seconds: float) -> None:
+        for _ in range(round(seconds / self.STEP_S)):
+            self.step()
+
+    def run_until(self, done: Callable[[], bool], patience_s: float = PATIENCE_S) -> None:
+        """Step until it is so; AssertionError if that does not come in time."""
+        for _ in range(round(patience_s / self.STEP_S)):
+            if done():
+                return
+            self.step()
+        raise AssertionError(f"not within {patience_s} s: {self.session.reason}")
+
+    def ask(self, operation: Operation[Result]) -> Result:
+        """Run an operation to its end; its error is raised here."""
+        results: list[Result] = []
+        errors: list[BaseException] = []
+        self.session.start(operation, results.append, errors.append)
+        self.run_until(lambda: bool(results or errors))
+        if errors:
+            raise errors[0]
+        return results[0]
+
+
+class Bench(SessionBench):
     """Runs a session against a unit; `to_unit` and `to_host` may harm what passes."""
 
     def __init__(
         self, unit: Unit, plan: StreamPlan | None = None, schemas: Schemas | None = None
     ) -> None:
+        super().__init__(plan, schemas)
         self.unit = unit
-        self.now_s = 100.0
-        self.session = Session(self.now_s, plan, schemas)
         self.events: list[DeviceEvent] = []
         self.split: Callable[[bytes], Iterable[bytes]] = whole
         self.to_unit: Callable[[bytes], bytes] = lambda data: data
@@ -61,27 +96,6 @@ class Bench:
         self.run_until(lambda: self.session.state in (LinkState.READY, LinkState.READ_ONLY))
         return self
 
-    def run(self, seconds: float) -> None:
-        for _ in range(round(seconds / STEP_S)):
-            self._step()
-
-    def run_until(self, done: Callable[[], bool], patience_s: float = PATIENCE_S) -> None:
-        for _ in range(round(patience_s / STEP_S)):
-            if done():
-                return
-            self._step()
-        raise AssertionError(f"not within {patience_s} s: {self.session.reason}")
-
-    def ask(self, operation: Operation[Result]) -> Result:
-        """Run an operation to its end; its error is raised here."""
-        results: list[Result] = []
-        errors: list[BaseException] = []
-        self.session.start(operation, results.append, errors.append)
-        self.run_until(lambda: bool(results or errors))
-        if errors:
-            raise errors[0]
-        return results[0]
-
     def blocks(self) -> list[StreamBlock]:
         return [event for event in self.events if isinstance(event, StreamBlock)]
 
@@ -91,9 +105,9 @@ class Bench:
     def of(self, kind: type[Any]) -> list[Any]:
         return [event for event in self.events if isinstance(event, kind)]
 
-    def _step(self) -> None:
-        self.now_s += STEP_S
-        self.unit.advance(STEP_S)
+    def step(self) -> None:
+        self.now_s += self.STEP_S
+        self.unit.advance(self.STEP_S)
         for piece in self.split(self.to_host(self.unit.transmit())):
             self.session.receive(piece, self.now_s)
         self.session.tick(self.now_s)

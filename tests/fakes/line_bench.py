@@ -4,35 +4,31 @@ time: at different rates they hear noise, as from a real UART."""
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeVar
 
-from backend.device.ebl.session.operation import Operation
-from backend.device.ebl.session.session import Session
 from backend.device.states import LinkState
 from backend.device.stream import StreamPlan
 from backend.errors import LinkError
 from firmware_protocol.framing import FrameDecoder, encode_frame
 from sim_device.lockstep import LockstepUnit
+from tests.fakes.bench import SessionBench
 
-Result = TypeVar("Result")
-
-STEP_S = 0.001
 FIRST = 115200
 
 
-class LineBench:
+class LineBench(SessionBench):
     """`to_unit` and `to_host` see each whole frame and say whether it arrives.
 
     rates: what the host's port was set to. turn_around_s: how late the host hears.
     """
 
+    STEP_S = 0.001
+
     def __init__(
         self, wanted: int | None = None, plan: StreamPlan | None = None, line_baud: int = FIRST
     ) -> None:
+        super().__init__(plan)
         self.unit = LockstepUnit(line_baud=line_baud)
         self.wanted = wanted
-        self.now_s = 100.0
-        self.session = Session(self.now_s, plan)
         self.rates: list[int] = []
         self.port_rates_max = 4_000_000
         self.sent: list[bytes] = []
@@ -66,21 +62,9 @@ class LineBench:
     def unit_rate(self) -> int:
         return self.unit.unit.line_baud
 
-    def run(self, seconds: float) -> None:
-        for _ in range(round(seconds / STEP_S)):
-            self.step()
-
-    def run_until(self, done: Callable[[], bool], patience_s: float = 30.0) -> None:
-        for _ in range(round(patience_s / STEP_S)):
-            if done():
-                return
-            self.step()
-        raise AssertionError(f"not within {patience_s} s: {self.session.reason}")
-
     def step(self) -> None:
-        """A millisecond."""
-        self.now_s += STEP_S
-        self.unit.advance(STEP_S)
+        self.now_s += self.STEP_S
+        self.unit.advance(self.STEP_S)
         heard = self.unit.receive()
         if not self._plugged:
             return
@@ -97,16 +81,6 @@ class LineBench:
             self.sent.append(frame)
             if self.to_unit(frame):
                 self.unit.send(encode_frame(frame))
-
-    def ask(self, operation: Operation[Result]) -> Result:
-        """Run an operation to its end; its error is raised here."""
-        results: list[Result] = []
-        errors: list[BaseException] = []
-        self.session.start(operation, results.append, errors.append)
-        self.run_until(lambda: bool(results or errors))
-        if errors:
-            raise errors[0]
-        return results[0]
 
     def _let_through(self, heard: bytes) -> bytes:
         """Whole frames one by one where a test chooses among them, otherwise bytes as they come."""

@@ -26,6 +26,9 @@ from backend.settings import load
 from backend.store import RideReader, open_store
 from tests.fakes.server import eventually
 
+# A store for every test, or rides of minutes: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 ORIGINAL = b"the file as it came"
 ROWS = 40_000
 CHANNELS = (

@@ -25,6 +25,9 @@ from backend.store.deletion import Deletions
 from backend.store.discard import discarded_keys
 from backend.store.objects import Disk
 
+# A store for every test, or rides of minutes: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 DAY_US = 86_400 * 1_000_000
 START_US = 1_700_000_000_000_000
 ROWS = 300

@@ -26,6 +26,9 @@ from backend.services.upload import Uploads
 from backend.store import Store, open_store, rides
 from backend.store.objects import Disk
 
+# A store for every test, or rides of minutes: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 CHANNELS = (
     ChannelSpec("speed_kmh", "km/h", 0.01),
     ChannelSpec("rider_torque_nm", "Nm", 0.01),

@@ -22,6 +22,9 @@ from backend.errors import NotFound, StoreError
 from backend.services.record import Recorder, RecordSettings
 from backend.store import Store, open_store
 
+# A store for every test, or rides of minutes: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 CHANNELS = (
     ChannelSpec("speed_kmh", "km/h", 0.01),
     ChannelSpec("cadence_rpm", "rpm", 0.01),

@@ -18,6 +18,9 @@ from firmware_protocol.parameters import default_config
 from sim_device.firmware.python.law import AssistLaw
 from sim_device.lockstep import LockstepUnit
 
+# A store for every test, or rides of minutes: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 RAD_S_PER_RPM = math.pi / 30
 RPM_PER_KMH = 2579.3 / 25
 LIMIT_W = 432.0

@@ -129,6 +129,7 @@ def test_inputs_beyond_the_table_are_clamped() -> None:
     np.testing.assert_array_equal(beyond, edge)
 
 
+@pytest.mark.slow
 def test_the_closed_form_is_the_exact_centroid_of_the_thesis_table() -> None:
     speeds, rates = np.linspace(0, 26, 53), np.linspace(-0.1, 1.0, 34)
     expected = [[reference_centroid(THESIS, v, r) for r in rates] for v in speeds]
@@ -136,6 +137,7 @@ def test_the_closed_form_is_the_exact_centroid_of_the_thesis_table() -> None:
     np.testing.assert_allclose(gain_surface(THESIS, speeds, rates), expected, atol=FLOAT32_ERROR)
 
 
+@pytest.mark.slow
 @settings(max_examples=300, deadline=None)
 @given(tables(), st.floats(-2, 32), st.floats(-0.5, 1.5))
 def test_the_closed_form_is_exact_for_any_table(

@@ -11,6 +11,9 @@ from sim_device.lockstep import LockstepUnit
 from sim_device.scenario import list_scenarios, run
 from sim_device.scenario_file import ScenarioError, load, load_live, names, parse
 
+# A store for every test, or rides of minutes: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 HEAD = 'doc = "A ride."\nseed = 1\n'
 BENCH = "[bike.road]\nsource = 1\n"
 

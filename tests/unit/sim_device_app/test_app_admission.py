@@ -22,13 +22,6 @@ ALL = bytes(channel.id for channel in CHANNELS)
 ENTRY_BYTES = 14
 
 
-@pytest.fixture
-def unit() -> BenchUnit:
-    unit = BenchUnit()
-    unit.hello()
-    return unit
-
-
 def subscribe(unit: BenchUnit, stream_id: int, divider: int, batch: int = 5) -> object:
     return unit.ask(StrSubscribeRequest(stream_id, divider, batch, 0, 255, ALL))
 

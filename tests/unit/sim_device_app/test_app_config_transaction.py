@@ -72,13 +72,6 @@ def fault_flags(unit: BenchUnit) -> int:
     return message.fault_flags
 
 
-@pytest.fixture
-def unit() -> BenchUnit:
-    unit = BenchUnit()
-    unit.hello()
-    return unit
-
-
 def test_what_is_written_is_what_is_read_back_now_and_after_the_next_start(
     unit: BenchUnit,
 ) -> None:

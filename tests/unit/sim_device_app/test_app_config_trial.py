@@ -56,13 +56,6 @@ def codes(unit: BenchUnit) -> list[int]:
     return [event.code for event in unit.events]
 
 
-@pytest.fixture
-def unit() -> BenchUnit:
-    unit = BenchUnit()
-    unit.hello()
-    return unit
-
-
 def test_what_is_on_trial_is_active_and_says_how_long_it_has(unit: BenchUnit) -> None:
     expected = parameters.pack_image(unit.config() | CHANGES)
 

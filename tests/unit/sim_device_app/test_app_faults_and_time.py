@@ -25,13 +25,6 @@ BATTERY_BIT = 2
 UNIX_US = 1_790_000_000_000_000
 
 
-@pytest.fixture
-def unit() -> BenchUnit:
-    unit = BenchUnit()
-    unit.hello()
-    return unit
-
-
 def frozen(unit: BenchUnit, bit: int = TORQUE_BIT) -> EvtFaultFreezeResponse:
     message = unit.ask(EvtFaultFreezeRequest(bit)).message
     assert isinstance(message, EvtFaultFreezeResponse)

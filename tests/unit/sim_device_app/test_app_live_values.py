@@ -36,13 +36,6 @@ def in_force(unit: BenchUnit, name: str) -> float:
     return float(struct.unpack("<f", message.items[4:])[0])
 
 
-@pytest.fixture
-def unit() -> BenchUnit:
-    unit = BenchUnit()
-    unit.hello()
-    return unit
-
-
 def test_a_live_value_is_in_force_and_in_no_configuration(unit: BenchUnit) -> None:
     active = unit.read_image()
     unit.boot()

@@ -66,11 +66,9 @@ def assert_alive_and_sane(unit: BenchUnit) -> None:
 @pytest.mark.parametrize(
     "kind", [random_bytes, random_frame, request_as_sent, request_harmed_on_the_line]
 )
-def test_whatever_comes_down_the_line_the_unit_still_answers(kind: object) -> None:
+def test_whatever_comes_down_the_line_the_unit_still_answers(unit: BenchUnit, kind: object) -> None:
     assert callable(kind)
     noise = random.Random(f"{kind.__name__} 1")
-    unit = BenchUnit()
-    unit.hello()
 
     for round_number in range(ROUNDS):
         unit.say(kind(noise))
@@ -85,10 +83,8 @@ def test_whatever_comes_down_the_line_the_unit_still_answers(kind: object) -> No
 
 
 @pytest.mark.board_long
-def test_every_good_request_among_noise_gets_exactly_one_answer() -> None:
+def test_every_good_request_among_noise_gets_exactly_one_answer(unit: BenchUnit) -> None:
     noise = random.Random(2)
-    unit = BenchUnit()
-    unit.hello()
 
     for tid in range(1, 256):
         unit.hear()
@@ -100,10 +96,10 @@ def test_every_good_request_among_noise_gets_exactly_one_answer() -> None:
         assert [response.tid for response in unit.hear()] == [tid]
 
 
-def test_a_host_that_floods_without_listening_costs_answers_and_nothing_else() -> None:
+def test_a_host_that_floods_without_listening_costs_answers_and_nothing_else(
+    unit: BenchUnit,
+) -> None:
     noise = random.Random(3)
-    unit = BenchUnit()
-    unit.hello()
     unit.line_room(0)
 
     for _ in range(500):

@@ -163,9 +163,7 @@ def test_no_response_is_longer_than_the_frame_size_that_was_agreed() -> None:
         assert len(message.data) == mtu - header_status_and_check
 
 
-def test_the_registry_the_unit_was_built_with_can_be_read_from_it() -> None:
-    unit = BenchUnit()
-    unit.hello()
+def test_the_registry_the_unit_was_built_with_can_be_read_from_it(unit: BenchUnit) -> None:
     text = b""
     total = 1
 
@@ -207,9 +205,7 @@ def test_a_hello_that_is_no_repetition_is_another_session() -> None:
     assert second.session_id == first.session_id + 1
 
 
-def test_a_retry_is_answered_alike_and_executed_once() -> None:
-    unit = BenchUnit()
-    unit.hello()
+def test_a_retry_is_answered_alike_and_executed_once(unit: BenchUnit) -> None:
     generation, image = unit.read_image()
     begin = frame(
         MessageId.CFG_BEGIN,

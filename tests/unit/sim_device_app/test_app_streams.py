@@ -36,13 +36,6 @@ STEP_US = 10_000
 LINE_BYTES = lib.BENCH_LINE_BYTES
 
 
-@pytest.fixture
-def unit() -> BenchUnit:
-    unit = BenchUnit()
-    unit.hello()
-    return unit
-
-
 def subscribe(
     unit: BenchUnit,
     *channel_ids: int,

@@ -21,6 +21,9 @@ from backend.store import Store, open_store
 from backend.store.objects import IDENTITY, Disk
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
 
+# A store for every test, or rides of minutes: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 OpenStore = Callable[..., Store]
 Files = dict[str, bytes]
 
