@@ -19,8 +19,10 @@ RULES = (
     "# ---------------------------------------------------------------- rules between parameters"
 )
 
-NEW_ROW = """[[parameter]]
-id = 0x0700
+GREATEST = max(row.id for row in load(REGISTRY).parameters)
+
+NEW_ROW = f"""[[parameter]]
+id = 0x{GREATEST + 1:04X}
 name = "chain_length_m"
 group = "drivetrain"
 type = "f32"
@@ -68,8 +70,8 @@ def test_a_new_parameter_goes_last_and_nothing_else_is_asked_of_it(tmp_path: Pat
     [
         (
             "[[parameter]]\nid = 0x0300\n",
-            NEW_ROW.replace("0x0700", "0x0212") + "[[parameter]]\nid = 0x0300\n",
-            "chain_length_m: its id 0x0212 must be above 0x0633, the greatest of release 9.9.9",
+            NEW_ROW.replace(f"{GREATEST + 1:04X}", "0212") + "[[parameter]]\nid = 0x0300\n",
+            f"chain_length_m: its id 0x0212 must be above 0x{GREATEST:04X}, the greatest of",
         ),
         ('name = "cog_teeth"', 'name = "sprocket_teeth"', r"cog_teeth \(0x0502\): its name was"),
         ('type = "u8"\nunit = ""\nmin = 8', 'type = "u16"\nunit = ""\nmin = 8', "type was 'u8'"),
@@ -92,7 +94,7 @@ def test_a_broken_promise_is_refused_by_name(
 
 def test_a_released_parameter_may_retire_and_only_that(tmp_path: Path) -> None:
     release = release_of_today(tmp_path)
-    release["registry"]["parameter"].append({"id": 0x0634, "name": "gone", "type": "u8"})
+    release["registry"]["parameter"].append({"id": GREATEST + 1, "name": "gone", "type": "u8"})
 
     with pytest.raises(BadRegistry, match=r"gone .* is in release 9.9.9 and must stay"):
         released.check(release, load(REGISTRY))
