@@ -9,6 +9,7 @@ from datetime import UTC, datetime
 import numpy as np
 import numpy.typing as npt
 
+from backend.domain._generated import MOVING_KMH
 from backend.domain.channels import ChannelSpec, Counts, Values, channel_to_json
 from backend.domain.energy import (
     BATTERY_POWER,
@@ -23,8 +24,6 @@ from backend.domain.ride_events import RideEvent
 
 TimesUs = npt.NDArray[np.int64]
 
-# Standing: slower than a walking push. Below this a wheel sensor with one magnet reports nothing.
-MOVING_KMH_MIN = 1.0
 # A break in irregular rows longer than this many usual spacings, and than this time, is a pause.
 PAUSE_SPACINGS = 5
 PAUSE_MIN_US = 10_000_000
@@ -236,7 +235,7 @@ def movement_figures(values: Mapping[str, Values], seconds: Values) -> dict[str,
     speed = values.get("speed_kmh")
     figures: dict[str, float | None] = {}
     if speed is not None and np.isfinite(speed).any():
-        moving = speed >= MOVING_KMH_MIN
+        moving = speed > MOVING_KMH
         moving_s = float(np.sum(seconds[moving]))
         ridden = held_sum(speed[moving], seconds[moving])
         figures |= {

@@ -22,6 +22,7 @@ import numpy as np
 
 from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.stream import StreamBlock
+from backend.domain._generated import MOVING_KMH, MOVING_RPM, STANDING_S
 from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.ride import Ride, RideContext
 from backend.errors import SpindleError, StoreError
@@ -58,9 +59,9 @@ class RecordSettings:
     wait for a store that refuses them.
     """
 
-    moving_kmh: float = 1.0
-    moving_rpm: float = 5.0
-    idle_s: float = 20.0
+    moving_kmh: float = MOVING_KMH
+    moving_rpm: float = MOVING_RPM
+    idle_s: float = STANDING_S
     lead_in_s: float = 2.0
     lost_s: float = 60.0
     tail_s: float = 1.0

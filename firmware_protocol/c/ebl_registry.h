@@ -25,6 +25,9 @@
 #define EBL_FAULTS_LATCHED 488443
 #define EBL_SCHEMA_HASH_LENGTH 8
 #define EBL_SCHEMA_LENGTH 4934
+#define EBL_MOVING_KMH 1.0f
+#define EBL_MOVING_RPM 5.0f
+#define EBL_STANDING_S 20u
 
 enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */
 

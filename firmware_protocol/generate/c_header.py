@@ -4,6 +4,7 @@ from firmware_protocol.generate.c_names import (
     FIRST_LINE,
     config_member,
     enum_prefix,
+    float_literal,
     layouts,
     member,
 )
@@ -153,7 +154,18 @@ def _numbers(registry: Registry, schema_length: int) -> list[str]:
         "SCHEMA_HASH_LENGTH": 8,
         "SCHEMA_LENGTH": schema_length,
     }
-    return [f"#define EBL_{name} {value}" for name, value in numbers.items()]
+    return [
+        *(f"#define EBL_{name} {value}" for name, value in numbers.items()),
+        *_riding(registry),
+    ]
+
+
+def _riding(registry: Registry) -> list[str]:
+    values = {
+        name: f"{value}u" if isinstance(value, int) else float_literal(value)
+        for name, value in registry.riding.items()
+    }
+    return [f"#define EBL_{name.upper()} {value}" for name, value in values.items()]
 
 
 def _fault_mask(registry: Registry, least: str) -> int:

@@ -1,4 +1,4 @@
-"""_generated.py: IntEnums, message classes and the tables, as plain typed Python."""
+"""Both _generated.py: IntEnums, message classes and the tables, as plain typed Python."""
 
 from firmware_protocol.generate.registry import NOTICE, Layout, Registry
 from firmware_protocol.generate.tables import Table
@@ -52,10 +52,20 @@ def _numbers(registry: Registry, schema_hash: bytes) -> list[str]:
     lines = [f"{name.upper()} = {registry.protocol[name]}" for name in names]
     return [
         *lines,
+        *_riding(registry),
         f"IMAGE_LENGTH = {registry.image_length}",
         f'SCHEMA_HASH = bytes.fromhex("{schema_hash.hex()}")',
         "",
     ]
+
+
+def _riding(registry: Registry) -> list[str]:
+    return [f"{name.upper()} = {value}" for name, value in registry.riding.items()]
+
+
+def domain_module(registry: Registry) -> str:
+    """The text of backend/domain/_generated.py, which needs nothing of the wire."""
+    return "\n".join([FIRST_LINE, "", *_riding(registry)]) + "\n"
 
 
 def _enum(table: Table, base: str) -> list[str]:

@@ -75,6 +75,8 @@ class MessageRow:
 @dataclass(frozen=True)
 class Registry:
     protocol: dict[str, Any]
+    riding: dict[str, float]
+    """When a bike is ridden: what unit and host decide alike."""
     enums: tuple[Table, ...]
     flags: tuple[Table, ...]
     messages: tuple[MessageRow, ...]
@@ -86,7 +88,7 @@ class Registry:
     channels: tuple[Channel, ...]
     faults: tuple[Fault, ...]
     schema: str
-    """Canonical JSON of everything but the prose: what schema_hash is taken over."""
+    """Canonical JSON of what the wire carries, without prose: what schema_hash is taken over."""
 
     def enum(self, name: str) -> Table:
         return next(table for table in self.enums if table.name == name)
@@ -99,10 +101,12 @@ class Registry:
 def load(path: Path) -> Registry:
     """The registry in `path`. Raises BadRegistry."""
     raw = tomllib.loads(path.read_text(encoding="utf-8"))
+    riding = raw.pop("riding")
     enums = _tables(raw["enum"])
     flags = _tables(raw["flags"])
     registry = Registry(
         protocol=raw["protocol"],
+        riding=riding,
         enums=enums,
         flags=flags,
         messages=tuple(

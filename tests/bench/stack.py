@@ -47,7 +47,6 @@ CALLERS = {
     "permission": {HAL},
     "step_watch": {HAL},
     "store": {HAL},
-    "transaction": {HAL},
     "unlock*": {HAL},
     "*_service": {HAL},
 }

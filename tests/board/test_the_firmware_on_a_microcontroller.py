@@ -28,7 +28,7 @@ UID = b"board-test-1"
 # Frames above the 512 bytes of the design, each with its reason; none may grow or join them.
 LARGE_FRAMES = {
     "crypto_eddsa_check_equation": 1100,  # Monocypher: the window of one point
-    "parameters_image_is_valid": 840,  # a configuration, and the law's view of it
+    "config_image_is_valid": 840,  # a configuration, and the law's view of it
 }
 FRAME_BYTES_MAX = 512
 HOST_BOARD = emulator.BOARD_FOLDER.parent / "host"

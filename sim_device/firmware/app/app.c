@@ -11,10 +11,6 @@
 
 #define RECEIVE_BLOCK_BYTES 64
 
-/* Above either the bike is being ridden, and a ride log is kept. */
-#define MOVING_KMH 1.0f
-#define MOVING_RPM 5.0f
-
 /* Bytes served in one poll: at 1 Mbaud the line brings 100 in a millisecond, and a flood must not
  * keep the unit from its other work. */
 #define RECEIVE_BLOCKS_MAX 32
@@ -208,9 +204,10 @@ static void faults_report(app *unit, const hal_inputs *inputs, float speed_kmh, 
     if (cleared != 0) report_faults_cleared(unit, cleared, now_us);
 }
 
+/* The bike is being ridden, and a ride log is kept: the same comparison as the host's. */
 static int is_moving(const hal_inputs *inputs, float speed_kmh)
 {
-    return speed_kmh > MOVING_KMH || inputs->cadence_rpm > MOVING_RPM;
+    return speed_kmh > EBL_MOVING_KMH || inputs->cadence_rpm > EBL_MOVING_RPM;
 }
 
 /* Once more before the motor: whatever the law says, only a number within the limit goes there. */

@@ -100,6 +100,15 @@ def test_distance_is_speed_times_time_and_standing_is_not_moving() -> None:
     assert summary.speed_kmh_mean == pytest.approx(18.0)
 
 
+def test_at_exactly_the_bound_a_bike_still_stands() -> None:
+    """SPEC 2.5: it moves when it is faster than 1 km/h."""
+    speed = np.repeat([1.0, 1.01], HOUR_ROWS // 2)
+
+    summary = summarise({"speed_kmh": speed}, regular(HOUR_ROWS), TENTH_US)
+
+    assert summary.moving_s == pytest.approx(1800.0)
+
+
 def test_a_pause_of_a_head_unit_is_neither_ridden_nor_powered() -> None:
     before = np.arange(600, dtype=np.int64) * 1_000_000
     times = np.concatenate((before, before + 600_000_000 + 1_800_000_000))

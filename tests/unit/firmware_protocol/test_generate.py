@@ -88,3 +88,19 @@ def test_another_zlib_keeps_the_bytes_that_are_committed() -> None:
 
     assert compress(schema, committed) == other
     assert zlib.decompress(compress(schema + " ", committed)) == (schema + " ").encode()
+
+
+def test_the_page_says_when_a_bike_moves_as_the_registry_does() -> None:
+    riding = load(REGISTRY).riding
+    page = " ".join((ROOT / "firmware_protocol" / "SPEC.md").read_text(encoding="utf-8").split())
+
+    assert f"ends after {riding['standing_s']} s of standstill" in page
+    assert f"faster than {riding['moving_kmh']:g} km/h" in page
+    assert f"turn faster than {riding['moving_rpm']:g} rpm" in page
+
+
+def test_what_the_wire_does_not_carry_makes_no_other_schema(tmp_path: Path) -> None:
+    text = REGISTRY.read_text(encoding="utf-8")
+    (tmp_path / "registry.toml").write_text(text.replace("standing_s = 20", "standing_s = 30"))
+
+    assert load(tmp_path / "registry.toml").schema == load(REGISTRY).schema

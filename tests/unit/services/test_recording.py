@@ -113,6 +113,21 @@ def test_a_ride_is_every_row_from_just_before_it_moved_until_it_stood_long_enoug
     assert ride.context.device_serial == "SP-1"
 
 
+@pytest.mark.parametrize(("speed_counts", "cadence_counts"), [(101, 0), (0, 501)])
+def test_only_faster_than_1_kmh_or_5_rpm_a_bike_moves(
+    store: Store, recorder: Recorder, speed_counts: int, cadence_counts: int
+) -> None:
+    """SPEC 2.5, as the unit decides for its logs: at exactly the bounds the bike stands."""
+    at_bounds, above = standing(20), standing(10)
+    at_bounds[:, :2] = 100, 500
+    above[:, :2] = speed_counts, cadence_counts
+
+    feed(recorder, *blocks(np.concatenate((at_bounds, above, standing(20)))))
+
+    (ride,) = rides(store, recorder)
+    assert ride.started_us == WALL_US + 19_000_000
+
+
 @pytest.mark.parametrize("block_rows", [1, 7, 64, 1_000, 6_000])
 def test_the_same_rows_make_the_same_rides_however_they_came_in_frames(
     store: Store, recorder: Recorder, block_rows: int

@@ -63,6 +63,17 @@ def test_a_bike_that_stands_makes_no_log() -> None:
     assert logs(unit) == []
 
 
+@pytest.mark.parametrize(("cadence_rpm", "kept"), [(5.0, 0), (5.1, 1)])
+def test_cranks_that_turn_faster_than_5_rpm_make_a_ride(cadence_rpm: float, kept: int) -> None:
+    """SPEC 2.5: at exactly the bound the bike stands."""
+    unit = unit_with_room()
+
+    unit.inputs(cadence_rpm=cadence_rpm)
+    unit.advance(3.0)
+
+    assert len(logs(unit)) == kept
+
+
 def test_a_ride_becomes_one_closed_log_with_a_row_every_tenth_of_a_second() -> None:
     unit = unit_with_room()
 

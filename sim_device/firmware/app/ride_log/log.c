@@ -7,7 +7,7 @@
 
 #define STEPS_PER_ROW 10 /* 10 Hz */
 #define ROWS_PER_BLOCK (RIDE_LOG_PAYLOAD_BYTES / RIDE_LOG_ROW_BYTES)
-#define STANDSTILL_US 20000000u
+#define STANDING_US (EBL_STANDING_S * 1000000u)
 #define REPEAT_US 60000000u
 #define REFUSED_PERIOD_US 100000u /* rows for two seconds have room meanwhile */
 #define EVENTS_PERIOD_US 1000000u /* a flickering fault must not fill the flash */
@@ -56,7 +56,7 @@ void ride_log_step(ride_log *log, const int16_t *row, uint64_t now_us, int movin
             log->due = DUE_ALL;
             log->steps_left = 1;
         }
-    } else if (log->state == RECORDING && now_us - log->moved_us >= STANDSTILL_US) {
+    } else if (log->state == RECORDING && now_us - log->moved_us >= STANDING_US) {
         log->state = CLOSING;
         log->totals.reason = REASON_STANDSTILL;
     }
