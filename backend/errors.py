@@ -14,6 +14,7 @@ SpindleError
 │   │   └── TokenNeeded      the maker's token would do; it says what has to be signed
 │   ├── NotStandingStill     the wheel or the motor still turns
 │   ├── Conflict             the thing is not in a state that allows this
+│   │   └── CapabilityMissing    this make of unit cannot do it; names what is missing
 │   └── NotFound             no such device, ride, upload or port
 ├── BadFile                  a log that cannot be read; says where and what could be saved
 └── StoreError               the database or the object store
@@ -181,6 +182,16 @@ class Conflict(RequestRefused):
     """The thing is not in a state that allows this."""
 
     default_code = "conflict"
+
+
+class CapabilityMissing(Conflict):
+    """The unit cannot do this, and no unit of its make can. capability: the word for it."""
+
+    default_code = "capability_missing"
+
+    def __init__(self, message: str, capability: str) -> None:
+        super().__init__(message, fields=[FieldError(capability, "capability_missing", message)])
+        self.capability = capability
 
 
 class NotFound(RequestRefused):

@@ -32,6 +32,7 @@ from backend.services.collect import Collect
 from backend.services.connect import Devices
 from backend.services.dashboard import Dashboards
 from backend.services.health import Health
+from backend.services.inspection import Inspection
 from backend.services.preview import Preview
 from backend.services.record import Recorder
 from backend.services.remember import UnitMemory
@@ -103,6 +104,7 @@ def open_services(settings: Settings) -> Iterator[Services]:
                 __version__, devices, recorder, store.watch, store.database.ask, store.soundness
             ),
             devices=devices,
+            inspection=Inspection(devices),
             watch=Watch(devices),
             dashboards=dashboards,
             tuning=tuning,

@@ -30,6 +30,7 @@ STATUS_OF: dict[type[errors.SpindleError], int] = {
     errors.AccessDenied: 403,
     errors.TokenNeeded: 403,
     errors.NotStandingStill: 409,
+    errors.CapabilityMissing: 409,
     errors.Conflict: 409,
     errors.NotFound: 404,
     errors.BadFile: 422,

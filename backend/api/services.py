@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from backend.services.connect import Devices
     from backend.services.dashboard import Dashboards
     from backend.services.health import Health
+    from backend.services.inspection import Inspection
     from backend.services.preview import Preview
     from backend.services.review import Rides
     from backend.services.try_live import LiveTuning
@@ -27,6 +28,7 @@ class Services:
 
     health: Health
     devices: Devices
+    inspection: Inspection
     watch: Watch
     dashboards: Dashboards
     tuning: Tuning

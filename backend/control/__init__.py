@@ -1,7 +1,7 @@
 """The only door from the backend to the unit's C law: surface, points, lint, replay."""
 
 from backend.control.finding import Finding, LintReport
-from backend.control.gain import ENGINE, points, surface
+from backend.control.gain import ENGINE, law_defaults, points, surface
 from backend.control.lint_rules import lint
 from backend.control.market import Cutoff, cutoff_of
 from backend.control.ride_replay import Replay, raw_counts_of, replay
@@ -13,6 +13,7 @@ __all__ = [
     "LintReport",
     "Replay",
     "cutoff_of",
+    "law_defaults",
     "lint",
     "points",
     "raw_counts_of",

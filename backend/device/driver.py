@@ -16,13 +16,9 @@ from concurrent.futures import Future
 from concurrent.futures import TimeoutError as FutureTimeout
 from typing import Protocol, TypeVar
 
-from backend.device.ebl.operations.log_download import LogReceiver
-from backend.device.ebl.session.operation import Operation
-from backend.device.ebl.session.schema import Schemas
-from backend.device.ebl.session.session import Session
-from backend.device.snapshot import DeviceStatus, status_of
-from backend.device.states import ACQUAINTED, DeviceEvent, LinkState
-from backend.device.stream import StreamPlan
+from backend.device.conversation import Conversation, Operation
+from backend.device.snapshot import DeviceStatus
+from backend.device.states import CONNECTED, DeviceEvent, LinkState
 from backend.errors import LinkError, NoAnswer, SpindleError
 from backend.link import Link
 
@@ -44,7 +40,7 @@ REOPEN_S_MIN = 0.1
 REOPEN_S_MAX = 1.0
 # A port that is open and deaf is opened anew: some adapters do not survive a sleep otherwise, and
 # a TCP connection whose other end is gone tells nobody.
-GREETINGS_BEFORE_REOPEN = 4
+HANDSHAKES_BEFORE_REOPEN = 4
 # Work that waits for the thread; more means that nobody waits for the answers.
 COMMANDS_MAX = 32
 # What a port that takes nothing may pile up: thirty of our longest frames.
@@ -53,7 +49,7 @@ CLOSE_TIMEOUT_S = 5.0
 # What an operation that took too long has to end itself: a change is dropped in the unit, too.
 ABANDON_S = 3.0
 
-SETTLED = (*ACQUAINTED, LinkState.CLOSED)
+SETTLED = (*CONNECTED, LinkState.CLOSED)
 
 # Codes of a NoAnswer after which it is certain that the unit was not even asked.
 NOT_BEGUN = "not_begun"
@@ -79,21 +75,21 @@ class Driver:
     """A device's thread.
 
     opener: how to get to the unit. listener: called on this thread with every event; it must not
-    wait. reopen_when_deaf: False where a silent unit is better left alone. schemas: as in Session.
+    wait. conversation: from here on this thread's. reopen_when_deaf: False where a silent unit is
+    better left alone.
     """
 
     def __init__(
         self,
         opener: LinkOpener,
         listener: Listener,
-        plan: StreamPlan | None = None,
+        conversation: Conversation,
         reopen_when_deaf: bool = True,
-        schemas: Schemas | None = None,
     ) -> None:
         self._opener = opener
         self._listener = listener
         self._reopen_when_deaf = reopen_when_deaf
-        self._session = Session(time.monotonic(), plan, schemas)
+        self._session = conversation
         self._link: Link | None = None
         self._unsent = b""
         self._open_at_s = 0.0
@@ -132,12 +128,12 @@ class Driver:
     def status(self) -> DeviceStatus:
         """Where the device stands now; callable from any thread."""
         with self._lock:
-            return status_of(self._session)
+            return self._session.status()
 
-    def receive_log(self, receiver: LogReceiver | None) -> None:
-        """Give a ride log's frames to `receiver` from now on; None for nobody."""
+    def between_turns(self, work: Callable[[], Result]) -> Result:
+        """Do something with the conversation while its thread does not; it must not wait."""
         with self._lock:
-            self._session.receive_log(receiver)
+            return work()
 
     def run(self, operation: Operation[Result], timeout_s: float) -> Result:
         """Run an operation and wait for its result; for any thread but the driver's own.
@@ -207,9 +203,9 @@ class Driver:
             self._begin_commands()
             busy = self._session.is_busy
             events = self._session.next_events()
-            deaf = self._session.failed_greetings >= GREETINGS_BEFORE_REOPEN
-            settled = self._session.failed_greetings > 0 or self._session.state in SETTLED
-            if self._session.state in ACQUAINTED:
+            deaf = self._session.failed_handshakes >= HANDSHAKES_BEFORE_REOPEN
+            settled = self._session.failed_handshakes > 0 or self._session.state in SETTLED
+            if self._session.state in CONNECTED:
                 self.connected.set()
             else:
                 self.connected.clear()
@@ -297,7 +293,7 @@ class Driver:
         now_s = time.monotonic()
         self._close_link()
         self._session.port_failed(now_s, error)
-        self._session.failed_greetings = 0
+        self._session.failed_handshakes = 0
         self.settled.set()
         self._open_at_s = now_s + self._reopen_s
         self._reopen_s = min(2.0 * self._reopen_s, REOPEN_S_MAX)

@@ -22,7 +22,23 @@ class LinkState(Enum):
     CLOSED = "closed"
 
 
-ACQUAINTED = (LinkState.READY, LinkState.READ_ONLY)
+CONNECTED = (LinkState.READY, LinkState.READ_ONLY)
+
+
+class CodedReason(str):
+    """A sentence with a code, for those who say it in another language."""
+
+    code: str
+
+    def __new__(cls, text: str, code: str = "") -> CodedReason:
+        made = super().__new__(cls, text)
+        made.code = code
+        return made
+
+
+def code_of(reason: str) -> str:
+    """The code of a sentence; "" for one that has none."""
+    return reason.code if isinstance(reason, CodedReason) else ""
 
 
 @dataclass(frozen=True)

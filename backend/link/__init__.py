@@ -1,13 +1,14 @@
 """Bytes in and out: serial port, tcp, simulated unit, port list. The only door to pyserial."""
 
 from backend.link.base import Link
-from backend.link.opening import Opener, kind_of, open_link
+from backend.link.opening import Opener, family_of, kind_of, open_link
 from backend.link.ports import PortInfo, is_character_device, list_ports
 
 __all__ = [
     "Link",
     "Opener",
     "PortInfo",
+    "family_of",
     "is_character_device",
     "kind_of",
     "list_ports",

@@ -5,6 +5,8 @@
 - `/dev/ttyUSB0`, `COM3`, any other path: a serial port. It opens at 115200 bit/s and then asks the
   unit for the fastest rate both have; `?baud=115200` stays, `?baud=921600` asks for that one.
 
+`?family=` of any of these names the make of the unit, where it is not our own.
+
 A pseudo-terminal and TCP have no rate, unless `?baud=` says that what is behind them has one.
 """
 
@@ -45,6 +47,11 @@ def kind_of(url: str) -> str:
     if is_character_device(name) is False:
         raise InvalidRequest(f"{name} is no serial port: a port is a device such as /dev/ttyUSB0.")
     return "serial"
+
+
+def family_of(url: str, default: str) -> str:
+    """The make of the unit behind a url: `?family=`, or `default`."""
+    return parse_qs(url.partition("?")[2]).get("family", [default])[-1]
 
 
 class Opener:

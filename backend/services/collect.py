@@ -21,21 +21,10 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import BinaryIO, TypeVar
+from typing import BinaryIO
 
-from backend.device.ebl.operations.log_download import LogReceiver
-from backend.device.ebl.operations.ride_logs import (
-    RideLog,
-    RideLogs,
-    close_log,
-    confirm_log,
-    erase_log,
-    list_logs,
-    log_crc,
-    receive_log,
-    settle_erase,
-)
-from backend.device.ebl.session.operation import Operation
+from backend.device.ride_logs import LogPieces, RideLog, RideLogs
+from backend.device.unit import Unit
 from backend.domain.ride import iso_utc
 from backend.errors import (
     Conflict,
@@ -55,12 +44,7 @@ from backend.services.upload import Uploads
 
 LOG = logging.getLogger(__name__)
 
-Result = TypeVar("Result")
-
-SESSIONS = 15
 TAKE_EVERY_S = 0.050
-# The unit's own check of a log of 4 MB takes seconds.
-CHECK_TIMEOUT_S = 60.0
 # How long a unit that was unplugged is waited for, and how often that may happen without a byte.
 RECONNECT_S = 600.0
 FRUITLESS_MAX = 5
@@ -142,7 +126,6 @@ class Collect:
         self._stopping = threading.Event()
         self._workers: dict[str, ThreadPoolExecutor] = {}
         self._downloads: dict[tuple[str, int], Download] = {}
-        self._session = 0
 
     def logs(self, device_id: str) -> UnitLogs:
         """What a unit has. Raises NotFound, NoAnswer, Conflict for a unit that keeps no logs."""
@@ -181,7 +164,7 @@ class Collect:
             if running is not None and running.state in RUNNING:
                 return running
         found = self._listed(unit_id)
-        for path in self._orphans(self._serial(unit_id), found):
+        for path in self._orphans(self._devices.serial_number(unit_id), found):
             self._worker(unit_id).submit(self._salvage, path)
         log = self._find(unit_id, log_id, found)
         if log.recording:
@@ -227,11 +210,11 @@ class Collect:
             )
         try:
             with telling("unknown"):
-                erases: int | None = self._devices.run(unit_id, erase_log(log), CHECK_TIMEOUT_S)
+                erases = self._devices.unit(unit_id).erase_log(log)
         except NoAnswer as error:
             if error.outcome != "unknown":
                 raise
-            settled(self._devices, unit_id, lambda _: settle_erase(log), error)
+            settled(self._devices, unit_id, lambda unit: unit.settle_erase(log), error)
             erases = None
         with self._lock:
             self._downloads.pop((unit_id, log_id), None)
@@ -249,7 +232,7 @@ class Collect:
 
     def _run(self, unit_id: str, log: RideLog) -> None:
         try:
-            serial = self._serial(unit_id)
+            serial = self._devices.serial_number(unit_id)
             path = self._fetch(unit_id, serial, log)
             self._keep(unit_id, log, path)
         except SpindleError as error:
@@ -286,9 +269,8 @@ class Collect:
         have = self._proven_prefix(unit_id, log, file)
         if have < log.length:
             self._note(unit_id, log, state="fetching", received=have, detail=None)
-            with self._session_of(unit_id) as receiver:
-                self._devices.run(unit_id, receive_log(log, receiver, have))
-                self._take(unit_id, log, receiver, file)
+            with self._devices.unit(unit_id).fetch_log(log, have) as pieces:
+                self._take(unit_id, log, pieces, file)
         self._note(unit_id, log, state="checking", received=log.length, bytes_per_s=None)
         if self._proven_prefix(unit_id, log, file) != log.length:
             raise PeerProtocolError(
@@ -303,18 +285,18 @@ class Collect:
         if have > 0:
             file.seek(0)
             local = zlib.crc32(file.read(have))
-            if self._devices.run(unit_id, log_crc(log, have), CHECK_TIMEOUT_S) != local:
+            if self._devices.unit(unit_id).log_crc(log, have) != local:
                 have = 0
         file.truncate(have)
         return have
 
-    def _take(self, unit_id: str, log: RideLog, receiver: LogReceiver, file: BinaryIO) -> None:
+    def _take(self, unit_id: str, log: RideLog, pieces: LogPieces, file: BinaryIO) -> None:
         """Write pieces as they come, until the last."""
-        began_s, had = time.monotonic(), receiver.received
+        began_s, had = time.monotonic(), pieces.received
         while True:
-            over = receiver.done or receiver.failure is not None
-            file.writelines(receiver.take_pieces())
-            received = receiver.received
+            over = pieces.done or pieces.failure is not None
+            file.writelines(pieces.take_pieces())
+            received = pieces.received
             taken_s = time.monotonic() - began_s
             rate = (received - had) / taken_s if taken_s > 0 else None
             self._note(unit_id, log, received=received, bytes_per_s=rate)
@@ -322,20 +304,8 @@ class Collect:
                 break
             if self._stopping.wait(TAKE_EVERY_S):
                 raise Stopping("Spindle was closed; fetching goes on at the next try.")
-        if receiver.failure is not None:
-            raise NoAnswer(receiver.failure)
-
-    @contextmanager
-    def _session_of(self, unit_id: str) -> Iterator[LogReceiver]:
-        with self._lock:
-            self._session = self._session % SESSIONS + 1
-            receiver = LogReceiver(self._session, time.monotonic())
-        self._devices.receive_log(unit_id, receiver)
-        try:
-            yield receiver
-        finally:
-            self._quietly(lambda: self._devices.receive_log(unit_id, None))
-            self._quietly(lambda: self._devices.run(unit_id, close_log(receiver.session)))
+        if pieces.failure is not None:
+            raise NoAnswer(pieces.failure)
 
     def _keep(self, unit_id: str, log: RideLog, path: Path) -> None:
         """Into the store, and then the unit may free it."""
@@ -357,7 +327,7 @@ class Collect:
             detail=upload.detail,
         )
         try:
-            self._again(unit_id, lambda: confirm_log(log, crc32))
+            self._again(unit_id, lambda unit: unit.confirm_log(log, crc32))
             self._note(unit_id, log, state="done", confirmed=True)
         except (LinkError, DeviceRefused) as error:
             told = f"The ride is kept; the unit does not know it yet: {error.message}"
@@ -413,33 +383,22 @@ class Collect:
                 self._workers[unit_id] = worker
             return worker
 
-    def _again(self, unit_id: str, operation: Callable[[], Operation[Result]]) -> Result:
-        """Run an operation; once more when the unit was away."""
+    def _again(self, unit_id: str, work: Callable[[Unit], None]) -> None:
+        """Ask the unit something; once more when it was away."""
         try:
-            return self._devices.run(unit_id, operation(), CHECK_TIMEOUT_S)
+            work(self._devices.unit(unit_id))
         except LinkError:
             self._wait_connected(unit_id)
-            return self._devices.run(unit_id, operation(), CHECK_TIMEOUT_S)
+            work(self._devices.unit(unit_id))
 
     def _listed(self, unit_id: str) -> RideLogs:
-        try:
-            return self._devices.run(unit_id, list_logs())
-        except DeviceRefused as error:
-            if error.status in ("UNSUPPORTED", "UNKNOWN_MSG"):
-                raise Conflict(f"{unit_id} keeps no ride logs.", code="no_logs") from None
-            raise
+        return self._devices.unit(unit_id).logs()
 
     def _find(self, unit_id: str, log_id: int, found: RideLogs | None = None) -> RideLog:
         for log in (found or self._listed(unit_id)).logs:
             if log.log_id == log_id:
                 return log
         raise NotFound(f"{unit_id} has no ride log {log_id}; it may have been overwritten.")
-
-    def _serial(self, unit_id: str) -> str:
-        identity = self._devices.get(unit_id).identity
-        if identity is None:
-            raise NoAnswer(f"{unit_id} has not said who it is.")
-        return identity.serial_number
 
     def _wait_connected(self, unit_id: str) -> None:
         """Wait for the unit to come back. Raises NoAnswer when it does not, Stopping."""
@@ -455,12 +414,6 @@ class Collect:
             key = (unit_id, log.log_id)
             changed = replace(self._downloads[key], **changes)  # type: ignore[arg-type]
             self._downloads[key] = changed
-
-    def _quietly(self, work: Callable[[], object]) -> None:
-        try:
-            work()
-        except SpindleError as error:
-            LOG.debug("%s", error.message)
 
 
 def stem_of(serial: str, log: RideLog) -> str:

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any, Protocol
 
-from backend.device.ebl.operations.config_transaction import ConfigImage
-from backend.device.ebl.operations.parameters import PARAMETER_ROWS, Free, ParameterRow, Value
+from backend.device.configuration import ConfigImage, Free, ParameterRow, Value
 from backend.domain.revision import Revision
 from backend.errors import ConfigConflict
 
@@ -42,10 +41,11 @@ class Change:
 
 @dataclass(frozen=True)
 class ConfigChange:
-    """A change the unit took. verified: read back whole and equal field by field.
+    """A change the unit took, and the whole configuration as it was read back.
 
-    state: `committed`, or `provisional`: the unit returns to what it had at `expires_at` unless the
-    change is confirmed.
+    state: `committed`; `provisional`: the unit returns to what it had at `expires_at` unless the
+    change is confirmed; `needs_restart`: it holds from the unit's next start on. verified: read
+    back whole and equal field by field, and nothing is left that only a restart can show.
     """
 
     generation: int
@@ -54,6 +54,21 @@ class ConfigChange:
     verified: bool
     changed: tuple[Change, ...]
     expires_at: datetime | None
+    parameters: dict[str, Value]
+
+    @classmethod
+    def of(
+        cls,
+        found: ConfigImage,
+        state: str = "committed",
+        changed: tuple[Change, ...] = (),
+        expires_at: datetime | None = None,
+    ) -> ConfigChange:
+        """A change after which the unit has `found`."""
+        verified = state != "needs_restart"
+        return cls(
+            found.generation, found.crc32, state, verified, changed, expires_at, found.parameters
+        )
 
 
 @dataclass(frozen=True)
@@ -113,9 +128,7 @@ def check_base(config: ConfigImage, if_match: str | None) -> None:
 
 
 def differences(old: Mapping[str, Value], new: Mapping[str, Value]) -> tuple[Change, ...]:
-    """Parameters whose value differs, in the order of their ids."""
+    """Parameters whose value differs, in the order of `old`."""
     return tuple(
-        Change(row.name, old[row.name], new[row.name])
-        for row in PARAMETER_ROWS
-        if old[row.name] != new[row.name]
+        Change(name, value, new[name]) for name, value in old.items() if value != new[name]
     )

@@ -7,37 +7,25 @@ else one made of its url. Either way it is found by both: a name once written do
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, MutableMapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, TypeVar
 
-from backend.device.driver import Driver, LinkOpener
-from backend.device.ebl.operations.fault_frames import FaultFrame, clear_faults, fault_frames
-from backend.device.ebl.operations.faults import fault_description, mechanic_text, severity
-from backend.device.ebl.operations.live_values import LiveValues, ask_values, last_values
-from backend.device.ebl.operations.log_download import LogReceiver
-from backend.device.ebl.operations.simulation import simulation_get, simulation_set
-from backend.device.ebl.operations.upkeep import Upkeep, read_upkeep
-from backend.device.ebl.session.operation import Operation
-from backend.device.ebl.session.schema import Schemas
-from backend.device.ports import Opener, PortInfo, kind_of, list_ports
-from backend.device.snapshot import DeviceStatus
+from backend.device.driver import LinkOpener, Listener
+from backend.device.families import DEFAULT_FAMILY, FAMILIES, Families
+from backend.device.ports import Opener, PortInfo, family_of, kind_of, list_ports
 from backend.device.states import DeviceEvent, LinkState
-from backend.device.stream import StreamPlan
-from backend.errors import Conflict, DeviceRefused, InvalidRequest, NotFound
+from backend.device.unit import Capability, Unit
+from backend.domain.channels import ChannelSpec
+from backend.errors import Conflict, InvalidRequest, NoAnswer, NotFound
 from backend.services.device_ids import canonical, id_of
-from backend.services.device_view import ConfigStamp, DeviceView, FaultView
-from backend.services.outcome import telling
+from backend.services.device_view import ConfigStamp, DeviceView
 
-Result = TypeVar("Result")
-Listener = Callable[[DeviceEvent], None]
 # For those who follow every device: its id and what happened.
 Watcher = Callable[[str, DeviceEvent], None]
 
 # How long `add` waits for the unit to say who it is: a simulated one starts in a second or two.
 IDENTITY_WAIT_S = 6.0
-OPERATION_TIMEOUT_S = 10.0
 # A workshop has one to four; more is a script gone wrong, and each costs a thread.
 DEVICES_MAX = 32
 
@@ -49,7 +37,7 @@ class _Device:
         self.url = url
         self.kind = kind
         self.id: str | None = None
-        self.driver: Driver
+        self.unit: Unit
         self._watchers = watchers
         self._lock = threading.Lock()
         self._listeners: tuple[Listener, ...] = ()
@@ -57,7 +45,7 @@ class _Device:
     @property
     def serial_number(self) -> str | None:
         """The unit's serial number once it has said it."""
-        identity = self.driver.status().identity
+        identity = self.unit.status().identity
         return identity.serial_number if identity else None
 
     def listen(self, listener: Listener) -> Callable[[], None]:
@@ -91,19 +79,22 @@ class Devices:
     """Every unit that was added and not removed, whatever its state. For any thread.
 
     flash_folder: where simulated units keep their configuration between runs, None for nowhere.
-    plan: what is streamed from each unit. opener: how a url becomes a link. schemas: where
-    descriptions of units with another firmware are kept.
+    streaming: whether rows of every channel are to come by themselves. opener: how a url becomes a
+    link. schemas: where descriptions of units with another firmware are kept. families: the makes
+    there are.
     """
 
     def __init__(
         self,
         flash_folder: Path | None = None,
-        plan: StreamPlan | None = StreamPlan(),  # noqa: B008 - frozen
+        streaming: bool = True,
         opener: Callable[[str], LinkOpener] | None = None,
-        schemas: Schemas | None = None,
+        schemas: MutableMapping[str, bytes] | None = None,
+        families: Families = FAMILIES,
     ) -> None:
-        self._plan = plan
-        self._schemas: Schemas = {} if schemas is None else schemas
+        self._streaming = streaming
+        self._schemas = {} if schemas is None else schemas
+        self._families = families
         self._opener = opener or (lambda url: Opener(url, flash_folder))
         self._lock = threading.Lock()
         self._devices: dict[str, _Device] = {}  # by url
@@ -123,7 +114,7 @@ class Devices:
             device = self._devices.get(url)
             if device is None:
                 device = self._open(url, kind)
-        device.driver.settled.wait(wait_s)
+        device.unit.driver.settled.wait(wait_s)
         twin = self._settle(device)
         if twin is not None:
             self._close(device)
@@ -157,7 +148,7 @@ class Devices:
             devices = list(self._devices.values())
         for device in devices:
             # Each takes its time to end a simulated unit or to save the end of a ride.
-            device.driver.stop()
+            device.unit.driver.stop()
         for device in devices:
             self._close(device)
 
@@ -181,103 +172,58 @@ class Devices:
 
         return leave
 
-    def snapshot(self, device_id: str) -> LiveValues:
-        """The newest value of every channel: of the stream, or asked of the unit.
-
-        Raises NotFound, NoAnswer with the reason when the unit is not there.
-        """
-        device = self._find(device_id)
-        block = device.driver.status().last_block
-        if block is not None:
-            return last_values(block)
-        return device.driver.run(ask_values(), OPERATION_TIMEOUT_S)
-
-    def faults(self, device_id: str) -> Sequence[FaultView]:
-        """The faults that are active in the unit or were, in words. Raises NotFound, NoAnswer.
-
-        Of a unit that is not there, the names of those that were active when it was.
-        """
-        status = self.status(device_id)
-        if status.state is LinkState.READY:
-            return _fault_views(self.run(device_id, fault_frames()))
-        return [_fault_view(FaultFrame(name, True, None, None)) for name in status.faults_active]
-
-    def clear_faults(self, device_id: str) -> Sequence[FaultView]:
-        """Forget the faults that are over; those that are left. Raises NotFound, NoAnswer.
-
-        After a NoAnswer whose outcome is not known they may be forgotten: list them again.
-        """
-        with telling("unknown"):
-            return _fault_views(self.run(device_id, clear_faults()))
-
     # ------------------------------------------------------------------ what is asked of them
 
-    def status(self, device_id: str) -> DeviceStatus:
-        """Everything that is known of a device's link and unit. Raises NotFound."""
-        return self._find(device_id).driver.status()
+    def unit(self, device_id: str) -> Unit:
+        """What a device may be asked. Raises NotFound."""
+        return self._find(device_id).unit
 
-    def writable(self, device_id: str) -> DeviceStatus:
-        """As `status`, of a unit whose settings we understand. Raises Conflict with the reason."""
-        status = self.status(device_id)
+    def writable(self, device_id: str) -> Unit:
+        """As `unit`, of one whose settings we understand. Raises Conflict with the reason."""
+        unit = self.unit(device_id)
+        status = unit.status()
         if status.state is LinkState.READ_ONLY:
             raise Conflict(status.reason, "read_only")
-        return status
+        return unit
 
-    def upkeep(self, device_id: str) -> Upkeep:
-        """What the unit knows of its own wear. Raises NotFound, Conflict, NoAnswer."""
-        self.writable(device_id)
-        return self.run(device_id, read_upkeep())
+    def channels(self, device_id: str) -> tuple[ChannelSpec, ...]:
+        """Every channel a device streams. Raises NotFound, CapabilityMissing."""
+        unit = self.unit(device_id)
+        unit.require(Capability.STREAM)
+        return unit.channels
 
-    def run(
-        self, device_id: str, operation: Operation[Result], timeout_s: float = OPERATION_TIMEOUT_S
-    ) -> Result:
-        """Run an operation on the unit. Raises NotFound, NoAnswer and what the operation raises."""
-        return self._find(device_id).driver.run(operation, timeout_s)
-
-    def receive_log(self, device_id: str, receiver: LogReceiver | None) -> None:
-        """Give a ride log's frames to `receiver` from now on; None for nobody. Raises NotFound."""
-        self._find(device_id).driver.receive_log(receiver)
+    def serial_number(self, device_id: str) -> str:
+        """Who the unit says it is. Raises NotFound, NoAnswer before it has."""
+        status = self.unit(device_id).status()
+        if status.identity is None:
+            raise NoAnswer(status.reason, "not_connected")
+        return status.identity.serial_number
 
     def wait_connected(self, device_id: str, timeout_s: float) -> bool:
         """Wait until the unit can be asked; False when it cannot after `timeout_s`."""
-        return self._find(device_id).driver.connected.wait(timeout_s)
-
-    def simulation_get(self, device_id: str) -> dict[str, Any]:
-        """Rider, road and clock of a simulated unit. Raises Conflict for a real one."""
-        return self._simulation(device_id, simulation_get())
-
-    def simulation_set(self, device_id: str, changes: Mapping[str, Any]) -> dict[str, Any]:
-        """Change what is named. Raises InvalidRequest in the simulator's words, Conflict."""
-        with telling("unknown"):
-            return self._simulation(device_id, simulation_set(changes))
+        return self._find(device_id).unit.driver.connected.wait(timeout_s)
 
     # ------------------------------------------------------------------ inside
-
-    def _simulation(self, device_id: str, operation: Operation[dict[str, Any]]) -> dict[str, Any]:
-        device = self._find(device_id)
-        identity = device.driver.status().identity
-        try:
-            if identity is None or identity.simulated:
-                return device.driver.run(operation, OPERATION_TIMEOUT_S)
-        except DeviceRefused as error:
-            if error.status != "UNKNOWN_MSG":
-                raise
-        raise Conflict(f"{device_id} is a real unit; only a simulated one has a simulation.")
 
     def _open(self, url: str, kind: str) -> _Device:
         """Make a device and start its thread; the caller holds the lock."""
         if len(self._devices) >= DEVICES_MAX:
             raise InvalidRequest(f"There are {DEVICES_MAX} devices already; remove one first.")
+        family = family_of(url, DEFAULT_FAMILY)
+        if family not in self._families:
+            raise InvalidRequest(
+                f"There is no family {family!r} of units; there is {', '.join(self._families)}."
+            )
         device = _Device(url, kind, lambda: self._watchers)
-        device.driver = Driver(
+        device.unit = self._families[family](
             self._opener(url),
             lambda event: self._tell(device, event),
-            self._plan,
+            self._streaming,
             reopen_when_deaf=kind != "simulated",
             schemas=self._schemas,
         )
         self._devices[url] = device
-        device.driver.start()
+        device.unit.driver.start()
         return device
 
     def _tell(self, device: _Device, event: DeviceEvent) -> None:
@@ -301,7 +247,7 @@ class Devices:
         with self._lock:
             known = self._devices.get(device.url) is device
         if known:
-            device.driver.close()
+            device.unit.driver.close()
             with self._lock:
                 self._devices.pop(device.url, None)
 
@@ -317,28 +263,12 @@ class Devices:
         raise NotFound(f"There is no device {device_id}. `GET /devices` lists those there are.")
 
 
-def _fault_views(frames: Sequence[FaultFrame]) -> list[FaultView]:
-    return [_fault_view(one) for one in frames]
-
-
-def _fault_view(one: FaultFrame) -> FaultView:
-    return FaultView(
-        one.name,
-        fault_description(one.name),
-        one.active,
-        one.count,
-        one.frozen,
-        severity(one.name),
-        mechanic_text(one.name),
-    )
-
-
 def _bound(watcher: Watcher, device_id: str) -> Listener:
     return lambda event: watcher(device_id, event)
 
 
 def _view(device: _Device) -> DeviceView:
-    status = device.driver.status()
+    status = device.unit.status()
     identity = status.identity
     return DeviceView(
         id=device.id or id_of(device.url),
@@ -350,4 +280,6 @@ def _view(device: _Device) -> DeviceView:
         config=ConfigStamp.of(status),
         link=asdict(status.statistics),
         faults_active=status.faults_active,
+        family=device.unit.family,
+        capabilities=tuple(sorted(device.unit.capabilities)),
     )

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
-from backend.device.ebl.operations.live_values import LiveValues
-from backend.device.ebl.session.reasons import code_of
 from backend.device.identity import Identity
 from backend.device.snapshot import DeviceStatus
+from backend.device.states import code_of
 
 
 @dataclass(frozen=True)
@@ -42,31 +41,13 @@ class ConfigStamp:
 
 
 @dataclass(frozen=True)
-class FaultView:
-    """A fault that is active or was, and what to do about it.
-
-    description: what the rider reads. mechanic_text: what to measure and mend.
-    severity: warning, assist_off (while it lasts) or latched (until cleared at standstill).
-    count: how often it came since the unit's start, None when the unit is not there to be asked.
-    frozen: every channel when it came last.
-    """
-
-    name: str
-    description: str
-    active: bool = True
-    count: int | None = None
-    frozen: LiveValues | None = None
-    severity: str = "latched"
-    mechanic_text: str = ""
-
-
-@dataclass(frozen=True)
 class DeviceView:
     """One device at one moment.
 
     id: stable as long as the device is here. kind: simulated, serial or socket. state: connecting,
     ready, read_only, lost or closed. reason: a sentence for people. identity: the last one known.
-    link: counters of LinkStatistics by name.
+    link: counters of LinkStatistics by name. capabilities: as in
+    backend.device.unit.Capability.
     """
 
     id: str
@@ -78,6 +59,8 @@ class DeviceView:
     config: ConfigStamp | None
     link: dict[str, float | None]
     faults_active: tuple[str, ...]
+    family: str
+    capabilities: tuple[str, ...]
 
     @property
     def reason_code(self) -> str:

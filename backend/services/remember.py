@@ -13,8 +13,8 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from backend.device.ebl.operations.config_transaction import ConfigImage, read_config
-from backend.device.ebl.operations.parameters import PARAMETER_ROWS
+from backend.control import law_defaults
+from backend.device.configuration import ConfigImage
 from backend.device.states import DeviceEvent, LinkState, StateChanged, UnitEvent
 from backend.domain.ride import Ride, RideContext
 from backend.errors import NoAnswer, NotFound, SpindleError
@@ -77,13 +77,13 @@ class UnitMemory:
         )
 
     def ride_config(self, ride: Ride) -> tuple[Mapping[str, Any], str]:
-        """The configuration a ride was made with and `ride`, or the registry's and `defaults`."""
+        """The configuration a ride was made with and `ride`, or the law's and `defaults`."""
         serial, crc32 = ride.context.device_serial, ride.context.config_crc32
         if serial is not None and crc32 is not None:
             for revision in self._revisions.list(serial):
                 if revision.crc32 == crc32:
                     return revision.parameters, "ride"
-        return {row.name: row.default for row in PARAMETER_ROWS}, "defaults"
+        return law_defaults(), "defaults"
 
     def close(self) -> None:
         """Give up what waits."""
@@ -94,7 +94,7 @@ class UnitMemory:
             self._waiting.discard(device_id)
         try:
             self._note_trial_end(device_id)
-            config = self._devices.run(device_id, read_config())
+            config = self._devices.unit(device_id).read_config()
             with self._lock:
                 self._configs[device_id] = config
             if connected:

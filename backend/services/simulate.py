@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from backend.control.scenarios import live_scenarios
-from backend.device.ebl.operations.simulation import simulation_advance
 from backend.errors import Conflict, NoAnswer
-from backend.services.connect import Devices
+from backend.services.inspection import Inspection
 
 LOOK_EVERY_S = 0.01
 # A unit that has not lived through a tenth of a second in this long never will.
@@ -29,24 +28,24 @@ def scenarios() -> list[Scenario]:
     return [Scenario(name, doc) for name, doc in live_scenarios()]
 
 
-def advance(devices: Devices, device_id: str, seconds: float) -> dict[str, Any]:
+def advance(inspection: Inspection, device_id: str, seconds: float) -> dict[str, Any]:
     """Let `seconds` pass and return what rider, road and clock do then.
 
     Every row the unit built in that time has arrived by then, but for the two or three that wait
     for their frame to be full. Raises Conflict for a real unit and for a clock that runs by itself,
     NoAnswer when time does not pass.
     """
-    seen = devices.simulation_get(device_id)
+    seen = inspection.simulation(device_id)
     if seen.get("clock") != "virtual":
         raise Conflict(
             f"The clock of {device_id} runs by itself; set `clock` of its simulation to "
             "`virtual`, or add the unit as `sim:NAME?clock=virtual`."
         )
-    seen = devices.run(device_id, simulation_advance(seconds))
+    seen = inspection.simulate(device_id, {"advance_s": seconds})
     last_left_s, last_s = seen["advance_left_s"], time.monotonic()
     while seen["advance_left_s"] > 0:
         time.sleep(LOOK_EVERY_S)
-        seen = devices.simulation_get(device_id)
+        seen = inspection.simulation(device_id)
         now_s = time.monotonic()
         if seen["advance_left_s"] != last_left_s:
             last_left_s, last_s = seen["advance_left_s"], now_s

@@ -7,21 +7,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
-from backend.device.ebl.operations.live_set import (
-    TTL_S_MAX,
-    LiveState,
-    end_live,
-    read_live,
-    set_live,
-    settle_live,
-    settle_live_end,
-    values_in_force,
-)
-from backend.device.ebl.operations.parameters import Value, faults_of, rounded, unknown_names
+from backend.device.configuration import LiveState, Value
+from backend.device.unit import Capability
 from backend.errors import FieldError, InvalidRequest, LimitViolation, NoAnswer
 from backend.services.connect import Devices
 from backend.services.outcome import telling
 from backend.services.settle import settled
+
+TTL_S_MAX = 255
 
 
 @dataclass(frozen=True)
@@ -45,8 +38,7 @@ class LiveTuning:
 
     def read(self, device_id: str) -> LiveView:
         """What is tried, asked of the unit. Raises NotFound, Conflict, NoAnswer."""
-        status = self._devices.writable(device_id)
-        return self._view(self._devices.run(device_id, read_live(status.mtu)))
+        return self._view(self._devices.writable(device_id).live())
 
     def set(self, device_id: str, changes: Mapping[str, Value], ttl_s: int) -> LiveView:
         """Try values for `ttl_s` seconds, on top of what is tried already.
@@ -54,44 +46,44 @@ class LiveTuning:
         Raises InvalidRequest, LimitViolation with every fault named, AccessDenied for what the
         maker protects, NotFound, Conflict, NoAnswer.
         """
-        status = self._devices.writable(device_id)
+        unit = self._devices.writable(device_id)
+        unit.require(Capability.LIVE_SET)
         if not 1 <= ttl_s <= TTL_S_MAX:
             message = f"ttl_s is from 1 to {TTL_S_MAX} seconds."
             raise InvalidRequest(message, fields=[FieldError("ttl_s", "out_of_range", message)])
-        unknown = unknown_names(changes)
+        unknown = unit.parameters.unknown_names(changes)
         if unknown:
             raise InvalidRequest(" ".join(fault.message for fault in unknown), fields=unknown)
         with telling("unchanged"):
-            in_force = self._devices.run(device_id, values_in_force(status.mtu))
+            in_force = unit.values_in_force()
         intended = {**in_force, **changes}
-        faults = faults_of(intended)
+        faults = unit.parameters.faults_of(intended)
         if faults:
             raise LimitViolation(" ".join(fault.message for fault in faults), fields=faults)
-        whole = rounded(intended)
+        whole = unit.parameters.rounded(intended)
         values = {name: whole[name] for name in changes}
         try:
             with telling("unknown"):
-                state = self._devices.run(device_id, set_live(values, ttl_s, status.mtu))
+                state = unit.set_live(values, ttl_s)
         except NoAnswer as error:
             if error.outcome != "unknown":
                 raise
             before = {name: in_force[name] for name in changes}
             state = settled(
-                self._devices, device_id, lambda mtu: settle_live(before, values, mtu), error
+                self._devices, device_id, lambda unit: unit.settle_live(before, values), error
             )
         return self._view(state)
 
     def end(self, device_id: str) -> LiveView:
         """End what is tried: the law runs on the configuration again."""
-        status = self._devices.writable(device_id)
+        unit = self._devices.writable(device_id)
         try:
             with telling("unknown"):
-                self._devices.run(device_id, end_live())
-                state = self._devices.run(device_id, read_live(status.mtu))
+                state = unit.end_live()
         except NoAnswer as error:
             if error.outcome != "unknown":
                 raise
-            state = settled(self._devices, device_id, settle_live_end, error)
+            state = settled(self._devices, device_id, lambda unit: unit.settle_live_end(), error)
         return self._view(state)
 
     def _view(self, state: LiveState) -> LiveView:

@@ -8,11 +8,13 @@ from operator import itemgetter
 from typing import Any, cast
 
 from backend.control import cutoff_of
-from backend.device.ebl.operations.parameters import Value, group, is_factory
+from backend.device.configuration import ParameterTable, Value
+from backend.device.unit import Capability
 from backend.domain.assist_mode import AssistModes
 from backend.domain.fuzzy_table import PARAMETERS_OF, SHARED_FIELDS, FuzzyTable, stored_json
 from backend.errors import FieldError, InvalidRequest
 
+EFFECTIVE_CUTOFF = "effective_assist_cutoff_kmh"
 # Parameter of the slots -> where its element `{index}` is in the modes' JSON.
 MODE_FIELDS = {
     "mode_names": "modes{index}.name",
@@ -33,12 +35,14 @@ class ConfigPart:
 
     fields: parameter -> its place in the JSON, so that a fault marks the right field of a form.
     kept: parameters the part shows and may not change, because another part owns them.
+    unknown_while_lost: what nobody knows while defaults stand in place of what was lost.
     """
 
     read: Callable[[Mapping[str, Value]], dict[str, Any]]
     changes: Callable[[Mapping[str, Any]], dict[str, Value]]
     fields: Mapping[str, str]
     kept: tuple[str, ...] = ()
+    unknown_while_lost: tuple[str, ...] = ()
 
     def renamed(self, fault: FieldError) -> FieldError:
         """The fault with the name its field has in the JSON."""
@@ -95,16 +99,43 @@ def _effective_cutoff_kmh(parameters: Mapping[str, Value]) -> float | None:
     return None if cutoff is None else cutoff.holds_kmh
 
 
-FUZZY_TABLES = {which: _fuzzy_table(which) for which in PARAMETERS_OF}
-ASSIST_MODES = ConfigPart(
-    read=lambda parameters: AssistModes.from_parameters(parameters).to_json(),
-    changes=lambda value: cast("dict[str, Value]", AssistModes.from_json(value).to_parameters()),
-    fields=MODE_FIELDS,
-)
-CALIBRATION = _by_name(
-    tuple(name for name in group("sensor") if not is_factory(name)),
-    {name: itemgetter(name) for name in group("sensor") if is_factory(name)},
-)
-LIMITS = _by_name(
-    group("limits") + group("market"), {"effective_assist_cutoff_kmh": _effective_cutoff_kmh}
-)
+def _assist_modes() -> ConfigPart:
+    return ConfigPart(
+        read=lambda parameters: AssistModes.from_parameters(parameters).to_json(),
+        changes=lambda value: cast(
+            "dict[str, Value]", AssistModes.from_json(value).to_parameters()
+        ),
+        fields=MODE_FIELDS,
+    )
+
+
+def _calibration(table: ParameterTable) -> ConfigPart:
+    """The sensor's group; what the maker gave it is told and not written."""
+    names = table.group("sensor")
+    told = {name: itemgetter(name) for name in names if name in table.factory}
+    return _by_name(tuple(name for name in names if name not in told), told)
+
+
+def _limits(table: ParameterTable) -> ConfigPart:
+    """Limits and market, and where assist ends because of them: at walking pace, or there is none,
+    while defaults stand in place of what was lost."""
+    names = table.group("limits") + table.group("market")
+    part = _by_name(names, {EFFECTIVE_CUTOFF: _effective_cutoff_kmh})
+    return replace(part, unknown_while_lost=(EFFECTIVE_CUTOFF,))
+
+
+@dataclass(frozen=True)
+class PartKind:
+    """A part as units have it: what a unit needs for it, and the part for its parameters."""
+
+    capability: Capability
+    of: Callable[[ParameterTable], ConfigPart]
+
+
+PARTS = {
+    "fuzzy_table": PartKind(Capability.FUZZY_TABLE, lambda _: _fuzzy_table("first")),
+    "second_fuzzy_table": PartKind(Capability.FUZZY_TABLE, lambda _: _fuzzy_table("second")),
+    "assist_modes": PartKind(Capability.ASSIST_MODES, lambda _: _assist_modes()),
+    "calibration": PartKind(Capability.CALIBRATE, _calibration),
+    "limits": PartKind(Capability.LIMITS, _limits),
+}

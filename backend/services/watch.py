@@ -27,7 +27,7 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.device.states import DeviceEvent, StateChanged
-from backend.device.stream import StreamBlock, StreamPlan, StreamStarted
+from backend.device.stream import StreamBlock, StreamStarted
 from backend.domain.channels import ChannelSpec
 from backend.errors import FieldError, InvalidRequest
 
@@ -247,6 +247,7 @@ class Devices(Protocol):
     """What is needed of services.connect."""
 
     def get(self, device_id: str) -> Device: ...
+    def channels(self, device_id: str) -> tuple[ChannelSpec, ...]: ...
     def subscribe(
         self, device_id: str, listener: Callable[[DeviceEvent], None]
     ) -> Callable[[], None]: ...
@@ -266,9 +267,10 @@ class Watch:
     ) -> None:
         """Begins to fill the viewer's queue with the unit's state and what follows.
 
-        Raises NotFound for an unknown unit, InvalidRequest for an unknown channel.
+        Raises NotFound for an unknown unit, CapabilityMissing for one that streams nothing,
+        InvalidRequest for an unknown channel.
         """
-        check_names(names, [channel.name for channel in StreamPlan().channels])
+        check_names(names, [channel.name for channel in self._devices.channels(device_id)])
         key = (device_id, tuple(names) if names else None, rate_hz)
         with self._lock:
             if key not in self._feeds:

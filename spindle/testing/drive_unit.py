@@ -13,13 +13,17 @@ from typing import Any, TypeVar, Unpack
 import numpy as np
 import numpy.typing as npt
 
-from backend.device.ebl.operations.config_transaction import ConfigImage, read_config, write_config
-from backend.device.ebl.operations.fault_frames import FaultFrame, clear_faults, fault_frames
-from backend.device.ebl.operations.live_values import LiveValues, ask_values
+from backend.device.configuration import ConfigImage
+from backend.device.ebl.operations.config_transaction import read_config, write_config
+from backend.device.ebl.operations.fault_frames import clear_faults, fault_frames
+from backend.device.ebl.operations.live_values import ask_values
 from backend.device.ebl.session.operation import Operation
 from backend.device.ebl.session.session import Session
+from backend.device.ebl.session.stream_receiver import StreamPlan
+from backend.device.faults import UnitFault
+from backend.device.live_values import LiveValues
 from backend.device.states import LinkState
-from backend.device.stream import StreamBlock, StreamPlan
+from backend.device.stream import StreamBlock
 from backend.errors import NoAnswer
 from sim_device.bike_ranges import read_bike
 from sim_device.lockstep import LockstepUnit
@@ -152,11 +156,11 @@ class DriveUnit:
         empty = np.empty(0)
         return {name: np.concatenate(parts) if parts else empty for name, parts in columns.items()}
 
-    def faults(self) -> list[FaultFrame]:
+    def faults(self) -> list[UnitFault]:
         """The faults that are active or were, with what the bike did when they came."""
         return self.ask(fault_frames())
 
-    def clear_faults(self) -> list[FaultFrame]:
+    def clear_faults(self) -> list[UnitFault]:
         """Forget the faults that are over; what is left."""
         return self.ask(clear_faults())
 

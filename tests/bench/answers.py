@@ -2,7 +2,7 @@
 
 from backend.device.ebl.operations.live_values import ask_values
 from backend.device.ebl.session.operation import Operation, ask
-from backend.device.stream import StreamPlan
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.errors import DeviceRefused
 from firmware_protocol._generated import (
     CHANNELS,

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from backend.device.stream import StreamPlan
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from firmware_protocol import framing
 from firmware_protocol._generated import CHANNELS
 from firmware_protocol.codec import Stream, decode, decode_stream, encode

@@ -1,7 +1,7 @@
 """A ride log over the line, in virtual time: how much of the line it gets."""
 
-from backend.device.ebl.operations.log_download import LogReceiver
 from backend.device.ebl.operations.ride_logs import list_logs, receive_log
+from backend.device.ebl.session.log_receiver import LogReceiver
 from tests.bench.figures import Figure
 from tests.fakes.bench_logs import unit_with_log
 from tests.fakes.serial_wire import SerialWire

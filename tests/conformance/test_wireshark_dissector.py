@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 from backend.device.ebl.operations.config_transaction import read_config, write_config
-from backend.device.stream import StreamPlan
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from firmware_protocol import codec
 from firmware_protocol._generated import PARAMETERS, REQUEST_BY_ID, RESPONSE_BY_ID, Event, MessageId
 from firmware_protocol.framing import FrameDecoder, encode_frame

@@ -9,8 +9,9 @@ from typing import Any, Protocol, TypeVar
 from backend.device.ebl.session.operation import Operation
 from backend.device.ebl.session.schema import Schemas
 from backend.device.ebl.session.session import Session
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.states import DeviceEvent, LinkState, StateChanged
-from backend.device.stream import StreamBlock, StreamPlan
+from backend.device.stream import StreamBlock
 
 Result = TypeVar("Result")
 

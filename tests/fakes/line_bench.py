@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.states import LinkState
-from backend.device.stream import StreamPlan
 from backend.errors import LinkError
 from firmware_protocol.framing import FrameDecoder, encode_frame
 from sim_device.lockstep import LockstepUnit

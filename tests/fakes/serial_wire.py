@@ -15,8 +15,8 @@ from sim_device.firmware.python._native import ffi, lib
 
 from backend.device.ebl.session.operation import Operation
 from backend.device.ebl.session.session import Session
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.states import LinkState
-from backend.device.stream import StreamPlan
 from tests.fakes.bench_unit import BenchUnit
 
 Result = TypeVar("Result")

@@ -6,16 +6,15 @@ import random
 import zlib
 from typing import TYPE_CHECKING
 
-from backend.device.ebl.operations.log_download import LogReceiver
 from backend.device.ebl.operations.ride_logs import (
-    RideLog,
-    RideLogs,
     close_log,
     confirm_log,
     list_logs,
     log_crc,
     receive_log,
 )
+from backend.device.ebl.session.log_receiver import LogReceiver
+from backend.device.ride_logs import RideLog, RideLogs
 from tests.simulation.violation import Violation
 
 if TYPE_CHECKING:

@@ -5,17 +5,10 @@ from __future__ import annotations
 import random
 from typing import TYPE_CHECKING
 
-from backend.device.ebl.operations.config_transaction import (
-    CommitUnanswered,
-    ConfigImage,
-    write_config,
-)
-from backend.device.ebl.operations.config_trial import (
-    TrialStatus,
-    confirm_config,
-    rollback_config,
-    trial_status,
-)
+from backend.device.configuration import ConfigImage, TrialStatus
+from backend.device.ebl.operations.config_transaction import CommitUnanswered, write_config
+from backend.device.ebl.operations.config_trial import confirm_config, rollback_config
+from backend.device.ebl.session.trial_status import trial_status
 from backend.errors import ConfigConflict, PeerProtocolError
 from tests.simulation.watcher import Intent
 

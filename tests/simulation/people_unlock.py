@@ -6,11 +6,8 @@ import random
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from backend.device.ebl.operations.config_transaction import (
-    CommitUnanswered,
-    ConfigImage,
-    write_config,
-)
+from backend.device.configuration import ConfigImage
+from backend.device.ebl.operations.config_transaction import CommitUnanswered, write_config
 from backend.errors import ConfigConflict, PeerProtocolError, TokenNeeded
 from firmware_protocol._generated import Access
 from firmware_protocol.layout import Value

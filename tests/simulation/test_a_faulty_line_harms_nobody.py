@@ -18,10 +18,10 @@ from typing import Any
 import pytest
 
 from backend.device.ebl.operations import config_transaction
-from backend.device.ebl.operations.log_download import LogReceiver
+from backend.device.ebl.session.log_receiver import LogReceiver
 from backend.device.ebl.session.operation import Operation
 from backend.device.ebl.session.requests import RequestTable
-from backend.device.stream import StreamReceiver
+from backend.device.ebl.session.stream_receiver import StreamReceiver
 from backend.errors import NoAnswer
 from tests import counts
 from tests.simulation import people_trials, workload

@@ -14,7 +14,6 @@ import pytest
 
 from backend.device.states import LinkState
 from backend.errors import Conflict, NoAnswer
-from backend.services import tune
 from backend.services.connect import Devices
 from backend.services.try_live import LiveTuning
 from backend.services.tune import Tuning
@@ -195,7 +194,7 @@ def test_values_tried_over_a_line_that_dies(bench: Bench, way: str, dead_s: floa
 def test_a_write_that_takes_too_long_is_taken_back_or_found_out(
     bench: Bench, monkeypatch: pytest.MonkeyPatch, at: type
 ) -> None:
-    monkeypatch.setattr(tune, "WRITE_TIMEOUT_S", 0.2)
+    monkeypatch.setattr("backend.device.ebl.unit.WRITE_S", 0.2)
     bench.unit.at = at
     bench.unit.dead_down_s = 2.0
 

@@ -15,17 +15,18 @@ import numpy as np
 import pytest
 from sim_device.firmware.python._native import ffi, lib
 
-from backend.device.ebl.operations.log_download import LogReceiver
 from backend.device.ebl.operations.ride_logs import (
-    RideLog,
     close_log,
     confirm_log,
     list_logs,
     log_crc,
     receive_log,
 )
+from backend.device.ebl.session.log_receiver import LogReceiver
+from backend.device.ebl.session.stream_receiver import StreamPlan
+from backend.device.ride_logs import RideLog
 from backend.device.states import LinkState
-from backend.device.stream import StreamBlock, StreamPlan
+from backend.device.stream import StreamBlock
 from backend.errors import DeviceRefused
 from backend.ingest.ride_logs import read_blocks
 from tests.fakes.bench_logs import unit_with_log

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from backend.device.ebl.session.stream_account import Balance, StreamAccount
-from backend.device.stream import StreamPlan
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from firmware_protocol.codec import Stream, decode
 from firmware_protocol.framing import FrameDecoder, encode_frame
 from sim_device.lockstep import LockstepUnit

@@ -11,21 +11,18 @@ import random
 import numpy as np
 import pytest
 
-from backend.device.ebl.operations.config_transaction import (
-    ConfigImage,
-    read_bank,
-    read_config,
-    write_config,
-)
-from backend.device.ebl.operations.config_trial import confirm_config, rollback_config, trial_status
+from backend.device.configuration import ConfigImage
+from backend.device.ebl.operations.config_transaction import read_bank, read_config, write_config
+from backend.device.ebl.operations.config_trial import confirm_config, rollback_config
 from backend.device.ebl.operations.fault_frames import clear_faults, fault_frames
 from backend.device.ebl.operations.live_values import ask_values
 from backend.device.ebl.operations.simulation import simulation_get, simulation_set
 from backend.device.ebl.session import handshake
 from backend.device.ebl.session.operation import ask
 from backend.device.ebl.session.schema import differences, unpack_schema
+from backend.device.ebl.session.stream_receiver import BATCH_DEFAULT, StreamPlan
+from backend.device.ebl.session.trial_status import trial_status
 from backend.device.states import LinkState
-from backend.device.stream import BATCH_DEFAULT, StreamPlan
 from backend.errors import (
     AccessDenied,
     ConfigConflict,

@@ -13,9 +13,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from backend.device.ebl.operations.config_transaction import ConfigImage
-from backend.device.ebl.operations.config_trial import TrialStatus
-from backend.device.ebl.operations.live_values import LiveValues
+from backend.device.configuration import ConfigImage, TrialStatus
+from backend.device.live_values import LiveValues
 from backend.device.stream import StreamBlock
 from firmware_protocol._generated import (
     CHANNELS,

@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 import random
 
+from backend.device.configuration import ConfigImage
 from backend.device.ebl.operations.config_settle import settle_write
 from backend.device.ebl.operations.config_transaction import (
     CommitUnanswered,
-    ConfigImage,
     read_config,
     write_config,
 )
-from backend.device.ebl.operations.live_values import LiveValues, ask_values
+from backend.device.ebl.operations.live_values import ask_values
+from backend.device.live_values import LiveValues
 from backend.device.states import LinkState
 from backend.errors import ConfigConflict, NoAnswer, PeerProtocolError
 from firmware_protocol.layout import Value

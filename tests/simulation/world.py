@@ -14,8 +14,9 @@ from typing import Any
 
 from backend.device.ebl.session.operation import Operation
 from backend.device.ebl.session.session import EVENTS_MAX, Session
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.states import LinkState, StateChanged, UnitEvent
-from backend.device.stream import StreamBlock, StreamPlan
+from backend.device.stream import StreamBlock
 from backend.errors import LinkError
 from sim_device.lockstep import LockstepUnit
 from tests.simulation.earlier_life import earlier_life
@@ -30,7 +31,7 @@ SECONDS_DEFAULT = 40.0
 CALM_PART = 0.7
 LINE_RATES = (115_200.0, 1_000_000.0)
 # As the driver does with a port that is open and deaf.
-GREETINGS_BEFORE_REOPEN = 8
+HANDSHAKES_BEFORE_REOPEN = 8
 OFF_S = 1.0
 NEVER = 0xFFFFFFFF
 JUDGED = ("t_s", "motor_demand_nm", "speed_kmh")
@@ -183,7 +184,7 @@ class World:
         self._up.cut()
         self._down.cut()
         self.session.port_failed(self.now_s, LinkError(why))
-        self.session.failed_greetings = 0
+        self.session.failed_handshakes = 0
         self._replug_s = self.now_s + seconds
 
     def _unit_lives(self) -> None:
@@ -236,7 +237,7 @@ class World:
             self._trace.update(piece)
             if self.unit.unit.powered:
                 self.unit.send(piece)
-        if session.failed_greetings >= GREETINGS_BEFORE_REOPEN and self.plugged:
+        if session.failed_handshakes >= HANDSHAKES_BEFORE_REOPEN and self.plugged:
             self.tell("host", "opens the deaf port anew")
             self._lose(session.reason, 0.1)
         for event in session.next_events():

@@ -10,15 +10,15 @@ import time
 
 from backend.device.driver import Driver
 from backend.device.ebl.session.operation import ask
-from backend.device.stream import StreamPlan
 from backend.link import Opener
 from firmware_protocol._generated import AliveRequest, AliveResponse
+from tests.fakes.ebl_driver import ebl_driver
 
 PATIENCE_S = 30.0
 
 
 def driver(url: str) -> Driver:
-    started = Driver(Opener(url), lambda event: None, StreamPlan())
+    started = ebl_driver(Opener(url), lambda event: None)
     started.start()
     assert started.connected.wait(PATIENCE_S), started.status().reason
     return started

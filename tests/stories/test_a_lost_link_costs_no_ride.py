@@ -20,6 +20,7 @@ from backend.ingest import ImportedRide, Outcome
 from backend.ingest.formats import read_file
 from backend.services.collect import Collect
 from backend.services.connect import Devices
+from backend.services.inspection import Inspection
 from backend.services.record import Recorder, RecordSettings
 from backend.services.remember import UnitMemory
 from backend.services.upload import Uploads
@@ -113,14 +114,14 @@ def test_the_stretch_without_a_cable_comes_from_the_unit_and_the_rest_stays_as_i
     devices.wait_connected(desk.device, 20.0)
     desk.device = devices.list()[0].id
     legs = {"kind": "legs", "torque_nm": 25.0, "cadence_rpm_max": 80.0}
-    devices.simulation_set(desk.device, {"rider": legs})
+    Inspection(devices).simulate(desk.device, {"rider": legs})
     desk.ridden_for(15.0)
     desk.cable.unplug()
     assert desk.cable.tried.wait(20.0)
     desk.unit.advance(AWAY_S)
     desk.cable.plug_in()
     desk.ridden_for(AWAY_S + 10.0)
-    devices.simulation_set(desk.device, {"rider": {"kind": "off"}, "brake": True})
+    Inspection(devices).simulate(desk.device, {"rider": {"kind": "off"}, "brake": True})
     eventually(
         lambda: [log.state for log in desk.collect.logs(desk.device).items],
         lambda states: states == ["closed"],

@@ -104,10 +104,16 @@ class ConfigChange(Answer):
 
     generation: int
     crc32: int
-    state: Literal["committed", "provisional"]
-    verified: bool
+    state: Literal["committed", "provisional", "needs_restart"] = Field(
+        description="`provisional`: given up at `expires_at` unless it is confirmed. "
+        "`needs_restart`: holds from the unit's next start on."
+    )
+    verified: bool = Field(
+        description="Whether the last comparison that this make of unit allows was made."
+    )
     changed: list[Change]
     expires_at: datetime | None
+    parameters: Parameters = Field(description="The whole configuration as it was read back.")
 
 
 class Revision(Answer):

@@ -20,6 +20,23 @@ HealthCode = Literal[
     "rows_lost",
     "rides_damaged",
 ]
+CapabilityName = Literal[
+    "read_config",
+    "write_config",
+    "unit_trial",
+    "stream",
+    "rider_torque",
+    "calibrate",
+    "live_set",
+    "logs",
+    "unit_limits",
+    "unique_id",
+    "restart_to_apply",
+    "fuzzy_table",
+    "assist_modes",
+    "limits",
+    "simulation",
+]
 RiderKind = Literal["off", "constant", "legs"]
 DynoConvention = Literal["physical", "thesis"]
 MotorModel = Literal["average", "foc"]
@@ -129,6 +146,11 @@ class Device(Answer):
         description="Counters of the link since it was added."
     )
     faults_active: list[str]
+    family: str = Field(description="The make of the unit: what `?family=` of its url takes.")
+    capabilities: list[CapabilityName] = Field(
+        description="What this unit can do. A route that needs another answers 409 "
+        "`capability_missing` and names it."
+    )
 
 
 class DeviceList(Answer):

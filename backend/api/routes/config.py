@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Annotated, Any, Literal, cast
 
 from fastapi import APIRouter, Header, Query, Response
@@ -45,6 +46,7 @@ WhichTable = Annotated[
 ]
 ConfirmS = Annotated[int, Query(ge=0, le=CONFIRM_S_MAX, description=CONFIRM_S)]
 Token = Annotated[str | None, Query(pattern=TOKEN_PATTERN, description=TOKEN)]
+TABLES = {"first": "fuzzy_table", "second": "second_fuzzy_table"}
 Bank = Annotated[
     Literal["active", "previous", "default"],
     Query(description="Of the unit: what is in force, what was before, what its firmware brings."),
@@ -130,7 +132,7 @@ def get_fuzzy_table(
     device_id: str, services: Provided, response: Response, table: WhichTable = "first"
 ) -> Any:
     """A rule table and its points, as the surface and the linter take them."""
-    return _tagged(services.tuning.fuzzy_table(device_id, table), response)
+    return _tagged(services.tuning.read_part(device_id, TABLES[table]), response)
 
 
 @router.put("/fuzzy-table", operation_id="put_fuzzy_table", response_model=ConfigChange)
@@ -149,15 +151,15 @@ def put_fuzzy_table(
 
     Both tables share the points of speed and torque rate: those of the second are not changed here.
     """
-    write = services.tuning.put_fuzzy_table
-    change = write(device_id, body.model_dump(), reason, if_match, confirm_s, table, token)
+    write = partial(services.tuning.write_part, device_id, TABLES[table])
+    change = write(body.model_dump(), reason, if_match, confirm_s, token)
     return _stamped(change, response)
 
 
 @router.get("/assist-modes", operation_id="get_assist_modes", response_model=AssistModes)
 def get_assist_modes(device_id: str, services: Provided, response: Response) -> Any:
     """The five slots of the rider's switch."""
-    return _tagged(services.tuning.assist_modes(device_id), response)
+    return _tagged(services.tuning.read_part(device_id, "assist_modes"), response)
 
 
 @router.put("/assist-modes", operation_id="put_assist_modes", response_model=ConfigChange)
@@ -172,15 +174,15 @@ def put_assist_modes(
     token: Token = None,
 ) -> Any:
     """Writes all five slots in one transaction."""
-    write = services.tuning.put_assist_modes
+    write = partial(services.tuning.write_part, device_id, "assist_modes")
     value = body.model_dump()
-    return _stamped(write(device_id, value, reason, if_match, confirm_s, token), response)
+    return _stamped(write(value, reason, if_match, confirm_s, token), response)
 
 
 @router.get("/calibration", operation_id="get_calibration", response_model=Calibration)
 def get_calibration(device_id: str, services: Provided, response: Response) -> Any:
     """How raw counts become newton metres in this unit."""
-    return _tagged(services.tuning.calibration(device_id), response)
+    return _tagged(services.tuning.read_part(device_id, "calibration"), response)
 
 
 @router.put("/calibration", operation_id="put_calibration", response_model=ConfigChange)
@@ -195,15 +197,15 @@ def put_calibration(
     token: Token = None,
 ) -> Any:
     """Writes offset, gain and filters in one transaction."""
-    write = services.tuning.put_calibration
+    write = partial(services.tuning.write_part, device_id, "calibration")
     value = body.model_dump()
-    return _stamped(write(device_id, value, reason, if_match, confirm_s, token), response)
+    return _stamped(write(value, reason, if_match, confirm_s, token), response)
 
 
 @router.get("/limits", operation_id="get_limits", response_model=Limits)
 def get_limits(device_id: str, services: Provided, response: Response) -> Any:
     """What the unit enforces whatever the table says, and where assist ends because of it."""
-    return _tagged(services.tuning.limits(device_id), response)
+    return _tagged(services.tuning.read_part(device_id, "limits"), response)
 
 
 @router.put("/limits", operation_id="put_limits", response_model=ConfigChange)
@@ -218,9 +220,9 @@ def put_limits(
     token: Token = None,
 ) -> Any:
     """Writes the limits in one transaction; the unit refuses what its market forbids."""
-    write = services.tuning.put_limits
+    write = partial(services.tuning.write_part, device_id, "limits")
     value = body.model_dump(exclude_none=True)
-    return _stamped(write(device_id, value, reason, if_match, confirm_s, token), response)
+    return _stamped(write(value, reason, if_match, confirm_s, token), response)
 
 
 def _tagged(view: Any, response: Response) -> Any:

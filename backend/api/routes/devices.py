@@ -71,13 +71,13 @@ def remove_device(device_id: str, services: Provided) -> None:
 @router.get("/devices/{device_id}/snapshot", operation_id="get_snapshot", response_model=Snapshot)
 def get_snapshot(device_id: str, services: Provided) -> Any:
     """The newest value of every channel, asked of the unit."""
-    return services.devices.snapshot(device_id)
+    return services.inspection.snapshot(device_id)
 
 
 @router.get("/devices/{device_id}/service", operation_id="get_service", response_model=Upkeep)
 def get_service(device_id: str, services: Provided) -> Any:
     """How far and how long the unit ran, and how worn the flash of its configuration is."""
-    return services.devices.upkeep(device_id)
+    return services.inspection.upkeep(device_id)
 
 
 @router.get(
@@ -91,7 +91,7 @@ def get_dashboard(device_id: str, services: Provided) -> Any:
 @router.get("/devices/{device_id}/faults", operation_id="list_faults", response_model=FaultList)
 def list_faults(device_id: str, services: Provided) -> Any:
     """The faults that are active in the unit or were, and what the bike did when they came."""
-    return {"items": services.devices.faults(device_id)}
+    return {"items": services.inspection.faults(device_id)}
 
 
 @router.post(
@@ -101,7 +101,7 @@ def clear_faults(device_id: str, services: Provided) -> Any:
     """Ends latched faults whose cause has been gone for a second, if the bike stands still, and
     forgets those that are over. Lists what is left: whatever still has its cause, and all that is
     active while the bike moves."""
-    return {"items": services.devices.clear_faults(device_id)}
+    return {"items": services.inspection.clear_faults(device_id)}
 
 
 @router.get("/scenarios", operation_id="list_scenarios", response_model=ScenarioList)
@@ -115,7 +115,7 @@ def list_scenarios() -> dict[str, Any]:
 )
 def get_simulation(device_id: str, services: Provided) -> Any:
     """Rider, road and clock of a simulated unit; 409 for a real one."""
-    return services.devices.simulation_get(device_id)
+    return services.inspection.simulation(device_id)
 
 
 @router.put(
@@ -123,7 +123,7 @@ def get_simulation(device_id: str, services: Provided) -> Any:
 )
 def put_simulation(device_id: str, body: SimulationChange, services: Provided) -> Any:
     """Changes what the body names and leaves the rest."""
-    return services.devices.simulation_set(device_id, body.model_dump(exclude_unset=True))
+    return services.inspection.simulate(device_id, body.model_dump(exclude_unset=True))
 
 
 @router.post(
@@ -133,4 +133,4 @@ def put_simulation(device_id: str, body: SimulationChange, services: Provided) -
 )
 def advance_simulation(device_id: str, body: SimulationAdvance, services: Provided) -> Any:
     """Lets time pass for a unit with a virtual clock, as fast as it can; 409 for any other."""
-    return advance(services.devices, device_id, body.seconds)
+    return advance(services.inspection, device_id, body.seconds)

@@ -1012,15 +1012,26 @@ export interface components {
             crc32: number;
             /**
              * State
+             * @description `provisional`: given up at `expires_at` unless it is confirmed. `needs_restart`: holds from the unit's next start on.
              * @enum {string}
              */
-            state: "committed" | "provisional";
-            /** Verified */
+            state: "committed" | "provisional" | "needs_restart";
+            /**
+             * Verified
+             * @description Whether the last comparison that this make of unit allows was made.
+             */
             verified: boolean;
             /** Changed */
             changed: components["schemas"]["Change"][];
             /** Expires At */
             expires_at: string | null;
+            /**
+             * Parameters
+             * @description The whole configuration as it was read back.
+             */
+            parameters: {
+                [key: string]: number | string | (number | string)[] | (number | string)[][];
+            };
         };
         /** ConfigPatch */
         ConfigPatch: {
@@ -1173,6 +1184,16 @@ export interface components {
             };
             /** Faults Active */
             faults_active: string[];
+            /**
+             * Family
+             * @description The make of the unit: what `?family=` of its url takes.
+             */
+            family: string;
+            /**
+             * Capabilities
+             * @description What this unit can do. A route that needs another answers 409 `capability_missing` and names it.
+             */
+            capabilities: ("read_config" | "write_config" | "unit_trial" | "stream" | "rider_torque" | "calibrate" | "live_set" | "logs" | "unit_limits" | "unique_id" | "restart_to_apply" | "fuzzy_table" | "assist_modes" | "limits" | "simulation")[];
         };
         /** DeviceHealth */
         DeviceHealth: {

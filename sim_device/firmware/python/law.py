@@ -281,6 +281,11 @@ def _fill_modes(native: Any, config: Config) -> None:
     native.mode_torque_share = [pct / 100 for pct in config["mode_torque_pct"]]
 
 
+def law_defaults() -> dict[str, Any]:
+    """The configuration the firmware brings, by registry name."""
+    return dict(default_config())
+
+
 def native_config(config: Config, step_s: float = STEP_S) -> Any:
     """The assist_config of a configuration, as AssistLaw takes it. Raises LawRefused."""
     defaults = default_config()

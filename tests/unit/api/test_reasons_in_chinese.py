@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from backend.device.ebl.session import reasons
-from backend.device.ebl.session.reasons import code_of, port_reason
+from backend.device.ebl.session.reasons import port_reason
+from backend.device.states import code_of
 from backend.link import trouble
 
 ROOT = Path(__file__).resolve().parents[3]

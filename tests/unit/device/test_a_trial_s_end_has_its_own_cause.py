@@ -6,7 +6,7 @@ answer to the question nothing is known.
 
 from __future__ import annotations
 
-from backend.device.ebl.operations.config_trial import TrialStatus
+from backend.device.configuration import TrialStatus
 from backend.device.ebl.session.unit_notes import UnitNotes
 from backend.device.statistics import LinkStatistics
 from firmware_protocol._generated import ConfigProvisionalEvent, ConfigRolledBackEvent

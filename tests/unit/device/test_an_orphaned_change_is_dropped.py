@@ -10,7 +10,8 @@ from __future__ import annotations
 import pytest
 from sim_device.firmware.python._native import lib
 
-from backend.device.ebl.operations.config_transaction import ConfigImage, read_config, write_config
+from backend.device.configuration import ConfigImage
+from backend.device.ebl.operations.config_transaction import read_config, write_config
 from backend.device.states import LinkState
 from backend.errors import DeviceRefused, NoAnswer
 from firmware_protocol import codec, framing

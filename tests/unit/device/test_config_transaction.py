@@ -10,9 +10,9 @@ from collections.abc import Callable
 
 import pytest
 
+from backend.device.configuration import ConfigImage
 from backend.device.ebl.operations.config_transaction import (
     CommitUnanswered,
-    ConfigImage,
     read_config,
     write_config,
 )

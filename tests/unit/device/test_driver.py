@@ -19,12 +19,14 @@ import pytest
 from backend.device.driver import Driver
 from backend.device.ebl.operations.config_transaction import read_config
 from backend.device.ebl.session.operation import ask
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.states import LinkState, StateChanged
-from backend.device.stream import StreamBlock, StreamPlan, StreamStarted
+from backend.device.stream import StreamBlock, StreamStarted
 from backend.errors import LinkError, NoAnswer
 from backend.link.opening import Opener
 from backend.link.ports import pyserial_ports
 from firmware_protocol._generated import CfgInfoRequest, CfgInfoResponse, MessageId
+from tests.fakes.ebl_driver import ebl_driver
 from tests.fakes.unit import FakeUnit
 from tests.fakes.unit_link import Heard, UnitOpener
 
@@ -41,7 +43,7 @@ def opener() -> UnitOpener:
 
 @pytest.fixture
 def driver(opener: UnitOpener, heard: Heard) -> Iterator[Driver]:
-    driver = Driver(opener, heard, StreamPlan(batch=5))
+    driver = ebl_driver(opener, heard, StreamPlan(batch=5))
     yield driver
     driver.close()
 
@@ -113,7 +115,7 @@ def test_a_listener_that_fails_is_logged_and_the_thread_goes_on(
         heard(event)
         raise ValueError("a listener's fault")
 
-    driver = Driver(opener, broken, StreamPlan(batch=5))
+    driver = ebl_driver(opener, broken, StreamPlan(batch=5))
     with caplog.at_level(logging.ERROR):
         driver.start()
         heard.wait_for(StreamBlock, count=5)
@@ -156,7 +158,7 @@ def test_a_vanished_port_is_opened_again_when_it_returns(
 def test_a_port_that_is_open_and_deaf_is_opened_anew(
     opener: UnitOpener, driver: Driver, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("backend.device.driver.GREETINGS_BEFORE_REOPEN", 1)
+    monkeypatch.setattr("backend.device.driver.HANDSHAKES_BEFORE_REOPEN", 1)
     opener.unit.silent = True  # type: ignore[attr-defined]
     driver.start()
     driver.settled.wait(10.0)
@@ -226,7 +228,7 @@ def test_a_unit_on_a_pseudo_terminal_vanishes_with_it_and_is_ready_again_on_the_
     unit = FakeUnit()
     served = PtyUnit(unit)
     os.symlink(served.path, port)  # noqa: PTH211
-    driver = Driver(Opener(port), heard, StreamPlan(batch=5))
+    driver = ebl_driver(Opener(port), heard, StreamPlan(batch=5))
     driver.start()
     heard.wait_for(StreamBlock, count=3)
 
@@ -248,7 +250,7 @@ def test_a_unit_whose_adapter_came_back_under_another_name_is_taken_up_again(
     before, after = PtyUnit(FakeUnit()), PtyUnit(FakeUnit())
     plugged = [SimpleNamespace(device=before.path, serial_number="ours")]
     monkeypatch.setattr(pyserial_ports, "comports", lambda: list(plugged))
-    driver = Driver(Opener(before.path), heard, StreamPlan(batch=5))
+    driver = ebl_driver(Opener(before.path), heard, StreamPlan(batch=5))
     driver.start()
     heard.wait_for(StreamBlock, count=3)
 

@@ -5,9 +5,10 @@ The operation is driven by hand; the unit's answers are written as its firmware 
 
 from __future__ import annotations
 
-from backend.device.ebl.operations.fault_frames import FaultFrame, fault_frames
-from backend.device.ebl.operations.faults import KNOWN, fault_names
+from backend.device.ebl.faults import KNOWN, fault_names
+from backend.device.ebl.operations.fault_frames import fault_frames
 from backend.device.ebl.session.operation import Question
+from backend.device.faults import UnitFault
 from firmware_protocol._generated import (
     EvtFaultFreezeRequest,
     EvtFaultListRequest,
@@ -28,7 +29,7 @@ def answer(asked: Question, active: int) -> Response:
     return Response(1, asked.message.MESSAGE_ID, Status.NOT_FOUND)
 
 
-def listed(active: int) -> list[FaultFrame]:
+def listed(active: int) -> list[UnitFault]:
     operation = fault_frames()
     try:
         questions = next(operation)

@@ -9,16 +9,13 @@ from collections.abc import Callable
 
 import pytest
 
-from backend.device.ebl.operations.config_transaction import (
-    CommitUnanswered,
-    ConfigImage,
-    read_config,
-)
+from backend.device.configuration import ConfigImage
+from backend.device.ebl.operations.config_transaction import CommitUnanswered, read_config
 from backend.device.ebl.operations.config_transaction import write_config as write
 from backend.device.ebl.session.operation import ask
 from backend.device.ebl.session.session import Session
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.states import LinkState
-from backend.device.stream import StreamPlan
 from backend.errors import DeviceRefused
 from firmware_protocol._generated import (
     CfgBeginRequest,

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import random
 
-from backend.device.ebl.operations.log_download import LogReceiver
+from backend.device.ebl.session.log_receiver import LogReceiver
 from firmware_protocol.codec import Bulk
 
 CHUNK = 512

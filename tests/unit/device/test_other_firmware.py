@@ -16,8 +16,8 @@ from typing import Any
 import pytest
 
 from backend.device.ebl.operations.config_transaction import read_config, write_config
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.states import LinkState
-from backend.device.stream import StreamPlan
 from backend.store.schemas import SCHEMAS_MAX, SchemaFiles
 from firmware_protocol._generated import MessageId
 from firmware_protocol.framing import FrameDecoder, encode_frame

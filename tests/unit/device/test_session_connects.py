@@ -17,8 +17,8 @@ from pathlib import Path
 import pytest
 
 from backend.device.ebl.session.operation import ask
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.states import LinkState
-from backend.device.stream import StreamPlan
 from backend.errors import LinkError, NoAnswer
 from firmware_protocol._generated import CHANNELS, CfgInfoRequest, CfgInfoResponse, MessageId
 from firmware_protocol.framing import encode_frame
@@ -87,7 +87,7 @@ def test_a_port_where_nobody_answers_stays_connecting_and_says_what_to_check() -
 
     assert bench.session.state is LinkState.CONNECTING
     assert "No drive unit answers on the bench. Is it switched on" in bench.session.reason
-    assert bench.session.failed_greetings >= 2
+    assert bench.session.failed_handshakes >= 2
 
 
 def test_a_unit_switched_on_later_is_found() -> None:

@@ -10,8 +10,8 @@ from __future__ import annotations
 import pytest
 
 from backend.device.ebl.session.operation import ask
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.states import LinkState
-from backend.device.stream import StreamPlan
 from firmware_protocol._generated import (
     AliveRequest,
     AliveResponse,

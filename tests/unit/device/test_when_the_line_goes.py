@@ -17,13 +17,15 @@ from pathlib import Path
 
 import pytest
 
-from backend.device.driver import REOPEN_S_MAX, Driver
+from backend.device.driver import REOPEN_S_MAX
 from backend.device.ebl.session.session import Session
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.states import LinkState, StateChanged
-from backend.device.stream import StreamBlock, StreamPlan
+from backend.device.stream import StreamBlock
 from backend.errors import LinkError
 from backend.link.opening import Opener
 from tests.fakes.bench import Bench
+from tests.fakes.ebl_driver import ebl_driver
 from tests.fakes.unit import FakeUnit
 from tests.fakes.unit_link import Heard
 
@@ -159,7 +161,7 @@ def far_unit() -> Iterator[TcpUnit]:
 
 def test_a_half_open_connection_is_noticed_and_made_anew(far_unit: TcpUnit) -> None:
     heard = Heard()
-    driver = Driver(Opener(f"socket://127.0.0.1:{far_unit.port}"), heard, StreamPlan(batch=5))
+    driver = ebl_driver(Opener(f"socket://127.0.0.1:{far_unit.port}"), heard, StreamPlan(batch=5))
     driver.start()
     heard.wait_for(StreamBlock, count=3)
 

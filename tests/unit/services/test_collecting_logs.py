@@ -21,6 +21,7 @@ from backend.ingest.blocks import BLOCKS_SUFFIX
 from backend.ingest.formats import read_file
 from backend.services.collect import Collect, Download
 from backend.services.connect import Devices
+from backend.services.inspection import Inspection
 from backend.services.upload import Uploads
 from backend.store import Store, open_store
 from sim_device.lockstep import LockstepUnit
@@ -101,7 +102,7 @@ def shop(tmp_path: Path) -> Iterator[Shop]:
     flash, log = memory_of_a_ride()
     cable = Cable(LockstepUnit(seed=5, flash=flash, log=log, boot_id=2))
     cable.opener = UnitOpener(cable, URL)
-    devices = Devices(plan=None, opener=lambda url: cable.opener)
+    devices = Devices(streaming=False, opener=lambda url: cable.opener)
     with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as store:
         folder = tmp_path / "collecting"
         collect = Collect(devices, Uploads(store, reader=read_here), folder)
@@ -257,7 +258,7 @@ def test_what_is_not_there_or_not_finished_is_refused(shop: Shop) -> None:
         shop.collect.get(shop.device, 1)
     with pytest.raises(NotFound):
         shop.collect.logs("nobody")
-    shop.devices.simulation_set(
+    Inspection(shop.devices).simulate(
         shop.device, {"brake": False, "rider": {"kind": "legs", "torque_nm": 30.0}}
     )
     eventually(lambda: len(shop.collect.logs(shop.device).items) == 2)

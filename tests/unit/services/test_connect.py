@@ -16,6 +16,7 @@ from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock
 from backend.errors import Conflict, InvalidRequest, NoAnswer, NotFound
 from backend.services.connect import Devices
+from backend.services.inspection import Inspection
 from firmware_protocol._generated import FaultSetEvent, MessageId, Status
 from tests.fakes.unit import FakeUnit
 from tests.fakes.unit_link import Heard, UnitOpener
@@ -184,20 +185,20 @@ def test_a_snapshot_is_the_newest_row_with_nothing_missing_made_up(
     heard = Heard()
     devices.subscribe(device.id, heard)
     heard.wait_for(StreamBlock)
-    assert devices.snapshot(device.id).channels["speed_kmh"] == 12.5
+    assert Inspection(devices).snapshot(device.id).channels["speed_kmh"] == 12.5
 
     workshop.units[LEFT].level = -32768
     heard.wait_for(StreamBlock, count=len(heard.events) + 3)
 
-    assert set(devices.snapshot(device.id).channels.values()) == {None}
+    assert set(Inspection(devices).snapshot(device.id).channels.values()) == {None}
 
 
 def test_a_snapshot_of_a_unit_that_does_not_stream_is_asked_for(workshop: Workshop) -> None:
     workshop.units[LEFT].level = 500
-    devices = Devices(plan=None, opener=workshop.opener)
+    devices = Devices(streaming=False, opener=workshop.opener)
     device = devices.add(LEFT)
 
-    values = devices.snapshot(device.id)
+    values = Inspection(devices).snapshot(device.id)
 
     assert values.channels["rider_torque_nm"] == 5.0
     assert values.t_us > 5_000_000
@@ -208,7 +209,7 @@ def test_a_snapshot_of_an_absent_unit_is_no_answer_with_the_reason(devices: Devi
     device = devices.add("socket://later:1")
 
     with pytest.raises(NoAnswer, match="no such port"):
-        devices.snapshot(device.id)
+        Inspection(devices).snapshot(device.id)
 
 
 def test_faults_come_with_words(devices: Devices, workshop: Workshop) -> None:
@@ -220,7 +221,7 @@ def test_faults_come_with_words(devices: Devices, workshop: Workshop) -> None:
     workshop.units[LEFT].tell(FaultSetEvent(1))
     heard.wait_for(StreamBlock, count=10)
 
-    (fault,) = devices.faults(device.id)
+    (fault,) = Inspection(devices).faults(device.id)
     assert fault.name == "TORQUE_SENSOR"
     assert "see your dealer" in fault.description
     assert "the bridge for an open or shorted arm" in fault.mechanic_text
@@ -231,10 +232,10 @@ def test_the_simulation_is_read_and_set(devices: Devices, workshop: Workshop) ->
     workshop.units[LEFT].device_class = 129
     device = devices.add(LEFT)
 
-    assert devices.simulation_set(device.id, {"road": {"grade_deg": 3.0}}) == {
+    assert Inspection(devices).simulate(device.id, {"road": {"grade_deg": 3.0}}) == {
         "road": {"grade_deg": 3.0}
     }
-    assert json.loads(workshop.units[LEFT].simulation) == devices.simulation_get(device.id)
+    assert json.loads(workshop.units[LEFT].simulation) == Inspection(devices).simulation(device.id)
 
 
 def test_a_real_unit_has_no_simulation(devices: Devices, workshop: Workshop) -> None:
@@ -242,7 +243,7 @@ def test_a_real_unit_has_no_simulation(devices: Devices, workshop: Workshop) -> 
     device = devices.add(LEFT)
 
     with pytest.raises(Conflict, match="real unit"):
-        devices.simulation_get(device.id)
+        Inspection(devices).simulation(device.id)
 
 
 def test_the_ports_are_listed_with_the_simulated_unit(devices: Devices) -> None:
@@ -271,7 +272,7 @@ def test_a_unit_that_was_let_go_answers_at_once_that_it_is_gone(
     devices: Devices, workshop: Workshop
 ) -> None:
     devices.add(LEFT)
-    driver = devices._find(b"LEFT-UNIT-01".hex()).driver
+    driver = devices._find(b"LEFT-UNIT-01".hex()).unit.driver
     devices.remove(b"LEFT-UNIT-01".hex())
 
     with pytest.raises(NoAnswer) as caught:

@@ -15,7 +15,8 @@ import pytest
 from backend.device.states import UnitEvent
 from backend.services.connect import Devices
 from backend.services.remember import UnitMemory
-from backend.services.tune import GIVEN_UP_REASON, Tuning
+from backend.services.revision_book import GIVEN_UP_REASON
+from backend.services.tune import Tuning
 from backend.store import RevisionLog
 from tests.fakes.revisions import MemoryRevisions
 from tests.fakes.server import eventually

@@ -6,11 +6,11 @@ Method: devices by script, whose link looks whole while it dies.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, cast
+from typing import cast
 
 import pytest
 
-from backend.device.ebl.session.operation import Operation
+from backend.device.unit import Unit
 from backend.errors import LinkError, NoAnswer, NotFound, SpindleError
 from backend.services import settle
 from backend.services.connect import Devices
@@ -21,9 +21,7 @@ FOUND = "found"
 
 
 class ScriptedDevices:
-    """Every run takes the next of the script: an error or a result."""
-
-    mtu = 512
+    """Every look takes the next of the script: an error or a result."""
 
     def __init__(self, *script: SpindleError | str) -> None:
         self._script: Iterator[SpindleError | str] = iter(script)
@@ -34,7 +32,7 @@ class ScriptedDevices:
     def writable(self, device_id: str) -> ScriptedDevices:
         return self
 
-    def run(self, device_id: str, operation: Operation[str]) -> str:
+    def look(self, unit: Unit) -> str:
         step = next(self._script)
         if isinstance(step, SpindleError):
             raise step
@@ -49,8 +47,7 @@ class RemovedDevices(ScriptedDevices):
 
 
 def ask(devices: ScriptedDevices) -> str:
-    never: Any = lambda mtu: None  # noqa: E731
-    return settled(cast(Devices, devices), "bike", never, NoAnswer("lost"))
+    return settled(cast(Devices, devices), "bike", devices.look, NoAnswer("lost"))
 
 
 @pytest.fixture(autouse=True)

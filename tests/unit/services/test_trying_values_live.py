@@ -14,6 +14,7 @@ import pytest
 
 from backend.errors import AccessDenied, Conflict, InvalidRequest, LimitViolation
 from backend.services.connect import Devices
+from backend.services.inspection import Inspection
 from backend.services.try_live import LiveTuning, LiveView
 from backend.services.tune import Tuning
 from firmware_protocol.parameters import default_config
@@ -113,7 +114,7 @@ def test_a_unit_of_another_firmware_is_not_tried_on() -> None:
     devices = Devices(opener=lambda url: UnitOpener(unit, url))
     device = devices.add("socket://bench:2")
 
-    for ask in (LiveTuning(devices).read, devices.upkeep):
+    for ask in (LiveTuning(devices).read, Inspection(devices).upkeep):
         with pytest.raises(Conflict) as caught:
             ask(device.id)
         assert caught.value.code == "read_only"
@@ -122,9 +123,9 @@ def test_a_unit_of_another_firmware_is_not_tried_on() -> None:
 
 
 def test_a_unit_tells_its_wear(bench: Bench) -> None:
-    new = bench.devices.upkeep(bench.id)
+    new = Inspection(bench.devices).upkeep(bench.id)
     bench.tuning.write_config(bench.id, {"torque_filter_s": 0.9})
-    written = bench.devices.upkeep(bench.id)
+    written = Inspection(bench.devices).upkeep(bench.id)
 
     assert new.distance_m == 0
     assert written.operating_s >= new.operating_s

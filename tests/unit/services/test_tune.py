@@ -26,7 +26,8 @@ from backend.errors import (
 )
 from backend.services.config_view import etag
 from backend.services.connect import Devices
-from backend.services.tune import GIVEN_UP_REASON, Tuning
+from backend.services.revision_book import GIVEN_UP_REASON
+from backend.services.tune import Tuning
 from firmware_protocol._generated import PARAMETER_BY_NAME, MessageId
 from firmware_protocol.parameters import default_config, pack_image, unpack_image
 from tests.fakes.revisions import MemoryRevisions
@@ -342,38 +343,38 @@ def test_parameters_come_with_bounds_meaning_and_value(bench: Bench) -> None:
 
 
 def test_the_fuzzy_table_is_read_edited_and_written_as_one(bench: Bench) -> None:
-    table = bench.tuning.fuzzy_table(bench.id).value
+    table = bench.tuning.read_part(bench.id, "fuzzy_table").value
     assert table["name"] == "thesis 4-2"
     assert table["inference"] == "mamdani_centroid"
     table["rules"][0][0] = "PB"
 
-    change = bench.tuning.put_fuzzy_table(bench.id, table, "more at the start", None)
+    change = bench.tuning.write_part(bench.id, "fuzzy_table", table, "more at the start")
 
     assert [one.name for one in change.changed] == ["fuzzy_rules"]
-    assert bench.tuning.fuzzy_table(bench.id).value == table
+    assert bench.tuning.read_part(bench.id, "fuzzy_table").value == table
 
 
 def test_the_second_table_is_written_beside_the_first(bench: Bench) -> None:
-    first = bench.tuning.fuzzy_table(bench.id).value
-    table = bench.tuning.fuzzy_table(bench.id, "second").value
+    first = bench.tuning.read_part(bench.id, "fuzzy_table").value
+    table = bench.tuning.read_part(bench.id, "second_fuzzy_table").value
     assert table["name"] == "thesis 4-2, smooth"
     table["rules"][0][0] = "PB"
     table["gain_points"][0] = 0.05
 
-    change = bench.tuning.put_fuzzy_table(bench.id, table, "", None, which="second")
+    change = bench.tuning.write_part(bench.id, "second_fuzzy_table", table, "")
 
     assert [one.name for one in change.changed] == ["second_gain_points", "second_rules"]
-    assert bench.tuning.fuzzy_table(bench.id, "second").value == table
-    assert bench.tuning.fuzzy_table(bench.id).value == first
+    assert bench.tuning.read_part(bench.id, "second_fuzzy_table").value == table
+    assert bench.tuning.read_part(bench.id, "fuzzy_table").value == first
 
 
 def test_points_both_tables_share_are_not_changed_by_way_of_the_second(bench: Bench) -> None:
-    table = bench.tuning.fuzzy_table(bench.id, "second").value
+    table = bench.tuning.read_part(bench.id, "second_fuzzy_table").value
     table["speed_points_kmh"][4] = 24.0
     table["rules"][0][0] = "PB"
 
     with pytest.raises(LimitViolation) as caught:
-        bench.tuning.put_fuzzy_table(bench.id, table, "", None, which="second")
+        bench.tuning.write_part(bench.id, "second_fuzzy_table", table, "")
 
     assert [(fault.field, fault.code) for fault in caught.value.fields] == [
         ("speed_points_kmh", "shared")
@@ -382,10 +383,10 @@ def test_points_both_tables_share_are_not_changed_by_way_of_the_second(bench: Be
 
 
 def test_a_fault_in_the_second_table_names_the_field_of_the_view(bench: Bench) -> None:
-    table = bench.tuning.fuzzy_table(bench.id, "second").value | {"name": "冬" * 9}
+    table = bench.tuning.read_part(bench.id, "second_fuzzy_table").value | {"name": "冬" * 9}
 
     with pytest.raises(InvalidRequest) as caught:
-        bench.tuning.put_fuzzy_table(bench.id, table, "", None, which="second")
+        bench.tuning.write_part(bench.id, "second_fuzzy_table", table, "")
 
     assert [fault.field for fault in caught.value.fields] == ["name"]
 
@@ -396,7 +397,7 @@ def test_the_limits_say_where_the_market_lets_assist_end(
 ) -> None:
     bench.unit.image = pack_image(default_config() | {"market": market})
 
-    limits = bench.tuning.limits(bench.id).value
+    limits = bench.tuning.read_part(bench.id, "limits").value
 
     assert (limits["assist_cutoff_kmh"], limits["market"]) == (25.0, market)
     assert limits["effective_assist_cutoff_kmh"] == ends_kmh
@@ -404,19 +405,19 @@ def test_the_limits_say_where_the_market_lets_assist_end(
 
 def test_what_was_read_as_limits_can_be_written_back_as_it_is(bench: Bench) -> None:
     bench.unit.image = pack_image(default_config() | {"market": "JAPAN"})
-    limits = bench.tuning.limits(bench.id).value
+    limits = bench.tuning.read_part(bench.id, "limits").value
 
-    change = bench.tuning.put_limits(bench.id, limits | {"pedal_stop_ms": 200}, "", None)
+    change = bench.tuning.write_part(bench.id, "limits", limits | {"pedal_stop_ms": 200}, "")
 
     assert [one.name for one in change.changed] == ["pedal_stop_ms"]
     assert bench.held == default_config() | {"market": "JAPAN", "pedal_stop_ms": 200}
 
 
 def test_the_assist_modes_are_five_slots(bench: Bench) -> None:
-    modes = bench.tuning.assist_modes(bench.id).value
+    modes = bench.tuning.read_part(bench.id, "assist_modes").value
     modes["modes"][1] = {"name": "rain", "law": "fuzzy", "ratio": 0.75}
 
-    bench.tuning.put_assist_modes(bench.id, modes, "", None)
+    bench.tuning.write_part(bench.id, "assist_modes", modes, "")
 
     assert bench.held["mode_names"] == ["off", "rain", "tour", "sport", "boost"]
     assert bench.held["mode_laws"] == ["OFF", "FUZZY", "FIXED", "FUZZY", "FUZZY"]
@@ -424,21 +425,23 @@ def test_the_assist_modes_are_five_slots(bench: Bench) -> None:
 
 
 def test_a_fault_in_a_typed_view_names_the_field_of_the_view(bench: Bench) -> None:
-    modes = bench.tuning.assist_modes(bench.id).value
+    modes = bench.tuning.read_part(bench.id, "assist_modes").value
     modes["modes"][4]["ratio"] = 7.5
 
     with pytest.raises(LimitViolation) as caught:
-        bench.tuning.put_assist_modes(bench.id, modes, "", None)
+        bench.tuning.write_part(bench.id, "assist_modes", modes, "")
 
     assert [fault.field for fault in caught.value.fields] == ["modes[4].ratio"]
 
 
 def test_calibration_and_limits_are_views_of_the_same_configuration(bench: Bench) -> None:
-    calibration = bench.tuning.calibration(bench.id).value | {"sensor_offset_counts": 812.0}
-    limits = bench.tuning.limits(bench.id).value | {"assist_cutoff_kmh": 20.0}
+    calibration = bench.tuning.read_part(bench.id, "calibration").value | {
+        "sensor_offset_counts": 812.0
+    }
+    limits = bench.tuning.read_part(bench.id, "limits").value | {"assist_cutoff_kmh": 20.0}
 
-    bench.tuning.put_calibration(bench.id, calibration, "new zero", None)
-    change = bench.tuning.put_limits(bench.id, limits, "", None)
+    bench.tuning.write_part(bench.id, "calibration", calibration, "new zero")
+    change = bench.tuning.write_part(bench.id, "limits", limits, "")
 
     assert bench.held["sensor_offset_counts"] == 812.0
     assert bench.held["assist_cutoff_kmh"] == 20.0
@@ -447,10 +450,10 @@ def test_calibration_and_limits_are_views_of_the_same_configuration(bench: Bench
 
 @pytest.mark.parametrize("view", ["fuzzy_table", "assist_modes", "calibration", "limits"])
 def test_a_typed_view_can_be_tried_like_any_other_change(bench: Bench, view: str) -> None:
-    value = getattr(bench.tuning, view)(bench.id).value
+    value = bench.tuning.read_part(bench.id, view).value
     bench.unit.image = pack_image(default_config() | OTHER)
 
-    change = getattr(bench.tuning, f"put_{view}")(bench.id, value, "try", None, 30)
+    change = bench.tuning.write_part(bench.id, view, value, "try", None, 30)
 
     assert change.changed
     assert change.state == "provisional"

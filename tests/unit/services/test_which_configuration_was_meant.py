@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from backend.device.ebl.operations.config_transaction import ConfigImage
+from backend.device.configuration import ConfigImage
 from backend.errors import ConfigConflict
 from backend.services.config_view import check_base, etag
 

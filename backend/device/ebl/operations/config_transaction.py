@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import math
 import zlib
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 
+from backend.device.configuration import ConfigImage, Value
 from backend.device.ebl.operations.unlock import access_refused, show_token
 from backend.device.ebl.operations.violations import unit_violations
 from backend.device.ebl.session.operation import (
     Operation,
+    OrphanLeft,
     ask,
     ask_all,
     attempt,
@@ -59,7 +60,6 @@ from firmware_protocol._generated import (
     Status,
 )
 from firmware_protocol.codec import Response
-from firmware_protocol.layout import Value
 from firmware_protocol.parameters import pack_image, set_items, unpack_image
 from firmware_protocol.unlock_token import Token
 
@@ -80,26 +80,6 @@ class CommitUnanswered(NoAnswer):
 
     def __init__(self, message: str) -> None:
         super().__init__(message, outcome="unknown")
-
-
-class OrphanLeft(NoAnswer):
-    """The unit may hold a transaction of ours that we cannot name or did not get it to drop.
-
-    It was not committed. Only a new session ends it before its lease does: the session that sees
-    this says HELLO again.
-    """
-
-    def __init__(self, message: str, fields: Iterable[FieldError] = ()) -> None:
-        super().__init__(message, fields=fields, outcome="unchanged")
-
-
-@dataclass(frozen=True)
-class ConfigImage:
-    """A unit's whole configuration as it was at one generation; parameters by registry name."""
-
-    generation: int
-    crc32: int
-    parameters: dict[str, Value]
 
 
 def read_config(mtu: int = MTU) -> Operation[ConfigImage]:

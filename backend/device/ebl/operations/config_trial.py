@@ -6,15 +6,15 @@ It is kept only after it was read back whole and every field compared with what 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
+from backend.device.configuration import ConfigImage, Value
 from backend.device.ebl.operations.config_transaction import (
     CommitUnanswered,
-    ConfigImage,
     compare,
     read_config,
 )
-from backend.device.ebl.session.operation import Operation, ask, attempt, expect
+from backend.device.ebl.session.operation import Operation, attempt, expect
+from backend.device.ebl.session.trial_status import trial_status
 from backend.errors import Conflict, LinkError, NoAnswer
 from firmware_protocol._generated import (
     MTU,
@@ -22,54 +22,14 @@ from firmware_protocol._generated import (
     CfgConfirmResponse,
     CfgRollbackRequest,
     CfgRollbackResponse,
-    CfgStatusRequest,
-    CfgStatusResponse,
-    ConfigState,
-    RollbackCause,
     Status,
 )
 from firmware_protocol.codec import Response
-from firmware_protocol.layout import Value
 
 NO_TRIAL = (
     "No change is on trial in this unit: it was kept, given up or its time ran out. Read the "
     "configuration again to see what is active."
 )
-
-
-@dataclass(frozen=True)
-class TrialStatus:
-    """Where the active configuration stands.
-
-    left_s: until it is given up, 0 when it is not on trial. rollback_cause: why the latest trial
-    since the unit was switched on was given up: none, asked, time_out or restart.
-    """
-
-    on_trial: bool
-    generation: int
-    crc32: int
-    left_s: float
-    rollback_cause: str
-    rolled_back_generation: int
-
-
-def trial_status() -> Operation[TrialStatus]:
-    """Ask the unit. Raises NoAnswer, DeviceRefused."""
-    status = yield from ask(CfgStatusRequest(), CfgStatusResponse)
-    return trial_status_of(status)
-
-
-def trial_status_of(status: CfgStatusResponse) -> TrialStatus:
-    """The unit's answer in our words."""
-    known = status.rollback_cause in set(RollbackCause)
-    return TrialStatus(
-        on_trial=status.state == ConfigState.PROVISIONAL,
-        generation=status.generation,
-        crc32=status.crc32,
-        left_s=status.confirm_left_ms / 1000.0,
-        rollback_cause=RollbackCause(status.rollback_cause).name.lower() if known else "unknown",
-        rolled_back_generation=status.rolled_back_generation,
-    )
 
 
 def confirm_config(intended: Mapping[str, Value], mtu: int = MTU) -> Operation[ConfigImage]:

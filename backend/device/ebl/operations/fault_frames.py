@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from backend.device.ebl.operations.faults import FAULT_BITS, KNOWN, fault_name
-from backend.device.ebl.operations.live_values import LiveValues, values_of
+from backend.device.ebl.faults import FAULT_BITS, KNOWN, described, fault_name
+from backend.device.ebl.operations.live_values import values_of
 from backend.device.ebl.session.operation import Operation, ask, attempt, expect
+from backend.device.faults import UnitFault
 from firmware_protocol._generated import (
     EvtFaultClearRequest,
     EvtFaultClearResponse,
@@ -22,21 +21,7 @@ ALL_FAULTS = 0xFFFFFFFF
 SETTINGS_LOST = FaultFlags.CONFIG_DEFAULTED | FaultFlags.NOT_PROVISIONED
 
 
-@dataclass(frozen=True)
-class FaultFrame:
-    """One fault. active: now. count: how often it was set since the unit's start, or was cleared;
-    None where the unit is not there to be asked.
-
-    frozen: every channel in the control step that set it last; None when nothing was kept.
-    """
-
-    name: str
-    active: bool
-    count: int | None
-    frozen: LiveValues | None
-
-
-def fault_frames() -> Operation[list[FaultFrame]]:
+def fault_frames() -> Operation[list[UnitFault]]:
     """The faults that are active or were, by their bit. Raises NoAnswer, DeviceRefused."""
     listed = yield from ask(EvtFaultListRequest(), EvtFaultListResponse)
     found = []
@@ -49,10 +34,10 @@ def fault_frames() -> Operation[list[FaultFrame]]:
         name = fault_name(bit)
         if response.status in (Status.NOT_FOUND, Status.UNKNOWN_MSG):
             if active:
-                found.append(FaultFrame(name, True, 1, None))
+                found.append(described(name, count=1))
             continue
         frame = expect(request, response, EvtFaultFreezeResponse)
-        found.append(FaultFrame(name, active, frame.count, values_of(frame.t_us, frame.values)))
+        found.append(described(name, active, frame.count, values_of(frame.t_us, frame.values)))
     return found
 
 
@@ -63,7 +48,7 @@ def settings_are_lost() -> Operation[bool]:
     return bool(listed.fault_flags & SETTINGS_LOST)
 
 
-def clear_faults() -> Operation[list[FaultFrame]]:
+def clear_faults() -> Operation[list[UnitFault]]:
     """Forget the faults that are over; those that are left."""
     yield from ask(EvtFaultClearRequest(ALL_FAULTS), EvtFaultClearResponse)
     return (yield from fault_frames())

@@ -7,8 +7,8 @@ the unit ends them by itself, and with every change of its configuration.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
+from backend.device.configuration import LiveState, Value
 from backend.device.ebl.operations.config_transaction import MESSAGE_OVERHEAD_BYTES, read_config
 from backend.device.ebl.operations.violations import unit_violations
 from backend.device.ebl.session.operation import Operation, ask, ask_all, attempt
@@ -32,19 +32,8 @@ from firmware_protocol._generated import (
     ParamGetResponse,
     Status,
 )
-from firmware_protocol.layout import Parameter, Value
+from firmware_protocol.layout import Parameter
 from firmware_protocol.parameters import ITEM_HEAD, set_items, unpack_image
-
-TTL_S_MAX = 255
-
-
-@dataclass(frozen=True)
-class LiveState:
-    """What is tried now. parameters: those that differ from the configuration, by name, with the
-    value in force. left_s: until the unit ends it, 0 when nothing is tried."""
-
-    parameters: dict[str, Value]
-    left_s: float
 
 
 def read_live(mtu: int = MTU) -> Operation[LiveState]:

@@ -4,49 +4,14 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Mapping
-from dataclasses import dataclass
 
+from backend.device.configuration import Free, ParameterRow, ParameterTable, Value
 from backend.device.ebl.operations.violations import host_violations
 from backend.errors import FieldError
 from firmware_protocol._generated import BAND_BY_NAME, ENUM_BY_NAME, PARAMETERS, RETIRED, Access
 from firmware_protocol.bands import band_limits
-from firmware_protocol.layout import Parameter, Value
+from firmware_protocol.layout import Parameter
 from firmware_protocol.parameters import default_config, pack_image, unpack_image
-
-__all__ = [
-    "PARAMETER_ROWS",
-    "Free",
-    "ParameterRow",
-    "Value",
-    "faults_of",
-    "free_of",
-    "group",
-    "is_factory",
-    "rounded",
-    "unknown_names",
-]
-
-
-@dataclass(frozen=True)
-class ParameterRow:
-    """What a parameter is. choices: names of an enumeration, None for numbers and texts.
-
-    length: bytes a text may have, None for numbers.
-    """
-
-    id: int
-    name: str
-    group: str
-    type: str
-    shape: tuple[int, ...]
-    unit: str
-    min: float | None
-    max: float | None
-    default: Value
-    access: str
-    choices: tuple[str, ...] | None
-    length: int | None
-    description: str
 
 
 def _row(row: Parameter, default: Value) -> ParameterRow:
@@ -67,15 +32,6 @@ def _row(row: Parameter, default: Value) -> ParameterRow:
     )
 
 
-@dataclass(frozen=True)
-class Free:
-    """From where to where a value may be set without the maker's token, around the factory's."""
-
-    min: float
-    max: float
-    around: str
-
-
 def free_of(name: str, config: Mapping[str, Value]) -> Free | None:
     """The band of a parameter in this configuration; None for one without."""
     band = BAND_BY_NAME.get(name)
@@ -83,26 +39,6 @@ def free_of(name: str, config: Mapping[str, Value]) -> Free | None:
 
 
 PARAMETER_ROWS = tuple(_row(row, default_config()[row.name]) for row in PARAMETERS)
-_BY_NAME = {row.name: row for row in PARAMETER_ROWS}
-
-
-def group(name: str) -> tuple[str, ...]:
-    """Names of the parameters of one group, in the order of their ids."""
-    return tuple(row.name for row in PARAMETER_ROWS if row.group == name)
-
-
-def is_factory(name: str) -> bool:
-    """Whether only the maker may change it."""
-    return _BY_NAME[name].access == Access.FACTORY.name
-
-
-def unknown_names(changes: Mapping[str, Value]) -> list[FieldError]:
-    """Names that are no parameter."""
-    return [
-        FieldError(name, "unknown_parameter", not_a_parameter(name))
-        for name in changes
-        if name not in _BY_NAME
-    ]
 
 
 def not_a_parameter(name: str) -> str:
@@ -125,3 +61,14 @@ def rounded(config: Mapping[str, Value]) -> dict[str, Value]:
 def image_crc32(config: Mapping[str, Value]) -> int:
     """The checksum a unit gives for this whole configuration."""
     return zlib.crc32(pack_image(config))
+
+
+TABLE = ParameterTable(
+    rows=PARAMETER_ROWS,
+    free_of=free_of,
+    not_a_parameter=not_a_parameter,
+    faults_of=faults_of,
+    rounded=rounded,
+    crc32_of=image_crc32,
+    factory=frozenset(row.name for row in PARAMETER_ROWS if row.access == Access.FACTORY.name),
+)

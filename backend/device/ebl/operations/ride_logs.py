@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass
 
-from backend.device.ebl.operations.log_download import LogReceiver
+from backend.device.ebl.session.log_receiver import LogReceiver
 from backend.device.ebl.session.operation import Operation, ask, attempt, expect
+from backend.device.ride_logs import RideLog, RideLogs
 from backend.errors import DeviceRefused, NoAnswer, PeerProtocolError, SpindleError
 from firmware_protocol._generated import (
     LogCloseRequest,
@@ -29,38 +29,6 @@ ENTRY = struct.Struct("<IIIQQIB7x")
 LOGS_MAX = 256
 LOG_BYTES_MAX = 256 * 1024 * 1024
 WINDOW = 32
-
-
-@dataclass(frozen=True)
-class RideLog:
-    """One log in a unit's flash.
-
-    generation: tells it from another log of the same id. t0_us, t1_us: unit time of its first and
-    behind its last row, in the boot `boot_id`. ended: closed by the unit and not by a power loss.
-    """
-
-    log_id: int
-    generation: int
-    boot_id: int
-    t0_us: int
-    t1_us: int
-    length: int
-    recording: bool
-    confirmed: bool
-    ended: bool
-
-
-@dataclass(frozen=True)
-class RideLogs:
-    """Every log of a unit, the oldest first.
-
-    overwritten: logs given up unconfirmed since the unit started. boot_id, now_us: of the unit.
-    """
-
-    logs: tuple[RideLog, ...]
-    overwritten: int
-    boot_id: int
-    now_us: int
 
 
 def list_logs() -> Operation[RideLogs]:

@@ -10,10 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from backend.device.ebl.operations.config_trial import TrialStatus, trial_status
+from backend.device.configuration import TrialStatus
+from backend.device.ebl.session.hello_identity import identity_of
 from backend.device.ebl.session.operation import Operation, ask, attempt, expect
 from backend.device.ebl.session.refusals import refused
 from backend.device.ebl.session.schema import Schemas, differences, known_schema, shared_channels
+from backend.device.ebl.session.trial_status import trial_status
 from backend.device.identity import Identity
 from backend.errors import DeviceRefused, NoAnswer, PeerProtocolError
 from firmware_protocol._generated import (
@@ -82,7 +84,7 @@ def become_acquainted(
     if reason is None:
         faults, trial = yield from unit_state()
         cause = yield from _reset_cause()
-    identity = Identity.from_hello(hello, cause)
+    identity = identity_of(hello, cause)
     return Acquaintance(hello, identity, reason, channels, faults, trial)
 
 

@@ -10,12 +10,12 @@ repeats. So a transaction of six round trips reads like six calls, without a thr
 
 from __future__ import annotations
 
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias, TypeVar
 
 from backend.device.ebl.session.refusals import refused
-from backend.errors import PeerProtocolError
+from backend.errors import FieldError, NoAnswer, PeerProtocolError
 from firmware_protocol._generated import Status
 from firmware_protocol.codec import Response
 from firmware_protocol.layout import Message
@@ -27,6 +27,17 @@ PATIENCE_MS = 5000
 
 Result = TypeVar("Result")
 Answer = TypeVar("Answer", bound=Message)
+
+
+class OrphanLeft(NoAnswer):
+    """The unit may hold a transaction of ours that we cannot name or did not get it to drop.
+
+    It was not committed. Only a new session ends it before its lease does: the session that sees
+    this says HELLO again.
+    """
+
+    def __init__(self, message: str, fields: Iterable[FieldError] = ()) -> None:
+        super().__init__(message, fields=fields, outcome="unchanged")
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,23 +4,8 @@ from __future__ import annotations
 
 from backend.device.ebl.session.handshake import VersionRefused, version_text
 from backend.device.identity import Identity
+from backend.device.states import CodedReason
 from backend.errors import LinkError, NoAnswer
-
-
-class CodedReason(str):
-    """A sentence with a code, for those who say it in another language."""
-
-    code: str
-
-    def __new__(cls, text: str, code: str = "") -> CodedReason:
-        made = super().__new__(cls, text)
-        made.code = code
-        return made
-
-
-def code_of(reason: str) -> str:
-    """The code of a sentence; "" for one that has none."""
-    return reason.code if isinstance(reason, CodedReason) else ""
 
 
 def opening_reason() -> CodedReason:

@@ -12,8 +12,8 @@ from backend.errors import LinkError, SpindleError
 from firmware_protocol.codec import Response
 
 Result = TypeVar("Result")
-OnResult = Callable[[Result], None]
-OnError = Callable[[BaseException], None]
+OnResult = Callable[[Result], object]
+OnError = Callable[[BaseException], object]
 
 # Operations at the same time; a person and a page's refreshes need three or four.
 RUNNING_MAX = 32

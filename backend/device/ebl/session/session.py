@@ -18,13 +18,12 @@ from dataclasses import replace
 from enum import Enum, auto
 from typing import TypeVar
 
-from backend.device.ebl.operations.config_transaction import OrphanLeft
-from backend.device.ebl.operations.log_download import LogReceiver
 from backend.device.ebl.session.clock_keeper import ClockKeeper
 from backend.device.ebl.session.event_book import NO_TID, Arrival, EventBook, acknowledgement
 from backend.device.ebl.session.handshake import Acquaintance, VersionRefused, become_acquainted
 from backend.device.ebl.session.line_rate import LineRate
-from backend.device.ebl.session.operation import Operation, attempt
+from backend.device.ebl.session.log_receiver import LogReceiver
+from backend.device.ebl.session.operation import Operation, OrphanLeft, attempt
 from backend.device.ebl.session.reasons import (
     deaf_reason,
     greeted_reason,
@@ -46,11 +45,13 @@ from backend.device.ebl.session.runner import OnError, OnResult, OperationRunner
 from backend.device.ebl.session.schema import Schemas
 from backend.device.ebl.session.state_keeper import StateKeeper
 from backend.device.ebl.session.stream_keeper import StreamKeeper
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.ebl.session.subscription import Subscription
 from backend.device.ebl.session.unit_notes import UnitNotes
+from backend.device.snapshot import DeviceStatus
 from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.statistics import LinkStatistics
-from backend.device.stream import StreamBlock, StreamPlan, StreamStarted
+from backend.device.stream import StreamBlock, StreamStarted
 from backend.errors import LinkError, NoAnswer, SpindleError
 from firmware_protocol._generated import (
     MTU,
@@ -115,7 +116,7 @@ class Session:
         self.notes = UnitNotes()
         self.last_block: StreamBlock | None = None
         # HELLOs in a row that led nowhere; the driver reopens a port that stays deaf.
-        self.failed_greetings = 0
+        self.failed_handshakes = 0
         # Unix time minus the caller's clock, so that blocks carry a wall time without a clock here.
         self.wall_offset_us = 0
         self._schemas: Schemas = {} if schemas is None else schemas
@@ -277,21 +278,27 @@ class Session:
         return min(MTU, hello.rx_mtu, hello.tx_mtu)
 
     @property
-    def trial_ends_unix_us(self) -> int | None:
-        """When the configuration on trial is given up, Unix time; None while none is on trial."""
-        ends_s = self.notes.trial_ends_s
-        return None if ends_s is None else round(ends_s * 1e6) + self.wall_offset_us
-
-    @property
-    def trial_left_s(self) -> float | None:
-        """Until the configuration on trial is given up; None while none is on trial."""
-        ends_s = self.notes.trial_ends_s
-        return None if ends_s is None else max(0.0, ends_s - self._now_s)
-
-    @property
     def streaming(self) -> StreamStarted | None:
         """What is being streamed, None when nothing is."""
         return self._subscription.started
+
+    def status(self) -> DeviceStatus:
+        """A copy of what other threads may want to know."""
+        ends_s = self.notes.trial_ends_s
+        return DeviceStatus(
+            state=self.state,
+            reason=self.reason,
+            identity=self.acquaintance.identity if self.acquaintance else None,
+            config_generation=self.notes.config_generation,
+            config_crc32=self.notes.config_crc32,
+            trial_ends_unix_us=None if ends_s is None else self._unix_us(ends_s),
+            trial_left_s=None if ends_s is None else max(0.0, ends_s - self._now_s),
+            rollback_cause=self.notes.rollback_cause,
+            faults_active=self.notes.faults_active,
+            streaming=self.streaming,
+            last_block=self.last_block,
+            statistics=self.link_statistics(),
+        )
 
     def link_statistics(self) -> LinkStatistics:
         """A copy of the counters."""
@@ -365,7 +372,7 @@ class Session:
             self._greet()
             return
         self.line.proven(self._now_s)
-        self.failed_greetings = 0
+        self.failed_handshakes = 0
         self._event_book.greeted(acquaintance.identity.boot_id)
         self.notes.begin(acquaintance, self._now_s)
         if acquaintance.read_only_reason is None:
@@ -391,7 +398,7 @@ class Session:
         self._phase = _Phase.PAUSING
         refused = isinstance(error, VersionRefused)
         self._until_s = self._now_s + (REFUSED_PAUSE_S if refused else PAUSE_S)
-        self.failed_greetings += 0 if refused else 1
+        self.failed_handshakes += 0 if refused else 1
         if refused:
             self._stand(LinkState.CLOSED, version_reason(error))
         else:
@@ -487,4 +494,7 @@ class Session:
         self._events.append(event)
 
     def _wall_us(self) -> int:
-        return round(self._now_s * 1e6) + self.wall_offset_us
+        return self._unix_us(self._now_s)
+
+    def _unix_us(self, at_s: float) -> int:
+        return round(at_s * 1e6) + self.wall_offset_us

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from backend.device.ebl.operations.config_trial import TrialStatus
+from backend.device.configuration import TrialStatus
 from backend.device.ebl.session.handshake import unit_state
 from backend.device.ebl.session.runner import OperationRunner
 from backend.device.ebl.session.unit_notes import UnitNotes

@@ -8,8 +8,9 @@ from dataclasses import replace
 from backend.device.ebl.session.handshake import Acquaintance
 from backend.device.ebl.session.reasons import forgotten_reason, restarted_reason
 from backend.device.ebl.session.runner import OnError, OperationRunner
+from backend.device.ebl.session.stream_receiver import RENEW_S, StreamPlan
 from backend.device.ebl.session.subscription import Subscription, UnitRestarted
-from backend.device.stream import RENEW_S, StreamPlan, StreamStarted
+from backend.device.stream import StreamStarted
 from backend.errors import LinkError, NoAnswer
 
 # Rows that come prove only one direction: after two renewals without an answer (5 s) we are not

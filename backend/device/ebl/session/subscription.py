@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from backend.device.ebl.session.operation import Operation, ask, attempt, expect
 from backend.device.ebl.session.stream_account import Balance
-from backend.device.statistics import LinkStatistics
-from backend.device.stream import (
+from backend.device.ebl.session.stream_receiver import (
     LEASE_S,
     RENEW_S,
     STREAM_ID,
-    StreamBlock,
     StreamPlan,
     StreamReceiver,
-    StreamStarted,
 )
+from backend.device.statistics import LinkStatistics
+from backend.device.stream import StreamBlock, StreamStarted
 from backend.errors import NoAnswer
 from firmware_protocol._generated import (
     CONTROL_PERIOD_US,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from backend.device.ebl.operations.config_trial import TrialStatus
-from backend.device.ebl.operations.faults import fault_names
+from backend.device.configuration import TrialStatus
+from backend.device.ebl.faults import fault_names
 from backend.device.ebl.session.handshake import Acquaintance
 from backend.device.states import UnitEvent
 from backend.device.statistics import LinkStatistics

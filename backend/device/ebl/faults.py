@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from backend.device.faults import UnitFault
+from backend.device.live_values import LiveValues
 from firmware_protocol._generated import FAULT_BY_NAME, FaultFlags, Severity
 
 FAULT_BITS = 32
@@ -20,19 +22,18 @@ def fault_names(flags: int) -> tuple[str, ...]:
     return tuple(fault_name(bit) for bit in range(FAULT_BITS) if flags >> bit & 1)
 
 
-def fault_description(name: str) -> str:
-    """What the rider reads for a fault's name; one of a newer firmware says that it is unknown."""
+def described(
+    name: str, active: bool = True, count: int | None = None, frozen: LiveValues | None = None
+) -> UnitFault:
+    """A fault by its name with its words; one of a newer firmware says that it is unknown, and
+    counts as latched."""
     fault = FAULT_BY_NAME.get(name)
-    return fault.rider_text if fault else UNKNOWN
-
-
-def mechanic_text(name: str) -> str:
-    """What a mechanic measures and mends, by the fault's name."""
-    fault = FAULT_BY_NAME.get(name)
-    return fault.mechanic_text if fault else UNKNOWN
-
-
-def severity(name: str) -> str:
-    """`warning`, `assist_off` or `latched`; a fault of a newer firmware counts as latched."""
-    fault = FAULT_BY_NAME.get(name)
-    return Severity(fault.severity if fault else Severity.LATCHED).name.lower()
+    return UnitFault(
+        name,
+        fault.rider_text if fault else UNKNOWN,
+        active,
+        count,
+        frozen,
+        Severity(fault.severity if fault else Severity.LATCHED).name.lower(),
+        fault.mechanic_text if fault else UNKNOWN,
+    )

@@ -1,0 +1,112 @@
+"""A unit's configuration as services see it, whatever the make: values, rows, what is on trial."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from backend.errors import FieldError
+
+Value: TypeAlias = "float | int | str | list[Value]"
+Config: TypeAlias = Mapping[str, Value]
+
+
+@dataclass(frozen=True)
+class ConfigImage:
+    """A unit's whole configuration as it was at one generation; parameters by name.
+
+    A unit that does not count its configurations has generation 0; crc32 tells them apart.
+    """
+
+    generation: int
+    crc32: int
+    parameters: dict[str, Value]
+
+
+@dataclass(frozen=True)
+class TrialStatus:
+    """Where the active configuration stands.
+
+    left_s: until it is given up, 0 when it is not on trial. rollback_cause: why the latest trial
+    since the unit was switched on was given up: none, asked, time_out or restart.
+    """
+
+    on_trial: bool
+    generation: int
+    crc32: int
+    left_s: float
+    rollback_cause: str
+    rolled_back_generation: int
+
+
+@dataclass(frozen=True)
+class LiveState:
+    """What is tried now. parameters: those that differ from the configuration, by name, with the
+    value in force. left_s: until the unit ends it, 0 when nothing is tried."""
+
+    parameters: dict[str, Value]
+    left_s: float
+
+
+@dataclass(frozen=True)
+class ParameterRow:
+    """What a parameter is. choices: names of an enumeration, None for numbers and texts.
+
+    length: bytes a text may have, None for numbers.
+    """
+
+    id: int
+    name: str
+    group: str
+    type: str
+    shape: tuple[int, ...]
+    unit: str
+    min: float | None
+    max: float | None
+    default: Value
+    access: str
+    choices: tuple[str, ...] | None
+    length: int | None
+    description: str
+
+
+@dataclass(frozen=True)
+class Free:
+    """From where to where a value may be set without the maker's token, around the factory's."""
+
+    min: float
+    max: float
+    around: str
+
+
+@dataclass(frozen=True)
+class ParameterTable:
+    """The parameters of one kind of unit, and the checks of a whole configuration of it.
+
+    rows: in the order they are shown. free_of: a parameter's band in a configuration, None for one
+    without. not_a_parameter: what is said of a name nothing is called. faults_of: everything that
+    is wrong with a whole configuration, each element named. rounded: a checked configuration as the
+    unit will hold it. crc32_of: the checksum a unit gives for it. factory: the maker's names.
+    """
+
+    rows: Sequence[ParameterRow]
+    free_of: Callable[[str, Config], Free | None]
+    not_a_parameter: Callable[[str], str]
+    faults_of: Callable[[Config], list[FieldError]]
+    rounded: Callable[[Config], dict[str, Value]]
+    crc32_of: Callable[[Config], int]
+    factory: frozenset[str] = frozenset()
+
+    def group(self, name: str) -> tuple[str, ...]:
+        """Names of the parameters of one group, in the order of the rows."""
+        return tuple(row.name for row in self.rows if row.group == name)
+
+    def unknown_names(self, changes: Config) -> list[FieldError]:
+        """A fault for each name that is no parameter."""
+        known = {row.name for row in self.rows}
+        return [
+            FieldError(name, "unknown_parameter", self.not_a_parameter(name))
+            for name in changes
+            if name not in known
+        ]

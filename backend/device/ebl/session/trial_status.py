@@ -1,0 +1,31 @@
+"""Where a unit's active configuration stands: for good, or on trial and until when."""
+
+from __future__ import annotations
+
+from backend.device.configuration import TrialStatus
+from backend.device.ebl.session.operation import Operation, ask
+from firmware_protocol._generated import (
+    CfgStatusRequest,
+    CfgStatusResponse,
+    ConfigState,
+    RollbackCause,
+)
+
+
+def trial_status() -> Operation[TrialStatus]:
+    """Ask the unit. Raises NoAnswer, DeviceRefused."""
+    status = yield from ask(CfgStatusRequest(), CfgStatusResponse)
+    return trial_status_of(status)
+
+
+def trial_status_of(status: CfgStatusResponse) -> TrialStatus:
+    """The unit's answer in our words."""
+    known = status.rollback_cause in set(RollbackCause)
+    return TrialStatus(
+        on_trial=status.state == ConfigState.PROVISIONAL,
+        generation=status.generation,
+        crc32=status.crc32,
+        left_s=status.confirm_left_ms / 1000.0,
+        rollback_cause=RollbackCause(status.rollback_cause).name.lower() if known else "unknown",
+        rolled_back_generation=status.rolled_back_generation,
+    )

@@ -1,0 +1,238 @@
+"""A unit that speaks EBL, as services see it: every question is an operation of its session."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from itertools import count
+from typing import Any, TypeVar, cast
+
+from backend.device.configuration import (
+    Config,
+    ConfigImage,
+    LiveState,
+    ParameterTable,
+    TrialStatus,
+    Value,
+)
+from backend.device.driver import Driver, LinkOpener, Listener
+from backend.device.ebl.faults import described
+from backend.device.ebl.operations import config_settle, config_trial, live_set, ride_logs
+from backend.device.ebl.operations.config_transaction import read_bank, read_config, write_config
+from backend.device.ebl.operations.fault_frames import clear_faults, fault_frames, settings_are_lost
+from backend.device.ebl.operations.live_values import CHANNEL_SPECS, ask_values
+from backend.device.ebl.operations.parameters import TABLE
+from backend.device.ebl.operations.simulation import (
+    simulation_get,
+    simulation_set,
+)
+from backend.device.ebl.operations.unlock import Token, token_from
+from backend.device.ebl.operations.upkeep import read_upkeep
+from backend.device.ebl.session.log_receiver import LogReceiver
+from backend.device.ebl.session.operation import Operation
+from backend.device.ebl.session.schema import Schemas
+from backend.device.ebl.session.session import Session
+from backend.device.ebl.session.stream_receiver import StreamPlan
+from backend.device.ebl.session.trial_status import trial_status
+from backend.device.faults import UnitFault
+from backend.device.live_values import LiveValues
+from backend.device.ride_logs import LogPieces, RideLog, RideLogs
+from backend.device.states import LinkState
+from backend.device.unit import Capability, Unit
+from backend.device.upkeep import Upkeep
+from backend.domain.channels import ChannelSpec
+from backend.errors import CapabilityMissing, DeviceRefused, SpindleError
+
+Result = TypeVar("Result")
+
+ANSWER_S = 10.0
+# A write is some ten round trips; on a poor line each may take four attempts.
+WRITE_S = 30.0
+# The unit's own check of a log of 4 MB takes seconds.
+LOG_CHECK_S = 60.0
+LOG_SESSIONS = 15
+
+# Where the unit's settings mean something else than we know, only what it sends is understood.
+READ_ONLY = frozenset({Capability.STREAM, Capability.RIDER_TORQUE, Capability.UNIQUE_ID})
+EVERY = frozenset(Capability) - {Capability.RESTART_TO_APPLY, Capability.SIMULATION}
+
+
+class EblUnit(Unit):
+    """One unit and its thread.
+
+    streaming: whether rows of every channel are to come by themselves. Others as in Driver, and
+    schemas as in Session.
+    """
+
+    family = "ebl"
+
+    def __init__(
+        self,
+        opener: LinkOpener,
+        listener: Listener,
+        streaming: bool = True,
+        reopen_when_deaf: bool = True,
+        schemas: Schemas | None = None,
+    ) -> None:
+        plan = StreamPlan() if streaming else None
+        self._session = Session(time.monotonic(), plan, schemas)
+        self._log_sessions = count()
+        super().__init__(Driver(opener, listener, self._session, reopen_when_deaf))
+
+    @property
+    def capabilities(self) -> frozenset[Capability]:
+        status = self.status()
+        if status.state is LinkState.READ_ONLY:
+            return READ_ONLY
+        simulated = status.identity is not None and status.identity.simulated
+        return EVERY | {Capability.SIMULATION} if simulated else EVERY
+
+    @property
+    def parameters(self) -> ParameterTable:
+        return TABLE
+
+    @property
+    def channels(self) -> tuple[ChannelSpec, ...]:
+        return CHANNEL_SPECS
+
+    def values(self) -> LiveValues:
+        return self._run(ask_values())
+
+    # ------------------------------------------------------------------ configuration
+
+    def read_config(self) -> ConfigImage:
+        return self._run(read_config(self._mtu))
+
+    def read_bank(self, bank: str) -> ConfigImage:
+        return self._run(read_bank(bank, self._mtu))
+
+    def permit(self, token: str) -> Token:
+        return token_from(token)
+
+    def write_config(
+        self, base: ConfigImage, changes: Config, confirm_s: int = 0, permit: object = None
+    ) -> ConfigImage:
+        token = cast("Token | None", permit)
+        return self._run(write_config(base, changes, self._mtu, confirm_s, token), WRITE_S)
+
+    def settle_write(self, base: ConfigImage, intended: Config) -> ConfigImage:
+        return self._run(config_settle.settle_write(base, intended, self._mtu))
+
+    def settings_are_lost(self) -> bool:
+        return self._run(settings_are_lost())
+
+    def trial(self) -> TrialStatus:
+        return self._run(trial_status())
+
+    def confirm_config(self, intended: Config) -> ConfigImage:
+        return self._run(config_trial.confirm_config(intended, self._mtu), WRITE_S)
+
+    def settle_confirm(self, tried: ConfigImage) -> ConfigImage:
+        return self._run(config_settle.settle_confirm(tried))
+
+    def rollback_config(self) -> ConfigImage:
+        return self._run(config_trial.rollback_config(self._mtu), WRITE_S)
+
+    def settle_rollback(self, tried: ConfigImage) -> ConfigImage:
+        return self._run(config_settle.settle_rollback(tried, self._mtu))
+
+    # ------------------------------------------------------------------ values tried live
+
+    def live(self) -> LiveState:
+        return self._run(live_set.read_live(self._mtu))
+
+    def values_in_force(self) -> dict[str, Value]:
+        return self._run(live_set.values_in_force(self._mtu))
+
+    def set_live(self, changes: Config, ttl_s: int) -> LiveState:
+        return self._run(live_set.set_live(changes, ttl_s, self._mtu))
+
+    def settle_live(self, before: Config, values: Config) -> LiveState:
+        return self._run(live_set.settle_live(before, values, self._mtu))
+
+    def end_live(self) -> LiveState:
+        self._run(live_set.end_live())
+        return self.live()
+
+    def settle_live_end(self) -> LiveState:
+        return self._run(live_set.settle_live_end(self._mtu))
+
+    # ------------------------------------------------------------------ faults and wear
+
+    def faults(self) -> Sequence[UnitFault]:
+        return self._run(fault_frames())
+
+    def faults_told(self) -> Sequence[UnitFault]:
+        return [described(name) for name in self.status().faults_active]
+
+    def clear_faults(self) -> Sequence[UnitFault]:
+        return self._run(clear_faults())
+
+    def upkeep(self) -> Upkeep | None:
+        return self._run(read_upkeep())
+
+    # ------------------------------------------------------------------ ride logs
+
+    def logs(self) -> RideLogs:
+        try:
+            return self._run(ride_logs.list_logs())
+        except DeviceRefused as error:
+            if error.status in ("UNSUPPORTED", "UNKNOWN_MSG"):
+                self._lacks(Capability.LOGS)
+            raise
+
+    def log_crc(self, log: RideLog, length: int) -> int:
+        return self._run(ride_logs.log_crc(log, length), LOG_CHECK_S)
+
+    @contextmanager
+    def fetch_log(self, log: RideLog, have: int) -> Iterator[LogPieces]:
+        receiver = LogReceiver(next(self._log_sessions) % LOG_SESSIONS + 1, time.monotonic())
+        self.driver.between_turns(lambda: self._session.receive_log(receiver))
+        try:
+            self._run(ride_logs.receive_log(log, receiver, have))
+            yield receiver
+        finally:
+            self.driver.between_turns(lambda: self._session.receive_log(None))
+            with suppress(SpindleError):
+                self._run(ride_logs.close_log(receiver.session))
+
+    def confirm_log(self, log: RideLog, crc32: int) -> None:
+        self._run(ride_logs.confirm_log(log, crc32), LOG_CHECK_S)
+
+    def erase_log(self, log: RideLog) -> int | None:
+        return self._run(ride_logs.erase_log(log), LOG_CHECK_S)
+
+    def settle_erase(self, log: RideLog) -> None:
+        self._run(ride_logs.settle_erase(log))
+
+    # ------------------------------------------------------------------ simulation
+
+    def simulation(self) -> dict[str, Any]:
+        return self._simulated(simulation_get())
+
+    def simulate(self, changes: Mapping[str, Any]) -> dict[str, Any]:
+        return self._simulated(simulation_set(changes))
+
+    def _simulated(self, operation: Operation[dict[str, Any]]) -> dict[str, Any]:
+        identity = self.status().identity
+        try:
+            if identity is None or identity.simulated:
+                return self._run(operation)
+        except DeviceRefused as error:
+            if error.status != "UNKNOWN_MSG":
+                raise
+        raise CapabilityMissing(
+            "This is a real unit; only a simulated one has a simulation.",
+            Capability.SIMULATION.value,
+        )
+
+    # ------------------------------------------------------------------ inside
+
+    @property
+    def _mtu(self) -> int:
+        """The largest frame that both sides take."""
+        return self.driver.between_turns(lambda: self._session.mtu)
+
+    def _run(self, operation: Operation[Result], timeout_s: float = ANSWER_S) -> Result:
+        return self.driver.run(operation, timeout_s)

@@ -1,0 +1,34 @@
+"""One row of telemetry as physical values by channel name; a missing value is None."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from backend.device.stream import StreamBlock
+from backend.domain.channels import MISSING_INT16, ChannelSpec
+
+# A count times its scale carries the noise of float64 in its last digits; scales have five.
+DECIMALS = 6
+
+
+@dataclass(frozen=True)
+class LiveValues:
+    """t_us: unit time of the row, 64 bit. channels: value in the channel's unit, None: missing."""
+
+    t_us: int
+    channels: dict[str, float | None]
+
+
+def last_values(block: StreamBlock) -> LiveValues:
+    """The newest row of a block."""
+    t_us = block.t0_us + (len(block.values) - 1) * block.period_us
+    return LiveValues(t_us, named_values(block.channels, block.values[-1].tolist()))
+
+
+def named_values(channels: Sequence[ChannelSpec], counts: Sequence[int]) -> dict[str, float | None]:
+    """Counts of one row, 16 bit, in the order of `channels` -> values by name."""
+    return {
+        channel.name: None if count == MISSING_INT16 else round(count * channel.scale, DECIMALS)
+        for channel, count in zip(channels, counts, strict=True)
+    }

@@ -1,0 +1,263 @@
+"""What services may ask of any unit, whatever its make; each family in a room of its own answers.
+
+What a family cannot do it leaves out: the methods here refuse with CapabilityMissing, which names
+what is missing. `capabilities` says it beforehand.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from contextlib import AbstractContextManager
+from enum import StrEnum
+from typing import Any, ClassVar, NoReturn
+
+from backend.device.configuration import (
+    Config,
+    ConfigImage,
+    LiveState,
+    ParameterTable,
+    TrialStatus,
+    Value,
+)
+from backend.device.driver import Driver
+from backend.device.faults import UnitFault
+from backend.device.live_values import LiveValues
+from backend.device.ride_logs import LogPieces, RideLog, RideLogs
+from backend.device.snapshot import DeviceStatus
+from backend.device.upkeep import Upkeep
+from backend.domain.channels import ChannelSpec
+from backend.errors import CapabilityMissing
+
+
+class Capability(StrEnum):
+    """What units differ in; the API and the pages use these words.
+
+    unit_trial: the unit itself returns from a change that is not kept. live_set: values are tried
+    in its memory alone. unit_limits: it enforces limits by itself. unique_id: it has a serial
+    number. restart_to_apply: what is written holds from the next start on.
+    """
+
+    READ_CONFIG = "read_config"
+    WRITE_CONFIG = "write_config"
+    UNIT_TRIAL = "unit_trial"
+    STREAM = "stream"
+    RIDER_TORQUE = "rider_torque"
+    CALIBRATE = "calibrate"
+    LIVE_SET = "live_set"
+    LOGS = "logs"
+    UNIT_LIMITS = "unit_limits"
+    UNIQUE_ID = "unique_id"
+    RESTART_TO_APPLY = "restart_to_apply"
+    FUZZY_TABLE = "fuzzy_table"
+    ASSIST_MODES = "assist_modes"
+    LIMITS = "limits"
+    SIMULATION = "simulation"
+
+
+MEANING = {
+    Capability.READ_CONFIG: "let its configuration be read",
+    Capability.WRITE_CONFIG: "let its configuration be written",
+    Capability.UNIT_TRIAL: "try a change and return from it by itself",
+    Capability.STREAM: "send live values",
+    Capability.RIDER_TORQUE: "measure the rider's torque",
+    Capability.CALIBRATE: "have its sensor calibrated from here",
+    Capability.LIVE_SET: "try values while it runs",
+    Capability.LOGS: "keep ride logs",
+    Capability.UNIT_LIMITS: "enforce limits by itself",
+    Capability.UNIQUE_ID: "say who it is",
+    Capability.RESTART_TO_APPLY: "apply changes at its next start",
+    Capability.FUZZY_TABLE: "assist by a rule table",
+    Capability.ASSIST_MODES: "have its assist modes edited",
+    Capability.LIMITS: "have its limits edited",
+    Capability.SIMULATION: "be simulated",
+}
+
+
+class Unit(ABC):
+    """One unit behind one url. For any thread; every question may wait for the unit.
+
+    What is asked raises NoAnswer when the unit is silent and DeviceRefused when it refuses.
+    """
+
+    family: ClassVar[str]
+
+    def __init__(self, driver: Driver) -> None:
+        self.driver = driver
+
+    # ------------------------------------------------------------------ what it is
+
+    @property
+    @abstractmethod
+    def capabilities(self) -> frozenset[Capability]:
+        """What this unit can do, as far as it is known now."""
+
+    @property
+    @abstractmethod
+    def parameters(self) -> ParameterTable:
+        """Its parameters and their checks."""
+
+    @property
+    @abstractmethod
+    def channels(self) -> tuple[ChannelSpec, ...]:
+        """Every channel it can send."""
+
+    def status(self) -> DeviceStatus:
+        """Everything that is known of its link and of itself."""
+        return self.driver.status()
+
+    def require(self, *needed: Capability) -> None:
+        """Raise CapabilityMissing naming the first that the unit does not have."""
+        there = self.capabilities
+        for capability in needed:
+            if capability not in there:
+                self._lacks(capability)
+
+    @abstractmethod
+    def values(self) -> LiveValues:
+        """One row of every channel, asked now."""
+
+    # ------------------------------------------------------------------ configuration
+
+    def read_config(self) -> ConfigImage:
+        """The active configuration, whole. PeerProtocolError when it contradicts itself."""
+        self._lacks(Capability.READ_CONFIG)
+
+    def read_bank(self, bank: str) -> ConfigImage:
+        """The `previous` or the `default` configuration. Raises NotFound where there is none."""
+        self._lacks(Capability.READ_CONFIG)
+
+    def permit(self, token: str) -> object:
+        """The maker's answer as a person brings it, for `write_config`. Raises InvalidRequest."""
+        self._lacks(Capability.UNIT_LIMITS)
+
+    def write_config(
+        self, base: ConfigImage, changes: Config, confirm_s: int = 0, permit: object = None
+    ) -> ConfigImage:
+        """Change what is named on top of `base`, all or nothing, and read everything back.
+
+        confirm_s: 0 for good, else on trial for so many seconds. Raises ConfigConflict,
+        LimitViolation, AccessDenied, TokenNeeded, NotStandingStill with the unit unchanged;
+        NoAnswer with its outcome; PeerProtocolError naming what reads back different.
+        """
+        self._lacks(Capability.WRITE_CONFIG)
+
+    def settle_write(self, base: ConfigImage, intended: Config) -> ConfigImage:
+        """What became of a write nobody answered: the configuration if it is what was meant.
+
+        Raises NoAnswer with the outcome `unchanged`, ConfigConflict, PeerProtocolError; NoAnswer
+        without an outcome when the unit is silent again.
+        """
+        self._lacks(Capability.WRITE_CONFIG)
+
+    def settings_are_lost(self) -> bool:
+        """Whether defaults stand where settings were: to write what it shows is a change then."""
+        return False
+
+    # ------------------------------------------------------------------ a change on trial
+
+    def trial(self) -> TrialStatus:
+        """Where the active configuration stands."""
+        self._lacks(Capability.UNIT_TRIAL)
+
+    def confirm_config(self, intended: Config) -> ConfigImage:
+        """Keep what is on trial once it was read back and compared. Raises Conflict."""
+        self._lacks(Capability.UNIT_TRIAL)
+
+    def settle_confirm(self, tried: ConfigImage) -> ConfigImage:
+        """As `settle_write`, of a confirmation."""
+        self._lacks(Capability.UNIT_TRIAL)
+
+    def rollback_config(self) -> ConfigImage:
+        """Give up what is on trial; what is active then. Raises Conflict."""
+        self._lacks(Capability.UNIT_TRIAL)
+
+    def settle_rollback(self, tried: ConfigImage) -> ConfigImage:
+        """As `settle_write`, of a return."""
+        self._lacks(Capability.UNIT_TRIAL)
+
+    # ------------------------------------------------------------------ values tried live
+
+    def live(self) -> LiveState:
+        """What is tried in the unit's memory alone."""
+        self._lacks(Capability.LIVE_SET)
+
+    def values_in_force(self) -> dict[str, Value]:
+        """Every parameter as the law uses it now."""
+        self._lacks(Capability.LIVE_SET)
+
+    def set_live(self, changes: Config, ttl_s: int) -> LiveState:
+        """Try values for `ttl_s` seconds. Raises LimitViolation, AccessDenied."""
+        self._lacks(Capability.LIVE_SET)
+
+    def settle_live(self, before: Config, values: Config) -> LiveState:
+        """As `settle_write`, of values that are tried."""
+        self._lacks(Capability.LIVE_SET)
+
+    def end_live(self) -> LiveState:
+        """End what is tried; what is tried then."""
+        self._lacks(Capability.LIVE_SET)
+
+    def settle_live_end(self) -> LiveState:
+        """As `settle_write`, of the end of what is tried."""
+        self._lacks(Capability.LIVE_SET)
+
+    # ------------------------------------------------------------------ faults and wear
+
+    def faults(self) -> Sequence[UnitFault]:
+        """Every fault that is active or was."""
+        return self.faults_told()
+
+    def faults_told(self) -> Sequence[UnitFault]:
+        """Those that were active when the unit was last heard, without asking."""
+        return [UnitFault(name, name) for name in self.status().faults_active]
+
+    def clear_faults(self) -> Sequence[UnitFault]:
+        """Forget the faults that are over; those that are left."""
+        return self.faults()
+
+    def upkeep(self) -> Upkeep | None:
+        """What the unit knows of its own wear; None for one that counts nothing."""
+        return None
+
+    # ------------------------------------------------------------------ ride logs
+
+    def logs(self) -> RideLogs:
+        """What is in its directory."""
+        self._lacks(Capability.LOGS)
+
+    def log_crc(self, log: RideLog, length: int) -> int:
+        """The unit's CRC-32 over the first `length` bytes of a log."""
+        self._lacks(Capability.LOGS)
+
+    def fetch_log(self, log: RideLog, have: int) -> AbstractContextManager[LogPieces]:
+        """Have the unit send a log from byte `have` on, until the context is left."""
+        self._lacks(Capability.LOGS)
+
+    def confirm_log(self, log: RideLog, crc32: int) -> None:
+        """Tell the unit that a log is safe here: it may free it."""
+        self._lacks(Capability.LOGS)
+
+    def erase_log(self, log: RideLog) -> int | None:
+        """Have the unit free a confirmed log; blocks of flash erased for logs in its life."""
+        self._lacks(Capability.LOGS)
+
+    def settle_erase(self, log: RideLog) -> None:
+        """Raises NoAnswer with the outcome `unchanged` when the log is still there."""
+        self._lacks(Capability.LOGS)
+
+    # ------------------------------------------------------------------ simulation
+
+    def simulation(self) -> dict[str, Any]:
+        """What rider, road and clock of a simulated unit do now."""
+        self._lacks(Capability.SIMULATION)
+
+    def simulate(self, changes: Mapping[str, Any]) -> dict[str, Any]:
+        """Change what is named. Raises InvalidRequest in the simulator's words."""
+        self._lacks(Capability.SIMULATION)
+
+    def _lacks(self, capability: Capability) -> NoReturn:
+        raise CapabilityMissing(
+            f"This unit cannot {MEANING[capability]} (capability `{capability}`).",
+            capability.value,
+        )

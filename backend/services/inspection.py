@@ -1,0 +1,64 @@
+"""Looking at a unit: its live values, its faults, its wear; and the simulation behind one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from backend.device.faults import UnitFault
+from backend.device.live_values import LiveValues, last_values
+from backend.device.states import LinkState
+from backend.device.upkeep import Upkeep
+from backend.errors import CapabilityMissing
+from backend.services.connect import Devices
+from backend.services.outcome import telling
+
+
+class Inspection:
+    """What units say of themselves when they are asked. For any thread.
+
+    All of it raises NotFound, and NoAnswer with the reason when the unit is not there.
+    """
+
+    def __init__(self, devices: Devices) -> None:
+        self._devices = devices
+
+    def snapshot(self, device_id: str) -> LiveValues:
+        """The newest value of every channel: of the stream, or asked of the unit."""
+        unit = self._devices.unit(device_id)
+        block = unit.status().last_block
+        return unit.values() if block is None else last_values(block)
+
+    def faults(self, device_id: str) -> Sequence[UnitFault]:
+        """The faults that are active in the unit or were, in words.
+
+        Of a unit that is not there, those that were active when it was.
+        """
+        unit = self._devices.unit(device_id)
+        return unit.faults() if unit.status().state is LinkState.READY else unit.faults_told()
+
+    def clear_faults(self, device_id: str) -> Sequence[UnitFault]:
+        """Forget the faults that are over; those that are left.
+
+        After a NoAnswer whose outcome is not known they may be forgotten: list them again.
+        """
+        with telling("unknown"):
+            return self._devices.unit(device_id).clear_faults()
+
+    def upkeep(self, device_id: str) -> Upkeep:
+        """What the unit knows of its own wear. Raises Conflict of one we do not understand."""
+        found = self._devices.writable(device_id).upkeep()
+        if found is None:
+            raise CapabilityMissing(
+                "This unit does not count distance, hours and writes.", "upkeep"
+            )
+        return found
+
+    def simulation(self, device_id: str) -> dict[str, Any]:
+        """Rider, road and clock of a simulated unit. Raises CapabilityMissing for a real one."""
+        return self._devices.unit(device_id).simulation()
+
+    def simulate(self, device_id: str, changes: Mapping[str, Any]) -> dict[str, Any]:
+        """Change what is named. Raises InvalidRequest in the simulator's words."""
+        with telling("unknown"):
+            return self._devices.unit(device_id).simulate(changes)

@@ -1,0 +1,97 @@
+"""Every configuration a unit is known to have had, and changes whose outcome nobody knows yet."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+
+from backend.device.configuration import ConfigImage
+from backend.domain.revision import Revision
+from backend.errors import StoreError
+from backend.services.config_view import Change, RevisionLog
+
+LOG = logging.getLogger(__name__)
+
+FOUND_REASON = "Found in the unit before a change."
+GIVEN_UP_REASON = "Returned to by the unit itself: the trial before was not confirmed."
+# States of a revision: read back and for good, or read back and on trial.
+KEPT = "verified"
+TRIED = "provisional"
+
+
+@dataclass(frozen=True)
+class Meant:
+    """A change as the log is to have it. crc32: of the configuration it makes."""
+
+    crc32: int
+    changed: Sequence[Change]
+    reason: str
+    author: str
+    state: str
+
+
+class RevisionBook:
+    """The log of revisions by unit, kept so that no write loses what was there before it."""
+
+    def __init__(self, revisions: RevisionLog) -> None:
+        self._revisions = revisions
+        self._unsettled: dict[str, Meant] = {}
+
+    def list(self, unit: str) -> Sequence[Revision]:
+        """Every configuration of a unit, newest first."""
+        return self._revisions.list(unit)
+
+    def known(self, unit: str, crc32: int) -> Revision | None:
+        """The newest configuration of a unit, if it is the one with this checksum."""
+        newest = self._newest(unit)
+        return newest if newest is not None and newest.crc32 == crc32 else None
+
+    def may_have_ended(self, unit: str) -> bool:
+        """Whether the newest is on trial, or a change may have been made that nobody answered."""
+        newest = self._newest(unit)
+        return unit in self._unsettled or (newest is not None and newest.state == TRIED)
+
+    def leave_open(self, unit: str, meant: Meant) -> None:
+        """Nobody knows whether this change was made: whoever looks next will find out."""
+        self._unsettled[unit] = meant
+
+    def back_up(self, unit: str, found: ConfigImage) -> None:
+        """Keep what the unit has if the log does not know it. Raises StoreError."""
+        unsettled = self._unsettled.pop(unit, None)
+        newest = self._newest(unit)
+        if newest is not None and newest.crc32 == found.crc32:
+            return
+        if unsettled is not None and unsettled.crc32 == found.crc32:
+            # The change was made after all: the log has it with its author's own reason.
+            self.note(unit, found, unsettled)
+            return
+        given_up = newest is not None and newest.state == TRIED
+        self._revisions.append(
+            unit,
+            found.parameters,
+            reason=GIVEN_UP_REASON if given_up else FOUND_REASON,
+            generation=found.generation,
+            crc32=found.crc32,
+        )
+
+    def note(self, unit: str, found: ConfigImage, meant: Meant) -> None:
+        """Add a change that is proven. What cannot be noted is told in the log: the unit has it,
+        and the next write will keep it as found."""
+        try:
+            self._revisions.append(
+                unit,
+                found.parameters,
+                [asdict(change) for change in meant.changed],
+                meant.reason,
+                meant.author,
+                found.generation,
+                found.crc32,
+                meant.state,
+            )
+        except StoreError as error:
+            LOG.error("%s: a proven change could not be noted: %s", unit, error.message)
+
+    def _newest(self, unit: str) -> Revision | None:
+        newest = self._revisions.list(unit, 1)
+        return newest[0] if newest else None
