@@ -57,7 +57,7 @@ type Read = (name: string) => Edits[string] | undefined
 /** Which table a mode slot runs by; null if its law has none, or nobody knows. */
 export function tableOfMode(read: Read, slot: number): TableName | null {
   const [laws, tables] = [read('mode_laws') as string[], read('mode_tables') as number[]]
-  if (laws?.[slot] !== 'FUZZY') return null
+  if (laws?.[slot]?.toLowerCase() !== 'fuzzy') return null
   return TABLES[tables?.[slot] ?? -1] ?? null
 }
 

@@ -2,6 +2,7 @@
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
 import type { ConfigChange, Parameter, ParameterValue } from '../api/types'
+import { isFactorys } from './ratchet'
 
 export type Edits = Readonly<Record<string, ParameterValue>>
 
@@ -181,9 +182,12 @@ export class ConfigDraft {
         confirm_s,
         token,
       )
-      this.take(result, { ...this.baseline, ...parameters }, tag)
-      // The change is in the unit and verified, whatever becomes of this look at it.
-      await this.load().catch(() => undefined)
+      const { parameters: read_back } = result as ConfigChange & { parameters?: Edits }
+      this.take(result, read_back ?? { ...this.baseline, ...parameters }, tag)
+      // The factory's values move the bounds of others. A server that does not answer with what it
+      // read back is asked. The change is in the unit, whatever becomes of this look at it.
+      const moved = this.parameters.some((row) => row.name in parameters && isFactorys(row))
+      if (moved || !read_back) await this.load().catch(() => undefined)
       return result
     } finally {
       this.writing = false

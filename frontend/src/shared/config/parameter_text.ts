@@ -4,7 +4,7 @@ import type { Locale } from '../i18n/locale.svelte'
 import type { Units } from '../units/units.svelte'
 import type { DraftChange, ConfigDraft } from './config_draft.svelte'
 import { faultsOf, walk, type Fault } from './limits'
-import { needsToken, ratchetMove } from './ratchet'
+import { isFactorys, needsToken, ratchetMove } from './ratchet'
 
 export const LABELS = ['NB', 'NS', 'ZO', 'PS', 'PB'] as const
 
@@ -37,9 +37,9 @@ export function groupLabel(locale: Locale, group: string): string {
   return locale.lookup(`group.${group}`, inWords(group))
 }
 
-/** What a choice of an enumeration is called. */
+/** What a choice of an enumeration is called, in whatever case it is spelled. */
 export function choiceLabel(locale: Locale, choice: string): string {
-  return locale.lookup(`choice.${choice}`, choice)
+  return locale.lookup(`choice.${choice.toLowerCase()}`, choice)
 }
 
 /** A number as it is typed: enough digits to be exact in float32, none too many. */
@@ -85,7 +85,7 @@ function tokenText(
   const { free } = parameter
   const left = free && typeof value === 'number' && !(value >= free.min && value <= free.max)
   if (left && value !== old) return bandText(locale, units, parameter, 'left')
-  if (parameter.access === 'FACTORY') return locale.t('token.factory')
+  if (isFactorys(parameter)) return locale.t('token.factory')
   const move = ratchetMove(parameter.name, old ?? null, value)
   return move && locale.t(`ratchet.${move}`)
 }

@@ -12,6 +12,11 @@ export function isRatchet(name: string): boolean {
   return rows[name]?.ratchet ?? false
 }
 
+/** Whether a parameter is the factory's own, which only a token changes. */
+export function isFactorys(parameter: Parameter): boolean {
+  return parameter.access.toLowerCase() === 'factory'
+}
+
 /** Which way such a limit would go; null for any other change. */
 export function ratchetMove(
   name: string,
@@ -31,8 +36,8 @@ export function needsToken(
   value: ParameterValue | null,
 ): boolean {
   if (value === old) return false
-  const { access, free, name } = parameter
-  if (access === 'FACTORY' || ratchetMove(name, old, value) === 'raised') return true
+  const { free, name } = parameter
+  if (isFactorys(parameter) || ratchetMove(name, old, value) === 'raised') return true
   return free != null && typeof value === 'number' && !(value >= free.min && value <= free.max)
 }
 
