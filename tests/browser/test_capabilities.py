@@ -75,7 +75,7 @@ def test_a_unit_without_logs_is_not_asked_for_them(
 
     page = desk.open("/rides")
 
-    expect(page.get_by_test_id("no-logs")).to_have_text("This unit keeps no rides of its own.")
+    expect(page.get_by_test_id("no-logs")).to_have_text("No rides can be fetched from this unit.")
     expect(page.get_by_test_id("unit-logs")).to_have_count(0)
     assert not [url for url in asked if url.endswith("/logs")]
 

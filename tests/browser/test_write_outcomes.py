@@ -1,4 +1,6 @@
-"""Goal: what a page says about a write is what is known of it, and its buttons can be read."""
+"""Goal: what a page says about a write is what is known of it, asked of the unit once, and its
+buttons can be read.
+"""
 
 from __future__ import annotations
 
@@ -61,6 +63,22 @@ def test_what_became_of_a_write_is_said_as_far_as_it_is_known(
     expect(told).to_contain_text("The unit fell silent.")
     expect(told).to_contain_text(words)
     assert ("Nothing was written" in told.inner_text()) == (found == "unchanged")
+
+
+def test_a_written_configuration_is_not_read_again_by_the_page(desk: Desk, standing: str) -> None:
+    page = changed_table(desk)
+    page.get_by_role("button", name="Review and write…").click()
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(f"{request.method} {request.url}"))
+
+    page.get_by_role("button", name="Write to the unit").click()
+    expect(page.get_by_test_id("toasts")).to_contain_text("verified")
+    for _ in range(2):  # by then the page has seen that the unit has another configuration
+        with page.expect_response("**/api/v1/devices"):
+            pass
+
+    of_config = [one for one in asked if f"/devices/{standing}/" in one and "/dashboard" not in one]
+    assert [one.split()[0] for one in of_config] == ["PATCH"], of_config
 
 
 def background(button: Locator) -> str:

@@ -26,6 +26,7 @@ export class ConfigDraft {
   tag = $state('')
   generation = $state(0)
   loaded = $state(false)
+  /** Null where the next look at the unit must read everything. */
   private crc32: number | null = null
   private writing = false
   private baseline = $state.raw<Edits>({})
@@ -182,12 +183,11 @@ export class ConfigDraft {
         confirm_s,
         token,
       )
-      const { parameters: read_back } = result as ConfigChange & { parameters?: Edits }
-      this.take(result, read_back ?? { ...this.baseline, ...parameters }, tag)
-      // The factory's values move the bounds of others. A server that does not answer with what it
-      // read back is asked. The change is in the unit, whatever becomes of this look at it.
+      this.take(result, result.parameters, tag)
+      // The factory's values move the bounds of others. The change is in the unit, whatever becomes
+      // of this look at it.
       const moved = this.parameters.some((row) => row.name in parameters && isFactorys(row))
-      if (moved || !read_back) await this.load().catch(() => undefined)
+      if (moved) await this.load().catch(() => (this.crc32 = null))
       return result
     } finally {
       this.writing = false

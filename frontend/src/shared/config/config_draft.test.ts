@@ -17,7 +17,7 @@ const parameter = (name: string): Parameter => ({
   min: 0,
   max: 25,
   default: 25,
-  access: 'DEALER',
+  access: name.endsWith('_factory') ? 'FACTORY' : 'DEALER',
   value: 25,
   choices: null,
   free: null,
@@ -29,7 +29,6 @@ class FakeServer {
   values: Record<string, ParameterValue> = { assist_cutoff_kmh: 25, fixed_taper_end_kmh: 24 }
   generation = 1
   reads = 0
-  answers_whole = true
   written: [Record<string, ParameterValue>, string, string][] = []
 
   parameters = async () => Object.keys(this.values).map(parameter)
@@ -56,7 +55,7 @@ class FakeServer {
     const result = {
       generation: this.generation,
       crc32: 1000 + this.generation,
-      parameters: this.answers_whole ? { ...this.values } : undefined,
+      parameters: { ...this.values },
       state: 'committed',
       verified: true,
       changed,
@@ -196,15 +195,31 @@ describe('a draft', () => {
     expect(server.reads).toBe(1)
   })
 
+  it('reads the bounds again that a value of the factory moves', async () => {
+    const { server, draft } = await loadedDraft()
+    server.values['gain_factory'] = 1
+    await draft.load()
+    draft.set('gain_factory', 2)
+
+    await draft.write('new sensor')
+
+    expect(server.reads).toBe(3)
+  })
+
   it('has written, even when the unit falls silent before it is looked at again', async () => {
     const { server, draft } = await loadedDraft()
-    draft.set('assist_cutoff_kmh', 20)
-    server.answers_whole = false
+    server.values['gain_factory'] = 1
+    await draft.load()
+    const config = server.config
+    draft.set('gain_factory', 2)
     server.config = () => Promise.reject(new Refusal(504, 'no_answer', 'The unit is silent.'))
 
-    const change = await draft.write('quiet street')
+    const change = await draft.write('new sensor')
 
     expect([change.generation, draft.generation, draft.tag]).toEqual([2, 2, '"2"'])
-    expect([draft.base('assist_cutoff_kmh'), draft.changes]).toEqual([20, []])
+    expect([draft.base('gain_factory'), draft.changes]).toEqual([2, []])
+    server.config = config
+    await draft.follow({ generation: 2, crc32: 1002 })
+    expect(server.reads).toBe(3)
   })
 })

@@ -1,23 +1,7 @@
 // What a unit can do, as it says itself. Pages offer nothing else.
 import type { Device } from '../api/types'
 
-export type Capability =
-  | 'read_config'
-  | 'write_config'
-  | 'unit_trial'
-  | 'stream'
-  | 'rider_torque'
-  | 'calibrate'
-  | 'live_set'
-  | 'logs'
-  | 'unlock'
-  | 'unit_limits'
-  | 'unique_id'
-  | 'restart_to_apply'
-  | 'fuzzy_table'
-  | 'assist_modes'
-  | 'limits'
-  | 'simulation'
+export type Capability = Device['capabilities'][number]
 
 /** What a page is about; a unit that cannot do it has no such page. */
 const NEEDED = {
@@ -30,13 +14,9 @@ export type UnitPage = keyof typeof NEEDED
 /** What a page says of itself when it is opened all the same. */
 export type Needed = (typeof NEEDED)[UnitPage][number]
 
-// A server that does not list capabilities knows only units that have all of them.
-type Listing = Device & { capabilities?: readonly string[] }
-
-/** Whether a unit can do something. One that has listed nothing yet is not denied anything. */
+/** Whether a unit can do something. Nothing is denied where there is no unit to ask. */
 export function can(device: Device | null | undefined, capability: Capability): boolean {
-  const listed = (device as Listing | null | undefined)?.capabilities ?? []
-  return listed.length === 0 || listed.includes(capability)
+  return device?.capabilities.includes(capability) ?? true
 }
 
 /** The first thing a page needs that the unit cannot do; null for a page that works. */

@@ -50,13 +50,13 @@ export const enState = {
   'outcome.unknown':
     'Whether the unit has the change is not known. It is shown as soon as the unit answers.',
 
-  'cannot.read_config': 'This unit does not tell its settings.',
+  'cannot.read_config': 'The settings of this unit cannot be read here.',
   'cannot.write_config': 'The settings of this unit can be read here, not changed.',
   'cannot.unit_trial': 'This unit takes nothing on trial: what is written stays.',
   'cannot.stream': 'This unit sends no live values.',
   'cannot.rider_torque': "This unit does not tell the rider's torque.",
   'cannot.calibrate': 'The torque sensor of this unit cannot be calibrated here.',
-  'cannot.logs': 'This unit keeps no rides of its own.',
+  'cannot.logs': 'No rides can be fetched from this unit.',
   'cannot.fuzzy_table': 'The assist of this unit follows no table. These are its settings.',
   'review.needs_restart':
     'Written, {count} parameters, generation {generation}. Restart the unit to apply it.',
