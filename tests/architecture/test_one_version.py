@@ -6,6 +6,7 @@ Method: everywhere it is written, compared with `pyproject.toml`.
 from __future__ import annotations
 
 import json
+import re
 import tomllib
 from pathlib import Path
 
@@ -22,6 +23,14 @@ def test_package_and_pages_have_the_version_of_the_project() -> None:
     assert backend.__version__ == VERSION
     assert pages["version"] == VERSION
     assert {lock["version"], lock["packages"][""]["version"]} == {VERSION}
+
+
+def test_the_unit_tells_it_too() -> None:
+    source = ROOT / "sim_device/firmware/app/requests/system_service.c"
+    found = re.search(r"firmware_version\[3\] = \{(.+)\};", source.read_text(encoding="utf-8"))
+
+    assert found is not None
+    assert found[1].replace(", ", ".") == VERSION
 
 
 def test_the_changelog_begins_with_it() -> None:

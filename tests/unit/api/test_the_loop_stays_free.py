@@ -20,6 +20,9 @@ from backend.api import large
 from backend.api.app import ApiSettings, create_app
 from tests.unit.api.sample_rides import SAMPLE_RIDE
 
+# A store for every test, or a crowd of requests: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 ASKED = {
     "/api/v1/rides?limit=500": {"items": [SAMPLE_RIDE] * 500, "next": None},
     "/api/v1/rides/1": SAMPLE_RIDE,

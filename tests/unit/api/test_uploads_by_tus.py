@@ -24,6 +24,9 @@ from backend.services.upload import Uploads
 from backend.store import open_store
 from tests import counts
 
+# A store for every test, or a crowd of requests: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
+
 CHUNK = {"tus-resumable": "1.0.0", "content-type": "application/offset+octet-stream"}
 LENGTH = 10
 

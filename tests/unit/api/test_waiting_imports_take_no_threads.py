@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import httpx
+import pytest
 from anyio.from_thread import start_blocking_portal
 
 from backend.api.app import ApiSettings, create_app
@@ -19,6 +20,9 @@ from backend.ingest import Outcome
 from backend.ingest.outcome import rejected
 from backend.services.upload import Arrival, Uploads
 from backend.store import open_store
+
+# A store for every test, or a crowd of requests: left out of `make test-fast`.
+pytestmark = pytest.mark.slow
 
 IMPORTS = 60
 
