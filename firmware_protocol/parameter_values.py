@@ -45,10 +45,10 @@ def problem_of_form(row: Parameter, element: Value) -> tuple[str, str] | None:
     if row.type == "text":
         return _problem_of_text(row, element)
     if row.enum is not None:
-        names = list(ENUM_BY_NAME[row.enum].__members__)
-        if isinstance(element, str) and element in names:
+        choices = ENUM_BY_NAME[row.enum].__members__
+        if isinstance(element, str) and element in choices:
             return None
-        return "NOT_A_CHOICE", f"must be one of {', '.join(names)}"
+        return "NOT_A_CHOICE", f"must be one of {', '.join(choices)}"
     if isinstance(element, bool) or not isinstance(element, int | float):
         return "NOT_A_NUMBER", "must be a number"
     if row.type == "f32":

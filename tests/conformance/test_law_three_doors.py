@@ -15,13 +15,11 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from firmware_protocol._generated import FallingTorque, Inference, Label, Law, Market, Taper
-from firmware_protocol.parameters import default_config
+from firmware_protocol.parameters import default_config, pack_image
 from sim_device.firmware.python import build
 from sim_device.firmware.python.law import (
     INPUT_DTYPE,
     OUTPUT_DTYPE,
-    STEP_S,
     AssistLaw,
     pack_inputs,
 )
@@ -77,55 +75,6 @@ def config_of(inference: str, falling: str) -> dict[str, Any]:
     }
 
 
-def config_record(c: dict[str, Any]) -> bytes:
-    """The configuration in the order that main_law.c reads."""
-    values: list[Any] = [
-        STEP_S,
-        c["sensor_offset_counts"],
-        c["sensor_gain_nm_per_count"],
-        c["torque_filter_s"],
-        c["torque_rate_interval_ms"] / 1000,
-        c["torque_rate_floor_nm"],
-        *(Law[name] for name in c["mode_laws"]),
-        *c["mode_ratios"],
-        c["fixed_taper_start_kmh"],
-        c["fixed_taper_end_kmh"],
-        c["assist_ramp_up_nm_per_s"],
-        c["assist_ramp_down_nm_per_s"],
-        c["pedal_torque_nm_min"],
-        Inference[c["fuzzy_inference"]],
-        *c["fuzzy_speed_points_kmh"],
-        *c["fuzzy_torque_rate_points"],
-        *c["fuzzy_gain_points"],
-        *(Label[label] for row in c["fuzzy_rules"] for label in row),
-        FallingTorque[c["fuzzy_falling_torque"]],
-        c["assist_cutoff_kmh"],
-        c["assist_cutoff_band_kmh"],
-        c["motor_torque_nm_max"],
-        c["battery_current_a_max"],
-        c["battery_voltage_v_min"],
-        c["motor_speed_rpm_max"],
-        c["pedal_stop_ms"] / 1000,
-        c["gear_ratio"],
-        c["motor_torque_constant_nm_per_a"],
-        c["motor_resistance_ohm"],
-        *(Taper[name] for name in c["mode_tapers"]),
-        *c["mode_tables"],
-        *c["mode_ramp_up_nm_per_s"],
-        *c["mode_ramp_down_nm_per_s"],
-        *(pct / 100 for pct in c["mode_torque_pct"]),
-        Inference[c["second_inference"]],
-        *c["fuzzy_speed_points_kmh"],
-        *c["fuzzy_torque_rate_points"],
-        *c["second_gain_points"],
-        *(Label[label] for row in c["second_rules"] for label in row),
-        c["walk_speed_kmh"],
-        Market[c["market"]],
-        c["assist_cutoff_extra_kmh"],
-    ]
-    return np.array(values, np.float32).tobytes()
-
-
 def as_floats(rows: npt.NDArray[np.void]) -> npt.NDArray[np.float32]:
     names = rows.dtype.names or ()
     return np.stack([rows[name].astype(np.float32) for name in names], axis=1)
@@ -140,13 +89,16 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     target = tmp_path_factory.mktemp("law") / "law"
     compiler = shlex.split(sysconfig.get_config_var("CC") or "cc")
     control = ROOT / "sim_device/firmware/control"
+    app = ROOT / "sim_device/firmware/app"
+    wire = ROOT / "firmware_protocol/c"
     subprocess.run(
         [
             *compiler,
             *build.COMPILE_ARGUMENTS,
-            f"-I{control}",
+            *(f"-I{room}" for room in (control, app, wire)),
             str(ROOT / "sim_device/firmware/boards/host/main_law.c"),
-            *map(str, sorted(control.glob("*.c"))),
+            str(app / "storage/config_law.c"),
+            *map(str, sorted([*control.glob("*.c"), *wire.glob("*.c")])),
             "-o",
             str(target),
         ],
@@ -171,7 +123,7 @@ def test_batch_steps_and_program_agree_to_the_bit(
         neighbour.run(other_ride[index : index + 1])
     answer = subprocess.run(
         [program],
-        input=config_record(config) + as_floats(ride).tobytes(),
+        input=pack_image(config) + as_floats(ride).tobytes(),
         capture_output=True,
         check=True,
     ).stdout
@@ -183,8 +135,8 @@ def test_batch_steps_and_program_agree_to_the_bit(
 
 
 def test_the_program_refuses_a_broken_record_and_a_bad_configuration(program: Path) -> None:
-    good = config_record(config_of("MAMDANI_CENTROID", "NO_GAIN"))
-    bad = config_record({**config_of("MAMDANI_CENTROID", "NO_GAIN"), "gear_ratio": 0.0})
+    good = pack_image(config_of("MAMDANI_CENTROID", "NO_GAIN"))
+    bad = pack_image({**config_of("MAMDANI_CENTROID", "NO_GAIN"), "gear_ratio": 0.0})
 
     half_a_record = good + bytes(len(INPUT_DTYPE.names or ()) * 4 - 1)
 

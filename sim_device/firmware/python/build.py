@@ -37,6 +37,7 @@ HEADERS: tuple[str, ...] = (
     "sim_device/firmware/control/rotor_receiver.h",
     "sim_device/firmware/control/wheel_speed.h",
     "sim_device/firmware/hal/hal.h",
+    "sim_device/firmware/app/storage/config_law.h",
     "sim_device/firmware/app/faults/step_watch.h",
     "sim_device/firmware/app/config/sha512.h",
     "sim_device/firmware/app/config/signature.h",

@@ -5,22 +5,16 @@ a table needs only the five `fuzzy_*` parameters of its rules and points. Everyt
 in the unit; results are the unit's, to the bit. Each call releases the interpreter's lock.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from firmware_protocol._generated import (
-    PARAMETERS,
-    FallingTorque,
-    Inference,
-    Label,
-    Law,
-    Market,
-    Taper,
-)
-from firmware_protocol.parameters import default_config
+from firmware_protocol._generated import PARAMETERS
+from firmware_protocol.layout import Parameter
+from firmware_protocol.parameter_values import BadValue
+from firmware_protocol.parameters import default_config, pack_image, pack_parameter
 from sim_device.firmware.python._native import ffi, lib
 
 ENGINE = "sim_device/firmware/control (C99, float32)"
@@ -73,29 +67,6 @@ OUTPUT_DTYPE = np.dtype(
 assert INPUT_DTYPE.itemsize == ffi.sizeof("assist_input")
 assert OUTPUT_DTYPE.itemsize == ffi.sizeof("assist_output")
 
-# Parameters that are one float in assist_config under the same name.
-PLAIN_PARAMETERS = (
-    "sensor_offset_counts",
-    "sensor_gain_nm_per_count",
-    "torque_filter_s",
-    "torque_rate_floor_nm",
-    "fixed_taper_start_kmh",
-    "fixed_taper_end_kmh",
-    "assist_ramp_up_nm_per_s",
-    "assist_ramp_down_nm_per_s",
-    "pedal_torque_nm_min",
-    "assist_cutoff_kmh",
-    "assist_cutoff_band_kmh",
-    "motor_torque_nm_max",
-    "battery_current_a_max",
-    "battery_voltage_v_min",
-    "motor_speed_rpm_max",
-    "gear_ratio",
-    "motor_torque_constant_nm_per_a",
-    "motor_resistance_ohm",
-    "walk_speed_kmh",
-    "assist_cutoff_extra_kmh",
-)
 FIRST_LATER_ID = 0x0600
 """Parameters from here on may be missing, as in the configuration of an old ride."""
 
@@ -126,8 +97,7 @@ def gain_points(table: Config, speeds_kmh: npt.ArrayLike, torque_rates: npt.Arra
     rates = _vector(torque_rates, "torque_rates")
     if speeds.size != rates.size:
         raise LawRefused(f"{speeds.size} speeds but {rates.size} torque rates; give pairs")
-    native = ffi.new("fuzzy_table *")
-    _fill_table(native, table)
+    native = _native_table(table)
     gains = np.empty(speeds.size, np.float32)
     lib.fuzzy_gain_run(
         native,
@@ -243,42 +213,74 @@ def _vector(values: npt.ArrayLike, name: str) -> Floats:
     return np.ascontiguousarray(np.atleast_1d(_numbers(values, name)), np.float32)
 
 
-def _fill_table(native: Any, table: Config) -> None:
-    try:
-        native.inference = Inference[table["fuzzy_inference"]]
-        native.speed_points_kmh = table["fuzzy_speed_points_kmh"]
-        native.torque_rate_points = table["fuzzy_torque_rate_points"]
-        native.gain_points = table["fuzzy_gain_points"]
-        native.rules = [[Label[label] for label in row] for row in table["fuzzy_rules"]]
-    except KeyError as missing:
-        raise LawRefused(f"fuzzy table: {missing} is missing or not a choice") from missing
-    except (TypeError, IndexError) as wrong:
-        raise LawRefused(f"fuzzy table: {wrong}") from wrong
-    if lib.fuzzy_table_check(ffi.addressof(native[0])) != lib.FUZZY_OK:
+DEFAULT_IMAGE = pack_image(default_config())
+TABLE_PARAMETERS = tuple(
+    row
+    for row in PARAMETERS
+    if row.name
+    in (
+        "fuzzy_inference",
+        "fuzzy_speed_points_kmh",
+        "fuzzy_torque_rate_points",
+        "fuzzy_gain_points",
+        "fuzzy_rules",
+    )
+)
+
+
+def _law_of(image: bytes) -> Any:
+    """The assist_config of an image, by the unit's own mapping."""
+    config = ffi.new("ebl_config *")
+    lib.ebl_config_unpack(config, image)
+    native = ffi.new("assist_config *")
+    lib.config_law_from(config, native)
+    return native
+
+
+def _is_read_by_the_law(row: Parameter) -> bool:
+    """Whether another value of this parameter makes another assist_config."""
+    changed = bytearray(DEFAULT_IMAGE)
+    for at in range(row.image_offset, row.image_offset + row.size):
+        changed[at] ^= 1
+    return _bytes_of(_law_of(bytes(changed))) != _bytes_of(_law_of(DEFAULT_IMAGE))
+
+
+def _bytes_of(native: Any) -> bytes:
+    return bytes(ffi.buffer(native))
+
+
+LAW_PARAMETERS = tuple(row for row in PARAMETERS if _is_read_by_the_law(row))
+"""The parameters that the unit maps to the law's configuration."""
+
+
+def _image_of(config: Config, rows: Iterable[Parameter], what: str) -> bytes:
+    """The image of these parameters, with the defaults of all others. Raises LawRefused."""
+    image = bytearray(DEFAULT_IMAGE)
+    for row in rows:
+        if row.name not in config:
+            raise LawRefused(f"{what}: {row.name} is missing")
+        try:
+            packed = pack_parameter(row, config[row.name])
+        except (BadValue, OverflowError) as wrong:
+            raise LawRefused(f"{what}: {wrong}") from wrong
+        image[row.image_offset : row.image_offset + row.size] = packed
+    return bytes(image)
+
+
+def _native_table(table: Config) -> Any:
+    """The first table of a configuration, checked. Raises LawRefused."""
+    law = _law_of(_image_of(table, TABLE_PARAMETERS, "fuzzy table"))
+    native = ffi.new("fuzzy_table *", law.table)
+    _check_table(native)
+    return native
+
+
+def _check_table(native: Any) -> None:
+    if lib.fuzzy_table_check(native) != lib.FUZZY_OK:
         raise LawRefused(
             "fuzzy table: points must be finite and increasing, speeds by 0.1 km/h, torque rates "
             "and gains by 0.001 at least, gains between 0 and 0.5"
         )
-
-
-def _second_table(config: Config) -> Config:
-    """The second table as the first one's parameters: it shares the points of speed and rate."""
-    return {
-        **config,
-        "fuzzy_inference": config["second_inference"],
-        "fuzzy_gain_points": config["second_gain_points"],
-        "fuzzy_rules": config["second_rules"],
-    }
-
-
-def _fill_modes(native: Any, config: Config) -> None:
-    native.mode_laws = [Law[name] for name in config["mode_laws"]]
-    native.mode_ratios = config["mode_ratios"]
-    native.mode_tapers = [Taper[name] for name in config["mode_tapers"]]
-    native.mode_tables = config["mode_tables"]
-    native.mode_ramp_up_nm_per_s = config["mode_ramp_up_nm_per_s"]
-    native.mode_ramp_down_nm_per_s = config["mode_ramp_down_nm_per_s"]
-    native.mode_torque_share = [pct / 100 for pct in config["mode_torque_pct"]]
 
 
 def law_defaults() -> dict[str, Any]:
@@ -288,25 +290,11 @@ def law_defaults() -> dict[str, Any]:
 
 def native_config(config: Config, step_s: float = STEP_S) -> Any:
     """The assist_config of a configuration, as AssistLaw takes it. Raises LawRefused."""
-    defaults = default_config()
-    later = {row.name: defaults[row.name] for row in PARAMETERS if row.id >= FIRST_LATER_ID}
-    config = {**later, **config}
-    native = ffi.new("assist_config *")
+    given = [row for row in LAW_PARAMETERS if row.name in config or row.id < FIRST_LATER_ID]
+    native = _law_of(_image_of(config, given, "configuration"))
     native.step_s = step_s
-    _fill_table(ffi.addressof(native, "table"), config)
-    _fill_table(ffi.addressof(native, "second_table"), _second_table(config))
-    try:
-        for name in PLAIN_PARAMETERS:
-            setattr(native, name, config[name])
-        native.torque_rate_interval_s = config["torque_rate_interval_ms"] / 1000
-        native.pedal_stop_s = config["pedal_stop_ms"] / 1000
-        _fill_modes(native, config)
-        native.market = Market[config["market"]]
-        native.fuzzy_falling_torque = FallingTorque[config["fuzzy_falling_torque"]]
-    except KeyError as missing:
-        raise LawRefused(f"configuration: {missing} is missing or not a choice") from missing
-    except (TypeError, IndexError) as wrong:
-        raise LawRefused(f"configuration: {wrong}") from wrong
+    _check_table(ffi.addressof(native, "table"))
+    _check_table(ffi.addressof(native, "second_table"))
     if lib.assist_config_check(native) != lib.ASSIST_OK:
         raise LawRefused("configuration: a value is not finite or physically impossible")
     return native
