@@ -5,6 +5,12 @@ import { defineConfig } from 'vitest/config'
 const folder = (path: string) => fileURLToPath(new URL(path, import.meta.url))
 const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
 
+// What most pages need of a unit, in one file: a dozen tiny ones compress worse than they save.
+const UNIT = {
+  name: 'unit',
+  test: /src\/shared\/(device|i18n\/(refusal_text|ride_title)|stream\/flags)/,
+}
+
 export default defineConfig({
   plugins: [svelte()],
   define: { global: 'globalThis' },
@@ -18,7 +24,12 @@ export default defineConfig({
     // Components run in the tests' DOM, not on a server.
     conditions: process.env.VITEST ? ['browser'] : undefined,
   },
-  build: { target: 'es2022', chunkSizeWarningLimit: 1500, modulePreload: { polyfill: false } },
+  build: {
+    target: 'es2022',
+    chunkSizeWarningLimit: 1500,
+    modulePreload: { polyfill: false },
+    rolldownOptions: { output: { codeSplitting: { groups: [UNIT] } } },
+  },
   server: {
     host: '127.0.0.1',
     // With the Host the browser names: the server takes no request whose Origin is another's.
