@@ -7,7 +7,7 @@ import math
 
 import pytest
 
-from backend.device.ebl.operations.parameters import unknown_names
+from backend.device.ebl.operations.parameters import TABLE
 from firmware_protocol._generated import PARAMETER_BY_ID, PARAMETER_BY_NAME, RETIRED
 from firmware_protocol.layout import Value
 from firmware_protocol.retired import brought_forward
@@ -48,6 +48,6 @@ def test_a_retired_id_is_never_given_again() -> None:
 
 
 def test_who_writes_the_old_name_is_told_the_new_one() -> None:
-    (error,) = unknown_names({"wheel_radius_m": 0.33})
+    (error,) = TABLE.unknown_names({"wheel_radius_m": 0.33})
 
     assert "It is wheel_circumference_m now" in error.message
