@@ -26,7 +26,15 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "your-first-change.md"
-PARTS = ("backend", "firmware_protocol", "frontend", "sim_device", "tests", "third_party")
+PARTS = (
+    "backend",
+    "firmware_protocol",
+    "frontend",
+    "sim_device",
+    "spindle",
+    "tests",
+    "third_party",
+)
 LEFT_OUT = ("node_modules", "dist", "__pycache__", "*.o")
 STEPS = "23456"
 DICTIONARIES = ("en_unit.ts", "zh_unit.ts")
