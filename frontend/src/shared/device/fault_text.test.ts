@@ -26,7 +26,7 @@ it('takes a fault it does not know for one that stays, and says that the firmwar
 it('counts warnings as warnings only while there is nothing worse', () => {
   // No fault of today's units is a mere warning; one of tomorrow's may be.
   const rows = FAULTS as Record<string, FaultRow>
-  rows.TOLD_ONLY = { bit: 30, severity: 'WARNING', rider_text: '', mechanic_text: '' }
+  rows.TOLD_ONLY = { severity: 'WARNING', rider_text: '', mechanic_text: '' }
   onTestFinished(() => {
     delete rows.TOLD_ONLY
   })

@@ -97,7 +97,6 @@ const refusal = {
   invalid_assist_modes: '助力模式的数值相互矛盾。',
   recording: '骑行正在记录，结束后再试。',
   not_confirmed: '此骑行尚未下载并确认，不能从单元删除。',
-  no_logs: '此单元不保存骑行记录。',
   offset_mismatch: '上传的位置不符，请从服务器所报位置继续。',
   hash_mismatch: '内容与单元所报的校验不符，没有保存。',
   checksum_mismatch: '校验和不符：文件已损坏。',
