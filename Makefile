@@ -7,6 +7,7 @@ BIN := $(VENV)/bin
 STAMP := .make
 
 # Most tests wait more than they compute: twice the two cores of a small machine.
+# A browser computes: two at once.
 WORKERS ?= 4
 PARALLEL := --dist loadgroup --no-loadscope-reorder -n
 
@@ -45,7 +46,8 @@ setup: $(STAMP)/native $(STAMP)/web ## install and build everything, start nothi
 test: setup $(STAMP)/chromium lint ## every test there is, a real browser included
 	cd frontend && npm run --silent test
 	$(BIN)/pytest -m serial
-	$(BIN)/pytest -m "not serial" $(PARALLEL) $(WORKERS)
+	$(BIN)/pytest -m "not serial" $(PARALLEL) $(WORKERS) --ignore=tests/browser
+	$(BIN)/pytest $(PARALLEL) 2 tests/browser
 
 .PHONY: prove
 prove: setup ## the large counts of which `make test` does a tenth, all of them

@@ -37,7 +37,13 @@ class SpindleServer(RunningServer):
 
     def start(self) -> Self:
         super().start()
-        self.client = httpx.Client(base_url=f"{self.url}/api/v1", timeout=30.0, trust_env=False)
+        self.client = httpx.Client(
+            base_url=f"{self.url}/api/v1",
+            timeout=30.0,
+            trust_env=False,
+            # The server closes idle connections after 5 s; one in use at that moment is reset.
+            limits=httpx.Limits(keepalive_expiry=2.0),
+        )
         return self
 
     def get(self, path: str, **request: Any) -> Any:
