@@ -92,7 +92,7 @@ def test_a_file_is_imported_listed_and_exported(server: SpindleServer, tmp_path:
     csv = tmp_path / "lunch.csv"
 
     result = spindle(server, "ride", "import", file, "--json")
-    ride = json.loads(result.stdout)["ride_ids"][0]
+    (ride,) = json.loads(result.stdout)["ride_ids"] or [result.stdout]
     shown = spindle(server, "ride", "show", str(ride))
     exported = spindle(server, "ride", "export", str(ride), "--output", csv)
     listed = spindle(server, "ride", "list")
