@@ -9,7 +9,6 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
-from enum import StrEnum
 from typing import Any, ClassVar, NoReturn
 
 from backend.device.configuration import (
@@ -26,34 +25,9 @@ from backend.device.live_values import LiveValues
 from backend.device.ride_logs import LogPieces, RideLog, RideLogs
 from backend.device.snapshot import DeviceStatus
 from backend.device.upkeep import Upkeep
+from backend.domain.capability import Capability
 from backend.domain.channels import ChannelSpec
 from backend.errors import CapabilityMissing
-
-
-class Capability(StrEnum):
-    """What units differ in; the API and the pages use these words.
-
-    unit_trial: the unit itself returns from a change that is not kept. live_set: values are tried
-    in its memory alone. unit_limits: it enforces limits by itself. unique_id: it has a serial
-    number. restart_to_apply: what is written holds from the next start on.
-    """
-
-    READ_CONFIG = "read_config"
-    WRITE_CONFIG = "write_config"
-    UNIT_TRIAL = "unit_trial"
-    STREAM = "stream"
-    RIDER_TORQUE = "rider_torque"
-    CALIBRATE = "calibrate"
-    LIVE_SET = "live_set"
-    LOGS = "logs"
-    UNIT_LIMITS = "unit_limits"
-    UNIQUE_ID = "unique_id"
-    RESTART_TO_APPLY = "restart_to_apply"
-    FUZZY_TABLE = "fuzzy_table"
-    ASSIST_MODES = "assist_modes"
-    LIMITS = "limits"
-    SIMULATION = "simulation"
-
 
 MEANING = {
     Capability.READ_CONFIG: "let its configuration be read",
@@ -64,6 +38,7 @@ MEANING = {
     Capability.CALIBRATE: "have its sensor calibrated from here",
     Capability.LIVE_SET: "try values while it runs",
     Capability.LOGS: "keep ride logs",
+    Capability.UNLOCK: "take the maker's word for what its market forbids",
     Capability.UNIT_LIMITS: "enforce limits by itself",
     Capability.UNIQUE_ID: "say who it is",
     Capability.RESTART_TO_APPLY: "apply changes at its next start",
@@ -129,7 +104,7 @@ class Unit(ABC):
 
     def permit(self, token: str) -> object:
         """The maker's answer as a person brings it, for `write_config`. Raises InvalidRequest."""
-        self._lacks(Capability.UNIT_LIMITS)
+        self._lacks(Capability.UNLOCK)
 
     def write_config(
         self, base: ConfigImage, changes: Config, confirm_s: int = 0, permit: object = None

@@ -15,7 +15,8 @@ from backend.device.driver import LinkOpener, Listener
 from backend.device.families import DEFAULT_FAMILY, FAMILIES, Families
 from backend.device.ports import Opener, PortInfo, family_of, kind_of, list_ports
 from backend.device.states import DeviceEvent, LinkState
-from backend.device.unit import Capability, Unit
+from backend.device.unit import Unit
+from backend.domain.capability import Capability
 from backend.domain.channels import ChannelSpec
 from backend.errors import Conflict, InvalidRequest, NoAnswer, NotFound
 from backend.services.device_ids import canonical, id_of

@@ -47,7 +47,7 @@ class DeviceView:
     id: stable as long as the device is here. kind: simulated, serial or socket. state: connecting,
     ready, read_only, lost or closed. reason: a sentence for people. identity: the last one known.
     link: counters of LinkStatistics by name. capabilities: as in
-    backend.device.unit.Capability.
+    backend.domain.capability.Capability.
     """
 
     id: str

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 
 from backend.device.configuration import LiveState, Value
-from backend.device.unit import Capability
+from backend.domain.capability import Capability
 from backend.errors import FieldError, InvalidRequest, LimitViolation, NoAnswer
 from backend.services.connect import Devices
 from backend.services.outcome import telling

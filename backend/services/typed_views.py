@@ -9,8 +9,8 @@ from typing import Any, cast
 
 from backend.control import cutoff_of
 from backend.device.configuration import ParameterTable, Value
-from backend.device.unit import Capability
 from backend.domain.assist_mode import AssistModes
+from backend.domain.capability import Capability
 from backend.domain.fuzzy_table import PARAMETERS_OF, SHARED_FIELDS, FuzzyTable, stored_json
 from backend.errors import FieldError, InvalidRequest
 

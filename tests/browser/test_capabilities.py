@@ -16,34 +16,16 @@ from tests.browser.desk import Desk
 from tests.browser.test_pages_for_everyone import JUDGE
 from tests.fakes.server import SpindleServer
 
-ALL = [
-    "read_config",
-    "write_config",
-    "unit_trial",
-    "stream",
-    "rider_torque",
-    "calibrate",
-    "live_set",
-    "logs",
-    "unlock",
-    "unit_limits",
-    "unique_id",
-    "fuzzy_table",
-    "assist_modes",
-    "limits",
-    "simulation",
-]
-
 
 def lacking(desk: Desk, server: SpindleServer, *missing: str) -> list[str]:
     """The unit lists everything but this from now on; what the page asks of it comes back."""
     asked: list[str] = []
-    capabilities = [name for name in ALL if name not in missing]
 
     def answer(route: Route) -> None:
         found: dict[str, Any] = server.get("/devices")
-        items = [one | {"capabilities": capabilities} for one in found["items"]]
-        route.fulfill(json=found | {"items": items})
+        for unit in found["items"]:
+            unit["capabilities"] = [name for name in unit["capabilities"] if name not in missing]
+        route.fulfill(json=found)
 
     desk.page.route("**/api/v1/devices", answer)
     desk.page.on("request", lambda request: asked.append(request.url))

@@ -8,6 +8,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from backend.api.models.base import Answer, Question
+from backend.domain.capability import Capability
 
 DeviceKind = Literal["simulated", "serial", "socket"]
 DeviceState = Literal["connecting", "ready", "read_only", "lost", "closed"]
@@ -19,23 +20,6 @@ HealthCode = Literal[
     "database_unreachable",
     "rows_lost",
     "rides_damaged",
-]
-CapabilityName = Literal[
-    "read_config",
-    "write_config",
-    "unit_trial",
-    "stream",
-    "rider_torque",
-    "calibrate",
-    "live_set",
-    "logs",
-    "unit_limits",
-    "unique_id",
-    "restart_to_apply",
-    "fuzzy_table",
-    "assist_modes",
-    "limits",
-    "simulation",
 ]
 RiderKind = Literal["off", "constant", "legs"]
 DynoConvention = Literal["physical", "thesis"]
@@ -147,7 +131,7 @@ class Device(Answer):
     )
     faults_active: list[str]
     family: str = Field(description="The make of the unit: what `?family=` of its url takes.")
-    capabilities: list[CapabilityName] = Field(
+    capabilities: list[Capability] = Field(
         description="What this unit can do. A route that needs another answers 409 "
         "`capability_missing` and names it."
     )

@@ -39,8 +39,9 @@ from backend.device.faults import UnitFault
 from backend.device.live_values import LiveValues
 from backend.device.ride_logs import LogPieces, RideLog, RideLogs
 from backend.device.states import LinkState
-from backend.device.unit import Capability, Unit
+from backend.device.unit import Unit
 from backend.device.upkeep import Upkeep
+from backend.domain.capability import Capability
 from backend.domain.channels import ChannelSpec
 from backend.errors import CapabilityMissing, DeviceRefused, SpindleError
 

@@ -972,6 +972,17 @@ export interface components {
              */
             readonly sensor_gain_nm_per_count_factory?: number | null;
         };
+        /**
+         * Capability
+         * @description What units differ in; the API and the pages use these words.
+         *
+         *     unit_trial: the unit itself returns from a change that is not kept. live_set: values are tried
+         *     in its memory alone. unlock: its maker may permit what its market forbids. unit_limits: it
+         *     enforces limits by itself. unique_id: it has a serial number. restart_to_apply: what is written
+         *     holds from the next start on.
+         * @enum {string}
+         */
+        Capability: "read_config" | "write_config" | "unit_trial" | "stream" | "rider_torque" | "calibrate" | "live_set" | "logs" | "unlock" | "unit_limits" | "unique_id" | "restart_to_apply" | "fuzzy_table" | "assist_modes" | "limits" | "simulation";
         /** Change */
         Change: {
             /** Name */
@@ -1193,7 +1204,7 @@ export interface components {
              * Capabilities
              * @description What this unit can do. A route that needs another answers 409 `capability_missing` and names it.
              */
-            capabilities: ("read_config" | "write_config" | "unit_trial" | "stream" | "rider_torque" | "calibrate" | "live_set" | "logs" | "unit_limits" | "unique_id" | "restart_to_apply" | "fuzzy_table" | "assist_modes" | "limits" | "simulation")[];
+            capabilities: components["schemas"]["Capability"][];
         };
         /** DeviceHealth */
         DeviceHealth: {
