@@ -18,7 +18,7 @@
 /* A fault of the start itself, which no control step sees. */
 static void fault_at_start(app *unit, uint32_t flag)
 {
-    uint64_t now_us = unit->board->now_us(unit->board->context);
+    uint64_t now_us = unit_now_us(unit);
 
     if (!faults_latch(&unit->faults, flag)) return;
     faults_freeze(&unit->faults, flag, now_us, unit->telemetry.row);
@@ -28,7 +28,7 @@ static void fault_at_start(app *unit, uint32_t flag)
 /* Tells what the boot found in flash that is not as it was written. */
 static void config_tell(app *unit)
 {
-    uint64_t now_us = unit->board->now_us(unit->board->context);
+    uint64_t now_us = unit_now_us(unit);
     const config_tally *tally = &unit->config.store.tally;
     uint32_t fault =
         unit->config.store.is_provisioned ? EBL_FAULT_CONFIG_DEFAULTED : EBL_FAULT_NOT_PROVISIONED;
@@ -140,7 +140,7 @@ static void baud_rate_serve(app *unit, uint64_t now_us)
 
 void app_poll(app *unit)
 {
-    uint64_t now_us = unit->board->now_us(unit->board->context);
+    uint64_t now_us = unit_now_us(unit);
 
     transaction_poll(&unit->config.transaction, now_us);
     if (trial_is_over(&unit->config.trial, &unit->config.store, now_us)) {
@@ -223,7 +223,7 @@ static void motor_drive(app *unit, int result)
 
 void app_control_step(app *unit)
 {
-    uint64_t now_us = unit->board->now_us(unit->board->context);
+    uint64_t now_us = unit_now_us(unit);
     hal_inputs inputs;
     assist_input input;
     telemetry_sources sources = {&inputs, &unit->output, 0.0f, 0, 0};

@@ -56,4 +56,10 @@ typedef struct {
     answered_request answered[EBL_MAX_OUTSTANDING];
 } app;
 
+/* Time since the unit was switched on, by its board. */
+static inline uint64_t unit_now_us(const app *unit)
+{
+    return unit->board->now_us(unit->board->context);
+}
+
 #endif

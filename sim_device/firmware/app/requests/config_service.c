@@ -9,8 +9,6 @@
 
 #define MS_PER_S 1000u
 
-static uint64_t now(const app *unit) { return unit->board->now_us(unit->board->context); }
-
 static void info(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_cfg_info_response response = {unit->config.store.generation, unit->config.store.crc32,
@@ -79,13 +77,14 @@ static void begin(app *unit, const ebl_header *request, reply *answer)
     if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_begin_request, &asked))) return;
     if (unit->config.store.on_trial) {
         /* What it would overwrite is where a return leads to. */
-        uint32_t left_ms = trial_left_ms(&unit->config.trial, &unit->config.store, now(unit));
+        uint32_t left_ms =
+            trial_left_ms(&unit->config.trial, &unit->config.store, unit_now_us(unit));
 
         reply_refuse(answer, EBL_STATUS_BUSY, (uint16_t)((left_ms + MS_PER_S - 1) / MS_PER_S));
         return;
     }
-    status = transaction_begin(&unit->config.transaction, &unit->config.store, &asked, now(unit),
-                               &detail);
+    status = transaction_begin(&unit->config.transaction, &unit->config.store, &asked,
+                               unit_now_us(unit), &detail);
     if (status != EBL_STATUS_OK) {
         reply_refuse(answer, status, detail);
         return;
@@ -103,7 +102,7 @@ static void set(app *unit, const ebl_header *request, reply *answer)
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_set_request, &asked))) return;
     status = transaction_set(&unit->config.transaction, &asked, permission_to_stage(unit),
-                             now(unit), &detail);
+                             unit_now_us(unit), &detail);
     reply_status(answer, status, detail);
 }
 
@@ -115,8 +114,8 @@ static void validate(app *unit, const ebl_header *request, reply *answer)
     uint8_t status;
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_validate_request, &asked))) return;
-    status = transaction_validate(&unit->config.transaction, asked.transaction, now(unit), found,
-                                  REFUSALS_MAX, &detail);
+    status = transaction_validate(&unit->config.transaction, asked.transaction, unit_now_us(unit),
+                                  found, REFUSALS_MAX, &detail);
     if (status == EBL_STATUS_INVALID_CONFIG) {
         reply_refusals(answer, found, detail);
     } else {
@@ -132,7 +131,7 @@ static void staged_crc(app *unit, const ebl_header *request, reply *answer)
     uint8_t status;
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_staged_crc_request, &asked))) return;
-    status = transaction_staged_crc(&unit->config.transaction, asked.transaction, now(unit),
+    status = transaction_staged_crc(&unit->config.transaction, asked.transaction, unit_now_us(unit),
                                     &response.crc32, &detail);
     if (status != EBL_STATUS_OK) {
         reply_refuse(answer, status, detail);
@@ -146,10 +145,10 @@ static void committed(app *unit, uint8_t confirm_s)
 {
     permission_end(unit);
     if (unit->config.store.on_trial) {
-        trial_begin(&unit->config.trial, confirm_s, now(unit));
+        trial_begin(&unit->config.trial, confirm_s, unit_now_us(unit));
         unit->config.live.active = 0;
         config_apply(&unit->config);
-        event_config_provisional(&unit->events, &unit->link, now(unit),
+        event_config_provisional(&unit->events, &unit->link, unit_now_us(unit),
                                  unit->config.store.generation, unit->config.store.crc32,
                                  confirm_s);
         return;
@@ -163,7 +162,7 @@ static uint8_t commit_access(app *unit, const ebl_cfg_commit_request *asked, uin
 {
     uint32_t crc32;
     uint8_t status = transaction_staged_crc(&unit->config.transaction, asked->transaction,
-                                            now(unit), &crc32, detail);
+                                            unit_now_us(unit), &crc32, detail);
 
     if (status != EBL_STATUS_OK || unit->config.transaction.state != EBL_CONFIG_STATE_VALID) {
         return EBL_STATUS_OK;
@@ -183,9 +182,10 @@ static void commit(app *unit, const ebl_header *request, reply *answer)
     if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_commit_request, &asked))) return;
     status = commit_access(unit, &asked, &detail);
     if (status == EBL_STATUS_OK) {
-        status = transaction_commit(&unit->config.transaction, &unit->config.store, unit->board,
-                                    road_speed_kmh(&unit->speed, &unit->config.in_force, now(unit)),
-                                    &asked, now(unit), unit->counters.operating_s, &detail);
+        status = transaction_commit(
+            &unit->config.transaction, &unit->config.store, unit->board,
+            road_speed_kmh(&unit->speed, &unit->config.in_force, unit_now_us(unit)), &asked,
+            unit_now_us(unit), unit->counters.operating_s, &detail);
     }
     if (status != EBL_STATUS_OK) {
         reply_refuse(answer, status, detail);
@@ -206,7 +206,8 @@ static void abort_transaction(app *unit, const ebl_header *request, reply *answe
     uint8_t status;
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_cfg_abort_request, &asked))) return;
-    status = transaction_abort(&unit->config.transaction, asked.transaction, now(unit), &detail);
+    status =
+        transaction_abort(&unit->config.transaction, asked.transaction, unit_now_us(unit), &detail);
     reply_status(answer, status, detail);
 }
 

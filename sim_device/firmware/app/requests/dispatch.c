@@ -158,7 +158,7 @@ void dispatch_frame(app *unit, const uint8_t *frame, size_t length)
 
     if (readable != EBL_OK && readable != EBL_ERROR_VERSION) return;
     if (request.kind != EBL_KIND_REQUEST) return;
-    baud_rate_heard(&unit->baud_rate, unit->board->now_us(unit->board->context));
+    baud_rate_heard(&unit->baud_rate, unit_now_us(unit));
     if (readable == EBL_OK && is_acknowledgement(&request)) {
         acknowledgement(unit, &request);
         return;

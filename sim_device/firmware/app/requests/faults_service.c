@@ -46,7 +46,7 @@ static void faults_clear_request(app *unit, const ebl_header *request, reply *an
         uint32_t cleared = faults_clear_latched(&unit->faults, asked.fault_flags);
 
         if (cleared != 0) {
-            report_faults_cleared(unit, cleared, unit->board->now_us(unit->board->context));
+            report_faults_cleared(unit, cleared, unit_now_us(unit));
         }
     }
     faults_forget(&unit->faults, asked.fault_flags);

@@ -14,8 +14,6 @@
 #define CHECK_MS_MIN 10u
 #define ERASE_S 1 /* a block takes less */
 
-static uint64_t now_us(const app *unit) { return unit->board->now_us(unit->board->context); }
-
 static void entry_put(const ride_log_store *store, uint8_t place, uint8_t *bytes)
 {
     const ride_log_entry *log = &store->logs[place];
@@ -44,7 +42,7 @@ static void list(app *unit, const ebl_header *request, reply *answer)
     response.total = ride_log_store_count(store);
     response.overwritten = store->overwritten;
     response.boot_id = unit->board->boot_id;
-    response.now_us = now_us(unit);
+    response.now_us = unit_now_us(unit);
     reply_message(answer, EBL_MESSAGE(ebl_log_list_response, &response));
     while (count < room && asked.start + count < response.total) {
         uint8_t place = ride_log_store_by_age(store, (uint16_t)(asked.start + count));
@@ -104,7 +102,7 @@ static void open(app *unit, const ebl_header *request, reply *answer)
         return;
     }
     ride_log_bulk_open(&unit->bulk, store, place, asked.offset, response.chunk, response.window,
-                       asked.session, now_us(unit));
+                       asked.session, unit_now_us(unit));
     reply_message(answer, EBL_MESSAGE(ebl_log_open_response, &response));
 }
 
@@ -115,7 +113,7 @@ static void acknowledge(app *unit, const ebl_header *request, reply *answer)
     if (!request_read(request, answer, EBL_MESSAGE(ebl_log_ack_request, &asked))) return;
     if (unit->bulk.session == 0 || asked.session != unit->bulk.session) {
         reply_refuse(answer, EBL_STATUS_NOT_FOUND, asked.session);
-    } else if (!ride_log_bulk_ack(&unit->bulk, asked.base, asked.bitmap, now_us(unit))) {
+    } else if (!ride_log_bulk_ack(&unit->bulk, asked.base, asked.bitmap, unit_now_us(unit))) {
         reply_refuse(answer, EBL_STATUS_RANGE, asked.session);
     } else {
         reply_ok(answer);
@@ -198,7 +196,8 @@ static void erase(app *unit, const ebl_header *request, reply *answer)
         reply_refuse(answer, EBL_STATUS_STATE, (uint16_t)asked.log_id);
         return;
     }
-    fetched_s = place == unit->bulk.place ? ride_log_bulk_left_s(&unit->bulk, now_us(unit)) : 0;
+    fetched_s =
+        place == unit->bulk.place ? ride_log_bulk_left_s(&unit->bulk, unit_now_us(unit)) : 0;
     if (fetched_s != 0) {
         reply_refuse(answer, EBL_STATUS_BUSY, fetched_s);
         return;
@@ -255,7 +254,7 @@ void requests_log_poll(app *unit)
     reply answer = {bytes, sizeof bytes, 0};
     int state;
 
-    ride_log_bulk_poll(&unit->bulk, &unit->ride_log.store, now_us(unit));
+    ride_log_bulk_poll(&unit->bulk, &unit->ride_log.store, unit_now_us(unit));
     if (check->tid == 0) return;
     state = ride_log_check_poll(check, &unit->ride_log.store, unit->board);
     if (state == RIDE_LOG_CHECK_RUNNING) return;

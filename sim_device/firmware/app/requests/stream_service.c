@@ -17,8 +17,8 @@ static void subscribe(app *unit, const ebl_header *request, reply *answer)
     uint8_t status;
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_str_subscribe_request, &asked))) return;
-    status = telemetry_subscribe(&unit->telemetry, &asked, &line,
-                                 unit->board->now_us(unit->board->context), &response, &detail);
+    status =
+        telemetry_subscribe(&unit->telemetry, &asked, &line, unit_now_us(unit), &response, &detail);
     if (status != EBL_STATUS_OK) {
         reply_refuse(answer, status, detail);
         return;
@@ -32,8 +32,8 @@ static void unsubscribe(app *unit, const ebl_header *request, reply *answer)
     uint8_t status;
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_str_unsubscribe_request, &asked))) return;
-    status = telemetry_unsubscribe(&unit->telemetry, &unit->events, &unit->link,
-                                   unit->board->now_us(unit->board->context), asked.stream_id);
+    status = telemetry_unsubscribe(&unit->telemetry, &unit->events, &unit->link, unit_now_us(unit),
+                                   asked.stream_id);
     reply_status(answer, status, asked.stream_id);
 }
 
@@ -43,8 +43,7 @@ static void renew(app *unit, const ebl_header *request, reply *answer)
     uint8_t status;
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_str_renew_request, &asked))) return;
-    status = telemetry_renew(&unit->telemetry, asked.stream_id, asked.lease_s,
-                             unit->board->now_us(unit->board->context));
+    status = telemetry_renew(&unit->telemetry, asked.stream_id, asked.lease_s, unit_now_us(unit));
     reply_status(answer, status, asked.stream_id);
 }
 
@@ -74,8 +73,7 @@ static void list(app *unit, const ebl_header *request, reply *answer)
         const telemetry_stream *stream = &unit->telemetry.streams[i];
 
         if (!stream->active) continue;
-        entry_put(entries + response.entries_length, stream,
-                  unit->board->now_us(unit->board->context));
+        entry_put(entries + response.entries_length, stream, unit_now_us(unit));
         response.entries_length += ENTRY_LENGTH;
     }
     reply_message(answer, EBL_MESSAGE(ebl_str_list_response, &response));

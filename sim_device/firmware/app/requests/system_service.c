@@ -25,7 +25,7 @@ static void session_start(app *unit)
     transaction_drop(&unit->config.transaction);
     permission_end(unit);
     log_session_end(unit);
-    events_attend(&unit->events, 1, unit->board->now_us(unit->board->context));
+    events_attend(&unit->events, 1, unit_now_us(unit));
     memset(unit->answered, 0, sizeof unit->answered);
 }
 
@@ -48,7 +48,7 @@ static void hello_fill(const app *unit, ebl_hello_response *response)
     response->max_outstanding = EBL_MAX_OUTSTANDING;
     response->access = EBL_ACCESS_DEALER;
     response->baud_bitmap = baud_rate_offered(unit->board);
-    response->uptime_us = unit->board->now_us(unit->board->context);
+    response->uptime_us = unit_now_us(unit);
 }
 
 static void hello(app *unit, const ebl_header *request, reply *answer)
@@ -134,7 +134,7 @@ static void bye(app *unit, const ebl_header *request, reply *answer)
     transaction_drop(&unit->config.transaction);
     permission_end(unit);
     log_session_end(unit);
-    events_attend(&unit->events, 0, unit->board->now_us(unit->board->context));
+    events_attend(&unit->events, 0, unit_now_us(unit));
     reply_ok(answer);
 }
 

@@ -7,8 +7,6 @@
 #include "ebl_registry.h"      // ebl_cfg_confirm_request
 #include "config/parameters.h" // parameters_get
 
-static uint64_t now(const app *unit) { return unit->board->now_us(unit->board->context); }
-
 static void confirm(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_cfg_confirm_request asked;
@@ -20,7 +18,7 @@ static void confirm(app *unit, const ebl_header *request, reply *answer)
     status = trial_confirm(&unit->config.store, unit->board, &asked, &detail);
     reply_status(answer, status, detail);
     if (status != EBL_STATUS_OK || !was_on_trial) return;
-    event_config(&unit->events, &unit->link, now(unit), EBL_EVENT_CONFIG_COMMITTED,
+    event_config(&unit->events, &unit->link, unit_now_us(unit), EBL_EVENT_CONFIG_COMMITTED,
                  unit->config.store.generation, unit->config.store.crc32);
     config_apply(&unit->config); /* what held it back may be over */
     config_well(&unit->faults, &unit->events, &unit->link, unit->board);
@@ -51,10 +49,12 @@ static void config_status(app *unit, const ebl_header *request, reply *answer)
         unit->config.store.on_trial ? EBL_CONFIG_STATE_PROVISIONAL : unit->config.transaction.state;
     response.generation = unit->config.store.generation;
     response.crc32 = unit->config.store.crc32;
-    response.confirm_left_ms = trial_left_ms(&unit->config.trial, &unit->config.store, now(unit));
-    response.live_left_ms = live_left_ms(&unit->config.live, now(unit));
-    response.commit_wait_ms = transaction_commit_wait_ms(
-        &unit->config.transaction, &unit->config.store, now(unit), unit->counters.operating_s);
+    response.confirm_left_ms =
+        trial_left_ms(&unit->config.trial, &unit->config.store, unit_now_us(unit));
+    response.live_left_ms = live_left_ms(&unit->config.live, unit_now_us(unit));
+    response.commit_wait_ms =
+        transaction_commit_wait_ms(&unit->config.transaction, &unit->config.store,
+                                   unit_now_us(unit), unit->counters.operating_s);
     response.rollback_cause = unit->config.trial.cause;
     response.rolled_back_generation = unit->config.trial.returned_generation;
     reply_message(answer, EBL_MESSAGE(ebl_cfg_status_response, &response));
@@ -114,8 +114,8 @@ static void live_values(app *unit, const ebl_header *request, reply *answer)
     uint8_t status;
 
     if (!request_read(request, answer, EBL_MESSAGE(ebl_live_set_request, &asked))) return;
-    status = live_set(&unit->config.live, &unit->config.store, &asked, EBL_ACCESS_DEALER, now(unit),
-                      found, REFUSALS_MAX, &detail);
+    status = live_set(&unit->config.live, &unit->config.store, &asked, EBL_ACCESS_DEALER,
+                      unit_now_us(unit), found, REFUSALS_MAX, &detail);
     if (status == EBL_STATUS_INVALID_CONFIG) {
         reply_refusals(answer, found, detail);
     } else {

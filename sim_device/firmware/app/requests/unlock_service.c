@@ -4,8 +4,6 @@
 #include "services.h"     // request_handler
 #include "ebl_registry.h" // ebl_auth_challenge_request
 
-static uint64_t now(const app *unit) { return unit->board->now_us(unit->board->context); }
-
 static void challenge(app *unit, const ebl_header *request, reply *answer)
 {
     ebl_auth_challenge_request asked;
@@ -27,8 +25,8 @@ static void challenge(app *unit, const ebl_header *request, reply *answer)
 static uint8_t may_be_asked(app *unit, uint16_t transaction, uint16_t *detail)
 {
     uint32_t crc32;
-    uint8_t status =
-        transaction_staged_crc(&unit->config.transaction, transaction, now(unit), &crc32, detail);
+    uint8_t status = transaction_staged_crc(&unit->config.transaction, transaction,
+                                            unit_now_us(unit), &crc32, detail);
 
     if (status != EBL_STATUS_OK) return status;
     if (unit->config.transaction.state != EBL_CONFIG_STATE_VALID) return EBL_STATUS_STATE;
