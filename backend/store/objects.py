@@ -95,6 +95,7 @@ class FileObjects:
         # Told of every write to this folder; the database of the same store shares it.
         self.watch = WriteWatch()
         self._turn = threading.Lock()
+        self._making = threading.Lock()
         self._holders = 0
 
     def prepare(self) -> None:
@@ -221,10 +222,12 @@ class FileObjects:
 
     def _put(self, source: Path, target: Path) -> None:
         """Rename within the store, making folders on the way, each of them flushed."""
-        missing = [folder for folder in target.parents if not folder.exists()]
-        for folder in reversed(missing):
-            folder.mkdir()
-            self.disk.flush_folder(folder.parent)
+        # One at a time: a folder that another thread made is not there for good before its flush.
+        with self._making:
+            missing = [folder for folder in target.parents if not folder.exists()]
+            for folder in reversed(missing):
+                folder.mkdir(exist_ok=True)
+                self.disk.flush_folder(folder.parent)
         self.disk.rename(source, target)
         self.disk.flush_folder(target.parent)
 

@@ -19,7 +19,7 @@ from backend.domain.ride import RideContext
 from backend.errors import StoreError
 from backend.store import Store
 from backend.store.database import Database
-from backend.store.objects import Disk
+from backend.store.objects import Disk, FileObjects
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
 
 # Processes, compilers or hundreds of files: left out of `make test-fast`.
@@ -179,6 +179,29 @@ def test_what_nobody_knows_is_put_aside_and_what_is_known_is_kept(
     assert aside.read_bytes() == b"left by a crash"
     assert again.objects.clear_staging() == 0
     assert is_whole(again, ride_id)
+
+
+class SomebodyElseSaves(Disk):
+    """While a folder is being made, another file of the same folder is saved."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def flush_folder(self, path: Path) -> None:
+        super().flush_folder(path)
+        if path == self.folder.parent.parent:
+            self.folder.mkdir(exist_ok=True)
+
+
+def test_two_files_whose_folder_is_not_there_yet_are_both_saved(tmp_path: Path) -> None:
+    objects = FileObjects(tmp_path, SomebodyElseSaves(tmp_path / "originals" / "ab"))
+    objects.prepare()
+    staged = objects.stage()
+    staged.write_bytes(b"one of them")
+
+    objects.publish(staged, "originals/ab/abcd")
+
+    assert objects.local_path("originals/ab/abcd").read_bytes() == b"one of them"
 
 
 def test_a_full_disk_at_the_start_does_not_keep_the_server_from_starting(
