@@ -218,11 +218,8 @@ def serve(settings: Settings) -> int:
 
     Raises SpindleError with what to do if it cannot start.
     """
-    try:
-        with listening_socket(settings.host, settings.port) as listening:
-            return serve_on(listening, settings)
-    except KeyboardInterrupt:
-        return 0
+    with listening_socket(settings.host, settings.port) as listening:
+        return serve_on(listening, settings)
 
 
 def serve_on(listening: socket.socket, settings: Settings) -> int:

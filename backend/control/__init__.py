@@ -1,10 +1,11 @@
 """The only door from the backend to the unit's C law: surface, points, lint, replay."""
 
 from backend.control.finding import Finding, LintReport
-from backend.control.gain import ENGINE, law_defaults, points, surface
+from backend.control.gain import ENGINE, points, surface
 from backend.control.lint_rules import lint
 from backend.control.market import Cutoff, cutoff_of
 from backend.control.ride_replay import Replay, raw_counts_of, replay
+from sim_device.firmware.python.law import law_defaults
 
 __all__ = [
     "ENGINE",

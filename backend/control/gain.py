@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -85,8 +84,3 @@ def _coordinate_fault(place: str, value: float) -> FieldError:
         return FieldError(place, "not_finite", f"{place} is not a finite number")
     message = f"{place} is {value:g}; the unit computes with numbers up to 3.4e38"
     return FieldError(place, "out_of_range", message)
-
-
-def law_defaults() -> dict[str, Any]:
-    """The configuration the unit's firmware brings, by parameter name."""
-    return law.law_defaults()

@@ -11,6 +11,11 @@ from backend.errors import FieldError
 Value: TypeAlias = "float | int | str | list[Value]"
 Config: TypeAlias = Mapping[str, Value]
 
+NO_TRIAL = (
+    "No change is on trial in this unit: it was kept, given up or its time ran out. Read the "
+    "configuration again to see what is active."
+)
+
 
 @dataclass(frozen=True)
 class ConfigImage:

@@ -14,8 +14,9 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import asdict
 from datetime import UTC, datetime
 
-from backend.device.configuration import ConfigImage, ParameterTable, Value
-from backend.device.unit import Capability, Unit
+from backend.device.configuration import NO_TRIAL, ConfigImage, ParameterTable, Value
+from backend.device.unit import Unit
+from backend.domain.capability import Capability
 from backend.domain.revision import Revision
 from backend.errors import (
     Conflict,
@@ -42,10 +43,6 @@ from backend.services.typed_views import PARTS, ConfigPart
 
 RETURNED_REASON = "Returned to: the trial before was given up."
 KEPT_REASON = "Kept after its trial."
-NO_TRIAL = (
-    "No change is on trial in this unit: it was kept, given up or its time ran out. Read the "
-    "configuration again to see what is active."
-)
 CONFIRM_S_MAX = 255
 ACTIVE = "active"
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import Annotated, Any, Literal, cast
 
 from fastapi import APIRouter, Header, Query, Response
@@ -151,8 +150,9 @@ def put_fuzzy_table(
 
     Both tables share the points of speed and torque rate: those of the second are not changed here.
     """
-    write = partial(services.tuning.write_part, device_id, TABLES[table])
-    change = write(body.model_dump(), reason, if_match, confirm_s, token)
+    change = services.tuning.write_part(
+        device_id, TABLES[table], body.model_dump(), reason, if_match, confirm_s, token
+    )
     return _stamped(change, response)
 
 
@@ -174,9 +174,10 @@ def put_assist_modes(
     token: Token = None,
 ) -> Any:
     """Writes all five slots in one transaction."""
-    write = partial(services.tuning.write_part, device_id, "assist_modes")
-    value = body.model_dump()
-    return _stamped(write(value, reason, if_match, confirm_s, token), response)
+    change = services.tuning.write_part(
+        device_id, "assist_modes", body.model_dump(), reason, if_match, confirm_s, token
+    )
+    return _stamped(change, response)
 
 
 @router.get("/calibration", operation_id="get_calibration", response_model=Calibration)
@@ -197,9 +198,10 @@ def put_calibration(
     token: Token = None,
 ) -> Any:
     """Writes offset, gain and filters in one transaction."""
-    write = partial(services.tuning.write_part, device_id, "calibration")
-    value = body.model_dump()
-    return _stamped(write(value, reason, if_match, confirm_s, token), response)
+    change = services.tuning.write_part(
+        device_id, "calibration", body.model_dump(), reason, if_match, confirm_s, token
+    )
+    return _stamped(change, response)
 
 
 @router.get("/limits", operation_id="get_limits", response_model=Limits)
@@ -220,9 +222,10 @@ def put_limits(
     token: Token = None,
 ) -> Any:
     """Writes the limits in one transaction; the unit refuses what its market forbids."""
-    write = partial(services.tuning.write_part, device_id, "limits")
-    value = body.model_dump(exclude_none=True)
-    return _stamped(write(value, reason, if_match, confirm_s, token), response)
+    change = services.tuning.write_part(
+        device_id, "limits", body.model_dump(exclude_none=True), reason, if_match, confirm_s, token
+    )
+    return _stamped(change, response)
 
 
 def _tagged(view: Any, response: Response) -> Any:

@@ -237,19 +237,24 @@ def _law_of(image: bytes) -> Any:
     return native
 
 
-def _is_read_by_the_law(row: Parameter) -> bool:
+def _is_read_by_the_law(row: Parameter, law_of_default: bytes) -> bool:
     """Whether another value of this parameter makes another assist_config."""
     changed = bytearray(DEFAULT_IMAGE)
     for at in range(row.image_offset, row.image_offset + row.size):
         changed[at] ^= 1
-    return _bytes_of(_law_of(bytes(changed))) != _bytes_of(_law_of(DEFAULT_IMAGE))
+    return _bytes_of(_law_of(bytes(changed))) != law_of_default
 
 
 def _bytes_of(native: Any) -> bytes:
     return bytes(ffi.buffer(native))
 
 
-LAW_PARAMETERS = tuple(row for row in PARAMETERS if _is_read_by_the_law(row))
+def _law_parameters() -> tuple[Parameter, ...]:
+    law_of_default = _bytes_of(_law_of(DEFAULT_IMAGE))
+    return tuple(row for row in PARAMETERS if _is_read_by_the_law(row, law_of_default))
+
+
+LAW_PARAMETERS = _law_parameters()
 """The parameters that the unit maps to the law's configuration."""
 
 

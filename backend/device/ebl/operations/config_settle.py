@@ -9,9 +9,8 @@ from __future__ import annotations
 import zlib
 from collections.abc import Mapping
 
-from backend.device.configuration import ConfigImage, Value
+from backend.device.configuration import NO_TRIAL, ConfigImage, Value
 from backend.device.ebl.operations.config_transaction import compare, read_config
-from backend.device.ebl.operations.config_trial import NO_TRIAL
 from backend.device.ebl.session.operation import Operation
 from backend.device.ebl.session.trial_status import trial_status
 from backend.errors import ConfigConflict, Conflict, NoAnswer, PeerProtocolError

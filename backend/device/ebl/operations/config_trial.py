@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from backend.device.configuration import ConfigImage, Value
+from backend.device.configuration import NO_TRIAL, ConfigImage, Value
 from backend.device.ebl.operations.config_transaction import (
     CommitUnanswered,
     compare,
@@ -25,11 +25,6 @@ from firmware_protocol._generated import (
     Status,
 )
 from firmware_protocol.codec import Response
-
-NO_TRIAL = (
-    "No change is on trial in this unit: it was kept, given up or its time ran out. Read the "
-    "configuration again to see what is active."
-)
 
 
 def confirm_config(intended: Mapping[str, Value], mtu: int = MTU) -> Operation[ConfigImage]:

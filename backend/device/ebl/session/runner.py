@@ -6,14 +6,13 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any, TypeVar
 
+from backend.device.conversation import OnError, OnResult
 from backend.device.ebl.session.operation import Operation, Question
 from backend.device.ebl.session.requests import RequestTable
 from backend.errors import LinkError, SpindleError
 from firmware_protocol.codec import Response
 
 Result = TypeVar("Result")
-OnResult = Callable[[Result], object]
-OnError = Callable[[BaseException], object]
 
 # Operations at the same time; a person and a page's refreshes need three or four.
 RUNNING_MAX = 32

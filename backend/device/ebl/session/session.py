@@ -18,6 +18,7 @@ from dataclasses import replace
 from enum import Enum, auto
 from typing import TypeVar
 
+from backend.device.conversation import OnError, OnResult
 from backend.device.ebl.session.clock_keeper import ClockKeeper
 from backend.device.ebl.session.event_book import NO_TID, Arrival, EventBook, acknowledgement
 from backend.device.ebl.session.handshake import Acquaintance, VersionRefused, become_acquainted
@@ -41,7 +42,7 @@ from backend.device.ebl.session.reasons import (
     version_reason,
 )
 from backend.device.ebl.session.requests import RequestTable
-from backend.device.ebl.session.runner import OnError, OnResult, OperationRunner
+from backend.device.ebl.session.runner import OperationRunner
 from backend.device.ebl.session.schema import Schemas
 from backend.device.ebl.session.state_keeper import StateKeeper
 from backend.device.ebl.session.stream_keeper import StreamKeeper
@@ -446,9 +447,8 @@ class Session:
 
     def _time_told(self, answer: TimSyncResponse | None) -> None:
         if self.clock.answered(answer, self._now_s):
-            self._runner.start(
-                self.clock.tell(self._wall_us()), lambda told: None, lambda error: None
-            )
+            telling = self.clock.tell(self._wall_us())
+            self._runner.start(telling, lambda told: None, lambda error: None)
 
     def _other_life(self, reason: str) -> None:
         if self._phase is _Phase.UP:

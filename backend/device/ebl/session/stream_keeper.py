@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+from backend.device.conversation import OnError
 from backend.device.ebl.session.handshake import Acquaintance
 from backend.device.ebl.session.reasons import forgotten_reason, restarted_reason
-from backend.device.ebl.session.runner import OnError, OperationRunner
+from backend.device.ebl.session.runner import OperationRunner
 from backend.device.ebl.session.stream_receiver import RENEW_S, StreamPlan
 from backend.device.ebl.session.subscription import Subscription, UnitRestarted
 from backend.device.stream import StreamStarted
