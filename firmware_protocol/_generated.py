@@ -565,14 +565,14 @@ class CountersResponse(Message):
 
 @dataclass(frozen=True, slots=True)
 class AliveRequest(Message):
-    """Are you still the one I greeted. bits_per_second 0: no line limits it. events_waiting: kept and not acknowledged; events_pushed_out: kept ones given up for newer ones since boot."""
+    """Whether this is still the unit of the latest HELLO. bits_per_second 0: no line limits it. events_waiting: kept and not acknowledged; events_pushed_out: kept ones given up for newer ones since boot."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.ALIVE
 
 
 @dataclass(frozen=True, slots=True)
 class AliveResponse(Message):
-    """Are you still the one I greeted. bits_per_second 0: no line limits it. events_waiting: kept and not acknowledged; events_pushed_out: kept ones given up for newer ones since boot."""
+    """Whether this is still the unit of the latest HELLO. bits_per_second 0: no line limits it. events_waiting: kept and not acknowledged; events_pushed_out: kept ones given up for newer ones since boot."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.ALIVE
     LAYOUT: ClassVar[tuple[Field, ...]] = (

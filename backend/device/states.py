@@ -11,8 +11,8 @@ from backend.device.stream import StreamBlock, StreamStarted
 
 
 class LinkState(Enum):
-    """connecting: never acquainted yet or again. ready: may be read and written. read_only: may
-    be read, the reason says why not written. lost: was acquainted and is silent or unplugged.
+    """connecting: no handshake yet, or again. ready: may be read and written. read_only: may
+    be read, the reason says why not written. lost: was connected and is silent or unplugged.
     closed: given up by us, or refused."""
 
     CONNECTING = "connecting"

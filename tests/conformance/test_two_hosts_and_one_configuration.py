@@ -1,7 +1,7 @@
 """Goal: two hosts that know nothing of each other never mix, lose or double a change.
 
 Method: a rule-based state machine (hypothesis) draws what either host does next, in any order, with
-repeated frames, trials, power cuts inside flash writes and hosts that greet in between. A model of
+repeated frames, trials, power cuts inside flash writes and handshakes in between. A model of
 a page says what the unit must answer; after every step the unit's active image is the model's.
 """
 
@@ -60,7 +60,7 @@ CHANGES = st.fixed_dictionaries(
 TRIALS = st.sampled_from([0, 0, 5, 20])
 # Mostly nothing; what another host, or time, may do between two steps of a write.
 MEANWHILE = st.sampled_from(
-    ["", "", "", "", "begins", "writes", "commits", "confirms", "reverts", "greets", "lease"]
+    ["", "", "", "", "begins", "writes", "commits", "confirms", "reverts", "handshake", "lease"]
 )
 
 
@@ -277,8 +277,8 @@ class TwoHosts(RuleBasedStateMachine):
             self.begins(other)
         elif what == "writes":
             self.writes(other, {"pedal_stop_ms": 777}, True, True, [""] * 4)
-        elif what == "greets":
-            self.greets(other)
+        elif what == "handshake":
+            self.handshake(other)
         elif what == "confirms":
             self.reads(other)
             self.confirms(other)
@@ -292,7 +292,7 @@ class TwoHosts(RuleBasedStateMachine):
     # ------------------------------------------------------------------ the world
 
     @rule(index=HOSTS)
-    def greets(self, index: int) -> None:
+    def handshake(self, index: int) -> None:
         self.ask(self.hosts[index], HelloRequest(1, 1, 0, 544, bytes([index] * 8)))
         self.open = None
 

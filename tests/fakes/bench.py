@@ -92,7 +92,7 @@ class Bench(SessionBench):
         return self
 
     def connect(self) -> Bench:
-        """Open the port and run until the unit is acquainted."""
+        """Open the port and run until the handshake is done."""
         self.open_port()
         self.run_until(lambda: self.session.state in (LinkState.READY, LinkState.READ_ONLY))
         return self

@@ -39,7 +39,7 @@ class Entry:
 
 
 def unit_with_log(block_bytes: int, log_bytes: int) -> BenchUnit:
-    """A unit whose flash for logs is of this size, acquainted."""
+    """A unit whose flash for logs is of this size, connected."""
     unit = BenchUnit()
     assert lib.bench_log_flash(unit.board, block_bytes, log_bytes) == 0
     unit.boot()

@@ -91,7 +91,7 @@ class SerialWire:
         lib.bench_line_capacity(unit.board, UART_BYTES)
 
     def connect(self) -> SerialWire:
-        """Open the port and wait until the unit is acquainted, without loss."""
+        """Open the port and wait until the handshake is done, without loss."""
         loss, self.loss = self.loss, 0.0
         self.session.port_opened(self.now_s, "the wire", b"12345678", self.bits_per_second)
         self.run_until(lambda: self.session.state is LinkState.READY)

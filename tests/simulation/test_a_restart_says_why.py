@@ -1,4 +1,4 @@
-"""Goal: a unit that stopped itself under way is greeted anew, and its host knows why it started.
+"""Goal: a unit that stopped itself under way is connected again, and its host knows why it started.
 
 Method: the host's session against the unit's C on a virtual clock; the firmware is hung beside it.
 A firmware from before START_INFO is the fake one, which refuses what it does not know.
@@ -17,8 +17,8 @@ from tests.fakes.unit_link import LockstepAsUnit
 
 
 def identity(bench: Bench) -> Identity:
-    assert bench.session.acquaintance is not None
-    return bench.session.acquaintance.identity
+    assert bench.session.handshake is not None
+    return bench.session.handshake.identity
 
 
 @pytest.mark.parametrize(("steps", "cause"), [(False, "watchdog"), (True, "deadline")])

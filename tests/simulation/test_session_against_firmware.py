@@ -200,7 +200,7 @@ def test_what_was_before_and_what_the_firmware_brings_are_read_whole() -> None:
     bench.ask(write_config(base, {"pedal_stop_ms": 250}))
 
     assert bench.ask(read_bank("previous")) == base
-    # In the short frames of a unit that was not greeted, too.
+    # In the short frames of a unit that had no HELLO, too.
     default = bench.ask(read_bank("default", mtu=128))
     assert (default.generation, default.parameters) == (0, default_config())
 

@@ -29,9 +29,9 @@ def connected() -> tuple[SerialWire, ConfigImage]:
     return wire, wire.ask(read_config())
 
 
-def greeted(wire: SerialWire) -> int:
-    assert wire.session.acquaintance is not None
-    return wire.session.acquaintance.hello.session_id
+def session_id_of(wire: SerialWire) -> int:
+    assert wire.session.handshake is not None
+    return wire.session.handshake.hello.session_id
 
 
 def test_a_begin_whose_answer_was_lost_blocks_nobody() -> None:
@@ -68,7 +68,7 @@ def test_a_change_that_broke_off_in_the_middle_blocks_nobody() -> None:
 
 def test_what_another_host_has_open_is_left_to_it() -> None:
     wire, base = connected()
-    session = greeted(wire)
+    session = session_id_of(wire)
     begin = codec.Request(200, CfgBeginRequest(base.generation, base.crc32))
     frame = framing.encode_frame(codec.encode(begin))
     lib.bench_send(wire.unit.board, frame, len(frame))
@@ -81,4 +81,4 @@ def test_what_another_host_has_open_is_left_to_it() -> None:
     wire.run(2.0)
 
     assert wire.session.state is LinkState.READY
-    assert greeted(wire) == session
+    assert session_id_of(wire) == session

@@ -181,8 +181,8 @@ def test_a_restart_between_hello_and_its_answer_is_not_forgotten() -> None:
     there.open_port()
     there.run(3.0)
 
-    assert there.session.acquaintance is not None
-    assert there.session.acquaintance.identity.boot_id == 2
+    assert there.session.handshake is not None
+    assert there.session.handshake.identity.boot_id == 2
     assert there.session.state is LinkState.READY
     assert there.blocks() != []
 
@@ -205,8 +205,8 @@ def test_a_restart_nobody_told_of_shows_in_the_unit_s_clock() -> None:
     there.open_port()
     there.run(3.0)
 
-    assert there.session.acquaintance is not None
-    assert there.session.acquaintance.identity.boot_id == 2
+    assert there.session.handshake is not None
+    assert there.session.handshake.identity.boot_id == 2
     assert there.session.reason.startswith("Connected")
     assert there.blocks() != []
 
@@ -237,7 +237,7 @@ def test_a_transaction_left_open_is_told_with_the_time_it_has_left() -> None:
 
 
 def test_a_unit_that_is_back_at_its_short_frames_is_read_all_the_same() -> None:
-    """Restarted and not greeted again: 128 bytes a frame until HELLO."""
+    """Rebooted, and no HELLO since: 128 bytes a frame until HELLO."""
     there = bench().connect()
     unit = there.unit
     assert isinstance(unit, Mortal)

@@ -67,10 +67,10 @@ def told(seq: int, again: bool = False) -> Event:
 
 def test_numbers_are_kept_over_a_new_greeting_and_forgotten_after_a_restart() -> None:
     book = EventBook(LinkStatistics())
-    book.greeted(boot_id=7)
+    book.handshake_done(boot_id=7)
     assert book.came(told(3)) is Arrival.IN_ORDER
 
-    book.greeted(boot_id=7)
+    book.handshake_done(boot_id=7)
     assert book.came(told(3, again=True)) is Arrival.AGAIN
     book.came(Event(0, BootEvent.CODE, 0, BootEvent(8, 0)))
 
@@ -81,7 +81,7 @@ def test_numbers_are_kept_over_a_new_greeting_and_forgotten_after_a_restart() ->
 def test_what_came_late_is_no_longer_lost() -> None:
     statistics = LinkStatistics()
     book = EventBook(statistics)
-    book.greeted(boot_id=1)
+    book.handshake_done(boot_id=1)
     book.came(told(65534))
 
     assert book.came(told(1)) is Arrival.AFTER_A_GAP

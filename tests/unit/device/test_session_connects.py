@@ -1,4 +1,4 @@
-"""A session becomes acquainted with a unit, keeps in touch, and says why when it cannot.
+"""A session connects to a unit, keeps in touch, and says why when it cannot.
 
 A small honest unit answers in virtual time (tests/fakes/unit.py). The wire cuts the bytes as it
 likes, the unit is silent, restarts, or is of another age; every state must carry a reason that a
@@ -43,8 +43,8 @@ def test_the_unit_is_known_after_hello_however_the_bytes_are_cut(
     bench.connect()
 
     assert bench.session.state is LinkState.READY
-    assert bench.session.acquaintance is not None
-    identity = bench.session.acquaintance.identity
+    assert bench.session.handshake is not None
+    identity = bench.session.handshake.identity
     assert bytes.fromhex(identity.serial_number) == b"SPINDLE-0001"
     assert identity.firmware_version == "0.1.0"
     assert identity.model == "mid drive"
@@ -166,8 +166,8 @@ def test_a_restarted_unit_is_asked_again_who_it_is() -> None:
 
     assert unit.executed.count(MessageId.HELLO) == 2
     assert bench.session.state is LinkState.READY
-    assert bench.session.acquaintance is not None
-    assert bench.session.acquaintance.identity.boot_id == 2
+    assert bench.session.handshake is not None
+    assert bench.session.handshake.identity.boot_id == 2
     assert LinkState.CONNECTING in bench.states()[-2:]
 
 
@@ -179,8 +179,8 @@ def test_a_restart_nobody_told_of_is_noticed_by_the_lost_stream() -> None:
     unit.restart(tell=False)
     bench.run(4.0)
 
-    assert bench.session.acquaintance is not None
-    assert bench.session.acquaintance.identity.boot_id == 2
+    assert bench.session.handshake is not None
+    assert bench.session.handshake.identity.boot_id == 2
     assert bench.blocks()[-1].epoch == 2
 
 

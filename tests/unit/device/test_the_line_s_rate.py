@@ -175,8 +175,8 @@ def test_a_unit_that_restarts_is_found_at_its_first_rate_and_goes_fast_again() -
     bench.run_until(lambda: bench.session.state is not LinkState.READY)
     works(bench, FAST)
 
-    assert bench.session.acquaintance is not None
-    assert bench.session.acquaintance.identity.boot_id == 2
+    assert bench.session.handshake is not None
+    assert bench.session.handshake.identity.boot_id == 2
 
 
 def test_a_port_that_cannot_run_so_fast_stays_slow() -> None:

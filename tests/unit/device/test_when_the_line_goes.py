@@ -49,7 +49,7 @@ def unit() -> FakeUnit:
 
 @pytest.fixture
 def bench(unit: FakeUnit) -> Bench:
-    """Acquainted and streaming."""
+    """Connected and streaming."""
     bench = Bench(unit, StreamPlan()).connect()
     bench.run(5.0)
     return bench
@@ -104,8 +104,8 @@ def test_a_unit_that_starts_again(bench: Bench, unit: FakeUnit, tell: bool) -> N
     bench.run_until(lambda: LinkState.CONNECTING in bench.states()[before:], known_s)
 
     bench.run_until(lambda: is_in(bench.session, LinkState.READY), back_s)
-    assert bench.session.acquaintance is not None
-    assert bench.session.acquaintance.identity.boot_id == 2
+    assert bench.session.handshake is not None
+    assert bench.session.handshake.identity.boot_id == 2
 
 
 class TcpUnit:

@@ -68,7 +68,7 @@ MESSAGE_OVERHEAD_BYTES = 24
 # Somebody else may commit between our reading of generation and image; thrice is no accident.
 READ_ATTEMPTS = 3
 MS_PER_S, S_PER_MIN = 1000.0, 60
-# A unit that restarted, or that another tool greeted, in the middle of a commit no longer knows the
+# A unit that restarted, or that another tool took over, in the middle of a commit no longer knows the
 # transaction when the commit is repeated, whether it was carried out or not.
 TRANSACTION_GONE = (Status.STATE, Status.SESSION)
 
@@ -95,7 +95,7 @@ def read_config(mtu: int = MTU) -> Operation[ConfigImage]:
         if image is not None and (generation, zlib.crc32(image)) == (info.generation, info.crc32):
             return ConfigImage(info.generation, info.crc32, unpack_image(image))
         if image is None:
-            # A unit that restarted since HELLO answers in short frames until it is greeted.
+            # A unit that restarted since HELLO answers in short frames until the next HELLO.
             mtu = MTU_BEFORE_HELLO
     raise PeerProtocolError(
         "The configuration the unit sends does not have the checksum it names, "

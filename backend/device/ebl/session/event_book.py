@@ -45,7 +45,7 @@ class EventBook:
         self._seen: deque[int] = deque(maxlen=REMEMBERED_MAX)
         self._missing: deque[int] = deque(maxlen=REMEMBERED_MAX)
 
-    def greeted(self, boot_id: int) -> None:
+    def handshake_done(self, boot_id: int) -> None:
         """HELLO was answered: numbers of another life mean nothing, those before nothing lost."""
         if boot_id != self._boot_id:
             self._seen.clear()
@@ -56,7 +56,7 @@ class EventBook:
     def came(self, event: Event) -> Arrival:
         """Note an event and say how it came."""
         if isinstance(event.message, BootEvent) and event.message.boot_id != self._boot_id:
-            self.greeted(event.message.boot_id)
+            self.handshake_done(event.message.boot_id)
         if event.seq in self._seen:
             self._statistics.unit_events_again += 1
             return Arrival.AGAIN

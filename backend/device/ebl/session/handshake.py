@@ -1,4 +1,4 @@
-"""Becoming acquainted: HELLO, the version, the schema (protocol page, 4.3 Connect).
+"""The handshake: HELLO, the version, the schema (protocol page, 4.3 Connect).
 
 A unit whose schema is the one this program was built with can be read and written. Another schema
 is taken from those known or read from the unit, and proven by its hash. Where it means the same to
@@ -47,7 +47,7 @@ class VersionRefused(PeerProtocolError):
 
 
 @dataclass(frozen=True)
-class Acquaintance:
+class Handshake:
     """What the handshake found out.
 
     read_only_reason: None when the unit may be written. channels: those of the registry that the
@@ -62,11 +62,11 @@ class Acquaintance:
     trial: TrialStatus | None
 
 
-def become_acquainted(
+def run_handshake(
     host_nonce: bytes,
     schemas: Schemas,
     go_faster: Callable[[HelloResponse], Operation[None]],
-) -> Operation[Acquaintance]:
+) -> Operation[Handshake]:
     """HELLO, version, the line's rate, schema, faults, trial.
 
     schemas: those known from before; one that is read is added. Raises NoAnswer, VersionRefused,
@@ -85,7 +85,7 @@ def become_acquainted(
         faults, trial = yield from unit_state()
         cause = yield from _reset_cause()
     identity = identity_of(hello, cause)
-    return Acquaintance(hello, identity, reason, channels, faults, trial)
+    return Handshake(hello, identity, reason, channels, faults, trial)
 
 
 def _reset_cause() -> Operation[str | None]:

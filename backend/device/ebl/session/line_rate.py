@@ -68,12 +68,12 @@ class LineRate:
         return rate
 
     def start_over(self, heard: bool) -> None:
-        """A greeting begins: where the unit was heard just now, otherwise at the first rate."""
+        """A handshake begins: where the unit was heard just now, otherwise at the first rate."""
         self._tried = []
         self._try(self._current if heard else self.first)
 
     def try_another(self) -> bool:
-        """Go to a rate that this greeting has not tried; False when there is none."""
+        """Go to a rate that this handshake has not tried; False when there is none."""
         for rate in (self.first, self._last_known):
             if rate is not None and self.first is not None and rate not in self._tried:
                 self._try(rate)
@@ -81,7 +81,7 @@ class LineRate:
         return False
 
     def tried(self) -> str:
-        """The rates of this greeting in words, empty where the line has none."""
+        """The rates of this handshake in words, empty where the line has none."""
         return " and ".join(str(rate) for rate in self._tried if rate)
 
     def lost(self, now_s: float) -> None:
@@ -129,7 +129,7 @@ class LineRate:
                 self._last_known = rate
 
     def proven(self, now_s: float) -> None:
-        """The unit is acquainted at this rate."""
+        """The handshake succeeded at this rate."""
         self._proven_s = now_s if self._current != self.first else None
 
     def _worth_asking(self, offered: int) -> int | None:

@@ -13,7 +13,7 @@ def opening_reason() -> CodedReason:
     return CodedReason("The port is being opened.", "opening")
 
 
-def greeted_reason(port_name: str) -> CodedReason:
+def waiting_reason(port_name: str) -> CodedReason:
     """The port is open."""
     return CodedReason(f"{port_name} is open; waiting for the unit to answer.", "greeted")
 
@@ -29,7 +29,7 @@ def removed_reason() -> CodedReason:
 
 
 def read_only_reason(why: str) -> CodedReason:
-    """Acquainted, and not to be written: `why`."""
+    """Connected, and not to be written: `why`."""
     return CodedReason(why, "read_only")
 
 
@@ -39,7 +39,7 @@ def no_stream_reason(before: str, error: BaseException) -> CodedReason:
 
 
 def ready_reason(identity: Identity) -> CodedReason:
-    """Acquainted: who it is."""
+    """Connected: who it is."""
     return CodedReason(
         f"Connected to {identity.model} {identity.serial_number}, "
         f"firmware {identity.firmware_version}.",
@@ -70,7 +70,7 @@ def restarted_reason() -> CodedReason:
     return CodedReason("The unit was restarted; asking who it is again.", "restarted")
 
 
-def greeting_reason(port_name: str, rates: str, error: BaseException) -> CodedReason:
+def handshake_reason(port_name: str, rates: str, error: BaseException) -> CodedReason:
     """Nobody answered HELLO, or not as the protocol wants."""
     at = f"{port_name} at {rates} baud" if rates else port_name
     if isinstance(error, NoAnswer):

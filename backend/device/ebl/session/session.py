@@ -5,9 +5,9 @@ Rules of this file:
 - Nothing waits, and nothing raises on what the unit sends: damage is counted and skipped.
 - A state always has a reason a person can act on.
 
-    OPENING --port_opened--> FLUSHING --50 ms--> GREETING --HELLO, schema--> UP
-    UP --silent 1.5 s, unit restarted--> GREETING
-    GREETING --no answer, refused--> PAUSING --> GREETING
+    OPENING --port_opened--> FLUSHING --50 ms--> HANDSHAKE --HELLO, schema--> UP
+    UP --silent 1.5 s, unit restarted--> HANDSHAKE
+    HANDSHAKE --no answer, refused--> PAUSING --> HANDSHAKE
     any --port_failed--> OPENING         any --close--> ENDED
 """
 
@@ -21,14 +21,13 @@ from typing import TypeVar
 from backend.device.conversation import OnError, OnResult
 from backend.device.ebl.session.clock_keeper import ClockKeeper
 from backend.device.ebl.session.event_book import NO_TID, Arrival, EventBook, acknowledgement
-from backend.device.ebl.session.handshake import Acquaintance, VersionRefused, become_acquainted
+from backend.device.ebl.session.handshake import Handshake, VersionRefused, run_handshake
 from backend.device.ebl.session.line_rate import LineRate
 from backend.device.ebl.session.log_receiver import LogReceiver
 from backend.device.ebl.session.operation import Operation, OrphanLeft, attempt
 from backend.device.ebl.session.reasons import (
     deaf_reason,
-    greeted_reason,
-    greeting_reason,
+    handshake_reason,
     newer_version,
     no_stream_reason,
     opening_reason,
@@ -40,6 +39,7 @@ from backend.device.ebl.session.reasons import (
     restarted_reason,
     silent_reason,
     version_reason,
+    waiting_reason,
 )
 from backend.device.ebl.session.requests import RequestTable
 from backend.device.ebl.session.runner import OperationRunner
@@ -95,7 +95,7 @@ BYE_TID = 255
 class _Phase(Enum):
     OPENING = auto()
     FLUSHING = auto()
-    GREETING = auto()
+    HANDSHAKE = auto()
     PAUSING = auto()
     UP = auto()
     ENDED = auto()
@@ -104,7 +104,7 @@ class _Phase(Enum):
 class Session:
     """One unit as the host sees it.
 
-    plan: what to stream as soon as the unit is acquainted, None for nothing. schemas: those of
+    plan: what to stream after the handshake, None for nothing. schemas: those of
     units met before, by their hash; one that is read is added.
     """
 
@@ -113,7 +113,7 @@ class Session:
     ) -> None:
         self.state = LinkState.CONNECTING
         self.reason: str = opening_reason()
-        self.acquaintance: Acquaintance | None = None
+        self.handshake: Handshake | None = None
         self.notes = UnitNotes()
         self.last_block: StreamBlock | None = None
         # HELLOs in a row that led nowhere; the driver reopens a port that stays deaf.
@@ -174,7 +174,7 @@ class Session:
         self._now_s = now_s
         if self._phase in (_Phase.FLUSHING, _Phase.PAUSING) and now_s >= self._until_s:
             self.line.start_over(heard=False)
-            self._greet()
+            self._start_handshake()
         elif self._phase is _Phase.UP:
             self._keep_up()
         self._acknowledge_log()
@@ -218,7 +218,7 @@ class Session:
         self._phase = _Phase.FLUSHING
         self._until_s = now_s + FLUSH_S
         if self.state is LinkState.CONNECTING:
-            self._stand(self.state, greeted_reason(name))
+            self._stand(self.state, waiting_reason(name))
 
     def port_failed(self, now_s: float, error: LinkError) -> None:
         """The port does not open or is gone; the message of `error` becomes the reason."""
@@ -250,7 +250,7 @@ class Session:
 
         def failed(error: BaseException) -> None:
             if isinstance(error, OrphanLeft) and self._phase is _Phase.UP:
-                self._greet_again(orphan_reason())
+                self._repeat_handshake(orphan_reason())
             on_error(error)
 
         self._runner.start(operation, on_result, failed)
@@ -273,9 +273,9 @@ class Session:
     @property
     def mtu(self) -> int:
         """The largest frame that both sides take, in decoded bytes."""
-        if self.acquaintance is None:
+        if self.handshake is None:
             return MTU_BEFORE_HELLO
-        hello = self.acquaintance.hello
+        hello = self.handshake.hello
         return min(MTU, hello.rx_mtu, hello.tx_mtu)
 
     @property
@@ -289,7 +289,7 @@ class Session:
         return DeviceStatus(
             state=self.state,
             reason=self.reason,
-            identity=self.acquaintance.identity if self.acquaintance else None,
+            identity=self.handshake.identity if self.handshake else None,
             config_generation=self.notes.config_generation,
             config_crc32=self.notes.config_crc32,
             trial_ends_unix_us=None if ends_s is None else self._unix_us(ends_s),
@@ -317,7 +317,7 @@ class Session:
         elif isinstance(message, Response):
             self._requests.answered(message, self._now_s)
             if message.status == Status.SESSION and self._phase is _Phase.UP:
-                self._greet_again(restarted_reason())
+                self._repeat_handshake(restarted_reason())
         elif isinstance(message, Event):
             self._unit_event(message)
         elif isinstance(message, Bulk):
@@ -326,7 +326,7 @@ class Session:
         else:
             self._statistics.frames_malformed += 1
             other_major = isinstance(message, Malformed) and message.reason is Reason.VERSION
-            if other_major and self._phase is _Phase.GREETING:
+            if other_major and self._phase is _Phase.HANDSHAKE:
                 self._requests.shut(newer_version(frame[0] >> 5))
 
     def _unit_event(self, event: Event) -> None:
@@ -340,7 +340,7 @@ class Session:
         told = self.notes.take(event, self._statistics, self._now_s, late)
         if told is not None:
             self._tell(told)
-            # What greeting asked for may be older; a return does not say why it was.
+            # What the handshake asked for may be older; a return does not say why it was.
             returned = isinstance(event.message, ConfigRolledBackEvent)
             if returned or self._phase is not _Phase.UP:
                 self._standing.doubt()
@@ -350,51 +350,51 @@ class Session:
             return
         self._boot_heard = event.message.boot_id
         if self._phase is _Phase.UP and self._is_another_life():
-            self._greet_again(restarted_reason())
+            self._repeat_handshake(restarted_reason())
 
     def _is_another_life(self) -> bool:
         """Whether a restart was heard since HELLO was asked and HELLO was answered before it."""
-        known = self.acquaintance.identity.boot_id if self.acquaintance else None
+        known = self.handshake.identity.boot_id if self.handshake else None
         return self._boot_heard is not None and self._boot_heard != known
 
-    def _greet(self) -> None:
-        self._phase = _Phase.GREETING
+    def _start_handshake(self) -> None:
+        self._phase = _Phase.HANDSHAKE
         self._boot_heard = None
         self._requests.open(outstanding_max=1)
-        greeting = become_acquainted(self._nonce, self._schemas, self.line.go_faster)
-        self._runner.start(greeting, self._acquainted, self._not_acquainted)
+        handshake = run_handshake(self._nonce, self._schemas, self.line.go_faster)
+        self._runner.start(handshake, self._handshake_done, self._handshake_failed)
 
-    def _acquainted(self, acquaintance: Acquaintance) -> None:
-        if self._phase is not _Phase.GREETING:
+    def _handshake_done(self, handshake: Handshake) -> None:
+        if self._phase is not _Phase.HANDSHAKE:
             return
-        self.acquaintance = acquaintance
+        self.handshake = handshake
         if self._is_another_life():
             self.line.start_over(heard=True)
-            self._greet()
+            self._start_handshake()
             return
         self.line.proven(self._now_s)
         self.failed_handshakes = 0
-        self._event_book.greeted(acquaintance.identity.boot_id)
-        self.notes.begin(acquaintance, self._now_s)
-        if acquaintance.read_only_reason is None:
+        self._event_book.handshake_done(handshake.identity.boot_id)
+        self.notes.begin(handshake, self._now_s)
+        if handshake.read_only_reason is None:
             self.clock.begin(self._now_s)
         self._phase = _Phase.UP
         self._heard_s = self._now_s
         self._statistics.connections += 1
-        hello = acquaintance.hello
+        hello = handshake.hello
         self._requests.outstanding_max = max(1, hello.max_outstanding)
         self._requests.longest_answer = self.mtu
-        if acquaintance.read_only_reason is None:
-            self._stand(LinkState.READY, ready_reason(acquaintance.identity))
+        if handshake.read_only_reason is None:
+            self._stand(LinkState.READY, ready_reason(handshake.identity))
         else:
-            self._stand(LinkState.READ_ONLY, read_only_reason(acquaintance.read_only_reason))
-        self._stream.begin(acquaintance)
+            self._stand(LinkState.READ_ONLY, read_only_reason(handshake.read_only_reason))
+        self._stream.begin(handshake)
 
-    def _not_acquainted(self, error: BaseException) -> None:
-        if self._phase is not _Phase.GREETING:
+    def _handshake_failed(self, error: BaseException) -> None:
+        if self._phase is not _Phase.HANDSHAKE:
             return
         if isinstance(error, NoAnswer) and self.line.try_another():
-            self._greet()
+            self._start_handshake()
             return
         self._phase = _Phase.PAUSING
         refused = isinstance(error, VersionRefused)
@@ -403,7 +403,7 @@ class Session:
         if refused:
             self._stand(LinkState.CLOSED, version_reason(error))
         else:
-            reason = greeting_reason(self._port_name, self.line.tried(), error)
+            reason = handshake_reason(self._port_name, self.line.tried(), error)
             self._stand(self._absent(), reason)
 
     def _no_stream(self, error: BaseException) -> None:
@@ -427,12 +427,12 @@ class Session:
 
     def _is_alive(self, response: Response) -> None:
         """BOOT may have been lost; the line that was silent asks whether it is still the same."""
-        known, now = self.acquaintance, response.message
+        known, now = self.handshake, response.message
         if not isinstance(now, AliveResponse) or known is None:
             return
         met = (known.hello.boot_id, known.hello.session_id)
         if self._phase is _Phase.UP and met != (now.boot_id, now.session_id):
-            self._greet_again(restarted_reason())
+            self._repeat_handshake(restarted_reason())
 
     def _lose(self, reason: str) -> None:
         self._break_off(NoAnswer(reason))
@@ -440,7 +440,7 @@ class Session:
         self.line.lost(self._now_s)
         self.line.start_over(heard=False)
         self._out += FLUSH
-        self._greet()
+        self._start_handshake()
 
     def _ask_time(self) -> None:
         self._runner.start(self.clock.sync(self._now_s), self._time_told, lambda error: None)
@@ -452,13 +452,13 @@ class Session:
 
     def _other_life(self, reason: str) -> None:
         if self._phase is _Phase.UP:
-            self._greet_again(reason)
+            self._repeat_handshake(reason)
 
-    def _greet_again(self, reason: str) -> None:
+    def _repeat_handshake(self, reason: str) -> None:
         self._break_off(NoAnswer(reason))
         self._stand(LinkState.CONNECTING, reason)
         self.line.start_over(heard=True)
-        self._greet()
+        self._start_handshake()
 
     def _break_off(self, error: SpindleError) -> None:
         """End the stream and fail everything that waits for the unit."""
@@ -480,7 +480,7 @@ class Session:
             self._log = None
 
     def _absent(self) -> LinkState:
-        return LinkState.CONNECTING if self.acquaintance is None else LinkState.LOST
+        return LinkState.CONNECTING if self.handshake is None else LinkState.LOST
 
     def _stand(self, state: LinkState, reason: str) -> None:
         if (state, reason) != (self.state, self.reason):

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from backend.device.conversation import OnError
-from backend.device.ebl.session.handshake import Acquaintance
+from backend.device.ebl.session.handshake import Handshake
 from backend.device.ebl.session.reasons import forgotten_reason, restarted_reason
 from backend.device.ebl.session.runner import OperationRunner
 from backend.device.ebl.session.stream_receiver import RENEW_S, StreamPlan
@@ -44,7 +44,7 @@ class StreamKeeper:
         self._on_started = on_started
         self._on_other_life = on_other_life
         self._on_refused = on_refused
-        self._known: Acquaintance | None = None
+        self._known: Handshake | None = None
         self._due_s: float | None = None
         self._renewals_unanswered = 0
 
@@ -53,7 +53,7 @@ class StreamKeeper:
         """Whether the unit leaves renewals unanswered while its rows may still come."""
         return self._renewals_unanswered >= RENEWALS_UNANSWERED_MAX
 
-    def begin(self, known: Acquaintance) -> None:
+    def begin(self, known: Handshake) -> None:
         """The unit is known: subscribe to what the plan wants and the unit has."""
         self._known, self._due_s = known, None
         if self._plan is None or not known.channels:

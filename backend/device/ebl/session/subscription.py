@@ -39,7 +39,7 @@ RENEW_PART = 0.4
 
 
 class UnitRestarted(NoAnswer):
-    """The unit's clock went back: it is not the one that was greeted."""
+    """The unit's clock went back: it rebooted after the handshake."""
 
     default_code = "unit_restarted"
 
@@ -62,16 +62,16 @@ class Subscription:
         return self._receiver.started if self._receiver else None
 
     def begin(
-        self, plan: StreamPlan, simulated: bool = False, greeted_us: int = 0
+        self, plan: StreamPlan, simulated: bool = False, hello_us: int = 0
     ) -> Operation[StreamStarted]:
         """Subscribe, more slowly where the line is too slow.
 
-        greeted_us: unit time at HELLO. Raises DeviceRefused, NoAnswer, UnitRestarted.
+        hello_us: unit time at HELLO. Raises DeviceRefused, NoAnswer, UnitRestarted.
         """
         # The stream carries 32 bits of unit time; the snapshot gives the other 32.
         first = bytes([plan.channels[0].id])
         snapshot = yield from ask(StrSnapshotRequest(first), StrSnapshotResponse)
-        if snapshot.t_us + ROW_AGE_US_MAX < greeted_us:
+        if snapshot.t_us + ROW_AGE_US_MAX < hello_us:
             raise UnitRestarted("The unit was restarted; asking who it is again.")
         self._lease_s = LEASE_SIMULATED_S if simulated else LEASE_S
         divider = plan.divider

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from backend.device.configuration import TrialStatus
 from backend.device.ebl.faults import fault_names
-from backend.device.ebl.session.handshake import Acquaintance
+from backend.device.ebl.session.handshake import Handshake
 from backend.device.states import UnitEvent
 from backend.device.statistics import LinkStatistics
 from firmware_protocol._generated import (
@@ -42,15 +42,15 @@ class UnitNotes:
         """Names of the active faults; one of a newer firmware is `FAULT_n`."""
         return fault_names(self.fault_flags)
 
-    def begin(self, acquaintance: Acquaintance, now_s: float) -> None:
+    def begin(self, handshake: Handshake, now_s: float) -> None:
         """Start from what the handshake found."""
-        trial = acquaintance.trial
+        trial = handshake.trial
         self.trial_ends_s = now_s + trial.left_s if trial and trial.on_trial else None
         self.rollback_cause = trial.rollback_cause if trial else None
-        self.config_generation = acquaintance.hello.config_generation
-        self.config_crc32 = acquaintance.hello.config_crc32
-        self.fault_flags = acquaintance.fault_flags
-        self.boot_id = acquaintance.identity.boot_id
+        self.config_generation = handshake.hello.config_generation
+        self.config_crc32 = handshake.hello.config_crc32
+        self.fault_flags = handshake.fault_flags
+        self.boot_id = handshake.identity.boot_id
 
     def refresh(self, fault_flags: int, trial: TrialStatus, now_s: float) -> None:
         """Start again from what the unit says when asked, because an event did not come."""
