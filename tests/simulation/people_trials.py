@@ -119,11 +119,11 @@ class Trials:
     def settle(self) -> None:
         """On a calm line: the unit says how its last trial ended, and that none is running."""
         world, people = self._world, self._people
-        life = world.watcher.life
+        boot = world.watcher.boot
         name = people.name("status")
 
         def done(status: TrialStatus) -> None:
             world.figures["trials_asked_about"] += 1
-            world.watcher.status_told(status, life)
+            world.watcher.status_told(status, boot)
 
         world.ask(name, trial_status(), done, lambda error: people.told(name, error))

@@ -13,7 +13,7 @@ from firmware_protocol._generated import Access
 from firmware_protocol.layout import Value
 from firmware_protocol.unlock_token import Challenge, Token
 from tests.fakes.maker import Maker
-from tests.simulation.earlier_life import MAKER
+from tests.simulation.earlier_boot import MAKER
 from tests.simulation.watcher import MARKER, Intent
 
 if TYPE_CHECKING:

@@ -32,13 +32,13 @@ ECHO_S = 0.05
 
 @dataclass
 class Trial:
-    """A configuration on trial in the flash. life: the unit's, as its boot id."""
+    """A configuration on trial in the flash. boot: which boot of the unit."""
 
     number: int
     image: bytes
     values: dict[str, Value]
     began_s: float
-    life: int
+    boot: int
     confirm_s: int = 0
     marker: str = ""
     return_asked: bool = False
@@ -65,37 +65,37 @@ class TrialWatch:
         recent = last is not None and (last.ended is None or unit_s - last.ended_s < ECHO_S)
         return [last.values] if last is not None and recent else []
 
-    def looked(self, slots: bytes, unit_s: float, life: int) -> Trial | None:
+    def looked(self, slots: bytes, unit_s: float, boot: int) -> Trial | None:
         """Slots that changed; a trial that began, for its author to be named."""
         found = on_trial(slots)
         current = self.current
         if current is not None and found == (current.number, current.image):
             return None
         if current is not None:
-            self._ended(current, slots, unit_s, life)
+            self._ended(current, slots, unit_s, boot)
         if found is None:
             return None
-        trial = Trial(found[0], found[1], unpack_image(found[1]), unit_s, life)
+        trial = Trial(found[0], found[1], unpack_image(found[1]), unit_s, boot)
         self.trials.append(trial)
         return trial
 
-    def _ended(self, trial: Trial, slots: bytes, unit_s: float, life: int) -> None:
+    def _ended(self, trial: Trial, slots: bytes, unit_s: float, boot: int) -> None:
         trial.ended_s = unit_s
         if is_confirmed(slots, trial.image):
             trial.ended = "kept"
-        elif life != trial.life:
+        elif boot != trial.boot:
             trial.ended = "restart"
         elif unit_s >= trial.began_s + trial.confirm_s - LATE_S:
             trial.ended = "time_out"
         else:
             trial.ended = "asked"
 
-    def passed(self, unit_s: float, life: int) -> None:
+    def passed(self, unit_s: float, boot: int) -> None:
         """Time went by on a unit that has power."""
         current = self.current
         if current is None:
             return
-        if life != current.life:
+        if boot != current.boot:
             raise Violation(f"{current.marker} is still on trial after a restart.")
         if unit_s > current.began_s + current.confirm_s + LATE_S:
             raise Violation(
@@ -103,14 +103,14 @@ class TrialWatch:
                 f"{current.confirm_s} s it was to be given up."
             )
 
-    def reasons_in(self, life: int) -> tuple[str, ...]:
-        """What a unit in this life may tell of the latest trial that it gave up."""
+    def reasons_in(self, boot: int) -> tuple[str, ...]:
+        """What a unit may tell in this boot of the latest trial that it gave up."""
         for trial in reversed(self.trials):
-            if trial.ended in ("asked", "time_out") and trial.life == life:
+            if trial.ended in ("asked", "time_out") and trial.boot == boot:
                 last_moment = abs(trial.ended_s - trial.began_s - trial.confirm_s) < LATE_S
                 both = last_moment and trial.return_asked
                 return ("asked", "time_out") if both else (trial.ended,)
-            if trial.ended == "restart" and trial.life == life - 1:
+            if trial.ended == "restart" and trial.boot == boot - 1:
                 return ("restart",)
         return ("none",)
 

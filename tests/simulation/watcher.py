@@ -99,7 +99,7 @@ class Watcher:
         self.trials = TrialWatch()
         self.lock = UnlockWatch(flash)
         self.logs = LogWatch(unit.unit.log())
-        self.life = 1
+        self.boot = 1
         self._flash = flash
         self._log_changes = unit.unit.log_changes
         self.intents: dict[str, Intent] = {}
@@ -125,7 +125,7 @@ class Watcher:
         self._decoder = FrameDecoder()
         self._streams.clear()
         self._epoch = NO_EPOCH
-        self.life += 1
+        self.boot += 1
         self._log_changes = -1
         self.lock.restarted()
 
@@ -184,7 +184,7 @@ class Watcher:
             self.lock.looked(flash, unit_s)
             found = self._slots_looked(flash, unit_s)
         if unit.unit.powered:
-            self.trials.passed(unit_s, self.life)
+            self.trials.passed(unit_s, self.boot)
         return found
 
     def _slots_looked(self, flash: bytes, unit_s: float) -> Generation | None:
@@ -193,7 +193,7 @@ class Watcher:
             return None
         self._slots = slots
         current = self.trials.current
-        trial = self.trials.looked(slots, unit_s, self.life)
+        trial = self.trials.looked(slots, unit_s, self.boot)
         if current is not None and current.ended is not None:
             current.return_asked = self.intents[current.marker].return_asked
             if current.ended == "asked" and not current.return_asked:
@@ -299,13 +299,13 @@ class Watcher:
         if config.parameters[MARKER] != intent.marker:
             raise Violation(f"{intent.marker} was said to be on trial; the unit holds another one.")
 
-    def status_told(self, status: TrialStatus, life: int) -> None:
+    def status_told(self, status: TrialStatus, boot: int) -> None:
         """Where the unit says it stands, asked while nothing changes and nothing goes wrong."""
         current = self.trials.current
         number = self.active.number if current is None else current.number
         if (status.on_trial, status.generation) != (current is not None, number):
             raise Violation(f"{status} is told; the flash has generation {number}.")
-        reasons = self.trials.reasons_in(life)
+        reasons = self.trials.reasons_in(boot)
         if status.rollback_cause not in reasons:
             raise Violation(
                 f"The unit says its last trial ended by {status.rollback_cause!r}; "

@@ -20,7 +20,7 @@ from firmware_protocol.layout import Value
 from sim_device.configure import ConfigureError
 from sim_device.configure import write_config as write_as_rival
 from sim_device.firmware.python.unit import Unit
-from tests.simulation.earlier_life import CUTOFF_KMH
+from tests.simulation.earlier_boot import CUTOFF_KMH
 from tests.simulation.people_logs import Collecting
 from tests.simulation.people_trials import Trials
 from tests.simulation.people_unlock import Unlocking

@@ -19,7 +19,7 @@ from backend.device.states import LinkState, StateChanged, UnitEvent
 from backend.device.stream import StreamBlock
 from backend.errors import LinkError
 from sim_device.lockstep import LockstepUnit
-from tests.simulation.earlier_life import earlier_life
+from tests.simulation.earlier_boot import earlier_boot
 from tests.simulation.link_faults import CALM, FaultyWire, LinkFaults, draw_faults
 from tests.simulation.violation import Violation
 from tests.simulation.watcher import Watcher
@@ -71,7 +71,7 @@ class World:
         self._boot_id = 1
         self._steps = 0
         self._log_changes = 0
-        self.past = earlier_life(chance.random() < 0.75)
+        self.past = earlier_boot(chance.random() < 0.75)
         self.unit = self._new_life(self.past.flash, self.past.log)
         self.watcher = Watcher(self.unit)
         self.bits_per_second = chance.choice(LINE_RATES)

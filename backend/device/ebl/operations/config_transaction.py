@@ -68,8 +68,8 @@ MESSAGE_OVERHEAD_BYTES = 24
 # Somebody else may commit between our reading of generation and image; thrice is no accident.
 READ_ATTEMPTS = 3
 MS_PER_S, S_PER_MIN = 1000.0, 60
-# A unit that restarted, or that another tool took over, in the middle of a commit no longer knows the
-# transaction when the commit is repeated, whether it was carried out or not.
+# A unit that rebooted, or that another tool took over, in the middle of a commit no longer knows
+# the transaction when the commit is repeated, whether it was carried out or not.
 TRANSACTION_GONE = (Status.STATE, Status.SESSION)
 
 

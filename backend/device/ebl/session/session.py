@@ -136,7 +136,7 @@ class Session:
             self._runner,
             lambda: self._now_s,
             on_started=self._tell,
-            on_other_life=self._other_life,
+            on_reboot=self._rebooted,
             on_refused=self._no_stream,
         )
         self._decoder = FrameDecoder(MTU)
@@ -349,10 +349,10 @@ class Session:
         if not isinstance(event.message, BootEvent):
             return
         self._boot_heard = event.message.boot_id
-        if self._phase is _Phase.UP and self._is_another_life():
+        if self._phase is _Phase.UP and self._has_rebooted():
             self._repeat_handshake(restarted_reason())
 
-    def _is_another_life(self) -> bool:
+    def _has_rebooted(self) -> bool:
         """Whether a restart was heard since HELLO was asked and HELLO was answered before it."""
         known = self.handshake.identity.boot_id if self.handshake else None
         return self._boot_heard is not None and self._boot_heard != known
@@ -368,7 +368,7 @@ class Session:
         if self._phase is not _Phase.HANDSHAKE:
             return
         self.handshake = handshake
-        if self._is_another_life():
+        if self._has_rebooted():
             self.line.start_over(heard=True)
             self._start_handshake()
             return
@@ -450,7 +450,7 @@ class Session:
             telling = self.clock.tell(self._wall_us())
             self._runner.start(telling, lambda told: None, lambda error: None)
 
-    def _other_life(self, reason: str) -> None:
+    def _rebooted(self, reason: str) -> None:
         if self._phase is _Phase.UP:
             self._repeat_handshake(reason)
 

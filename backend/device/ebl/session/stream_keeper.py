@@ -23,7 +23,7 @@ class StreamKeeper:
     """Keeps one subscription alive.
 
     plan: what to stream, None for nothing. now: the session's time. on_started: with what is
-    streamed. on_other_life: with a sentence, when the unit must be asked again who it is.
+    streamed. on_reboot: with a sentence, when the unit must be asked again who it is.
     on_refused: with why there is no stream.
     """
 
@@ -34,7 +34,7 @@ class StreamKeeper:
         runner: OperationRunner,
         now: Callable[[], float],
         on_started: Callable[[StreamStarted], None],
-        on_other_life: Callable[[str], None],
+        on_reboot: Callable[[str], None],
         on_refused: OnError,
     ) -> None:
         self._plan = plan
@@ -42,7 +42,7 @@ class StreamKeeper:
         self._runner = runner
         self._now = now
         self._on_started = on_started
-        self._on_other_life = on_other_life
+        self._on_reboot = on_reboot
         self._on_refused = on_refused
         self._known: Handshake | None = None
         self._due_s: float | None = None
@@ -81,7 +81,7 @@ class StreamKeeper:
 
     def _not_begun(self, error: BaseException) -> None:
         if isinstance(error, UnitRestarted):
-            self._on_other_life(restarted_reason())
+            self._on_reboot(restarted_reason())
         elif isinstance(error, LinkError):
             # The line was bad just now, or too much was asked at once: neither lasts.
             self._due_s = self._now() + RENEW_S
@@ -91,7 +91,7 @@ class StreamKeeper:
     def _renewed(self, known: bool) -> None:
         self._renewals_unanswered = 0
         if not known:
-            self._on_other_life(forgotten_reason())
+            self._on_reboot(forgotten_reason())
 
     def _not_renewed(self, error: BaseException) -> None:
         self._renewals_unanswered += isinstance(error, NoAnswer)

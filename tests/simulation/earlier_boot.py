@@ -27,7 +27,7 @@ CUTOFF_KMH = 18.0
 
 
 @dataclass(frozen=True)
-class EarlierLife:
+class EarlierBoot:
     """Both flashes."""
 
     flash: bytes
@@ -35,7 +35,7 @@ class EarlierLife:
 
 
 @cache
-def earlier_life(has_key: bool) -> EarlierLife:
+def earlier_boot(has_key: bool) -> EarlierBoot:
     """The unit before the seed began. has_key: whether limits can be raised at all."""
     unit = LockstepUnit(
         config_overrides={"assist_cutoff_kmh": CUTOFF_KMH},
@@ -58,4 +58,4 @@ def earlier_life(has_key: bool) -> EarlierLife:
         at = RECORDS_AT + number * RECORD.size
         flash[at : at + RECORD.size] = record[:8] + check
     assert OLD_ATTEMPTS * RECORD.size < BLOCK_BYTES
-    return EarlierLife(bytes(flash), unit.unit.log())
+    return EarlierBoot(bytes(flash), unit.unit.log())
