@@ -211,7 +211,7 @@ def test_a_restart_nobody_told_of_shows_in_the_unit_s_clock() -> None:
     assert there.blocks() != []
 
 
-def test_damage_is_still_in_the_account_after_a_new_greeting() -> None:
+def test_damage_is_still_in_the_account_after_a_new_handshake() -> None:
     there = bench().connect()
     before = there.session.link_statistics().frames_bad
 

@@ -46,7 +46,7 @@ class EventBook:
         self._missing: deque[int] = deque(maxlen=REMEMBERED_MAX)
 
     def handshake_done(self, boot_id: int) -> None:
-        """HELLO was answered: numbers of the boot before mean nothing, those before nothing lost."""
+        """HELLO was answered: after a reboot old numbers mean nothing, and none before is lost."""
         if boot_id != self._boot_id:
             self._seen.clear()
         self._boot_id = boot_id
