@@ -129,7 +129,7 @@ class Session:
         self.clock = ClockKeeper(self._statistics)
         self._log: LogReceiver | None = None
         self._event_book = EventBook(self._statistics)
-        self._standing = StateKeeper(self.notes, self._runner, lambda: self._now_s)
+        self._state_keeper = StateKeeper(self.notes, self._runner, lambda: self._now_s)
         self._stream = StreamKeeper(
             plan,
             self._subscription,
@@ -343,9 +343,9 @@ class Session:
             # What the handshake asked for may be older; a return does not say why it was.
             returned = isinstance(event.message, ConfigRolledBackEvent)
             if returned or self._phase is not _Phase.UP:
-                self._standing.doubt()
+                self._state_keeper.mark_stale()
         if arrival is not Arrival.IN_ORDER:
-            self._standing.doubt()
+            self._state_keeper.mark_stale()
         if not isinstance(event.message, BootEvent):
             return
         self._boot_heard = event.message.boot_id
@@ -412,7 +412,7 @@ class Session:
 
     def _keep_up(self) -> None:
         if self.state is LinkState.READY:
-            self._standing.settle()
+            self._state_keeper.refresh()
         silent_s = self._now_s - self._heard_s
         if silent_s >= SILENCE_S:
             self._lose(silent_reason(self._port_name))

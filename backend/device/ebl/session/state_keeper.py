@@ -1,4 +1,4 @@
-"""How the unit stands, asked again when its events did not tell it in full; once at a time."""
+"""The unit's state, asked for again when its events did not tell it in full; once at a time."""
 
 from __future__ import annotations
 
@@ -12,30 +12,30 @@ from backend.errors import NoAnswer
 
 
 class StateKeeper:
-    """Keeps the notes true. now: the session's time."""
+    """Keeps what is known of the unit fresh. now: the session's time."""
 
     def __init__(self, notes: UnitNotes, runner: OperationRunner, now: Callable[[], float]) -> None:
         self._notes = notes
         self._runner = runner
         self._now = now
-        self._in_doubt = False
+        self._stale = False
         self._asked = False
 
-    def doubt(self) -> None:
-        """The notes may be older than the unit."""
-        self._in_doubt = True
+    def mark_stale(self) -> None:
+        """What is known may be older than the unit."""
+        self._stale = True
 
-    def settle(self) -> None:
-        """Ask where there is doubt; a question that nobody answers leaves it."""
-        if self._in_doubt and not self._asked:
-            self._in_doubt, self._asked = False, True
-            self._runner.start(unit_state(), self._told, self._not_told)
+    def refresh(self) -> None:
+        """Ask if it is stale; a question that nobody answers leaves it so."""
+        if self._stale and not self._asked:
+            self._stale, self._asked = False, True
+            self._runner.start(unit_state(), self._answered, self._unanswered)
 
-    def _told(self, state: tuple[int, TrialStatus]) -> None:
+    def _answered(self, state: tuple[int, TrialStatus]) -> None:
         self._asked = False
-        if not self._in_doubt:
+        if not self._stale:
             self._notes.refresh(*state, self._now())
 
-    def _not_told(self, error: BaseException) -> None:
+    def _unanswered(self, error: BaseException) -> None:
         self._asked = False
-        self._in_doubt |= isinstance(error, NoAnswer)
+        self._stale |= isinstance(error, NoAnswer)
