@@ -210,7 +210,7 @@ class Driver:
             else:
                 self.connected.clear()
         for event in events:
-            self._tell(event)
+            self._emit(event)
         if settled:
             self.settled.set()
         if deaf and self._reopen_when_deaf and self._link is not None:
@@ -298,7 +298,7 @@ class Driver:
         self._open_at_s = now_s + self._reopen_s
         self._reopen_s = min(2.0 * self._reopen_s, REOPEN_S_MAX)
 
-    def _tell(self, event: DeviceEvent) -> None:
+    def _emit(self, event: DeviceEvent) -> None:
         try:
             self._listener(event)
         except Exception:
@@ -314,7 +314,7 @@ class Driver:
             self._begin_commands()
             events = self._session.next_events()
         for event in events:
-            self._tell(event)
+            self._emit(event)
 
     def _close_link(self) -> None:
         self._unsent = b""

@@ -60,7 +60,7 @@ class _Device:
 
         return leave
 
-    def tell(self, event: DeviceEvent) -> None:
+    def emit(self, event: DeviceEvent) -> None:
         """Pass an event on; one listener's fault is not the next one's. On the driver's thread."""
         errors: list[Exception] = []
         listeners = self._listeners
@@ -218,7 +218,7 @@ class Devices:
         device = _Device(url, kind, lambda: self._watchers)
         device.unit = self._families[family](
             self._opener(url),
-            lambda event: self._tell(device, event),
+            lambda event: self._emit(device, event),
             self._streaming,
             reopen_when_deaf=kind != "simulated",
             schemas=self._schemas,
@@ -227,10 +227,10 @@ class Devices:
         device.unit.driver.start()
         return device
 
-    def _tell(self, device: _Device, event: DeviceEvent) -> None:
+    def _emit(self, device: _Device, event: DeviceEvent) -> None:
         if device.id is None and device.serial_number is not None:
             self._settle(device)
-        device.tell(event)
+        device.emit(event)
 
     def _settle(self, device: _Device) -> _Device | None:
         """Give a device its id for good; returns another device that is the same unit."""

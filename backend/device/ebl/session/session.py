@@ -135,7 +135,7 @@ class Session:
             self._subscription,
             self._runner,
             lambda: self._now_s,
-            on_started=self._tell,
+            on_started=self._emit,
             on_reboot=self._rebooted,
             on_refused=self._no_stream,
         )
@@ -218,7 +218,7 @@ class Session:
         self._phase = _Phase.FLUSHING
         self._until_s = now_s + FLUSH_S
         if self.state is LinkState.CONNECTING:
-            self._stand(self.state, waiting_reason(name))
+            self._set_state(self.state, waiting_reason(name))
 
     def port_failed(self, now_s: float, error: LinkError) -> None:
         """The port does not open or is gone; the message of `error` becomes the reason."""
@@ -226,7 +226,7 @@ class Session:
         self._phase = _Phase.OPENING
         self._out.clear()
         self._break_off(NoAnswer(error.message, error.code))
-        self._stand(self._absent(), port_reason(error))
+        self._set_state(self._absent(), port_reason(error))
 
     def close(self, now_s: float) -> None:
         """Say goodbye; the bytes are still to be sent. The session is of no further use."""
@@ -235,7 +235,7 @@ class Session:
             self._out += encode_frame(encode(Request(BYE_TID, ByeRequest())))
         self._phase = _Phase.ENDED
         self._break_off(LinkError("The device was removed."))
-        self._stand(LinkState.CLOSED, removed_reason())
+        self._set_state(LinkState.CLOSED, removed_reason())
 
     # ------------------------------------------------------------------ work
 
@@ -313,7 +313,7 @@ class Session:
             block = self._subscription.take(message, self._wall_us())
             if block is not None:
                 self.last_block = block
-                self._tell(block)
+                self._emit(block)
         elif isinstance(message, Response):
             self._requests.answered(message, self._now_s)
             if message.status == Status.SESSION and self._phase is _Phase.UP:
@@ -339,7 +339,7 @@ class Session:
         late = arrival is Arrival.LATE
         told = self.notes.take(event, self._statistics, self._now_s, late)
         if told is not None:
-            self._tell(told)
+            self._emit(told)
             # What the handshake asked for may be older; a return does not say why it was.
             returned = isinstance(event.message, ConfigRolledBackEvent)
             if returned or self._phase is not _Phase.UP:
@@ -385,9 +385,9 @@ class Session:
         self._requests.outstanding_max = max(1, hello.max_outstanding)
         self._requests.longest_answer = self.mtu
         if handshake.read_only_reason is None:
-            self._stand(LinkState.READY, ready_reason(handshake.identity))
+            self._set_state(LinkState.READY, ready_reason(handshake.identity))
         else:
-            self._stand(LinkState.READ_ONLY, read_only_reason(handshake.read_only_reason))
+            self._set_state(LinkState.READ_ONLY, read_only_reason(handshake.read_only_reason))
         self._stream.begin(handshake)
 
     def _handshake_failed(self, error: BaseException) -> None:
@@ -401,14 +401,14 @@ class Session:
         self._until_s = self._now_s + (REFUSED_PAUSE_S if refused else PAUSE_S)
         self.failed_handshakes += 0 if refused else 1
         if refused:
-            self._stand(LinkState.CLOSED, version_reason(error))
+            self._set_state(LinkState.CLOSED, version_reason(error))
         else:
             reason = handshake_reason(self._port_name, self.line.tried(), error)
-            self._stand(self._absent(), reason)
+            self._set_state(self._absent(), reason)
 
     def _no_stream(self, error: BaseException) -> None:
         if self._phase is _Phase.UP:
-            self._stand(self.state, no_stream_reason(self.reason, error))
+            self._set_state(self.state, no_stream_reason(self.reason, error))
 
     def _keep_up(self) -> None:
         if self.state is LinkState.READY:
@@ -436,7 +436,7 @@ class Session:
 
     def _lose(self, reason: str) -> None:
         self._break_off(NoAnswer(reason))
-        self._stand(LinkState.LOST, reason)
+        self._set_state(LinkState.LOST, reason)
         self.line.lost(self._now_s)
         self.line.start_over(heard=False)
         self._out += FLUSH
@@ -456,7 +456,7 @@ class Session:
 
     def _repeat_handshake(self, reason: str) -> None:
         self._break_off(NoAnswer(reason))
-        self._stand(LinkState.CONNECTING, reason)
+        self._set_state(LinkState.CONNECTING, reason)
         self.line.start_over(heard=True)
         self._start_handshake()
 
@@ -482,12 +482,12 @@ class Session:
     def _absent(self) -> LinkState:
         return LinkState.CONNECTING if self.handshake is None else LinkState.LOST
 
-    def _stand(self, state: LinkState, reason: str) -> None:
+    def _set_state(self, state: LinkState, reason: str) -> None:
         if (state, reason) != (self.state, self.reason):
             self.state, self.reason = state, reason
-            self._tell(StateChanged(state, reason))
+            self._emit(StateChanged(state, reason))
 
-    def _tell(self, event: DeviceEvent) -> None:
+    def _emit(self, event: DeviceEvent) -> None:
         if len(self._events) >= EVENTS_MAX:
             self._events.popleft()
             self._statistics.events_dropped += 1
