@@ -9,7 +9,7 @@ import random
 
 import pytest
 
-from backend.device.ebl.session.event_book import Arrival, EventBook
+from backend.device.ebl.session.event_deduplicator import Arrival, EventDeduplicator
 from backend.device.states import UnitEvent
 from backend.device.statistics import LinkStatistics
 from firmware_protocol._generated import BootEvent, FaultClearedEvent, FaultSetEvent
@@ -66,40 +66,40 @@ def told(seq: int, again: bool = False) -> Event:
 
 
 def test_numbers_are_kept_over_a_new_greeting_and_forgotten_after_a_restart() -> None:
-    book = EventBook(LinkStatistics())
-    book.handshake_done(boot_id=7)
-    assert book.came(told(3)) is Arrival.IN_ORDER
+    deduplicator = EventDeduplicator(LinkStatistics())
+    deduplicator.handshake_done(boot_id=7)
+    assert deduplicator.came(told(3)) is Arrival.IN_ORDER
 
-    book.handshake_done(boot_id=7)
-    assert book.came(told(3, again=True)) is Arrival.AGAIN
-    book.came(Event(0, BootEvent.CODE, 0, BootEvent(8, 0)))
+    deduplicator.handshake_done(boot_id=7)
+    assert deduplicator.came(told(3, again=True)) is Arrival.AGAIN
+    deduplicator.came(Event(0, BootEvent.CODE, 0, BootEvent(8, 0)))
 
-    assert book.came(told(1)) is Arrival.IN_ORDER
-    assert book.came(told(3)) is Arrival.AFTER_A_GAP
+    assert deduplicator.came(told(1)) is Arrival.IN_ORDER
+    assert deduplicator.came(told(3)) is Arrival.AFTER_A_GAP
 
 
 def test_what_came_late_is_no_longer_lost() -> None:
     statistics = LinkStatistics()
-    book = EventBook(statistics)
-    book.handshake_done(boot_id=1)
-    book.came(told(65534))
+    deduplicator = EventDeduplicator(statistics)
+    deduplicator.handshake_done(boot_id=1)
+    deduplicator.came(told(65534))
 
-    assert book.came(told(1)) is Arrival.AFTER_A_GAP
+    assert deduplicator.came(told(1)) is Arrival.AFTER_A_GAP
     assert statistics.unit_events_lost == 2
-    assert book.came(told(65535, again=True)) is Arrival.LATE
-    assert book.came(told(0, again=True)) is Arrival.LATE
-    assert book.came(told(0, again=True)) is Arrival.AGAIN
+    assert deduplicator.came(told(65535, again=True)) is Arrival.LATE
+    assert deduplicator.came(told(0, again=True)) is Arrival.LATE
+    assert deduplicator.came(told(0, again=True)) is Arrival.AGAIN
 
     assert (statistics.unit_events_lost, statistics.unit_events_again) == (0, 1)
 
 
 def test_the_book_holds_no_more_than_it_needs() -> None:
-    book = EventBook(LinkStatistics())
+    deduplicator = EventDeduplicator(LinkStatistics())
     chance = random.Random(3)
 
     for _ in range(5000):
         seq = chance.randrange(1 << 16)
-        book.came(Event(seq, FaultClearedEvent.CODE, 0, FaultClearedEvent(1)))
+        deduplicator.came(Event(seq, FaultClearedEvent.CODE, 0, FaultClearedEvent(1)))
 
-    assert len(book._seen) <= 64
-    assert len(book._missing) <= 64
+    assert len(deduplicator._seen) <= 64
+    assert len(deduplicator._missing) <= 64

@@ -20,7 +20,12 @@ from typing import TypeVar
 
 from backend.device.conversation import OnError, OnResult
 from backend.device.ebl.session.clock_keeper import ClockKeeper
-from backend.device.ebl.session.event_book import NO_TID, Arrival, EventBook, acknowledgement
+from backend.device.ebl.session.event_deduplicator import (
+    NO_TID,
+    Arrival,
+    EventDeduplicator,
+    acknowledgement,
+)
 from backend.device.ebl.session.handshake import Handshake, VersionRefused, run_handshake
 from backend.device.ebl.session.line_rate import LineRate
 from backend.device.ebl.session.log_receiver import LogReceiver
@@ -128,7 +133,7 @@ class Session:
         self.line = LineRate(self._requests)
         self.clock = ClockKeeper(self._statistics)
         self._log: LogReceiver | None = None
-        self._event_book = EventBook(self._statistics)
+        self._event_deduplicator = EventDeduplicator(self._statistics)
         self._state_keeper = StateKeeper(self.notes, self._runner, lambda: self._now_s)
         self._stream = StreamKeeper(
             plan,
@@ -330,7 +335,7 @@ class Session:
                 self._requests.shut(newer_version(frame[0] >> 5))
 
     def _unit_event(self, event: Event) -> None:
-        arrival = self._event_book.came(event)
+        arrival = self._event_deduplicator.came(event)
         self._out += acknowledgement(event)
         if arrival is Arrival.AGAIN:
             return
@@ -374,7 +379,7 @@ class Session:
             return
         self.line.proven(self._now_s)
         self.failed_handshakes = 0
-        self._event_book.handshake_done(handshake.identity.boot_id)
+        self._event_deduplicator.handshake_done(handshake.identity.boot_id)
         self.notes.begin(handshake, self._now_s)
         if handshake.read_only_reason is None:
             self.clock.begin(self._now_s)

@@ -35,7 +35,7 @@ class Arrival(Enum):
     AGAIN = auto()
 
 
-class EventBook:
+class EventDeduplicator:
     """Which events have come; a unit's next life starts a new page."""
 
     def __init__(self, statistics: LinkStatistics) -> None:
