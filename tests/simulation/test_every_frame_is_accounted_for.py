@@ -10,7 +10,7 @@ from __future__ import annotations
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from backend.device.ebl.session.stream_account import Balance, StreamAccount
+from backend.device.ebl.session.frame_counts import Balance, FrameCounts
 from backend.device.ebl.session.stream_receiver import StreamPlan
 from firmware_protocol.codec import Stream, decode
 from firmware_protocol.framing import FrameDecoder, encode_frame
@@ -104,31 +104,31 @@ def settled(bench: Bench, wire: Wire) -> tuple[Balance, int]:
 def test_any_order_of_frames_and_counts_balances(
     fates: list[str], count_every: int, ahead: int
 ) -> None:
-    account = StreamAccount()
+    frame_counts = FrameCounts()
     for index, fate in enumerate(fates):
         if fate == "comes":
-            account.frame(index)
+            frame_counts.frame(index)
         if index % count_every == 0:
             upto = min(len(fates), index + 1 + ahead)
-            account.counted(upto, fates[:upto].count("dropped"), 0)
-        balance = account.balance
+            frame_counts.counted(upto, fates[:upto].count("dropped"), 0)
+        balance = frame_counts.balance
         truth = fates[: balance.built]
         assert balance.received == truth.count("comes")
         assert balance.lost == truth.count("lost")
         assert balance.dropped == truth.count("dropped")
 
-    account.counted(len(fates), fates.count("dropped"), 0)
-    account.ended()
+    frame_counts.counted(len(fates), fates.count("dropped"), 0)
+    frame_counts.ended()
 
-    assert account.balance.built == len(fates)
-    assert account.balance.lost == fates.count("lost")
+    assert frame_counts.balance.built == len(fates)
+    assert frame_counts.balance.lost == fates.count("lost")
 
 
 def test_a_count_that_frames_have_overtaken_is_not_entered() -> None:
-    account = StreamAccount()
+    frame_counts = FrameCounts()
     for index in range(10):
-        account.frame(index)
+        frame_counts.frame(index)
 
-    account.counted(5, 0, 0)
+    frame_counts.counted(5, 0, 0)
 
-    assert account.balance == Balance()
+    assert frame_counts.balance == Balance()

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from backend.device.ebl.session.stream_account import StreamAccount
+from backend.device.ebl.session.frame_counts import FrameCounts
 from backend.device.statistics import LinkStatistics
 from backend.device.stream import StreamBlock, StreamStarted
 from backend.domain.channels import ChannelSpec
@@ -67,7 +67,7 @@ class StreamReceiver:
         self._next_index = 0
         self._frames = 0
         self.time_us = unit_time_us
-        self.account = StreamAccount()
+        self.frame_counts = FrameCounts()
         self._statistics = statistics
 
     @property
@@ -88,7 +88,7 @@ class StreamReceiver:
         lost_rows = skipped * self._batch
         first_index = self._next_index + lost_rows
         values = frame.values
-        self.account.frame(self._frames + skipped)
+        self.frame_counts.frame(self._frames + skipped)
         self._frames += skipped + 1
         self._next_sequence = (frame.seq + 1) % SEQUENCE_MODULUS
         self._next_index = first_index + len(values)
@@ -111,7 +111,7 @@ class StreamReceiver:
         """The unit told its counts; False when they are of another subscription."""
         if (counts.stream_id, counts.epoch) != (STREAM_ID, self._wire_epoch):
             return False
-        self.account.counted(counts.built, counts.dropped_tx, counts.missed)
+        self.frame_counts.counted(counts.built, counts.dropped_tx, counts.missed)
         return True
 
 

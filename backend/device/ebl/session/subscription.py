@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from backend.device.ebl.session.frame_counts import Balance
 from backend.device.ebl.session.operation import Operation, ask, attempt, expect
-from backend.device.ebl.session.stream_account import Balance
 from backend.device.ebl.session.stream_receiver import (
     LEASE_S,
     RENEW_S,
@@ -84,7 +84,7 @@ class Subscription:
                 break
             divider = _slower(divider, response.detail)
         reply = expect(request, response, StrSubscribeResponse)
-        self._close_account()
+        self._close_counts()
         self._epoch += 1
         self._receiver = StreamReceiver(plan, reply, self._epoch, snapshot.t_us, self._statistics)
         return self._receiver.started
@@ -122,22 +122,22 @@ class Subscription:
 
     def end(self) -> None:
         """The unit or the port is gone; frames that still come are foreign."""
-        self._close_account()
+        self._close_counts()
         self._receiver = None
         self._renewed_s = None
 
-    def _close_account(self) -> None:
+    def _close_counts(self) -> None:
         """Add the books of the subscription that ends to those of all before."""
         if self._receiver is not None:
-            self._receiver.account.ended()
-            self._closed += self._receiver.account.balance
+            self._receiver.frame_counts.ended()
+            self._closed += self._receiver.frame_counts.balance
             self._receiver = None
             self._publish()
 
     def _publish(self) -> None:
         balance = self._closed
         if self._receiver is not None:
-            balance += self._receiver.account.balance
+            balance += self._receiver.frame_counts.balance
         self._statistics.balance_built = balance.built
         self._statistics.balance_received = balance.received
         self._statistics.balance_lost = balance.lost

@@ -34,7 +34,7 @@ class Balance:
         )
 
 
-class StreamAccount:
+class FrameCounts:
     """Follows one subscription; `balance` is of the latest count that could be entered."""
 
     def __init__(self) -> None:
