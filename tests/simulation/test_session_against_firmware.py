@@ -65,8 +65,8 @@ def test_the_firmware_is_ready_and_has_the_registry_s_defaults() -> None:
 
     assert bench.session.state is LinkState.READY
     assert config.parameters == default_config()
-    assert config.generation == bench.session.notes.config_generation
-    assert config.crc32 == bench.session.notes.config_crc32
+    assert config.generation == bench.session.unit_state.config_generation
+    assert config.crc32 == bench.session.unit_state.config_crc32
 
 
 def test_a_minute_of_stream_has_no_row_missing_and_none_made_up() -> None:
@@ -311,7 +311,7 @@ def test_the_firmware_gives_up_a_trial_and_the_host_knows() -> None:
     status = bench.ask(trial_status())
     assert (status.on_trial, status.rollback_cause) == (False, "time_out")
     assert bench.ask(read_config()) == base
-    assert bench.session.notes.trial_ends_s is None
+    assert bench.session.unit_state.trial_ends_s is None
 
 
 def test_the_firmware_keeps_what_was_read_back_and_confirmed() -> None:
@@ -343,7 +343,7 @@ def test_a_trial_survives_a_pulled_cable_and_the_host_finds_it_again() -> None:
 
     bench.connect()
 
-    ends_s = bench.session.notes.trial_ends_s
+    ends_s = bench.session.unit_state.trial_ends_s
     assert ends_s is not None
     assert 50.0 < ends_s - bench.now_s < 58.0
     assert bench.ask(rollback_config()) == base
@@ -401,13 +401,13 @@ def test_an_event_that_did_not_come_is_counted_and_what_it_told_is_asked_for() -
     bench.run(1.5)
     bench.to_host = without_events
     bench.ask(write_config(base, {"pedal_stop_ms": 250}))
-    assert bench.session.notes.config_generation == base.generation
+    assert bench.session.unit_state.config_generation == base.generation
 
     bench.to_host = lambda data: data
     bench.run(2.5)
 
     assert bench.session.link_statistics().unit_events_lost > 0
-    assert bench.session.notes.config_generation == base.generation + 1
+    assert bench.session.unit_state.config_generation == base.generation + 1
 
 
 def without_events(data: bytes) -> bytes:

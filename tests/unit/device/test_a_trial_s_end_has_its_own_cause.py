@@ -7,7 +7,7 @@ answer to the question nothing is known.
 from __future__ import annotations
 
 from backend.device.configuration import TrialStatus
-from backend.device.ebl.session.unit_notes import UnitNotes
+from backend.device.ebl.session.unit_state import UnitState
 from backend.device.statistics import LinkStatistics
 from firmware_protocol._generated import ConfigProvisionalEvent, ConfigRolledBackEvent
 from firmware_protocol._generated import Event as EventCode
@@ -15,12 +15,12 @@ from firmware_protocol.codec import Event
 from firmware_protocol.layout import Message
 
 
-def hear(notes: UnitNotes, seq: int, code: EventCode, message: Message) -> None:
+def hear(notes: UnitState, seq: int, code: EventCode, message: Message) -> None:
     notes.take(Event(seq, code, 1_000_000 * seq, message), LinkStatistics(), float(seq))
 
 
 def test_a_rollback_has_no_cause_until_the_unit_was_asked() -> None:
-    notes = UnitNotes()
+    notes = UnitState()
     notes.refresh(0, TrialStatus(False, 7, 111, 0.0, "time_out", 8), 0.0)
 
     hear(notes, 1, EventCode.CONFIG_PROVISIONAL, ConfigProvisionalEvent(9, 222, 60))

@@ -38,7 +38,7 @@ def test_every_fault_is_told_exactly_once(loss: float, seed: int) -> None:
     heard += names(wire)
 
     assert sorted(heard) == ["FAULT_CLEARED"] * 4 + ["FAULT_SET"] * 4
-    assert wire.session.notes.faults_active == ()
+    assert wire.session.unit_state.faults_active == ()
 
 
 def test_a_fault_told_late_does_not_come_back_to_life() -> None:
@@ -53,7 +53,7 @@ def test_a_fault_told_late_does_not_come_back_to_life() -> None:
     wire.run(TELLING_S)
 
     assert sorted(names(wire)) == ["FAULT_CLEARED", "FAULT_SET"]
-    assert wire.session.notes.faults_active == ()
+    assert wire.session.unit_state.faults_active == ()
 
 
 def names(wire: SerialWire) -> list[str]:

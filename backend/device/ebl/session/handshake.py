@@ -82,7 +82,7 @@ def run_handshake(
     trial = None
     cause = None
     if reason is None:
-        faults, trial = yield from unit_state()
+        faults, trial = yield from ask_unit_state()
         cause = yield from _reset_cause()
     identity = identity_of(hello, cause)
     return Handshake(hello, identity, reason, channels, faults, trial)
@@ -123,7 +123,7 @@ def _other_schema(
     ), shared_channels(schema)
 
 
-def unit_state() -> Operation[tuple[int, TrialStatus]]:
+def ask_unit_state() -> Operation[tuple[int, TrialStatus]]:
     """What the unit's events would have told: its active faults, and its configuration."""
     listed = yield from ask(EvtFaultListRequest(), EvtFaultListResponse)
     trial = yield from trial_status()

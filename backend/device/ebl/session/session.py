@@ -53,7 +53,7 @@ from backend.device.ebl.session.state_keeper import StateKeeper
 from backend.device.ebl.session.stream_keeper import StreamKeeper
 from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.ebl.session.subscription import Subscription
-from backend.device.ebl.session.unit_notes import UnitNotes
+from backend.device.ebl.session.unit_state import UnitState
 from backend.device.snapshot import DeviceStatus
 from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.statistics import LinkStatistics
@@ -119,7 +119,7 @@ class Session:
         self.state = LinkState.CONNECTING
         self.reason: str = opening_reason()
         self.handshake: Handshake | None = None
-        self.notes = UnitNotes()
+        self.unit_state = UnitState()
         self.last_block: StreamBlock | None = None
         # HELLOs in a row that led nowhere; the driver reopens a port that stays deaf.
         self.failed_handshakes = 0
@@ -134,7 +134,7 @@ class Session:
         self.clock = ClockKeeper(self._statistics)
         self._log: LogReceiver | None = None
         self._event_deduplicator = EventDeduplicator(self._statistics)
-        self._state_keeper = StateKeeper(self.notes, self._runner, lambda: self._now_s)
+        self._state_keeper = StateKeeper(self.unit_state, self._runner, lambda: self._now_s)
         self._stream = StreamKeeper(
             plan,
             self._subscription,
@@ -290,17 +290,17 @@ class Session:
 
     def status(self) -> DeviceStatus:
         """A copy of what other threads may want to know."""
-        ends_s = self.notes.trial_ends_s
+        ends_s = self.unit_state.trial_ends_s
         return DeviceStatus(
             state=self.state,
             reason=self.reason,
             identity=self.handshake.identity if self.handshake else None,
-            config_generation=self.notes.config_generation,
-            config_crc32=self.notes.config_crc32,
+            config_generation=self.unit_state.config_generation,
+            config_crc32=self.unit_state.config_crc32,
             trial_ends_unix_us=None if ends_s is None else self._unix_us(ends_s),
             trial_left_s=None if ends_s is None else max(0.0, ends_s - self._now_s),
-            rollback_cause=self.notes.rollback_cause,
-            faults_active=self.notes.faults_active,
+            rollback_cause=self.unit_state.rollback_cause,
+            faults_active=self.unit_state.faults_active,
             streaming=self.streaming,
             last_block=self.last_block,
             statistics=self.link_statistics(),
@@ -342,7 +342,7 @@ class Session:
         if isinstance(event.message, StreamCountsEvent):
             self._subscription.counted(event.message)
         late = arrival is Arrival.LATE
-        told = self.notes.take(event, self._statistics, self._now_s, late)
+        told = self.unit_state.take(event, self._statistics, self._now_s, late)
         if told is not None:
             self._emit(told)
             # What the handshake asked for may be older; a return does not say why it was.
@@ -380,7 +380,7 @@ class Session:
         self.line.proven(self._now_s)
         self.failed_handshakes = 0
         self._event_deduplicator.handshake_done(handshake.identity.boot_id)
-        self.notes.begin(handshake, self._now_s)
+        self.unit_state.begin(handshake, self._now_s)
         if handshake.read_only_reason is None:
             self.clock.begin(self._now_s)
         self._phase = _Phase.UP

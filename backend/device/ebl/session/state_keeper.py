@@ -5,17 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from backend.device.configuration import TrialStatus
-from backend.device.ebl.session.handshake import unit_state
+from backend.device.ebl.session.handshake import ask_unit_state
 from backend.device.ebl.session.runner import OperationRunner
-from backend.device.ebl.session.unit_notes import UnitNotes
+from backend.device.ebl.session.unit_state import UnitState
 from backend.errors import NoAnswer
 
 
 class StateKeeper:
     """Keeps what is known of the unit fresh. now: the session's time."""
 
-    def __init__(self, notes: UnitNotes, runner: OperationRunner, now: Callable[[], float]) -> None:
-        self._notes = notes
+    def __init__(
+        self, unit_state: UnitState, runner: OperationRunner, now: Callable[[], float]
+    ) -> None:
+        self._unit_state = unit_state
         self._runner = runner
         self._now = now
         self._stale = False
@@ -29,12 +31,12 @@ class StateKeeper:
         """Ask if it is stale; a question that nobody answers leaves it so."""
         if self._stale and not self._asked:
             self._stale, self._asked = False, True
-            self._runner.start(unit_state(), self._answered, self._unanswered)
+            self._runner.start(ask_unit_state(), self._answered, self._unanswered)
 
     def _answered(self, state: tuple[int, TrialStatus]) -> None:
         self._asked = False
         if not self._stale:
-            self._notes.refresh(*state, self._now())
+            self._unit_state.refresh(*state, self._now())
 
     def _unanswered(self, error: BaseException) -> None:
         self._asked = False

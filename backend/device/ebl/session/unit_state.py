@@ -21,7 +21,7 @@ from firmware_protocol._generated import Event as EventCode
 from firmware_protocol.codec import Event
 
 
-class UnitNotes:
+class UnitState:
     """The unit's own word on its configuration and faults, kept fresh by its events.
 
     trial_ends_s: when the configuration on trial is given up, in the session's time; None while
