@@ -24,7 +24,7 @@ from backend.device.faults import UnitFault
 from backend.device.live_values import LiveValues
 from backend.device.ride_logs import LogPieces, RideLog, RideLogs
 from backend.device.snapshot import DeviceStatus
-from backend.device.upkeep import Upkeep
+from backend.device.wear_counters import WearCounters
 from backend.domain.capability import Capability
 from backend.domain.channels import ChannelSpec
 from backend.errors import CapabilityMissing
@@ -191,7 +191,7 @@ class Unit(ABC):
         """Forget the faults that are over; those that are left."""
         return self.faults()
 
-    def upkeep(self) -> Upkeep | None:
+    def wear_counters(self) -> WearCounters | None:
         """What the unit knows of its own wear; None for one that counts nothing."""
         return None
 

@@ -8,7 +8,7 @@ from typing import Any
 from backend.device.faults import UnitFault
 from backend.device.live_values import LiveValues, last_values
 from backend.device.states import LinkState
-from backend.device.upkeep import Upkeep
+from backend.device.wear_counters import WearCounters
 from backend.errors import CapabilityMissing
 from backend.services.connect import Devices
 from backend.services.outcome import telling
@@ -45,9 +45,9 @@ class Inspection:
         with telling("unknown"):
             return self._devices.unit(device_id).clear_faults()
 
-    def upkeep(self, device_id: str) -> Upkeep:
+    def wear_counters(self, device_id: str) -> WearCounters:
         """What the unit knows of its own wear. Raises Conflict of one we do not understand."""
-        found = self._devices.writable(device_id).upkeep()
+        found = self._devices.writable(device_id).wear_counters()
         if found is None:
             raise CapabilityMissing(
                 "This unit does not count distance, hours and writes.", "upkeep"

@@ -194,7 +194,7 @@ class ConfigSlot(Answer):
     active: bool
 
 
-class Upkeep(Answer):
+class WearCounters(Answer):
     """What the unit knows of its own wear. What is not saved yet is lost with its supply."""
 
     distance_m: int

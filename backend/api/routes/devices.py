@@ -18,7 +18,7 @@ from backend.api.models.device import (
     SimulationAdvance,
     SimulationChange,
     Snapshot,
-    Upkeep,
+    WearCounters,
 )
 from backend.api.problem import refusals
 from backend.api.services import Provided
@@ -74,10 +74,10 @@ def get_snapshot(device_id: str, services: Provided) -> Any:
     return services.inspection.snapshot(device_id)
 
 
-@router.get("/devices/{device_id}/service", operation_id="get_service", response_model=Upkeep)
+@router.get("/devices/{device_id}/service", operation_id="get_service", response_model=WearCounters)
 def get_service(device_id: str, services: Provided) -> Any:
     """How far and how long the unit ran, and how worn the flash of its configuration is."""
-    return services.inspection.upkeep(device_id)
+    return services.inspection.wear_counters(device_id)
 
 
 @router.get(

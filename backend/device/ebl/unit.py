@@ -28,7 +28,7 @@ from backend.device.ebl.operations.simulation import (
     simulation_set,
 )
 from backend.device.ebl.operations.unlock import Token, token_from
-from backend.device.ebl.operations.upkeep import read_upkeep
+from backend.device.ebl.operations.wear_counters import read_wear_counters
 from backend.device.ebl.session.log_receiver import LogReceiver
 from backend.device.ebl.session.operation import Operation
 from backend.device.ebl.session.schema import Schemas
@@ -40,7 +40,7 @@ from backend.device.live_values import LiveValues
 from backend.device.ride_logs import LogPieces, RideLog, RideLogs
 from backend.device.states import LinkState
 from backend.device.unit import Unit
-from backend.device.upkeep import Upkeep
+from backend.device.wear_counters import WearCounters
 from backend.domain.capability import Capability
 from backend.domain.channels import ChannelSpec
 from backend.errors import CapabilityMissing, DeviceRefused, SpindleError
@@ -170,8 +170,8 @@ class EblUnit(Unit):
     def clear_faults(self) -> Sequence[UnitFault]:
         return self._run(clear_faults())
 
-    def upkeep(self) -> Upkeep | None:
-        return self._run(read_upkeep())
+    def wear_counters(self) -> WearCounters | None:
+        return self._run(read_wear_counters())
 
     # ------------------------------------------------------------------ ride logs
 

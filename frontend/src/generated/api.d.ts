@@ -2336,10 +2336,10 @@ export interface components {
             next: string | null;
         };
         /**
-         * Upkeep
+         * WearCounters
          * @description What the unit knows of its own wear. What is not saved yet is lost with its supply.
          */
-        Upkeep: {
+        WearCounters: {
             /** Distance M */
             distance_m: number;
             /** Operating S */
@@ -2937,7 +2937,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Upkeep"];
+                    "application/json": components["schemas"]["WearCounters"];
                 };
             };
             /** @description Not Found */

@@ -15,19 +15,19 @@ from firmware_protocol.codec import Event
 from firmware_protocol.layout import Message
 
 
-def hear(notes: UnitState, seq: int, code: EventCode, message: Message) -> None:
-    notes.take(Event(seq, code, 1_000_000 * seq, message), LinkStatistics(), float(seq))
+def hear(state: UnitState, seq: int, code: EventCode, message: Message) -> None:
+    state.take(Event(seq, code, 1_000_000 * seq, message), LinkStatistics(), float(seq))
 
 
 def test_a_rollback_has_no_cause_until_the_unit_was_asked() -> None:
-    notes = UnitState()
-    notes.refresh(0, TrialStatus(False, 7, 111, 0.0, "time_out", 8), 0.0)
+    state = UnitState()
+    state.refresh(0, TrialStatus(False, 7, 111, 0.0, "time_out", 8), 0.0)
 
-    hear(notes, 1, EventCode.CONFIG_PROVISIONAL, ConfigProvisionalEvent(9, 222, 60))
-    assert notes.trial_ends_s is not None
-    hear(notes, 2, EventCode.CONFIG_ROLLED_BACK, ConfigRolledBackEvent(10, 111))
-    assert notes.trial_ends_s is None
-    assert notes.rollback_cause is None
+    hear(state, 1, EventCode.CONFIG_PROVISIONAL, ConfigProvisionalEvent(9, 222, 60))
+    assert state.trial_ends_s is not None
+    hear(state, 2, EventCode.CONFIG_ROLLED_BACK, ConfigRolledBackEvent(10, 111))
+    assert state.trial_ends_s is None
+    assert state.rollback_cause is None
 
-    notes.refresh(0, TrialStatus(False, 10, 111, 0.0, "asked", 9), 3.0)
-    assert notes.rollback_cause == "asked"
+    state.refresh(0, TrialStatus(False, 10, 111, 0.0, "asked", 9), 3.0)
+    assert state.rollback_cause == "asked"

@@ -114,7 +114,7 @@ def test_a_unit_of_another_firmware_is_not_tried_on() -> None:
     devices = Devices(opener=lambda url: UnitOpener(unit, url))
     device = devices.add("socket://bench:2")
 
-    for ask in (LiveTuning(devices).read, Inspection(devices).upkeep):
+    for ask in (LiveTuning(devices).read, Inspection(devices).wear_counters):
         with pytest.raises(Conflict) as caught:
             ask(device.id)
         assert caught.value.code == "read_only"
@@ -123,9 +123,9 @@ def test_a_unit_of_another_firmware_is_not_tried_on() -> None:
 
 
 def test_a_unit_tells_its_wear(bench: Bench) -> None:
-    new = Inspection(bench.devices).upkeep(bench.id)
+    new = Inspection(bench.devices).wear_counters(bench.id)
     bench.tuning.write_config(bench.id, {"torque_filter_s": 0.9})
-    written = Inspection(bench.devices).upkeep(bench.id)
+    written = Inspection(bench.devices).wear_counters(bench.id)
 
     assert new.distance_m == 0
     assert written.operating_s >= new.operating_s

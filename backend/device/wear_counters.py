@@ -20,7 +20,7 @@ class ConfigSlot:
 
 
 @dataclass(frozen=True)
-class Upkeep:
+class WearCounters:
     """distance_m, operating_s: over the unit's life. saved_*: as its flash has them; what came
     after is lost with the supply, a minute at most. runs_on_default: neither slot was good."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from backend.device.ebl.session.operation import Operation, ask
-from backend.device.upkeep import ConfigSlot, Upkeep
+from backend.device.wear_counters import ConfigSlot, WearCounters
 from firmware_protocol._generated import (
     CfgSlotsRequest,
     CfgSlotsResponse,
@@ -13,7 +13,7 @@ from firmware_protocol._generated import (
 )
 
 
-def read_upkeep() -> Operation[Upkeep]:
+def read_wear_counters() -> Operation[WearCounters]:
     """Ask the unit. Raises NoAnswer, DeviceRefused."""
     counters = yield from ask(CountersRequest(), CountersResponse)
     slots = yield from ask(CfgSlotsRequest(), CfgSlotsResponse)
@@ -23,7 +23,7 @@ def read_upkeep() -> Operation[Upkeep]:
             zip(slots.states, slots.generations, slots.erases, strict=True)
         )
     )
-    return Upkeep(
+    return WearCounters(
         counters.distance_m,
         counters.operating_s,
         counters.saved_distance_m,
