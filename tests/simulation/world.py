@@ -29,7 +29,7 @@ STEP_S = 0.010
 SECONDS_DEFAULT = 40.0
 # Then the faults stop and everything has to come to its end.
 CALM_PART = 0.7
-LINE_RATES = (115_200.0, 1_000_000.0)
+BAUD_RATES = (115_200.0, 1_000_000.0)
 # As the driver does with a port that is open and deaf.
 HANDSHAKES_BEFORE_REOPEN = 8
 OFF_S = 1.0
@@ -74,7 +74,7 @@ class World:
         self.past = earlier_boot(chance.random() < 0.75)
         self.unit = self._new_life(self.past.flash, self.past.log)
         self.watcher = Watcher(self.unit)
-        self.bits_per_second = chance.choice(LINE_RATES)
+        self.bits_per_second = chance.choice(BAUD_RATES)
         bytes_per_s = self.bits_per_second / 10
         self._up = FaultyWire(random.Random(f"{seed} up"), self.faults, bytes_per_s)
         self._down = FaultyWire(random.Random(f"{seed} down"), self.faults, bytes_per_s)

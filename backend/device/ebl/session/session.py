@@ -19,6 +19,7 @@ from enum import Enum, auto
 from typing import TypeVar
 
 from backend.device.conversation import OnError, OnResult
+from backend.device.ebl.session.baud_rate import BaudRate
 from backend.device.ebl.session.clock_keeper import ClockKeeper
 from backend.device.ebl.session.event_deduplicator import (
     NO_TID,
@@ -27,7 +28,6 @@ from backend.device.ebl.session.event_deduplicator import (
     acknowledgement,
 )
 from backend.device.ebl.session.handshake import Handshake, VersionRefused, run_handshake
-from backend.device.ebl.session.line_rate import LineRate
 from backend.device.ebl.session.log_receiver import LogReceiver
 from backend.device.ebl.session.operation import Operation, OrphanLeft, attempt
 from backend.device.ebl.session.reasons import (
@@ -130,7 +130,7 @@ class Session:
         self._subscription = Subscription(self._statistics)
         self._requests = RequestTable(self._statistics)
         self._runner = OperationRunner(self._requests)
-        self.line = LineRate(self._requests)
+        self.line = BaudRate(self._requests)
         self.clock = ClockKeeper(self._statistics)
         self._log: LogReceiver | None = None
         self._event_deduplicator = EventDeduplicator(self._statistics)

@@ -26,7 +26,7 @@ SWITCHES_MAX = 2
 SOON_S = 10.0
 
 
-class LineRate:
+class BaudRate:
     """Which rate the port has, and which others may be right.
 
     first: what the port opens with; None where the line has no rate. requests: told the rate, for
