@@ -38,7 +38,7 @@ READ_BYTES = 65536
 # A port that does not open is tried again after 0.1 s, 0.2 s and so on up to this.
 REOPEN_S_MIN = 0.1
 REOPEN_S_MAX = 1.0
-# A port that is open and deaf is opened anew: some adapters do not survive a sleep otherwise, and
+# A port that is open and silent is opened anew: some adapters do not survive a sleep otherwise, and
 # a TCP connection whose other end is gone tells nobody.
 HANDSHAKES_BEFORE_REOPEN = 4
 # Work that waits for the thread; more means that nobody waits for the answers.
@@ -75,7 +75,7 @@ class Driver:
     """A device's thread.
 
     opener: how to get to the unit. listener: called on this thread with every event; it must not
-    wait. conversation: from here on this thread's. reopen_when_deaf: False where a silent unit is
+    wait. conversation: from here on this thread's. reopen_when_silent: False where a silent unit is
     better left alone.
     """
 
@@ -84,11 +84,11 @@ class Driver:
         opener: LinkOpener,
         listener: Listener,
         conversation: Conversation,
-        reopen_when_deaf: bool = True,
+        reopen_when_silent: bool = True,
     ) -> None:
         self._opener = opener
         self._listener = listener
-        self._reopen_when_deaf = reopen_when_deaf
+        self._reopen_when_silent = reopen_when_silent
         self._session = conversation
         self._link: Link | None = None
         self._unsent = b""
@@ -203,7 +203,7 @@ class Driver:
             self._begin_commands()
             busy = self._session.is_busy
             events = self._session.next_events()
-            deaf = self._session.failed_handshakes >= HANDSHAKES_BEFORE_REOPEN
+            silent = self._session.failed_handshakes >= HANDSHAKES_BEFORE_REOPEN
             settled = self._session.failed_handshakes > 0 or self._session.state in SETTLED
             if self._session.state in CONNECTED:
                 self.connected.set()
@@ -213,7 +213,7 @@ class Driver:
             self._emit(event)
         if settled:
             self.settled.set()
-        if deaf and self._reopen_when_deaf and self._link is not None:
+        if silent and self._reopen_when_silent and self._link is not None:
             self._drop(LinkError(self._session.reason))
         self._read_every_s = _read_every_s(busy, received, now_s - self._read_at_s)
         self._read_at_s = now_s

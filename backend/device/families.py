@@ -19,7 +19,7 @@ class Family(Protocol):
         opener: LinkOpener,
         listener: Listener,
         streaming: bool = True,
-        reopen_when_deaf: bool = True,
+        reopen_when_silent: bool = True,
         schemas: Schemas | None = None,
     ) -> Unit: ...
 

@@ -220,7 +220,7 @@ class Devices:
             self._opener(url),
             lambda event: self._emit(device, event),
             self._streaming,
-            reopen_when_deaf=kind != "simulated",
+            reopen_when_silent=kind != "simulated",
             schemas=self._schemas,
         )
         self._devices[url] = device

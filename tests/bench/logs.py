@@ -40,9 +40,9 @@ def share_of_line(rate: int, turn_around_s: float, loss: float, seed: int) -> fl
     """Bytes of a seven-minute ride's log over what the line carries in the same time."""
     unit = unit_with_log(4096, 1 << 20)
     unit.inputs(speed_kmh=18.0)
-    unit.advance_deaf(RIDE_S)
+    unit.advance_unread(RIDE_S)
     unit.inputs(speed_kmh=0.0)
-    unit.advance_deaf(21.0)
+    unit.advance_unread(21.0)
     unit.take_wire()
     wire = SerialWire(unit, rate, turn_around_s, seed=seed).connect()
     log = wire.ask(list_logs()).logs[0]

@@ -77,7 +77,7 @@ class BenchUnit:
         lib.bench_advance_us(self.board, round(seconds * 1e6))
         self.hear()
 
-    def advance_deaf(self, seconds: float) -> None:
+    def advance_unread(self, seconds: float) -> None:
         """Let time pass while nobody reads the line."""
         lib.bench_advance_us(self.board, round(seconds * 1e6))
 

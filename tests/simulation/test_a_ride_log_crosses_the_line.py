@@ -43,9 +43,9 @@ def flash_with_a_ride() -> bytes:
     """The flash after five minutes; riding them again for every test would only take time."""
     unit = unit_with_log(4096, LOG_BYTES)
     unit.inputs(speed_kmh=18.0, cadence_rpm=70.0)
-    unit.advance_deaf(RIDE_S)
+    unit.advance_unread(RIDE_S)
     unit.inputs(speed_kmh=0.0, cadence_rpm=0.0)
-    unit.advance_deaf(21.0)
+    unit.advance_unread(21.0)
     return bytes(ffi.buffer(lib.bench_log(unit.board), LOG_BYTES))
 
 

@@ -30,7 +30,7 @@ SECONDS_DEFAULT = 40.0
 # Then the faults stop and everything has to come to its end.
 CALM_PART = 0.7
 BAUD_RATES = (115_200.0, 1_000_000.0)
-# As the driver does with a port that is open and deaf.
+# As the driver does with a port that is open and silent.
 HANDSHAKES_BEFORE_REOPEN = 8
 OFF_S = 1.0
 NEVER = 0xFFFFFFFF
@@ -238,7 +238,7 @@ class World:
             if self.unit.unit.powered:
                 self.unit.send(piece)
         if session.failed_handshakes >= HANDSHAKES_BEFORE_REOPEN and self.plugged:
-            self.tell("host", "opens the deaf port anew")
+            self.tell("host", "opens the silent port anew")
             self._lose(session.reason, 0.1)
         for event in session.next_events():
             self._heard(event)

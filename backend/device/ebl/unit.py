@@ -73,13 +73,13 @@ class EblUnit(Unit):
         opener: LinkOpener,
         listener: Listener,
         streaming: bool = True,
-        reopen_when_deaf: bool = True,
+        reopen_when_silent: bool = True,
         schemas: Schemas | None = None,
     ) -> None:
         plan = StreamPlan() if streaming else None
         self._session = Session(time.monotonic(), plan, schemas)
         self._log_sessions = count()
-        super().__init__(Driver(opener, listener, self._session, reopen_when_deaf))
+        super().__init__(Driver(opener, listener, self._session, reopen_when_silent))
 
     @property
     def capabilities(self) -> frozenset[Capability]:

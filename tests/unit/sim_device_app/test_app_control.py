@@ -193,9 +193,9 @@ def test_an_event_the_line_had_no_room_for_leaves_a_gap_in_the_numbers() -> None
     unit.line_room(0)
     for _ in range(40):
         unit.inputs(battery_voltage_v=29.9)
-        unit.advance_deaf(1.0)
+        unit.advance_unread(1.0)
         unit.inputs(battery_voltage_v=36.0)
-        unit.advance_deaf(2.0)
+        unit.advance_unread(2.0)
     unit.line_room(lib.BENCH_LINE_BYTES)
     unit.advance(0.1)
     unit.inputs(battery_voltage_v=29.9)

@@ -143,7 +143,7 @@ def test_a_line_that_takes_nothing_is_not_filled_with_repetitions() -> None:
     unit = with_a_host()
     unit.line_room(0)
     unit.inputs(battery_voltage_v=29.0)
-    unit.advance_deaf(10.0)
+    unit.advance_unread(10.0)
 
     unit.line_room(65536)
     unit.advance(0.01)

@@ -175,7 +175,7 @@ def test_an_answer_that_never_leaves_is_given_up_after_a_second() -> None:
     unit.line_room(0)
     unit.say(encode_frame(codec.encode(codec.Request(5, SetBaudRequest(1_000_000)))))
 
-    unit.advance_deaf(1.1)
+    unit.advance_unread(1.1)
     unit.line_room(65536)
     unit.advance(0.3)
 

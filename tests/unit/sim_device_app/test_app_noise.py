@@ -104,7 +104,7 @@ def test_a_host_that_floods_without_listening_costs_answers_and_nothing_else(
 
     for _ in range(500):
         unit.say(request_as_sent(noise))
-        unit.advance_deaf(0.01)
+        unit.advance_unread(0.01)
 
     unit.line_room(65536)
     unit.advance(0.1)

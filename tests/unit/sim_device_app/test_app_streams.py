@@ -76,7 +76,7 @@ def test_rows_come_at_the_rate_and_in_the_batches_that_were_agreed(unit: BenchUn
 def test_the_announced_rate_covers_what_the_line_really_carries(unit: BenchUnit) -> None:
     agreed = subscribe(unit, *ID.values(), batch=12)
 
-    unit.advance_deaf(0.96)
+    unit.advance_unread(0.96)
     bytes_per_s = len(unit.take_wire()) / 0.96
 
     assert 0.97 * agreed.bytes_per_s < bytes_per_s <= agreed.bytes_per_s
@@ -144,7 +144,7 @@ def test_every_frame_built_is_received_or_counted_as_dropped(unit: BenchUnit) ->
     subscribe(unit, SPEED, stream_id=2, divider=3, batch=2)
     unit.advance(5.0)
     unit.line_room(0)
-    unit.advance_deaf(20.0)
+    unit.advance_unread(20.0)
     unit.line_room(LINE_BYTES)
     unit.advance(10.0)
     unit.ask(StrUnsubscribeRequest(99))
@@ -163,7 +163,7 @@ def test_every_frame_built_is_received_or_counted_as_dropped(unit: BenchUnit) ->
 def test_the_first_frame_after_a_gap_is_marked(unit: BenchUnit) -> None:
     subscribe(unit, *ID.values(), batch=4)
     unit.line_room(0)
-    unit.advance_deaf(10.0)
+    unit.advance_unread(10.0)
     unit.line_room(LINE_BYTES)
     unit.advance(1.0)
 
@@ -180,7 +180,7 @@ def test_the_first_frame_after_a_gap_is_marked(unit: BenchUnit) -> None:
 def test_a_response_overtakes_the_streams_that_wait(unit: BenchUnit) -> None:
     subscribe(unit, *ID.values(), batch=12)
     unit.line_room(0)
-    unit.advance_deaf(3.0)
+    unit.advance_unread(3.0)
     unit.line_room(LINE_BYTES)
 
     unit.say(framing.encode_frame(codec.encode(codec.Request(7, PingRequest()))))

@@ -47,7 +47,7 @@ def ready_reason(identity: Identity) -> CodedReason:
     )
 
 
-def silent_reason(port_name: str) -> CodedReason:
+def rx_timeout_reason(port_name: str) -> CodedReason:
     """It was there and is silent."""
     return CodedReason(
         f"The unit on {port_name} stopped answering. Check battery and cable; it is taken up "
@@ -56,7 +56,7 @@ def silent_reason(port_name: str) -> CodedReason:
     )
 
 
-def deaf_reason(port_name: str) -> CodedReason:
+def tx_timeout_reason(port_name: str) -> CodedReason:
     """It talks and does not hear us."""
     return CodedReason(
         f"The unit on {port_name} is heard and answers nothing. Check the cable and its plug: one "

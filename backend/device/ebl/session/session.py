@@ -31,7 +31,6 @@ from backend.device.ebl.session.handshake import Handshake, VersionRefused, run_
 from backend.device.ebl.session.log_receiver import LogReceiver
 from backend.device.ebl.session.operation import Operation, OrphanLeft, attempt
 from backend.device.ebl.session.reasons import (
-    deaf_reason,
     handshake_reason,
     newer_version,
     no_stream_reason,
@@ -42,7 +41,8 @@ from backend.device.ebl.session.reasons import (
     ready_reason,
     removed_reason,
     restarted_reason,
-    silent_reason,
+    rx_timeout_reason,
+    tx_timeout_reason,
     version_reason,
     waiting_reason,
 )
@@ -121,7 +121,7 @@ class Session:
         self.handshake: Handshake | None = None
         self.unit_state = UnitState()
         self.last_block: StreamBlock | None = None
-        # HELLOs in a row that led nowhere; the driver reopens a port that stays deaf.
+        # HELLOs in a row that led nowhere; the driver reopens a port that stays silent.
         self.failed_handshakes = 0
         # Unix time minus the caller's clock, so that blocks carry a wall time without a clock here.
         self.wall_offset_us = 0
@@ -420,9 +420,9 @@ class Session:
             self._state_keeper.refresh()
         silent_s = self._now_s - self._heard_s
         if silent_s >= SILENCE_S:
-            self._lose(silent_reason(self._port_name))
-        elif self._stream.is_unheard:
-            self._lose(deaf_reason(self._port_name))
+            self._lose(rx_timeout_reason(self._port_name))
+        elif self._stream.tx_timed_out:
+            self._lose(tx_timeout_reason(self._port_name))
         elif self._stream.keep():
             return
         elif self._requests.is_idle and self.clock.due(self._now_s):

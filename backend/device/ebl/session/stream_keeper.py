@@ -49,7 +49,7 @@ class StreamKeeper:
         self._renewals_unanswered = 0
 
     @property
-    def is_unheard(self) -> bool:
+    def tx_timed_out(self) -> bool:
         """Whether the unit leaves renewals unanswered while its rows may still come."""
         return self._renewals_unanswered >= RENEWALS_UNANSWERED_MAX
 
