@@ -49,7 +49,7 @@ CLOSE_TIMEOUT_S = 5.0
 # What an operation that took too long has to end itself: a change is dropped in the unit, too.
 ABANDON_S = 3.0
 
-SETTLED = (*CONNECTED, LinkState.CLOSED)
+PROBED = (*CONNECTED, LinkState.CLOSED)
 
 # Codes of a NoAnswer after which it is certain that the unit was not even asked.
 NOT_BEGUN = "not_begun"
@@ -98,7 +98,7 @@ class Driver:
         self._read_at_s = time.monotonic()
         self._commands: queue.Queue[_Command] = queue.Queue(COMMANDS_MAX)
         # Set once it is known what hangs on the port, or that nothing does.
-        self.settled = threading.Event()
+        self.probed = threading.Event()
         # Set while the unit can be asked.
         self.connected = threading.Event()
         self._wake = threading.Event()
@@ -204,15 +204,15 @@ class Driver:
             busy = self._session.is_busy
             events = self._session.next_events()
             silent = self._session.failed_handshakes >= HANDSHAKES_BEFORE_REOPEN
-            settled = self._session.failed_handshakes > 0 or self._session.state in SETTLED
+            probed = self._session.failed_handshakes > 0 or self._session.state in PROBED
             if self._session.state in CONNECTED:
                 self.connected.set()
             else:
                 self.connected.clear()
         for event in events:
             self._emit(event)
-        if settled:
-            self.settled.set()
+        if probed:
+            self.probed.set()
         if silent and self._reopen_when_silent and self._link is not None:
             self._drop(LinkError(self._session.reason))
         self._read_every_s = _read_every_s(busy, received, now_s - self._read_at_s)
@@ -294,7 +294,7 @@ class Driver:
         self._close_link()
         self._session.port_failed(now_s, error)
         self._session.failed_handshakes = 0
-        self.settled.set()
+        self.probed.set()
         self._open_at_s = now_s + self._reopen_s
         self._reopen_s = min(2.0 * self._reopen_s, REOPEN_S_MAX)
 

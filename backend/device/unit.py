@@ -117,7 +117,7 @@ class Unit(ABC):
         """
         self._lacks(Capability.WRITE_CONFIG)
 
-    def settle_write(self, base: ConfigImage, intended: Config) -> ConfigImage:
+    def outcome_of_write(self, base: ConfigImage, intended: Config) -> ConfigImage:
         """What became of a write nobody answered: the configuration if it is what was meant.
 
         Raises NoAnswer with the outcome `unchanged`, ConfigConflict, PeerProtocolError; NoAnswer
@@ -139,16 +139,16 @@ class Unit(ABC):
         """Keep what is on trial once it was read back and compared. Raises Conflict."""
         self._lacks(Capability.UNIT_TRIAL)
 
-    def settle_confirm(self, tried: ConfigImage) -> ConfigImage:
-        """As `settle_write`, of a confirmation."""
+    def outcome_of_confirm(self, tried: ConfigImage) -> ConfigImage:
+        """As `outcome_of_write`, of a confirmation."""
         self._lacks(Capability.UNIT_TRIAL)
 
     def rollback_config(self) -> ConfigImage:
         """Give up what is on trial; what is active then. Raises Conflict."""
         self._lacks(Capability.UNIT_TRIAL)
 
-    def settle_rollback(self, tried: ConfigImage) -> ConfigImage:
-        """As `settle_write`, of a return."""
+    def outcome_of_rollback(self, tried: ConfigImage) -> ConfigImage:
+        """As `outcome_of_write`, of a return."""
         self._lacks(Capability.UNIT_TRIAL)
 
     # ------------------------------------------------------------------ values tried live
@@ -165,16 +165,16 @@ class Unit(ABC):
         """Try values for `ttl_s` seconds. Raises LimitViolation, AccessDenied."""
         self._lacks(Capability.LIVE_SET)
 
-    def settle_live(self, before: Config, values: Config) -> LiveState:
-        """As `settle_write`, of values that are tried."""
+    def outcome_of_live(self, before: Config, values: Config) -> LiveState:
+        """As `outcome_of_write`, of values that are tried."""
         self._lacks(Capability.LIVE_SET)
 
     def end_live(self) -> LiveState:
         """End what is tried; what is tried then."""
         self._lacks(Capability.LIVE_SET)
 
-    def settle_live_end(self) -> LiveState:
-        """As `settle_write`, of the end of what is tried."""
+    def outcome_of_live_end(self) -> LiveState:
+        """As `outcome_of_write`, of the end of what is tried."""
         self._lacks(Capability.LIVE_SET)
 
     # ------------------------------------------------------------------ faults and wear
@@ -217,7 +217,7 @@ class Unit(ABC):
         """Have the unit free a confirmed log; blocks of flash erased for logs in its life."""
         self._lacks(Capability.LOGS)
 
-    def settle_erase(self, log: RideLog) -> None:
+    def outcome_of_erase(self, log: RideLog) -> None:
         """Raises NoAnswer with the outcome `unchanged` when the log is still there."""
         self._lacks(Capability.LOGS)
 

@@ -38,8 +38,7 @@ from backend.errors import (
 )
 from backend.ingest.blocks import BLOCKS_SUFFIX, PAGE_BYTES, sync_block
 from backend.services.connect import Devices
-from backend.services.outcome import telling
-from backend.services.settle import settled
+from backend.services.outcome import find_outcome, telling
 from backend.services.upload import Uploads
 
 LOG = logging.getLogger(__name__)
@@ -214,7 +213,7 @@ class Collect:
         except NoAnswer as error:
             if error.outcome != "unknown":
                 raise
-            settled(self._devices, unit_id, lambda unit: unit.settle_erase(log), error)
+            find_outcome(self._devices, unit_id, lambda unit: unit.outcome_of_erase(log), error)
             erases = None
         with self._lock:
             self._downloads.pop((unit_id, log_id), None)

@@ -115,7 +115,7 @@ class Devices:
             device = self._devices.get(url)
             if device is None:
                 device = self._open(url, kind)
-        device.unit.driver.settled.wait(wait_s)
+        device.unit.driver.probed.wait(wait_s)
         twin = self._settle(device)
         if twin is not None:
             self._close(device)

@@ -1,12 +1,23 @@
-"""What became of a change, told with every NoAnswer that a caller gets."""
+"""What became of a change: told with every NoAnswer that a caller gets, or found out."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TypeVar
 
 from backend.device.driver import NEVER_ASKED
-from backend.errors import NoAnswer, Outcome
+from backend.device.unit import Unit
+from backend.errors import LinkError, NoAnswer, NotFound, Outcome, RequestRefused
+from backend.services.connect import Devices
+
+Result = TypeVar("Result")
+
+# A unit that fell silent in the middle of a change is waited for so long to learn what it did.
+OUTCOME_WAIT_S = 20.0
+# Between attempts: a dying link looks whole for a moment, and fails at once.
+PAUSE_S = 0.2
 
 
 @contextmanager
@@ -18,3 +29,36 @@ def telling(outcome: Outcome) -> Iterator[None]:
         if error.outcome is None:
             error.outcome = "unchanged" if error.code in NEVER_ASKED else outcome
         raise
+
+
+def find_outcome(
+    devices: Devices,
+    device_id: str,
+    look: Callable[[Unit], Result],
+    error: NoAnswer,
+) -> Result:
+    """Ask what became of a change, until the unit answers.
+
+    look: raises NoAnswer with an outcome where it found one out. Raises what `look` raises;
+    `error`, as unknown, when the unit does not come back.
+    """
+    until_s = time.monotonic() + OUTCOME_WAIT_S
+    while (left_s := until_s - time.monotonic()) > 0.0:
+        try:
+            devices.wait_connected(device_id, left_s)
+            unit = devices.writable(device_id)
+        except RequestRefused:
+            # It was removed, or came back as one whose configuration nobody here understands.
+            break
+        try:
+            return look(unit)
+        except NoAnswer as silent:
+            if silent.outcome is not None:
+                raise silent from error
+        except NotFound:
+            break
+        except LinkError:
+            pass
+        time.sleep(PAUSE_S)
+    error.outcome = "unknown"
+    raise error

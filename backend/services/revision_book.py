@@ -36,7 +36,7 @@ class RevisionBook:
 
     def __init__(self, revisions: RevisionLog) -> None:
         self._revisions = revisions
-        self._unsettled: dict[str, Meant] = {}
+        self._open: dict[str, Meant] = {}
 
     def list(self, unit: str) -> Sequence[Revision]:
         """Every configuration of a unit, newest first."""
@@ -50,21 +50,21 @@ class RevisionBook:
     def may_have_ended(self, unit: str) -> bool:
         """Whether the newest is on trial, or a change may have been made that nobody answered."""
         newest = self._newest(unit)
-        return unit in self._unsettled or (newest is not None and newest.state == TRIED)
+        return unit in self._open or (newest is not None and newest.state == TRIED)
 
     def leave_open(self, unit: str, meant: Meant) -> None:
         """Nobody knows whether this change was made: whoever looks next will find out."""
-        self._unsettled[unit] = meant
+        self._open[unit] = meant
 
     def back_up(self, unit: str, found: ConfigImage) -> None:
         """Keep what the unit has if the log does not know it. Raises StoreError."""
-        unsettled = self._unsettled.pop(unit, None)
+        open_change = self._open.pop(unit, None)
         newest = self._newest(unit)
         if newest is not None and newest.crc32 == found.crc32:
             return
-        if unsettled is not None and unsettled.crc32 == found.crc32:
+        if open_change is not None and open_change.crc32 == found.crc32:
             # The change was made after all: the log has it with its author's own reason.
-            self.note(unit, found, unsettled)
+            self.note(unit, found, open_change)
             return
         given_up = newest is not None and newest.state == TRIED
         self._revisions.append(

@@ -11,8 +11,7 @@ from backend.device.configuration import LiveState, Value
 from backend.domain.capability import Capability
 from backend.errors import FieldError, InvalidRequest, LimitViolation, NoAnswer
 from backend.services.connect import Devices
-from backend.services.outcome import telling
-from backend.services.settle import settled
+from backend.services.outcome import find_outcome, telling
 
 TTL_S_MAX = 255
 
@@ -69,8 +68,8 @@ class LiveTuning:
             if error.outcome != "unknown":
                 raise
             before = {name: in_force[name] for name in changes}
-            state = settled(
-                self._devices, device_id, lambda unit: unit.settle_live(before, values), error
+            state = find_outcome(
+                self._devices, device_id, lambda unit: unit.outcome_of_live(before, values), error
             )
         return self._view(state)
 
@@ -83,7 +82,9 @@ class LiveTuning:
         except NoAnswer as error:
             if error.outcome != "unknown":
                 raise
-            state = settled(self._devices, device_id, lambda unit: unit.settle_live_end(), error)
+            state = find_outcome(
+                self._devices, device_id, lambda unit: unit.outcome_of_live_end(), error
+            )
         return self._view(state)
 
     def _view(self, state: LiveState) -> LiveView:

@@ -36,9 +36,8 @@ from backend.services.config_view import (
     differences,
 )
 from backend.services.connect import Devices
-from backend.services.outcome import telling
+from backend.services.outcome import find_outcome, telling
 from backend.services.revision_book import KEPT, TRIED, Meant, RevisionBook
-from backend.services.settle import settled
 from backend.services.typed_views import PARTS, ConfigPart
 
 RETURNED_REASON = "Returned to: the trial before was given up."
@@ -215,7 +214,7 @@ class Tuning:
             found = self._certainly(
                 device_id,
                 lambda unit: unit.confirm_config(tried.parameters),
-                lambda unit: unit.settle_confirm(tried),
+                lambda unit: unit.outcome_of_confirm(tried),
             )
             reason = f"Kept after its trial: {meant.reason}" if meant.reason else KEPT_REASON
             self._book.note(serial_number, found, Meant(found.crc32, (), reason, author, KEPT))
@@ -234,7 +233,7 @@ class Tuning:
             found = self._certainly(
                 device_id,
                 lambda unit: unit.rollback_config(),
-                lambda unit: unit.settle_rollback(tried),
+                lambda unit: unit.outcome_of_rollback(tried),
             )
             changed = differences(tried.parameters, found.parameters)
             meant = Meant(found.crc32, changed, RETURNED_REASON, author, KEPT)
@@ -273,23 +272,23 @@ class Tuning:
         return self._certainly(
             device_id,
             lambda unit: unit.write_config(base, changes, confirm_s, permit),
-            lambda unit: unit.settle_write(base, intended),
+            lambda unit: unit.outcome_of_write(base, intended),
         )
 
     def _certainly(
         self,
         device_id: str,
         change: Callable[[Unit], ConfigImage],
-        settle: Callable[[Unit], ConfigImage],
+        look: Callable[[Unit], ConfigImage],
     ) -> ConfigImage:
-        """Make a change; where nobody said what became of it, find out by `settle`."""
+        """Make a change; where nobody said what became of it, find out by `look`."""
         try:
             with telling("unknown"):
                 return change(self._devices.unit(device_id))
         except NoAnswer as error:
             if error.outcome != "unknown":
                 raise
-            return settled(self._devices, device_id, settle, error)
+            return find_outcome(self._devices, device_id, look, error)
 
     def _expires_at(self, unit: Unit, written: ConfigImage) -> datetime:
         """When the unit gives up what was just written on trial, by its own count."""

@@ -84,7 +84,7 @@ class Database:
         """Run `work` in one transaction and wait for its commit."""
         return self.submit(work).result()
 
-    def settle(self) -> None:
+    def wait_written(self) -> None:
         """Wait until everything handed over before is committed or refused."""
         if self.one_writer:
             self._writer.submit(lambda: None).result()

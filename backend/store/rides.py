@@ -219,7 +219,7 @@ class RideStore:
         """`finish` on the store's own thread, after every tail handed over before this call."""
 
         def work() -> Ride | None:
-            self._database.settle()
+            self._database.wait_written()
             self.end(ride_id, cut_short)
             return self.finish(ride_id)
 

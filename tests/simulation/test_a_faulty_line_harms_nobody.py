@@ -129,7 +129,7 @@ def test_a_host_that_calls_a_lost_commit_undone_without_a_look_is_found(
         yield from ()
         raise NoAnswer("The unit did not answer.", outcome="unchanged")
 
-    monkeypatch.setattr(workload, "settle_write", hasty)
+    monkeypatch.setattr(workload, "outcome_of_write", hasty)
 
     assert found("says that nothing changed")
 

@@ -226,7 +226,7 @@ def test_a_write_that_takes_too_long_is_taken_back_or_found_out(
 def test_a_change_found_out_only_later_has_its_reason_in_the_log(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("backend.services.settle.SETTLE_S", 0.0)
+    monkeypatch.setattr("backend.services.outcome.OUTCOME_WAIT_S", 0.0)
     bench.unit.dead_down_s = 3.0
 
     told = outcome_of(lambda: bench.tuning.write_config(bench.id, CHANGE, "for the rain"))

@@ -6,7 +6,7 @@ import math
 import random
 
 from backend.device.configuration import ConfigImage
-from backend.device.ebl.operations.config_settle import settle_write
+from backend.device.ebl.operations.config_outcome import outcome_of_write
 from backend.device.ebl.operations.config_transaction import (
     CommitUnanswered,
     read_config,
@@ -55,7 +55,7 @@ class Workload:
         self._torque_nm_max = 2.0
         self._cutoff_kmh = CUTOFF_KMH
         # Writes nobody answered, with the configuration each was made for.
-        self._unsettled: list[tuple[Intent, ConfigImage]] = []
+        self._open: list[tuple[Intent, ConfigImage]] = []
         self._settled = False
         self._read_again = False
         self.last_write: Intent | None = None
@@ -84,9 +84,9 @@ class Workload:
 
     def _find_out(self) -> None:
         """What became of writes nobody answered, as the service asks; the judge holds it to it."""
-        if not self._unsettled or self.world.session.state is not LinkState.READY:
+        if not self._open or self.world.session.state is not LinkState.READY:
             return
-        intent, base = self._unsettled.pop()
+        intent, base = self._open.pop()
         world = self.world
         name = self.name(f"find out {intent.marker}")
 
@@ -101,10 +101,10 @@ class Workload:
                 world.figures["writes_found_undone"] += 1
                 world.watcher.refused(intent, str(error))
             elif isinstance(error, NoAnswer):
-                self._unsettled.append((intent, base))
+                self._open.append((intent, base))
 
         intended = {**base.parameters, **intent.changes}
-        world.ask(name, settle_write(base, intended, world.session.mtu), done, failed)
+        world.ask(name, outcome_of_write(base, intended, world.session.mtu), done, failed)
 
     def _act(self) -> None:
         actions = (
@@ -206,7 +206,7 @@ class Workload:
                 intent.outcome = "unknown"
                 world.figures["writes_unknown"] += 1
                 if isinstance(error, CommitUnanswered):
-                    self._unsettled.append((intent, base))
+                    self._open.append((intent, base))
             else:
                 world.figures["writes_refused"] += 1
                 world.watcher.refused(intent, str(error))

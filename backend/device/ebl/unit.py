@@ -18,7 +18,7 @@ from backend.device.configuration import (
 )
 from backend.device.driver import Driver, LinkOpener, Listener
 from backend.device.ebl.faults import described
-from backend.device.ebl.operations import config_settle, config_trial, live_set, ride_logs
+from backend.device.ebl.operations import config_outcome, config_trial, live_set, ride_logs
 from backend.device.ebl.operations.config_transaction import read_bank, read_config, write_config
 from backend.device.ebl.operations.fault_frames import clear_faults, fault_frames, settings_are_lost
 from backend.device.ebl.operations.live_values import CHANNEL_SPECS, ask_values
@@ -117,8 +117,8 @@ class EblUnit(Unit):
         token = cast("Token | None", permit)
         return self._run(write_config(base, changes, self._mtu, confirm_s, token), WRITE_S)
 
-    def settle_write(self, base: ConfigImage, intended: Config) -> ConfigImage:
-        return self._run(config_settle.settle_write(base, intended, self._mtu))
+    def outcome_of_write(self, base: ConfigImage, intended: Config) -> ConfigImage:
+        return self._run(config_outcome.outcome_of_write(base, intended, self._mtu))
 
     def settings_are_lost(self) -> bool:
         return self._run(settings_are_lost())
@@ -129,14 +129,14 @@ class EblUnit(Unit):
     def confirm_config(self, intended: Config) -> ConfigImage:
         return self._run(config_trial.confirm_config(intended, self._mtu), WRITE_S)
 
-    def settle_confirm(self, tried: ConfigImage) -> ConfigImage:
-        return self._run(config_settle.settle_confirm(tried))
+    def outcome_of_confirm(self, tried: ConfigImage) -> ConfigImage:
+        return self._run(config_outcome.outcome_of_confirm(tried))
 
     def rollback_config(self) -> ConfigImage:
         return self._run(config_trial.rollback_config(self._mtu), WRITE_S)
 
-    def settle_rollback(self, tried: ConfigImage) -> ConfigImage:
-        return self._run(config_settle.settle_rollback(tried, self._mtu))
+    def outcome_of_rollback(self, tried: ConfigImage) -> ConfigImage:
+        return self._run(config_outcome.outcome_of_rollback(tried, self._mtu))
 
     # ------------------------------------------------------------------ values tried live
 
@@ -149,15 +149,15 @@ class EblUnit(Unit):
     def set_live(self, changes: Config, ttl_s: int) -> LiveState:
         return self._run(live_set.set_live(changes, ttl_s, self._mtu))
 
-    def settle_live(self, before: Config, values: Config) -> LiveState:
-        return self._run(live_set.settle_live(before, values, self._mtu))
+    def outcome_of_live(self, before: Config, values: Config) -> LiveState:
+        return self._run(live_set.outcome_of_live(before, values, self._mtu))
 
     def end_live(self) -> LiveState:
         self._run(live_set.end_live())
         return self.live()
 
-    def settle_live_end(self) -> LiveState:
-        return self._run(live_set.settle_live_end(self._mtu))
+    def outcome_of_live_end(self) -> LiveState:
+        return self._run(live_set.outcome_of_live_end(self._mtu))
 
     # ------------------------------------------------------------------ faults and wear
 
@@ -204,8 +204,8 @@ class EblUnit(Unit):
     def erase_log(self, log: RideLog) -> int | None:
         return self._run(ride_logs.erase_log(log), LOG_CHECK_S)
 
-    def settle_erase(self, log: RideLog) -> None:
-        self._run(ride_logs.settle_erase(log))
+    def outcome_of_erase(self, log: RideLog) -> None:
+        self._run(ride_logs.outcome_of_erase(log))
 
     # ------------------------------------------------------------------ simulation
 

@@ -102,7 +102,7 @@ def test_asking_a_unit_that_is_not_there_gives_the_reason(
 ) -> None:
     opener.unplug()
     driver.start()
-    driver.settled.wait(10.0)
+    driver.probed.wait(10.0)
 
     with pytest.raises(NoAnswer, match="no such port"):
         driver.run(ask(CfgInfoRequest(), CfgInfoResponse), timeout_s=10.0)
@@ -161,7 +161,7 @@ def test_a_port_that_is_open_and_silent_is_opened_anew(
     monkeypatch.setattr("backend.device.driver.HANDSHAKES_BEFORE_REOPEN", 1)
     opener.unit.silent = True  # type: ignore[attr-defined]
     driver.start()
-    driver.settled.wait(10.0)
+    driver.probed.wait(10.0)
     opener.tried.clear()
 
     assert opener.tried.wait(10.0)

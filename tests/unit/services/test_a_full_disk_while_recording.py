@@ -73,7 +73,7 @@ def recorder(store: Store) -> Recorder:
 
 def told(recorder: Recorder, store: Store) -> tuple[int, int, int]:
     """Rows saved, lost and waiting, once what is on the way has arrived."""
-    store.database.settle()
+    store.database.wait_written()
     recorder.status("u1")
     counts = recorder.counts("u1")
     return counts.rows_saved, counts.rows_lost, counts.rows_waiting
@@ -135,7 +135,7 @@ def test_a_ride_that_ends_on_a_full_disk_is_saved_when_there_is_room(
     disk.free()
     for second in range(3):
         recorder.tick(WALL_US + 20_000_000 + second * 1_000_000)
-        store.database.settle()
+        store.database.wait_written()
 
     recorder.close()
     (ride,) = store.rides.list().items

@@ -98,7 +98,7 @@ def set_live(changes: Mapping[str, Value], ttl_s: int, mtu: int = MTU) -> Operat
     return (yield from read_live(mtu))
 
 
-def settle_live(
+def outcome_of_live(
     before: Mapping[str, Value], values: Mapping[str, Value], mtu: int = MTU
 ) -> Operation[LiveState]:
     """What is tried, if all of `values` are in force. before: the same names before they were sent.
@@ -121,7 +121,7 @@ def settle_live(
     )
 
 
-def settle_live_end(mtu: int = MTU) -> Operation[LiveState]:
+def outcome_of_live_end(mtu: int = MTU) -> Operation[LiveState]:
     """What is tried, if that is nothing. Raises NoAnswer, with `unchanged` when it still is."""
     state = yield from read_live(mtu)
     if state.left_s > 0.0:

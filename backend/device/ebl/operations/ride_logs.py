@@ -75,7 +75,7 @@ def erase_log(log: RideLog) -> Operation[int]:
     return expect(request, response, LogEraseResponse).erases
 
 
-def settle_erase(log: RideLog) -> Operation[None]:
+def outcome_of_erase(log: RideLog) -> Operation[None]:
     """Whether a log whose erasing went unanswered is gone.
 
     Raises NoAnswer with the outcome `unchanged` when it is still there.

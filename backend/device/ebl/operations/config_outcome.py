@@ -18,7 +18,7 @@ from firmware_protocol._generated import MTU
 from firmware_protocol.parameters import pack_image
 
 
-def settle_write(
+def outcome_of_write(
     base: ConfigImage, intended: Mapping[str, Value], mtu: int = MTU
 ) -> Operation[ConfigImage]:
     """What the unit has, if it is what was meant.
@@ -44,7 +44,7 @@ def settle_write(
     return found
 
 
-def settle_confirm(tried: ConfigImage) -> Operation[ConfigImage]:
+def outcome_of_confirm(tried: ConfigImage) -> Operation[ConfigImage]:
     """What was on trial, if it is kept.
 
     Raises NoAnswer with the outcome `unchanged` while it is still on trial, Conflict when it was
@@ -62,7 +62,7 @@ def settle_confirm(tried: ConfigImage) -> Operation[ConfigImage]:
     return tried
 
 
-def settle_rollback(tried: ConfigImage, mtu: int = MTU) -> Operation[ConfigImage]:
+def outcome_of_rollback(tried: ConfigImage, mtu: int = MTU) -> Operation[ConfigImage]:
     """What the unit has, if what was on trial is given up.
 
     Raises NoAnswer with the outcome `unchanged` while it is still on trial, Conflict when it was

@@ -12,9 +12,9 @@ import pytest
 
 from backend.device.unit import Unit
 from backend.errors import LinkError, NoAnswer, NotFound, SpindleError
-from backend.services import settle
+from backend.services import outcome
 from backend.services.connect import Devices
-from backend.services.settle import settled
+from backend.services.outcome import find_outcome
 
 SILENT = NoAnswer("silent")
 FOUND = "found"
@@ -47,12 +47,12 @@ class RemovedDevices(ScriptedDevices):
 
 
 def ask(devices: ScriptedDevices) -> str:
-    return settled(cast(Devices, devices), "bike", devices.look, NoAnswer("lost"))
+    return find_outcome(cast(Devices, devices), "bike", devices.look, NoAnswer("lost"))
 
 
 @pytest.fixture(autouse=True)
 def no_pause(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(settle, "PAUSE_S", 0.0)
+    monkeypatch.setattr(outcome, "PAUSE_S", 0.0)
 
 
 def test_a_link_that_fails_at_once_many_times_does_not_use_the_time_up() -> None:
@@ -62,7 +62,7 @@ def test_a_link_that_fails_at_once_many_times_does_not_use_the_time_up() -> None
 
 
 def test_what_is_not_found_out_in_its_time_is_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(settle, "SETTLE_S", 0.0)
+    monkeypatch.setattr(outcome, "OUTCOME_WAIT_S", 0.0)
 
     with pytest.raises(NoAnswer) as told:
         ask(ScriptedDevices(SILENT))
