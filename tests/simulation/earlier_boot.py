@@ -12,7 +12,7 @@ from functools import cache
 from sim_device.firmware.python.unit import LOG_BLOCK_LENGTH
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.maker import Maker
-from tests.simulation.watch_unlock import BLOCK_BYTES, RECORD, RECORDS_AT
+from tests.simulation.checks_unlock import BLOCK_BYTES, RECORD, RECORDS_AT
 
 MAKER = Maker()
 # Small, so that rides come round the ring within a seed.

@@ -2,7 +2,7 @@
 made up, assist stays within its limits, and after the faults everything comes to an end.
 
 Method: 200 seeds of 40 simulated seconds (0.12 s of ours each), in `make test` the first 20, each
-with faults of its own; the session against the unit's firmware on one virtual clock. People write,
+with faults of its own; the session against the unit's firmware on one virtual clock. Clients write,
 try, unlock, ride and collect rides; judges read the unit's flash and its pins. Planted faults prove
 that they see: in the host here, in the firmware with tests/mutation (`judged` in breaks.toml).
 """
@@ -24,7 +24,7 @@ from backend.device.ebl.session.requests import RequestTable
 from backend.device.ebl.session.stream_receiver import StreamReceiver
 from backend.errors import NoAnswer
 from tests import counts
-from tests.simulation import people_trials, workload
+from tests.simulation import clients_trials, workload
 from tests.simulation.workload import simulate
 from tests.simulation.world import Verdict
 
@@ -150,7 +150,7 @@ def test_a_host_that_says_kept_and_never_asks_is_found(monkeypatch: pytest.Monke
     def lazy(intended: object, mtu: int) -> Operation[Any]:
         return config_transaction.read_config(mtu)
 
-    monkeypatch.setattr(people_trials, "confirm_config", lazy)
+    monkeypatch.setattr(clients_trials, "confirm_config", lazy)
 
     assert found("would not survive a restart")
 

@@ -32,7 +32,7 @@ from firmware_protocol.framing import FrameDecoder
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.revisions import MemoryRevisions
 from tests.fakes.unit_link import UnitOpener
-from tests.simulation.watcher import Generation, boot_twin
+from tests.simulation.checker import Generation, boot_twin
 
 pytestmark = pytest.mark.slow
 

@@ -70,7 +70,7 @@ def test_the_books_balance_and_name_exactly_what_the_wire_destroyed(
     wire.unit.advance(stall_steps * STEP_S)
     wire.stalled = False
     bench.run(run_steps * STEP_S)
-    balance, lost_before = settled(bench, wire)
+    balance, lost_before = balance_at_a_count(bench, wire)
 
     assert balance.built == balance.received + balance.lost + balance.dropped
     assert balance.lost == lost_before
@@ -80,8 +80,8 @@ def test_the_books_balance_and_name_exactly_what_the_wire_destroyed(
         assert balance.dropped > 0
 
 
-def settled(bench: Bench, wire: Wire) -> tuple[Balance, int]:
-    """The books at the moment a count is entered, and what was destroyed of its frames."""
+def balance_at_a_count(bench: Bench, wire: Wire) -> tuple[Balance, int]:
+    """The counts at the moment a count is entered, and what was destroyed of its frames."""
     wire._losses = []
     before = bench.session.link_statistics().balance_built
     bench.run_until(lambda: bench.session.link_statistics().balance_built > before)

@@ -1,4 +1,4 @@
-"""The people: somebody tunes, somebody rides, somebody else has a tool as well."""
+"""The clients: somebody tunes, somebody rides, somebody else has a tool as well."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ from firmware_protocol.layout import Value
 from sim_device.configure import ConfigureError
 from sim_device.configure import write_config as write_as_rival
 from sim_device.firmware.python.unit import Unit
+from tests.simulation.checker import MARKER, Intent
+from tests.simulation.clients_logs import Collecting
+from tests.simulation.clients_trials import Trials
+from tests.simulation.clients_unlock import Unlocking
 from tests.simulation.earlier_boot import CUTOFF_KMH
-from tests.simulation.people_logs import Collecting
-from tests.simulation.people_trials import Trials
-from tests.simulation.people_unlock import Unlocking
 from tests.simulation.violation import Violation
-from tests.simulation.watcher import MARKER, Intent
 from tests.simulation.world import Verdict, World
 
 LABELS = ("NB", "NS", "ZO", "PS", "PB")
 # Slower than this the firmware lets a configuration be written.
 STANDING_KMH = 0.3
 # Seconds after the calm at which everything must have ended, and a last change is made.
-SETTLED_S = 8.0
+CALM_S = 8.0
 LAST_CHANGE_S = 3.0
 LEASE_S = 31.0
 FLUSH_STEPS = 6
@@ -45,7 +45,7 @@ class Workload:
 
     def __init__(self, world: World) -> None:
         self.world = world
-        self._chance = random.Random(f"{world.seed} people")
+        self._chance = random.Random(f"{world.seed} clients")
         self._next_s = 0.3
         self._writes = 0
         self._asked = 0
@@ -56,13 +56,13 @@ class Workload:
         self._cutoff_kmh = CUTOFF_KMH
         # Writes nobody answered, with the configuration each was made for.
         self._open: list[tuple[Intent, ConfigImage]] = []
-        self._settled = False
+        self._quiet = False
         self._read_again = False
         self.last_write: Intent | None = None
         self._trials = Trials(self)
         self._unlocking = Unlocking(self)
         self._collecting = Collecting(self)
-        # What these people do most of the time: seeds differ in kind.
+        # What these clients do most of the time: seeds differ in kind.
         self._favourite = self._chance.choice(
             (self._change, self._trials.begin, self._unlocking.begin, self._collecting.begin)
         )
@@ -92,14 +92,14 @@ class Workload:
 
         def done(config: ConfigImage) -> None:
             world.figures["writes_found_done"] += 1
-            world.watcher.verified(intent, config)
+            world.checker.verified(intent, config)
             world.tell("host", f"{intent.marker}: found done")
 
         def failed(error: BaseException) -> None:
             self.told(name, error)
             if isinstance(error, NoAnswer) and error.outcome == "unchanged":
                 world.figures["writes_found_undone"] += 1
-                world.watcher.refused(intent, str(error))
+                world.checker.refused(intent, str(error))
             elif isinstance(error, NoAnswer):
                 self._open.append((intent, base))
 
@@ -132,7 +132,7 @@ class Workload:
         name = self.name("read")
 
         def done(config: ConfigImage) -> None:
-            world.watcher.shown_config(config)
+            world.checker.shown_config(config)
             self.know(config)
             world.tell("host", f"{name}: generation {config.generation}")
 
@@ -143,7 +143,7 @@ class Workload:
         name = self.name("look")
 
         def done(values: LiveValues) -> None:
-            world.watcher.shown_values(values)
+            world.checker.shown_values(values)
 
         world.ask(name, ask_values(), done, lambda error: self.told(name, error))
 
@@ -196,7 +196,7 @@ class Workload:
 
         def done(config: ConfigImage) -> None:
             world.figures["writes_verified"] += 1
-            world.watcher.verified(intent, config)
+            world.checker.verified(intent, config)
             self.know(config)
             world.tell("host", f"{intent.marker}: verified as generation {config.generation}")
 
@@ -209,7 +209,7 @@ class Workload:
                     self._open.append((intent, base))
             else:
                 world.figures["writes_refused"] += 1
-                world.watcher.refused(intent, str(error))
+                world.checker.refused(intent, str(error))
             if isinstance(error, ConfigConflict):
                 self.forget(base)
 
@@ -243,7 +243,7 @@ class Workload:
         if chance.random() < 0.3:
             changes["mode_names"] = [f"{marker} {slot}" for slot in range(5)]
         intent = Intent(marker, changes, confirm_s=confirm_s)
-        self.world.watcher.intents[marker] = intent
+        self.world.checker.intents[marker] = intent
         return intent
 
     def name(self, what: str) -> str:
@@ -292,17 +292,17 @@ class Workload:
         except ConfigureError as error:
             intent.outcome = "the rival failed"
             world.tell("rival", f"{intent.marker}: {error}")
-        world.watcher.looked(world.unit)
+        world.checker.looked(world.unit)
         world.tell("rival", f"{intent.marker}: {intent.outcome}")
 
     # ------------------------------------------------------------------ the end
 
     def _bring_to_an_end(self) -> None:
         world = self.world
-        if not self._settled:
-            self._settled = True
+        if not self._quiet:
+            self._quiet = True
             self._stop()
-            self._next_s = world.calm_s + SETTLED_S
+            self._next_s = world.calm_s + CALM_S
         elif world.now_s >= self._next_s and not (self._read_again and self._bases):
             # What was read before may have been on trial, and be given up since.
             self._bases.clear()
@@ -313,7 +313,7 @@ class Workload:
         elif self._bases and world.now_s >= self._next_s:
             self._next_s = math.inf
             self.write(self._bases[-1])
-            self._trials.settle()
+            self._trials.refresh()
             self._collecting.look_at_all()
         elif self._next_s == math.inf and self._is_busy():
             # A transaction whose BEGIN was never heard of again: its lease is the way out.
@@ -327,7 +327,7 @@ class Workload:
 
 
 class _Tapped(Unit):
-    """The unit as the rival meets it: the watcher sees what is said to the rival as well."""
+    """The unit as the rival meets it: the checker sees what is said to the rival as well."""
 
     def __init__(self, world: World) -> None:
         self._world = world
@@ -337,12 +337,12 @@ class _Tapped(Unit):
 
     def transmit(self, bytes_max: int = 8192) -> bytes:
         data = self._world.unit.receive(bytes_max)
-        self._world.watcher.said(data)
+        self._world.checker.said(data)
         return data
 
     def advance_us(self, duration_us: int) -> None:
         self._world.unit.unit.advance_us(duration_us)
-        self._world.watcher.looked(self._world.unit)
+        self._world.checker.looked(self._world.unit)
 
 
 def simulate(seed: int, seconds: float | None = None) -> Verdict:

@@ -1,7 +1,7 @@
 """One bike, one unit, one host and the line between them, in one thread on one virtual clock.
 
 Real: the host's session and the unit's C firmware. Made up: time, the line, the flash's supply, the
-people. Everything that happens comes from the seed, so a seed is a story that can be told again.
+clients. Everything that happens comes from the seed, so a seed is a story that can be told again.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from backend.device.states import LinkState, StateChanged, UnitEvent
 from backend.device.stream import StreamBlock
 from backend.errors import LinkError
 from sim_device.lockstep import LockstepUnit
+from tests.simulation.checker import Checker
 from tests.simulation.earlier_boot import earlier_boot
 from tests.simulation.link_faults import CALM, FaultyWire, LinkFaults, draw_faults
 from tests.simulation.violation import Violation
-from tests.simulation.watcher import Watcher
 
 STEP_S = 0.010
 # Long enough for some ten changes and as many faults, short enough for 200 seeds in a minute.
@@ -73,7 +73,7 @@ class World:
         self._log_changes = 0
         self.past = earlier_boot(chance.random() < 0.75)
         self.unit = self._new_life(self.past.flash, self.past.log)
-        self.watcher = Watcher(self.unit)
+        self.checker = Checker(self.unit)
         self.bits_per_second = chance.choice(BAUD_RATES)
         bytes_per_s = self.bits_per_second / 10
         self._up = FaultyWire(random.Random(f"{seed} up"), self.faults, bytes_per_s)
@@ -95,7 +95,7 @@ class World:
         self.last_block_s = 0.0
         self.tell("world", f"{self.bits_per_second:,.0f} baud; {self.faults.told() or 'no faults'}")
 
-    # ------------------------------------------------------------------ what people do
+    # ------------------------------------------------------------------ what clients do
 
     def tell(self, who: str, what: str) -> None:
         """A line of the story."""
@@ -197,7 +197,7 @@ class World:
             self.figures["log_brown_outs" if log_cut else "brown_outs"] += 1
             self.tell("unit", "its supply fails in a flash write")
             self._off_until_s = self.now_s + OFF_S
-        changed = self.watcher.looked(self.unit)
+        changed = self.checker.looked(self.unit)
         if changed is not None:
             marker = changed.values["fuzzy_table_name"]
             self.tell("unit", f"generation {changed.number} is in the flash: {marker}")
@@ -208,17 +208,17 @@ class World:
             data = self.unit.receive(int(self._down_credit))
             self._down_credit -= len(data)
             self._trace.update(data)
-            self.watcher.said(data)
+            self.checker.said(data)
             if self.plugged:
                 self._down.put(data)
-        self.watcher.assist_is_within_limits(self.unit.unit.observe(JUDGED))
+        self.checker.assist_is_within_limits(self.unit.unit.observe(JUDGED))
 
     def _boot(self) -> None:
         self._off_until_s = None
         self._boot_id += 1
         self.unit = self._new_life(self.unit.unit.flash(), self.unit.unit.log())
-        self.watcher.restarted()
-        self.tell("unit", f"boots with generation {self.watcher.active.number}")
+        self.checker.restarted()
+        self.tell("unit", f"boots with generation {self.checker.active.number}")
 
     def _new_life(self, flash: bytes, log: bytes) -> LockstepUnit:
         return LockstepUnit(
@@ -247,7 +247,7 @@ class World:
         if isinstance(event, StreamBlock):
             self.figures["blocks"] += 1
             self.last_block_s = self.now_s
-            self.watcher.shown_block(event)
+            self.checker.shown_block(event)
         elif isinstance(event, StateChanged):
             if not event.reason:
                 raise Violation(f"The state {event.state} has no reason.")
@@ -287,10 +287,10 @@ class World:
         """The story and how it ended."""
         figures = dict(self.figures)
         figures["frames_bad"] = self.session.link_statistics().frames_bad
-        figures["trials"] = len(self.watcher.trials.trials)
-        figures["logs_given_up"] = self.watcher.logs.given_up_unconfirmed
-        figures["attempts"] = self.watcher.lock.attempts
-        figures["frames_seen"] = self.watcher.frames_seen
-        figures["conservation_checks"] = self.watcher.conservation_checks
+        figures["trials"] = len(self.checker.trials.trials)
+        figures["logs_given_up"] = self.checker.logs.given_up_unconfirmed
+        figures["attempts"] = self.checker.lock.attempts
+        figures["frames_seen"] = self.checker.frames_seen
+        figures["conservation_checks"] = self.checker.conservation_checks
         self._trace.update(repr((wrong, figures)).encode())
         return Verdict(self.seed, wrong, tuple(self.story), self._trace.hexdigest(), figures)

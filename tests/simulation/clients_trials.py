@@ -10,7 +10,7 @@ from backend.device.ebl.operations.config_transaction import CommitUnanswered, w
 from backend.device.ebl.operations.config_trial import confirm_config, rollback_config
 from backend.device.ebl.session.trial_status import trial_status
 from backend.errors import ConfigConflict, PeerProtocolError
-from tests.simulation.watcher import Intent
+from tests.simulation.checker import Intent
 
 if TYPE_CHECKING:
     from tests.simulation.workload import Workload
@@ -24,10 +24,10 @@ WORD_BYTES = 4
 class Trials:
     """Trials of one seed."""
 
-    def __init__(self, people: Workload) -> None:
-        self._people = people
-        self._world = people.world
-        self._chance = random.Random(f"{people.world.seed} trials")
+    def __init__(self, clients: Workload) -> None:
+        self._clients = clients
+        self._world = clients.world
+        self._chance = random.Random(f"{clients.world.seed} trials")
         self._open: tuple[float, Intent, ConfigImage] | None = None
 
     def step(self) -> None:
@@ -43,26 +43,26 @@ class Trials:
 
     def begin(self) -> None:
         """Try a change on what is known."""
-        people, world = self._people, self._world
-        base = people.newest_base()
+        clients, world = self._clients, self._world
+        base = clients.newest_base()
         if base is None:
             return
-        intent = people.intend(confirm_s=self._chance.randint(1, CONFIRM_S_MAX))
-        people.perhaps_brown_out()
+        intent = clients.intend(confirm_s=self._chance.randint(1, CONFIRM_S_MAX))
+        clients.perhaps_brown_out()
 
         def done(config: ConfigImage) -> None:
-            world.watcher.tried(intent, config)
+            world.checker.tried(intent, config)
             world.tell("host", f"{intent.marker}: on trial as generation {config.generation}")
             self._tried(intent, config)
 
         def failed(error: BaseException) -> None:
-            people.told(intent.marker, error)
+            clients.told(intent.marker, error)
             if isinstance(error, CommitUnanswered | PeerProtocolError):
                 intent.outcome = "unknown"
             else:
-                world.watcher.refused(intent, str(error))
+                world.checker.refused(intent, str(error))
             if isinstance(error, ConfigConflict):
-                people.forget(base)
+                clients.forget(base)
 
         world.tell("host", f"{intent.marker}: tried for {intent.confirm_s} s")
         operation = write_config(base, intent.changes, world.session.mtu, intent.confirm_s)
@@ -77,38 +77,38 @@ class Trials:
             self._world.restart("is restarted with a trial running")
 
     def _keep(self, intent: Intent, config: ConfigImage) -> None:
-        people, world = self._people, self._world
+        clients, world = self._clients, self._world
         intent.keep_asked = True
         self._perhaps_brown_out_in_the_word()
 
         def done(found: ConfigImage) -> None:
             world.figures["trials_kept"] += 1
-            world.watcher.verified(intent, found)
-            people.know(found)
+            world.checker.verified(intent, found)
+            clients.know(found)
             world.tell("host", f"{intent.marker}: kept")
 
         operation = confirm_config(config.parameters, world.session.mtu)
-        name = people.name(f"keep {intent.marker}")
-        world.ask(name, operation, done, lambda error: people.told(name, error))
+        name = clients.name(f"keep {intent.marker}")
+        world.ask(name, operation, done, lambda error: clients.told(name, error))
 
     def _give_up(self, intent: Intent) -> None:
-        people, world = self._people, self._world
+        clients, world = self._clients, self._world
         intent.return_asked = True
         # The request names no trial: whatever is on trial now is given up, somebody else's too.
-        current = world.watcher.trials.current
+        current = world.checker.trials.current
         if current is not None:
-            world.watcher.intents[current.marker].return_asked = True
+            world.checker.intents[current.marker].return_asked = True
         self._perhaps_brown_out_in_the_word()
 
         def done(found: ConfigImage) -> None:
-            world.watcher.shown_config(found)
-            world.watcher.refused(intent, "given up")
-            people.know(found)
+            world.checker.shown_config(found)
+            world.checker.refused(intent, "given up")
+            clients.know(found)
             world.tell("host", f"{intent.marker}: given up")
 
-        name = people.name(f"give up {intent.marker}")
+        name = clients.name(f"give up {intent.marker}")
         operation = rollback_config(world.session.mtu)
-        world.ask(name, operation, done, lambda error: people.told(name, error))
+        world.ask(name, operation, done, lambda error: clients.told(name, error))
 
     def _perhaps_brown_out_in_the_word(self) -> None:
         world = self._world
@@ -116,14 +116,14 @@ class Trials:
         if arm and world.unit.unit.powered:
             world.unit.unit.cut_power_after(self._chance.randint(1, WORD_BYTES))
 
-    def settle(self) -> None:
+    def refresh(self) -> None:
         """On a calm line: the unit says how its last trial ended, and that none is running."""
-        world, people = self._world, self._people
-        boot = world.watcher.boot
-        name = people.name("status")
+        world, clients = self._world, self._clients
+        boot = world.checker.boot
+        name = clients.name("status")
 
         def done(status: TrialStatus) -> None:
             world.figures["trials_asked_about"] += 1
-            world.watcher.status_told(status, boot)
+            world.checker.status_told(status, boot)
 
-        world.ask(name, trial_status(), done, lambda error: people.told(name, error))
+        world.ask(name, trial_status(), done, lambda error: clients.told(name, error))

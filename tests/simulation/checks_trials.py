@@ -46,7 +46,7 @@ class Trial:
     ended_s: float = 0.0
 
 
-class TrialWatch:
+class TrialChecks:
     """One unit's trials. Methods raise Violation with what was seen."""
 
     def __init__(self) -> None:

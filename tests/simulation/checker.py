@@ -36,10 +36,10 @@ from firmware_protocol.layout import MISSING, Message, Value
 from firmware_protocol.parameters import pack_image, unpack_image
 from sim_device.firmware.python.unit import LOG_BLOCK_LENGTH
 from sim_device.lockstep import LockstepUnit
+from tests.simulation.checks_logs import LogChecks
+from tests.simulation.checks_trials import TrialChecks
+from tests.simulation.checks_unlock import UnlockChecks
 from tests.simulation.violation import Violation
-from tests.simulation.watch_logs import LogWatch
-from tests.simulation.watch_trials import TrialWatch
-from tests.simulation.watch_unlock import UnlockWatch
 
 # The configuration's two slots; the rest of the flash is not about configuration.
 SLOTS_BYTES = 2048
@@ -90,15 +90,15 @@ class _SentStream:
     told: list[tuple[int, int]] = field(default_factory=list)
 
 
-class Watcher:
+class Checker:
     """Safety checkers. Every method raises Violation with what was seen."""
 
     def __init__(self, unit: LockstepUnit) -> None:
         flash = unit.unit.flash()
         self.generations: list[Generation] = [boot_twin(flash)]
-        self.trials = TrialWatch()
-        self.lock = UnlockWatch(flash)
-        self.logs = LogWatch(unit.unit.log())
+        self.trials = TrialChecks()
+        self.lock = UnlockChecks(flash)
+        self.logs = LogChecks(unit.unit.log())
         self.boot = 1
         self._flash = flash
         self._log_changes = unit.unit.log_changes

@@ -35,7 +35,7 @@ class StoredLog:
     blocks: frozenset[int]
 
 
-class LogWatch:
+class LogChecks:
     """One unit's flash for logs. Methods raise Violation with what was seen."""
 
     def __init__(self, flash: bytes) -> None:

@@ -26,10 +26,10 @@ SESSIONS = 15
 class Collecting:
     """Downloads of one seed, one at a time."""
 
-    def __init__(self, people: Workload) -> None:
-        self._people = people
-        self._world = people.world
-        self._chance = random.Random(f"{people.world.seed} logs")
+    def __init__(self, clients: Workload) -> None:
+        self._clients = clients
+        self._world = clients.world
+        self._chance = random.Random(f"{clients.world.seed} logs")
         self._parts: dict[tuple[int, int], bytes] = {}
         self._under_way: tuple[RideLog, LogReceiver, bytes] | None = None
         self._session = 0
@@ -56,14 +56,14 @@ class Collecting:
 
     def begin(self) -> None:
         """Look what there is and fetch one."""
-        people, world = self._people, self._world
+        clients, world = self._clients, self._world
         if not self.idle:
             return
-        name = people.name("logs")
+        name = clients.name("logs")
 
         def done(found: RideLogs) -> None:
             self._asking = False
-            world.watcher.logs.shown_logs(found.logs)
+            world.checker.logs.shown_logs(found.logs)
             closed = [log for log in found.logs if not log.recording]
             if closed:
                 self._resume(self._chance.choice(closed))
@@ -72,11 +72,11 @@ class Collecting:
 
     def look_at_all(self) -> None:
         """On a calm line: the directory is the flash's, to the last log."""
-        name = self._people.name("logs")
+        name = self._clients.name("logs")
 
         def done(found: RideLogs) -> None:
             self._asking = False
-            self._world.watcher.logs.all_shown(found.logs)
+            self._world.checker.logs.all_shown(found.logs)
             self._world.figures["directories_compared"] += 1
 
         self._ask(name, list_logs(), done)
@@ -84,7 +84,7 @@ class Collecting:
     def _ask(self, name: str, operation: object, done: object) -> None:
         def failed(error: BaseException) -> None:
             self._asking = False
-            self._people.told(name, error)
+            self._clients.told(name, error)
 
         self._asking = True
         self._world.ask(name, operation, done, failed)  # type: ignore[arg-type]
@@ -103,22 +103,22 @@ class Collecting:
             self._world.figures["downloads_resumed"] += 1
             self._fetch(log, part)
 
-        self._ask(self._people.name(f"crc {log.log_id}"), log_crc(log, len(part)), done)
+        self._ask(self._clients.name(f"crc {log.log_id}"), log_crc(log, len(part)), done)
 
     def _fetch(self, log: RideLog, part: bytes) -> None:
         world = self._world
-        stored = world.watcher.logs.logs.get((log.log_id, log.generation))
+        stored = world.checker.logs.logs.get((log.log_id, log.generation))
         if stored is None:
             return
         self._session = self._session % SESSIONS + 1
         receiver = LogReceiver(self._session, world.now_s)
         self._under_way = (log, receiver, stored.data)
         world.session.receive_log(receiver)
-        name = self._people.name(f"log {log.log_id}")
+        name = self._clients.name(f"log {log.log_id}")
         world.tell("host", f"{name}: fetched from byte {len(part)} of {log.length}")
 
         def failed(error: BaseException) -> None:
-            self._people.told(name, error)
+            self._clients.told(name, error)
             if self._under_way is not None and self._under_way[1] is receiver:
                 self._end()
 
@@ -129,29 +129,29 @@ class Collecting:
         self._world.session.receive_log(None)
 
     def _has(self, log: RideLog, truth: bytes, data: bytes) -> None:
-        world, people = self._world, self._people
-        world.watcher.logs.fetched(log, truth, data)
+        world, clients = self._world, self._clients
+        world.checker.logs.fetched(log, truth, data)
         world.figures["logs_fetched"] += 1
         world.tell("host", f"log {log.log_id}: here")
-        name = people.name("close")
-        world.ask(name, close_log(self._session), lambda _: None, lambda e: people.told(name, e))
+        name = clients.name("close")
+        world.ask(name, close_log(self._session), lambda _: None, lambda e: clients.told(name, e))
         if self._chance.random() < 0.3:
             # As if its bytes had spoiled on the disk: the unit must not believe in it.
             self._confirm(log, zlib.crc32(data) ^ 1, False)
         elif self._chance.random() < 0.8:
-            world.watcher.logs.safe.add((log.log_id, log.generation))
+            world.checker.logs.safe.add((log.log_id, log.generation))
             self._confirm(log, zlib.crc32(data), True)
 
     def _confirm(self, log: RideLog, crc32: int, is_right: bool) -> None:
-        world, people = self._world, self._people
-        name = people.name(f"confirm {log.log_id}")
+        world, clients = self._world, self._clients
+        name = clients.name(f"confirm {log.log_id}")
 
         def done(_: None) -> None:
             key = (log.log_id, log.generation)
-            stored = world.watcher.logs.logs.get(key)
-            if not is_right and key not in world.watcher.logs.safe:
+            stored = world.checker.logs.logs.get(key)
+            if not is_right and key not in world.checker.logs.safe:
                 raise Violation(f"The unit took a wrong hash for log {log.log_id}.")
             if stored is not None and not stored.confirmed:
                 raise Violation(f"Log {log.log_id} is confirmed and not marked in the flash.")
 
-        world.ask(name, confirm_log(log, crc32), done, lambda error: people.told(name, error))
+        world.ask(name, confirm_log(log, crc32), done, lambda error: clients.told(name, error))

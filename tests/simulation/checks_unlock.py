@@ -21,7 +21,7 @@ TTL_S = 60
 LOOK_S = 0.011
 
 
-class UnlockWatch:
+class UnlockChecks:
     """One unit's lock. Methods raise Violation with what was seen."""
 
     def __init__(self, flash: bytes) -> None:

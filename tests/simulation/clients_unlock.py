@@ -13,8 +13,8 @@ from firmware_protocol._generated import Access
 from firmware_protocol.layout import Value
 from firmware_protocol.unlock_token import Challenge, Token
 from tests.fakes.maker import Maker
+from tests.simulation.checker import MARKER, Intent
 from tests.simulation.earlier_boot import MAKER
-from tests.simulation.watcher import MARKER, Intent
 
 if TYPE_CHECKING:
     from tests.simulation.workload import Workload
@@ -26,10 +26,10 @@ STRANGER = Maker(2)
 class Unlocking:
     """Raised limits of one seed."""
 
-    def __init__(self, people: Workload) -> None:
-        self._people = people
-        self._world = people.world
-        self._chance = random.Random(f"{people.world.seed} unlock")
+    def __init__(self, clients: Workload) -> None:
+        self._clients = clients
+        self._world = clients.world
+        self._chance = random.Random(f"{clients.world.seed} unlock")
         self._due: tuple[float, Intent, ConfigImage, Token] | None = None
         # A raise that was made: what it changed, and with which token.
         self._used: tuple[Intent, Token] | None = None
@@ -40,20 +40,20 @@ class Unlocking:
             return
         _, intent, base, token = self._due
         self._due = None
-        self._world.watcher.again(intent)
-        self._people.perhaps_brown_out()
+        self._world.checker.again(intent)
+        self._clients.perhaps_brown_out()
         self._write(intent, base, token)
 
     def begin(self) -> None:
         """Ask for more, or show an old token again."""
-        base = self._people.newest_base()
+        base = self._clients.newest_base()
         if base is None or self._due is not None:
             return
         if self._used is not None and self._chance.random() < 0.6:
             self._replay(base)
             return
         now_kmh = float(str(base.parameters["assist_cutoff_kmh"]))
-        intent = self._people.intend()
+        intent = self._clients.intend()
         intent.changes = {
             MARKER: intent.marker,
             "assist_cutoff_kmh": min(CUTOFF_KMH_MAX, now_kmh + self._chance.uniform(0.1, 5.0)),
@@ -61,30 +61,30 @@ class Unlocking:
         self._write(intent, base, None)
 
     def _write(self, intent: Intent, base: ConfigImage, token: Token | None) -> None:
-        people, world = self._people, self._world
+        clients, world = self._clients, self._world
 
         def done(config: ConfigImage) -> None:
             world.figures["limits_raised"] += token is not None
-            world.watcher.verified(intent, config)
-            people.know(config)
+            world.checker.verified(intent, config)
+            clients.know(config)
             world.tell("host", f"{intent.marker}: raised as generation {config.generation}")
             if token is not None:
                 self._used = (intent, token)
 
         def failed(error: BaseException) -> None:
-            people.told(intent.marker, error)
+            clients.told(intent.marker, error)
             if isinstance(error, CommitUnanswered | PeerProtocolError):
                 intent.outcome = "unknown"
                 return
-            world.watcher.refused(intent, str(error))
+            world.checker.refused(intent, str(error))
             if isinstance(error, ConfigConflict):
-                people.forget(base)
+                clients.forget(base)
             elif isinstance(error, TokenNeeded) and token is None:
                 self._fetch_token(intent, base, error)
 
         world.tell("host", f"{intent.marker}: should go up" + (", with a token" if token else ""))
         operation = write_config(base, intent.changes, world.session.mtu, token=token)
-        world.ask(people.name(intent.marker), operation, done, failed)
+        world.ask(clients.name(intent.marker), operation, done, failed)
 
     def _fetch_token(self, intent: Intent, base: ConfigImage, error: TokenNeeded) -> None:
         challenge = challenge_of(error)
@@ -93,7 +93,7 @@ class Unlocking:
         )
         if what == "good":
             intent.authorised = True
-            self._world.watcher.lock.good_tokens_shown += 1
+            self._world.checker.lock.good_tokens_shown += 1
             token = MAKER.sign(challenge)
         elif what == "stranger":
             token = STRANGER.sign(challenge)
@@ -109,25 +109,25 @@ class Unlocking:
 
     def _replay(self, base: ConfigImage) -> None:
         """Lower the limit, then show the same token for the same content again."""
-        people, world = self._people, self._world
+        clients, world = self._clients, self._world
         assert self._used is not None
         raised, token = self._used
-        lower = people.intend()
+        lower = clients.intend()
         limit_kmh = float(str(raised.changes["assist_cutoff_kmh"])) / 2
-        people.lowered(limit_kmh)
+        clients.lowered(limit_kmh)
         lower.changes = {MARKER: lower.marker, "assist_cutoff_kmh": limit_kmh}
 
         def lowered(config: ConfigImage) -> None:
-            world.watcher.verified(lower, config)
-            people.know(config)
+            world.checker.verified(lower, config)
+            clients.know(config)
             self._show_again(config, raised.changes, None, token)
 
         def failed(error: BaseException) -> None:
-            people.told(lower.marker, error)
+            clients.told(lower.marker, error)
             if isinstance(error, CommitUnanswered | PeerProtocolError):
                 lower.outcome = "unknown"
             else:
-                world.watcher.refused(lower, str(error))
+                world.checker.refused(lower, str(error))
 
         operation = write_config(base, lower.changes, world.session.mtu)
         world.ask(lower.marker, operation, lowered, failed)
@@ -139,17 +139,17 @@ class Unlocking:
 
         If it is taken, the flash has the same change twice, which the judge sees.
         """
-        people, world = self._people, self._world
-        name = people.name("replay")
+        clients, world = self._clients, self._world
+        name = clients.name("replay")
 
         def failed(error: BaseException) -> None:
-            people.told(name, error)
+            clients.told(name, error)
             if isinstance(error, TokenNeeded) and token is None:
                 world.figures["tokens_replayed"] += 1
                 self._show_again(base, changes, old, old)
 
         operation = write_config(base, changes, world.session.mtu, token=token)
-        world.ask(name, operation, people.know, failed)
+        world.ask(name, operation, clients.know, failed)
 
 
 def challenge_of(error: TokenNeeded) -> Challenge:
