@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from backend.device.ebl.session.clock_sync import ClockEstimate, ClockEstimator, ClockSample
 from backend.device.ebl.session.operation import Operation, attempt
+from backend.device.ebl.session.runner import OperationRunner
 from backend.device.statistics import LinkStatistics
 from firmware_protocol._generated import TimSetRequest, TimSyncRequest, TimSyncResponse
 
@@ -17,7 +20,7 @@ KNOWN_TIME_UNIX_US = 1_577_836_800_000_000
 
 
 class ClockKeeper:
-    """One unit's clock from HELLO to the end of its life."""
+    """One unit's clock from HELLO until it is gone or reboots."""
 
     def __init__(self, statistics: LinkStatistics) -> None:
         self._statistics = statistics
@@ -49,12 +52,23 @@ class ClockKeeper:
         self._due_s = now_s + (BURST_EVERY_S if self._asked < BURST else EVERY_S)
         return True
 
-    def sync(self, now_s: float) -> Operation[TimSyncResponse | None]:
+    def ask(
+        self, runner: OperationRunner, now: Callable[[], float], wall_us: Callable[[], int]
+    ) -> None:
+        """Ask for the time, and tell ours after the first burst. now: s. wall_us: Unix time."""
+
+        def answered(answer: TimSyncResponse | None) -> None:
+            if self._answered(answer, now()):
+                runner.start(self._tell(wall_us()), lambda told: None, lambda error: None)
+
+        runner.start(self._sync(now()), answered, lambda error: None)
+
+    def _sync(self, now_s: float) -> Operation[TimSyncResponse | None]:
         """Ask for the time, once: an answer to a repetition would tell nothing."""
         response = yield from attempt(TimSyncRequest(round(now_s * 1e6)), attempts=1)
         return response.message if isinstance(response.message, TimSyncResponse) else None
 
-    def answered(self, answer: TimSyncResponse | None, now_s: float) -> bool:
+    def _answered(self, answer: TimSyncResponse | None, now_s: float) -> bool:
         """Enter an answer that came just now; True when the unit should be told our time."""
         if answer is None:
             self.end()
@@ -69,7 +83,7 @@ class ClockKeeper:
             self._statistics.clock_uncertainty_ms = round(estimate.uncertainty_us / 1000.0, 3)
         return self._asked == BURST and answer.unix_us == 0
 
-    def tell(self, unix_us: int) -> Operation[None]:
+    def _tell(self, unix_us: int) -> Operation[None]:
         """Tell the unit the time of the world, if we know it."""
         estimate = self._estimator.estimate
         if estimate is None or unix_us < KNOWN_TIME_UNIX_US:

@@ -69,7 +69,6 @@ from firmware_protocol._generated import (
     ConfigRolledBackEvent,
     Status,
     StreamCountsEvent,
-    TimSyncResponse,
 )
 from firmware_protocol.codec import (
     Bulk,
@@ -426,7 +425,7 @@ class Session:
         elif self._stream.keep():
             return
         elif self._requests.is_idle and self.clock.due(self._now_s):
-            self._ask_time()
+            self.clock.ask(self._runner, lambda: self._now_s, self._wall_us)
         elif silent_s >= PING_S and self._requests.is_idle:
             self._runner.start(attempt(AliveRequest()), self._is_alive, lambda error: None)
 
@@ -446,14 +445,6 @@ class Session:
         self.line.start_over(heard=False)
         self._out += FLUSH
         self._start_handshake()
-
-    def _ask_time(self) -> None:
-        self._runner.start(self.clock.sync(self._now_s), self._time_told, lambda error: None)
-
-    def _time_told(self, answer: TimSyncResponse | None) -> None:
-        if self.clock.answered(answer, self._now_s):
-            telling = self.clock.tell(self._wall_us())
-            self._runner.start(telling, lambda told: None, lambda error: None)
 
     def _rebooted(self, reason: str) -> None:
         if self._phase is _Phase.UP:
