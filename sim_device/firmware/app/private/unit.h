@@ -57,9 +57,9 @@ typedef struct {
 } app;
 
 /* Time since the unit was switched on, by its board. */
-static inline uint64_t unit_now_us(const app *unit)
+static inline uint64_t unit_now_us(const app *self)
 {
-    return unit->board->now_us(unit->board->context);
+    return self->board->now_us(self->board->context);
 }
 
 #endif
