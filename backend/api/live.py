@@ -1,4 +1,4 @@
-"""`WS /devices/{id}/live`: rows and link states of a unit; frames as in services/watch.py.
+"""`WS /devices/{id}/live`: rows and link states of a unit; frames as in live_frames.py.
 
 The reader's thread fills a viewer's bounded queue; this end empties it on the event loop. The
 thread wakes the loop only when a queue stops being empty, so a busy loop is not woken in vain.
@@ -13,6 +13,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, WebSocket, WebSocketDisconnect
 
+from backend.api.live_frames import frame_of
 from backend.api.routes.rides import channel_names
 from backend.api.services import services_of
 from backend.errors import SpindleError
@@ -62,11 +63,12 @@ async def _send(socket: WebSocket, viewer: Viewer, ready: asyncio.Event) -> None
         await ready.wait()
         ready.clear()
         for item in viewer.take():
+            frame = frame_of(item)
             try:
-                if isinstance(item, str):
-                    await socket.send_text(item)
+                if isinstance(frame, str):
+                    await socket.send_text(frame)
                 else:
-                    await socket.send_bytes(item)
+                    await socket.send_bytes(frame)
             except RuntimeError as closed:
                 # The server gave up a client that answers no ping; the listener hears of it later.
                 raise WebSocketDisconnect(GONE) from closed

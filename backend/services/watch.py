@@ -1,27 +1,20 @@
-"""Watching a unit live: rows picked and encoded once for everybody who asks for the same.
+"""Watching a unit live: rows picked once for everybody who asks for the same.
 
 A feed belongs to one unit, one list of channels and one rate. It is fed by the unit's reader
 thread and fills the queues of its viewers. A viewer's queue is bounded: a slow viewer loses the
 oldest rows and is told how many. Nothing here waits, so a slow browser never delays the reader.
 
-Frames, as sent on the WebSocket:
-- text `{"type": "stream", "epoch", "rate_hz", "period_us", "channels": [{name, unit, scale}]}`
-  before the first rows and whenever one of these changes;
-- text `{"type": "state", "state", "reason"}` whenever the unit's state changes;
-- binary, little-endian: u32 sequence, u32 rows lost since the previous frame, u64 unit time of the
-  first row in us, u16 rows n, u16 channels c, then i16[n * c] counts; value = count * scale,
-  -32768 is missing.
+What comes is the unit's state whenever it changes, what the rows are before the first of them and
+whenever that changes, and the rows.
 """
 
 from __future__ import annotations
 
-import json
-import struct
 import threading
 from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Protocol, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -31,8 +24,6 @@ from backend.device.stream import StreamBlock, StreamStarted
 from backend.domain.channels import ChannelSpec
 from backend.errors import FieldError, InvalidRequest
 
-HEADER = struct.Struct("<IIQHH")
-SEQUENCE_MODULUS = 2**32
 # Three seconds of frames at 20 a second: a browser that was asleep longer wants the present.
 QUEUE_FRAMES_MAX = 64
 # At most 50 frames a second, whatever the speed factor of a simulated unit.
@@ -44,28 +35,36 @@ FeedKey = tuple[str, tuple[str, ...] | None, float | None]
 
 
 @dataclass(frozen=True)
-class RowFrame:
-    """One binary frame; `payload` is shared by all viewers, the header is each viewer's."""
+class StateNow:
+    """The unit's state and why."""
+
+    state: str
+    reason: str | None
+
+
+@dataclass(frozen=True)
+class StreamNow:
+    """How to read the rows that follow: their channels in order, one row every `period_us`."""
+
+    epoch: int
+    period_us: int
+    channels: tuple[ChannelSpec, ...]
+
+
+@dataclass(frozen=True)
+class LiveRows:
+    """Rows one after the other. counts: int16 (rows, channels), shared by all viewers.
+
+    lost_rows: since the rows before, on the way here. t0_us: unit time of the first row.
+    """
 
     sequence: int
     lost_rows: int
     t0_us: int
-    rows: int
-    channel_count: int
-    payload: bytes
+    counts: npt.NDArray[np.int16]
 
-    def encode(self) -> bytes:
-        """Header and payload."""
-        return (
-            HEADER.pack(
-                self.sequence % SEQUENCE_MODULUS,
-                min(self.lost_rows, SEQUENCE_MODULUS - 1),
-                self.t0_us,
-                self.rows,
-                self.channel_count,
-            )
-            + self.payload
-        )
+
+LiveItem: TypeAlias = StateNow | StreamNow | LiveRows
 
 
 class Viewer:
@@ -74,11 +73,11 @@ class Viewer:
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake
         self._lock = threading.Lock()
-        self._items: deque[str | RowFrame] = deque()
+        self._items: deque[LiveItem] = deque()
         self._lost_rows = 0
 
-    def put(self, item: str | RowFrame) -> None:
-        """Adds a frame; the oldest rows go when the queue is full."""
+    def put(self, item: LiveItem) -> None:
+        """Adds an item; the oldest rows go when the queue is full."""
         with self._lock:
             if len(self._items) >= QUEUE_FRAMES_MAX:
                 self._drop_oldest()
@@ -87,37 +86,36 @@ class Viewer:
         if was_empty:
             self._wake()
 
-    def take(self) -> list[str | bytes]:
+    def take(self) -> list[LiveItem]:
         """Everything that waits, in order."""
         with self._lock:
             waiting = list(self._items)
             self._items.clear()
             lost_rows, self._lost_rows = self._lost_rows, 0
-        taken: list[str | bytes] = []
+        taken: list[LiveItem] = []
         for item in waiting:
-            if isinstance(item, RowFrame):
-                taken.append(replace(item, lost_rows=item.lost_rows + lost_rows).encode())
+            if isinstance(item, LiveRows):
+                item = replace(item, lost_rows=item.lost_rows + lost_rows)
                 lost_rows = 0
-            else:
-                taken.append(item)
+            taken.append(item)
         if lost_rows:
             with self._lock:
                 self._lost_rows += lost_rows
         return taken
 
     def _drop_oldest(self) -> None:
-        """Drops the oldest rows. With texts only, the oldest text: a newer one says more."""
+        """Drops the oldest rows. Where there are none, the oldest item: a newer one says more."""
         position = next(
-            (i for i, item in enumerate(self._items) if isinstance(item, RowFrame)), None
+            (i for i, item in enumerate(self._items) if isinstance(item, LiveRows)), None
         )
         if position is None:
             self._items.popleft()
             return
         dropped = self._items[position]
         del self._items[position]
-        if isinstance(dropped, RowFrame):
-            # Loss is told before the rows that follow it, so it is added to the next frame.
-            self._lost_rows += dropped.rows + dropped.lost_rows
+        if isinstance(dropped, LiveRows):
+            # Loss is told before the rows that follow it, so it is added to the next ones.
+            self._lost_rows += len(dropped.counts) + dropped.lost_rows
 
 
 class Feed:
@@ -132,8 +130,8 @@ class Feed:
         self._viewers: list[Viewer] = []
         self._names = names
         self._rate_hz = rate_hz
-        self._description = ""
-        self._state = ""
+        self._stream: StreamNow | None = None
+        self._state: StateNow | None = None
         self._columns: npt.NDArray[np.intp] = np.empty(0, dtype=np.intp)
         self._epoch: int | None = None
         self._step = 1
@@ -145,17 +143,16 @@ class Feed:
         self._pending_t0_us = 0
         self._pending_lost = 0
 
-    def admit(self, viewer: Viewer, state: str) -> None:
-        """A newcomer gets state and description at once, so that the first rows can be read.
+    def admit(self, viewer: Viewer, state: StateNow) -> None:
+        """A newcomer gets state and stream at once, so that the first rows can be read.
 
-        state: the state's text, read after the feed was subscribed; what the feed has heard of
-        since is newer.
+        state: read after the feed was subscribed; what the feed has heard of since is newer.
         """
         with self._lock:
             self._viewers.append(viewer)
             viewer.put(self._state or state)
-            if self._description:
-                viewer.put(self._description)
+            if self._stream is not None:
+                viewer.put(self._stream)
 
     def dismiss(self, viewer: Viewer) -> bool:
         """Whether the viewer was the last one."""
@@ -173,7 +170,7 @@ class Feed:
             elif isinstance(event, StreamStarted):
                 self._begin(event.epoch, event.period_us, event.channels)
             elif isinstance(event, StateChanged):
-                self._state = state_text(event.state.value, event.reason)
+                self._state = StateNow(event.state.value, event.reason)
                 self._put(self._state)
 
     def _take_rows(self, block: StreamBlock) -> None:
@@ -197,9 +194,9 @@ class Feed:
         names = [name for name in self._names or positions if name in positions]
         self._columns = np.array([positions[name] for name in names], dtype=np.intp)
         self._step = max(1, round(1e6 / period_us / self._rate_hz)) if self._rate_hz else 1
-        chosen = [offered[positions[name]] for name in names]
-        self._description = description(epoch, period_us * self._step, chosen)
-        self._put(self._description)
+        chosen = tuple(offered[positions[name]] for name in names)
+        self._stream = StreamNow(epoch, period_us * self._step, chosen)
+        self._put(self._stream)
 
     def _gather(self, block: StreamBlock, offset: int, rows: npt.NDArray[np.int16]) -> None:
         first_index = (block.first_index + offset) // self._step
@@ -215,21 +212,14 @@ class Feed:
         self._next_index = first_index + len(rows)
 
     def _send(self, wall_us: int) -> None:
-        values = np.concatenate(self._pending)
-        frame = RowFrame(
-            sequence=self._sequence,
-            lost_rows=self._pending_lost,
-            t0_us=self._pending_t0_us,
-            rows=len(values),
-            channel_count=values.shape[1],
-            payload=values.astype("<i2", copy=False).tobytes(),
-        )
+        counts = np.concatenate(self._pending)
+        rows = LiveRows(self._sequence, self._pending_lost, self._pending_t0_us, counts)
         self._sequence += 1
         self._sent_wall_us = wall_us
         self._pending, self._pending_rows, self._pending_lost = [], 0, 0
-        self._put(frame)
+        self._put(rows)
 
-    def _put(self, item: str | RowFrame) -> None:
+    def _put(self, item: LiveItem) -> None:
         for viewer in self._viewers:
             viewer.put(item)
 
@@ -277,7 +267,7 @@ class Watch:
                 feed = Feed(names, rate_hz)
                 self._feeds[key] = (feed, self._devices.subscribe(device_id, feed.take))
             device = self._devices.get(device_id)
-            self._feeds[key][0].admit(viewer, state_text(device.state, device.reason))
+            self._feeds[key][0].admit(viewer, StateNow(device.state, device.reason))
             self._keys[viewer] = key
 
     def leave(self, viewer: Viewer) -> None:
@@ -288,27 +278,6 @@ class Watch:
             if feed.dismiss(viewer):
                 del self._feeds[key]
                 unsubscribe()
-
-
-def description(epoch: int, period_us: int, channels: Sequence[ChannelSpec]) -> str:
-    """The text frame that tells how to read the rows after it."""
-    return json.dumps(
-        {
-            "type": "stream",
-            "epoch": epoch,
-            "rate_hz": 1e6 / period_us,
-            "period_us": period_us,
-            "channels": [
-                {"name": channel.name, "unit": channel.unit, "scale": channel.scale}
-                for channel in channels
-            ],
-        }
-    )
-
-
-def state_text(state: str, reason: str | None) -> str:
-    """The text frame that tells the unit's state."""
-    return json.dumps({"type": "state", "state": state, "reason": reason})
 
 
 def check_names(names: Sequence[str] | None, offered: Sequence[str]) -> None:

@@ -12,7 +12,7 @@ from typing import Any
 from anyio.from_thread import start_blocking_portal
 
 from backend.api.live import live
-from backend.services.watch import Viewer
+from backend.services.watch import StateNow, Viewer
 
 
 class Watch:
@@ -22,7 +22,7 @@ class Watch:
         self.left: list[Viewer] = []
 
     def join(self, device_id: str, channels: object, rate_hz: object, viewer: Viewer) -> None:
-        viewer.put("text")
+        viewer.put(StateNow("ready", None))
 
     def leave(self, viewer: Viewer) -> None:
         self.left.append(viewer)

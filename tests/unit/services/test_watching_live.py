@@ -11,10 +11,11 @@ import struct
 
 import numpy as np
 
+from backend.api.live_frames import frame_of
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock, StreamStarted
 from backend.domain.channels import ChannelSpec
-from backend.services.watch import QUEUE_FRAMES_MAX, Feed, Viewer
+from backend.services.watch import QUEUE_FRAMES_MAX, Feed, LiveRows, StateNow, Viewer
 
 CHANNELS = (ChannelSpec("speed_kmh", "km/h", 0.01), ChannelSpec("cadence_rpm", "rpm", 0.01))
 PERIOD_US = 10_000
@@ -41,7 +42,7 @@ class Screen:
     def __init__(self, feed: Feed) -> None:
         self.woken = 0
         self.viewer = Viewer(self._wake)
-        feed.admit(self.viewer, '{"type": "state"}')
+        feed.admit(self.viewer, StateNow("ready", None))
         self.texts: list[dict[str, object]] = []
         self.frames: list[tuple[int, int, int, np.ndarray]] = []
 
@@ -49,7 +50,7 @@ class Screen:
         self.woken += 1
 
     def read(self) -> Screen:
-        for item in self.viewer.take():
+        for item in map(frame_of, self.viewer.take()):
             if isinstance(item, str):
                 self.texts.append(json.loads(item))
                 continue
@@ -159,18 +160,14 @@ def test_a_change_of_state_is_told_and_kept_for_latecomers() -> None:
     assert late.texts == [told]
 
 
-def test_many_viewers_share_one_encoding() -> None:
+def test_many_viewers_share_the_same_rows() -> None:
     feed = Feed(None, None)
     screens = [Screen(feed) for _ in range(3)]
 
     feed.take(block(0))
 
-    payloads = {id(frame) for screen in screens for frame in waiting_frames(screen.viewer)}
-    assert len(payloads) == 1
-
-
-def waiting_frames(viewer: Viewer) -> list[object]:
-    return [item for item in viewer._items if not isinstance(item, str)]
+    items = [item for screen in screens for item in screen.viewer.take()]
+    assert len({id(item.counts) for item in items if isinstance(item, LiveRows)}) == 1
 
 
 def test_a_busy_loop_is_woken_once_for_many_frames() -> None:
