@@ -28,6 +28,8 @@
 #define EBL_MOVING_KMH 1.0f
 #define EBL_MOVING_RPM 5.0f
 #define EBL_STANDING_S 20u
+#define EBL_RESTING_KMH 0.5f
+#define EBL_RESTING_MOTOR_RPM 30.0f
 
 enum { EBL_MISSING = -32768 }; /* the telemetry count that stands for no value */
 

@@ -46,7 +46,10 @@ def module(registry: Registry) -> str:
         "/** The telemetry count that stands for no value. */",
         "export const MISSING = -32768;",
     ]
-    lines += [f"export const CONTROL_PERIOD_US = {registry.protocol['control_period_us']};", ""]
+    lines += [f"export const CONTROL_PERIOD_US = {registry.protocol['control_period_us']};"]
+    for name in ("resting_kmh", "resting_motor_rpm"):
+        lines += [f"export const {name.upper()} = {registry.riding[name]:g};"]
+    lines += [""]
     lines += ["/** Bit numbers of the channels that are flags. */"]
     lines += _object("FLAGS", flags, "")
     lines += _object("PARAMETERS", parameters, "Record<string, ParameterRow>")

@@ -26,6 +26,8 @@ export interface FaultRow {
 /** The telemetry count that stands for no value. */
 export const MISSING = -32768;
 export const CONTROL_PERIOD_US = 10000;
+export const RESTING_KMH = 0.5;
+export const RESTING_MOTOR_RPM = 30;
 
 /** Bit numbers of the channels that are flags. */
 export const FLAGS = {

@@ -1,5 +1,6 @@
 // A unit takes a new configuration only while wheel and motor stand still. A simulated rider can be
 // asked to stop for it, and goes on afterwards.
+import { RESTING_KMH, RESTING_MOTOR_RPM } from '$generated/registry'
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
 
@@ -9,10 +10,6 @@ const WAIT_MS_MAX = 90_000 // a coast-down from 25 km/h on the flat takes about 
 export interface Pause {
   wait: (ms: number) => Promise<void>
 }
-
-// What the unit itself takes for standing still.
-const SPEED_KMH_MAX = 0.5
-const MOTOR_SPEED_RPM_MAX = 30
 
 /** Whether wheel and motor rest; stands is null where the unit does not tell both. */
 export interface Standstill {
@@ -27,8 +24,8 @@ export function standstillOf(channels: Record<string, number | null>): Standstil
   const { speed_kmh = null, motor_speed_rpm = null } = channels
   const turns = (value: number | null, most: number) =>
     value === null ? null : Math.abs(value) >= most
-  const wheel = turns(speed_kmh, SPEED_KMH_MAX)
-  const motor = turns(motor_speed_rpm, MOTOR_SPEED_RPM_MAX)
+  const wheel = turns(speed_kmh, RESTING_KMH)
+  const motor = turns(motor_speed_rpm, RESTING_MOTOR_RPM)
   if (wheel || motor) return { stands: false, speed_kmh }
   return { stands: wheel === null || motor === null ? null : true, speed_kmh }
 }

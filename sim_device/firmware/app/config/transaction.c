@@ -13,11 +13,6 @@
 #define US_PER_S 1000000u
 #define MS_PER_S 1000u
 
-/* Erasing stalls the processor: nobody may be riding. A wheel pushed by hand is slower than the
- * first, a motor turned by its cogging slower than the second. */
-#define STANDSTILL_SPEED_KMH_MAX 0.5f
-#define STANDSTILL_MOTOR_SPEED_RPM_MAX 30.0f
-
 /* Below this the supply may fail in the middle of an erase. */
 #define FLASH_BATTERY_VOLTAGE_V_MIN 24.0f
 
@@ -103,15 +98,17 @@ uint8_t transaction_staged_crc(config_transaction *transaction, uint16_t id, uin
 
 static int magnitude_is_below(float value, float limit) { return value > -limit && value < limit; }
 
-/* A speed that is not known is not a standstill; an unknown voltage the second slot covers. */
+/* Erasing stalls the processor: nobody may be riding. A wheel pushed by hand rests, and so does a
+ * motor turned by its cogging. A speed that is not known is not a standstill; an unknown voltage
+ * the second slot covers. */
 uint8_t transaction_flash_status(const hal *board, float speed_kmh)
 {
     hal_inputs inputs;
 
     inputs_take(board, &inputs);
     if (inputs.speed_age_ms == HAL_SPEED_NOT_MEASURED ||
-        !magnitude_is_below(speed_kmh, STANDSTILL_SPEED_KMH_MAX) ||
-        !magnitude_is_below(inputs.motor_speed_rpm, STANDSTILL_MOTOR_SPEED_RPM_MAX)) {
+        !magnitude_is_below(speed_kmh, EBL_RESTING_KMH) ||
+        !magnitude_is_below(inputs.motor_speed_rpm, EBL_RESTING_MOTOR_RPM)) {
         return EBL_STATUS_NOT_STOPPED;
     }
     if (inputs.battery_voltage_v < FLASH_BATTERY_VOLTAGE_V_MIN) return EBL_STATUS_UNDERVOLTAGE;

@@ -40,7 +40,6 @@
 #define DRIFT_NM_MAX 8.0f
 #define DRIFT_STEPS 500u
 #define DRIFT_STILL_NM 0.3f
-#define REST_KMH 0.5f
 #define REST_RPM 1.0f
 
 #define S_PER_MIN 60.0f
@@ -128,7 +127,7 @@ static fault_sign stuck_sign(fault_watch *watch, const hal_inputs *inputs, const
 static fault_sign drift_sign(fault_watch *watch, const hal_inputs *inputs, const fault_law *law)
 {
     float torque_nm = law->rider_torque_filtered_nm;
-    int resting = float32_abs(law->speed_kmh) < REST_KMH &&
+    int resting = float32_abs(law->speed_kmh) < EBL_RESTING_KMH &&
                   float32_abs(inputs->cadence_rpm) < REST_RPM &&
                   inputs->torque_age_ms <= TORQUE_HOLD_MS &&
                   inputs_torque_is_plausible(inputs->torque_raw_counts);

@@ -4,7 +4,7 @@
 
 #include "ebl_bytes.h"    // ebl_get_u32, ebl_put_u32
 #include "ebl_frame.h"    // ebl_crc32
-#include "ebl_registry.h" // EBL_CONTROL_PERIOD_US
+#include "ebl_registry.h" // EBL_CONTROL_PERIOD_US, EBL_RESTING_KMH
 #include "flash_verify.h" // STORAGE_OK, flash_program_verified, flash_is_blank
 
 #define AREAS COUNTERS_BLOCKS
@@ -12,7 +12,6 @@
 #define STANDING_SAVE_S 600u
 #define STEPS_PER_S (1000000u / EBL_CONTROL_PERIOD_US)
 #define SPEED_KMH_MAX 150.0f /* what is faster is a disturbed sensor */
-#define STANDSTILL_SPEED_KMH_MAX 0.5f
 
 enum {
     AT_SEQUENCE = 0,
@@ -99,7 +98,7 @@ static int room_make(const counters *state, const hal *board)
 
     if (state->next % records_per_area(state) != 0) return 1;
     if (flash_is_blank(board, address, state->area_bytes)) return 1;
-    if (!(state->speed_kmh < STANDSTILL_SPEED_KMH_MAX)) return 0;
+    if (!(state->speed_kmh < EBL_RESTING_KMH)) return 0;
     return board->flash_erase(board->context, address) >= 0;
 }
 
