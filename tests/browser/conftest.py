@@ -52,7 +52,7 @@ def launch(playwright: Playwright) -> Callable[..., Browser]:
     """Starts a Chromium; extra words go to its command line. SPINDLE_HEADED=1 shows its window."""
     headed = bool(os.environ.get("SPINDLE_HEADED"))
     try:
-        path = find_chromium(playwright.chromium.executable_path)
+        path = find_chromium(playwright.chromium.executable_path, headed)
     except NoChromium as none:
         pytest.fail(str(none), pytrace=False)
 
