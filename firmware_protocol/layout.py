@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Self, TypeAlias
 
 Value: TypeAlias = "float | int | str | list[Value]"
-"""A parameter in a configuration: a number, a text, an enum member's name, or nested lists."""
+"""A parameter in a configuration: a number, a text, a choice, or nested lists."""
 
 Default: TypeAlias = "float | int | str | tuple[Default, ...]"
 ParameterType: TypeAlias = Literal["f32", "u8", "u16", "text"]

@@ -11,6 +11,7 @@ import numpy as np
 
 from firmware_protocol._generated import ENUM_BY_NAME
 from firmware_protocol.layout import Parameter, Value
+from firmware_protocol.spelling import member_of, word_of, words_of
 
 INTEGER_LIMITS = {"u8": 0xFF, "u16": 0xFFFF}
 
@@ -45,10 +46,9 @@ def problem_of_form(row: Parameter, element: Value) -> tuple[str, str] | None:
     if row.type == "text":
         return _problem_of_text(row, element)
     if row.enum is not None:
-        choices = ENUM_BY_NAME[row.enum].__members__
-        if isinstance(element, str) and element in choices:
+        if choice_number(row, element) is not None:
             return None
-        return "NOT_A_CHOICE", f"must be one of {', '.join(choices)}"
+        return "NOT_A_CHOICE", f"must be one of {', '.join(choices_of(row))}"
     if isinstance(element, bool) or not isinstance(element, int | float):
         return "NOT_A_NUMBER", "must be a number"
     if row.type == "f32":
@@ -60,6 +60,31 @@ def problem_of_form(row: Parameter, element: Value) -> tuple[str, str] | None:
     if not 0 <= element <= INTEGER_LIMITS[row.type]:
         return problem_of_range(row, float(element))
     return None
+
+
+def choices_of(row: Parameter) -> tuple[str, ...]:
+    """What a parameter of an enumeration may be; nothing for any other."""
+    return words_of(ENUM_BY_NAME[row.enum]) if row.enum is not None else ()
+
+
+def choice_number(row: Parameter, element: Value) -> int | None:
+    """The number a choice travels as, whatever its case; None for what is no choice."""
+    if row.enum is None or not isinstance(element, str):
+        return None
+    try:
+        return int(member_of(ENUM_BY_NAME[row.enum], element))
+    except KeyError:
+        return None
+
+
+def respelled(row: Parameter, value: Value) -> Value:
+    """A value with its choices in their one spelling; what is no choice stays as it is."""
+    if row.enum is None:
+        return value
+    if isinstance(value, list | tuple):
+        return [respelled(row, element) for element in value]
+    number = choice_number(row, value)
+    return value if number is None else word_of(ENUM_BY_NAME[row.enum](number).name)
 
 
 def _problem_of_text(row: Parameter, element: Value) -> tuple[str, str] | None:

@@ -1,7 +1,7 @@
 """The configuration as a dictionary, as the unit's image, and as the items that change it.
 
-Names are the registry's. Values are floats and ints, str for texts, the member's name for
-enumerations ("FUZZY", "PB"), nested lists for shapes. The check here is the host's, before
+Names are the registry's. Values are floats and ints, str for texts, the one spelling of choices
+("fuzzy", "PB"; any case is taken), nested lists for shapes. The check here is the host's, before
 anything is sent; the unit checks again for itself.
 """
 
@@ -22,14 +22,17 @@ from firmware_protocol.layout import STRUCT_CODES, Default, Parameter, Value
 from firmware_protocol.parameter_values import (
     BadValue,
     ParameterViolation,
+    choice_number,
     elements_of,
     float32,
     problem_of_form,
     problem_of_range,
     problem_of_step,
+    respelled,
     unknown_parameter,
     violation_at,
 )
+from firmware_protocol.spelling import word_of
 
 __all__ = [
     "BadImage",
@@ -54,7 +57,7 @@ class BadImage(ValueError):
 
 def default_config() -> dict[str, Value]:
     """A new dictionary with every parameter at its factory value."""
-    return {row.name: _listed(row.default) for row in PARAMETERS}
+    return {row.name: respelled(row, _listed(row.default)) for row in PARAMETERS}
 
 
 def pack_image(config: Mapping[str, Value]) -> bytes:
@@ -153,7 +156,9 @@ def _packed(row: Parameter, element: Value) -> bytes:
     if row.type == "text":
         return str(element).encode().ljust(row.length, b"\0")
     if row.enum is not None:
-        return bytes([ENUM_BY_NAME[row.enum][str(element)]])
+        number = choice_number(row, element)
+        assert number is not None
+        return bytes([number])
     if row.type == "f32":
         return struct.pack("<f", float32(element))
     assert isinstance(element, int | float)
@@ -179,7 +184,7 @@ def _unpacked(row: Parameter, element: bytes) -> Value:
         return element.rstrip(b"\0").decode(errors="replace")
     number: float | int = struct.unpack("<" + STRUCT_CODES[row.type], element)[0]
     if row.enum is not None:
-        names = {int(member): member.name for member in ENUM_BY_NAME[row.enum]}
+        names = {int(member): word_of(member.name) for member in ENUM_BY_NAME[row.enum]}
         return names.get(int(number), int(number))
     return float(str(np.float32(number))) if row.type == "f32" else number
 

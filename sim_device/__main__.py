@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from firmware_protocol._generated import Market
+from firmware_protocol.spelling import words_of
 from sim_device.controls import SPEED_FACTOR_MAX, SPEED_FACTOR_MIN
 from sim_device.emulated import EmulatedSetup
 from sim_device.emulator import BOARD, BOARD_VARIABLE, EmulatorError
@@ -88,8 +89,9 @@ def _add_unit(unit: argparse.ArgumentParser) -> None:
     )
     unit.add_argument(
         "--market",
-        default=Market.EU_EPAC.name,
-        choices=[*Market.__members__, NO_MARKET],
+        default="eu_epac",
+        type=str.lower,
+        choices=[*words_of(Market), NO_MARKET],
         help="whose law a new unit is made for; a --flash that is there keeps its own; none: no "
         "factory was there, and the unit gives no assist",
     )

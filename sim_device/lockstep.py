@@ -10,6 +10,7 @@ from dataclasses import replace
 from typing import Any, Final
 
 from firmware_protocol._generated import Market, MessageId, Status
+from firmware_protocol.spelling import member_of, words_of
 from sim_device.configure import write_config
 from sim_device.controls import NOT_CONSISTENT, Changes, choices_made, pack, parse_changes, plain
 from sim_device.firmware.python.unit import UID_LENGTH, Unit, default_bike, finite_or_none
@@ -47,13 +48,15 @@ NO_MARKET = "none"
 
 
 def market_named(name: str) -> Market | None:
-    """The market of this name; None for `none`, a unit that no factory has provisioned. Raises
-    ValueError with those there are."""
+    """The market of this name, in any case; None for `none`, a unit that no factory has
+    provisioned. Raises ValueError with those there are."""
     if name == NO_MARKET:
         return None
-    if name not in Market.__members__:
-        raise ValueError(f"there is no market {name}; there are {', '.join(Market.__members__)}")
-    return Market[name]
+    try:
+        return member_of(Market, name)
+    except KeyError:
+        listed = ", ".join(words_of(Market))
+        raise ValueError(f"there is no market {name}; there are {listed}") from None
 
 
 class LockstepUnit:
@@ -89,7 +92,7 @@ class LockstepUnit:
         bike: dict[str, float] | None = None,
         flash: bytes | None = None,
         log: bytes | None = None,
-        market: str = Market.EU_EPAC.name,
+        market: str = "eu_epac",
         unlock_key: bytes | None = None,
         boot_id: int = 1,
         line_baud: int = 0,

@@ -9,8 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from firmware_protocol._generated import FaultFlags, Law
+from firmware_protocol._generated import FaultFlags
 from firmware_protocol.parameters import default_config
+from firmware_protocol.spelling import word_of
 from sim_device.controls import NOT_CONSISTENT
 from sim_device.firmware.python.unit import finite_or_none, kinematics
 from sim_device.lockstep import LockstepUnit
@@ -188,7 +189,7 @@ def _mode_of(law: str) -> int:
     config: dict[str, Any] = dict(default_config())
     slots = zip(config["mode_laws"], config["mode_ratios"], strict=True)
     for slot, (slot_law, ratio) in enumerate(slots):
-        if slot_law == Law[law.upper()].name and ratio in (0.0, 1.0):
+        if slot_law == law and ratio in (0.0, 1.0):
             return slot
     raise ScenarioError(f"no assist mode runs the {law} law at ratio 1")
 
@@ -287,7 +288,9 @@ def _ride(scenario: ScenarioFile, _settings: Settings) -> Result:
         "battery_soc_pct": seen["battery_soc_pct"],
         "motor_temperature_degc": seen["motor_temperature_degc"],
         "sensor_temperature_degc": seen["sensor_temperature_degc"],
-        "faults_seen": [flag.name for flag in FaultFlags if faults_seen & flag],
+        "faults_seen": [
+            word_of(name) for name, flag in FaultFlags.__members__.items() if faults_seen & flag
+        ],
         "words_good": seen["words_good"],
         "words_bad": seen["words_bad"],
         "words_lost": seen["words_lost"],

@@ -114,8 +114,8 @@ def restore(options: Namespace) -> int:
             print(note)
     items = server.ask("GET", f"/devices/{unit}/parameters")["items"]
     differing = [p for p in items if p["name"] in saved and saved[p["name"]] != p["value"]]
-    kept = [p["name"] for p in differing if p["access"] == "FACTORY"]
-    changes = {p["name"]: saved[p["name"]] for p in differing if p["access"] != "FACTORY"}
+    kept = [p["name"] for p in differing if p["access"] == "factory"]
+    changes = {p["name"]: saved[p["name"]] for p in differing if p["access"] != "factory"}
     if kept and not options.json:
         print(f"Left as they are, because only the factory may change them: {', '.join(kept)}.")
     if not changes:

@@ -21,6 +21,7 @@ from backend.cli.device import read_json
 from backend.errors import InvalidRequest, RequestRefused
 from firmware_protocol._generated import BAND_BY_NAME, PARAMETERS, Access
 from firmware_protocol.parameters import unpack_image
+from firmware_protocol.spelling import member_of, word_of
 from firmware_protocol.unlock_token import Challenge, Token, signed_message
 
 OWNER_ONLY = 0o600
@@ -55,7 +56,8 @@ def sign(options: Namespace) -> int:
         for row in PARAMETERS
         if row.ratchet or row.access == Access.FACTORY or row.name in BAND_BY_NAME
     ]
-    sys.stderr.write(f"unit {challenge.uid.hex()}, level {challenge.level.name}, allows:\n")
+    level = word_of(challenge.level.name)
+    sys.stderr.write(f"unit {challenge.uid.hex()}, level {level}, allows:\n")
     for row in protected:
         sys.stderr.write(f"  {row.name:32} {image[row.name]} {row.unit}\n")
     signature = private.sign(signed_message(challenge, challenge.expires_us))
@@ -91,11 +93,11 @@ def challenge_of(read: Any) -> Challenge:
         challenge = Challenge(
             uid=bytes.fromhex(read["uid"]),
             nonce=bytes.fromhex(read["nonce"]),
-            level=Access[read["level"]],
+            level=member_of(Access, read["level"]),
             expires_us=int(read["expires_us"]),
             image=bytes.fromhex(read["image"]),
         )
         unpack_image(challenge.image)
-    except (KeyError, TypeError, ValueError) as error:
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
         raise InvalidRequest(f"This is not a challenge of a unit: {error!r}.") from None
     return challenge

@@ -13,13 +13,13 @@ from sim_device.firmware.python import market as unit
 
 MARKETS = unit.MARKETS
 MARKET_WORDS = {
-    "EU_EPAC": "the EU (EN 15194)",
-    "UK": "the United Kingdom",
-    "US_CLASS_1": "US class 1",
-    "US_CLASS_2": "US class 2",
-    "US_CLASS_3": "US class 3",
-    "JAPAN": "Japan",
-    "CHINA": "China (GB 17761)",
+    "eu_epac": "the EU (EN 15194)",
+    "uk": "the United Kingdom",
+    "us_class_1": "US class 1",
+    "us_class_2": "US class 2",
+    "us_class_3": "US class 3",
+    "japan": "Japan",
+    "china": "China (GB 17761)",
 }
 """What a market is called in a message; a new one is called by its name."""
 

@@ -56,9 +56,10 @@ class LiveState:
 
 @dataclass(frozen=True)
 class ParameterRow:
-    """What a parameter is. choices: names of an enumeration, None for numbers and texts.
+    """What a parameter is. choices: of an enumeration, None for numbers and texts.
 
-    length: bytes a text may have, None for numbers.
+    access: who may change it: rider, dealer or factory. length: bytes a text may have, None for
+    numbers.
     """
 
     id: int
@@ -92,7 +93,9 @@ class ParameterTable:
     rows: in the order they are shown. free_of: a parameter's band in a configuration, None for one
     without. not_a_parameter: what is said of a name nothing is called. faults_of: everything that
     is wrong with a whole configuration, each element named. rounded: a checked configuration as the
-    unit will hold it. crc32_of: the checksum a unit gives for it. factory: the maker's names.
+    unit will hold it. crc32_of: the checksum a unit gives for it. respelled: any part of a
+    configuration with its choices in their one spelling, in whatever case they were kept. factory:
+    the maker's names.
     """
 
     rows: Sequence[ParameterRow]
@@ -101,6 +104,7 @@ class ParameterTable:
     faults_of: Callable[[Config], list[FieldError]]
     rounded: Callable[[Config], dict[str, Value]]
     crc32_of: Callable[[Config], int]
+    respelled: Callable[[Config], dict[str, Value]]
     factory: frozenset[str] = frozenset()
 
     def group(self, name: str) -> tuple[str, ...]:

@@ -88,7 +88,7 @@ class AssistModes:
             strict=True,
         )
         modes = tuple(
-            AssistMode(name, law.lower(), ratio, taper.lower(), TABLES[table], *rest)
+            AssistMode(name, law, ratio, taper, TABLES[table], *rest)
             for name, law, ratio, taper, table, *rest in rows
         )
         return cls(modes, parameters["assist_mode_at_start"])
@@ -98,9 +98,9 @@ class AssistModes:
         return {
             "assist_mode_at_start": self.mode_at_start,
             "mode_names": [mode.name for mode in self.modes],
-            "mode_laws": [mode.law.upper() for mode in self.modes],
+            "mode_laws": [mode.law for mode in self.modes],
             "mode_ratios": [mode.ratio for mode in self.modes],
-            "mode_tapers": [mode.taper.upper() for mode in self.modes],
+            "mode_tapers": [mode.taper for mode in self.modes],
             "mode_tables": [TABLES.index(mode.table) for mode in self.modes],
             "mode_ramp_up_nm_per_s": [mode.ramp_up_nm_per_s for mode in self.modes],
             "mode_ramp_down_nm_per_s": [mode.ramp_down_nm_per_s for mode in self.modes],

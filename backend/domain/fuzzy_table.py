@@ -133,7 +133,7 @@ class FuzzyTable:
 
     def to_parameters(self, which: str = "first") -> dict[str, Any]:
         """The six parameters this table is in a unit's configuration, as its first or second."""
-        value = {**self.to_json(), "inference": self.inference.upper()}
+        value = self.to_json()
         return {name: value[field] for field, name in PARAMETERS_OF[which].items()}
 
     def label_indices(self) -> np.ndarray[Any, np.dtype[np.int64]]:
@@ -146,8 +146,7 @@ def stored_json(parameters: Mapping[str, Any], which: str = "first") -> dict[str
 
     What an older unit took stays readable where this one would refuse it.
     """
-    value = {field: parameters[name] for field, name in PARAMETERS_OF[which].items()}
-    return {**value, "inference": str(value["inference"]).lower()}
+    return {field: parameters[name] for field, name in PARAMETERS_OF[which].items()}
 
 
 def _frozen(value: Any) -> tuple[Any, ...]:

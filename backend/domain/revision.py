@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
-from typing import Any
+from typing import Any, TypeAlias
+
+Parameters: TypeAlias = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
@@ -25,7 +27,16 @@ class Revision:
     generation: int | None
     crc32: int | None
     changed: Sequence[Mapping[str, Any]]
-    parameters: Mapping[str, Any]
+    parameters: Parameters
+
+    def respelled(self, respell: Callable[[Parameters], Parameters]) -> Revision:
+        """The same revision with its choices as they are spelled today."""
+        old, new = (
+            respell({change["name"]: change[side] for change in self.changed})
+            for side in ("old", "new")
+        )
+        changed = [{"name": name, "old": old[name], "new": new[name]} for name in old]
+        return replace(self, changed=changed, parameters=respell(self.parameters))
 
     @property
     def created_at(self) -> datetime:

@@ -46,7 +46,7 @@ class SimulatedAddress:
     Each name is a unit of its own: without a seed the name makes one, so two names never share a
     serial number. clock: `real`, or `virtual` for time that passes only when told to. scenario:
     one of Spindle's, `none`, or the path of a TOML file. flash: file that keeps the unit's
-    configuration. market: whose law it was made for, `EU_EPAC` unless told; a flash that is there
+    configuration. market: whose law it was made for, `eu_epac` unless told; a flash that is there
     keeps its own. unlock_key: file with the maker's public key; without one the unit's limits only
     go down. baud: its line has a rate like a real one, from 115200 bit/s on, and this is the rate
     to ask for.
@@ -135,8 +135,9 @@ class SimulatedLink:
         address = SimulatedAddress.parse(url)
         if address.flash is None and flash_folder is not None:
             flash_folder.mkdir(parents=True, exist_ok=True)
-            # Two units that differ only in their market do not share a memory.
-            made_for = f"-{address.market}" if address.market else ""
+            # Two units that differ only in their market do not share a memory. Files are named as
+            # version 0.2 named them.
+            made_for = f"-{address.market.upper()}" if address.market else ""
             remembered = flash_folder / f"unit-{address.seed}{made_for}.flash"
             address = replace(address, flash=str(remembered))
         self._url = url

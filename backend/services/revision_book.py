@@ -6,7 +6,7 @@ import logging
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 
-from backend.device.configuration import ConfigImage
+from backend.device.configuration import ConfigImage, ParameterTable
 from backend.domain.revision import Revision
 from backend.errors import StoreError
 from backend.services.config_view import Change, RevisionLog
@@ -38,14 +38,16 @@ class RevisionBook:
         self._revisions = revisions
         self._open: dict[str, Meant] = {}
 
-    def list(self, unit: str) -> Sequence[Revision]:
-        """Every configuration of a unit, newest first."""
-        return self._revisions.list(unit)
+    def list(self, unit: str, table: ParameterTable) -> Sequence[Revision]:
+        """Every configuration of a unit, newest first, as its table spells choices today."""
+        return [revision.respelled(table.respelled) for revision in self._revisions.list(unit)]
 
-    def known(self, unit: str, crc32: int) -> Revision | None:
-        """The newest configuration of a unit, if it is the one with this checksum."""
+    def known(self, unit: str, crc32: int, table: ParameterTable) -> Revision | None:
+        """The newest configuration of a unit, if it is the one with this checksum; as `list`."""
         newest = self._newest(unit)
-        return newest if newest is not None and newest.crc32 == crc32 else None
+        if newest is None or newest.crc32 != crc32:
+            return None
+        return newest.respelled(table.respelled)
 
     def may_have_ended(self, unit: str) -> bool:
         """Whether the newest is on trial, or a change may have been made that nobody answered."""

@@ -104,7 +104,8 @@ class Tuning:
 
     def revisions(self, device_id: str) -> Sequence[Revision]:
         """Every configuration the unit is known to have had, newest first."""
-        return self._book.list(self._devices.serial_number(device_id))
+        table = self._devices.unit(device_id).parameters
+        return self._book.list(self._devices.serial_number(device_id), table)
 
     # ------------------------------------------------------------------ writing
 
@@ -200,10 +201,11 @@ class Tuning:
         """
         with self._turn(device_id), telling("unchanged"):
             serial_number = self._devices.serial_number(device_id)
-            trial = self._devices.unit(device_id).trial()
+            unit = self._devices.unit(device_id)
+            trial = unit.trial()
             if not trial.on_trial:
                 raise Conflict(NO_TRIAL, "no_trial")
-            meant = self._book.known(serial_number, trial.crc32)
+            meant = self._book.known(serial_number, trial.crc32, unit.parameters)
             if meant is None:
                 raise Conflict(
                     "What is on trial was not written by this Spindle, so it does not know what "

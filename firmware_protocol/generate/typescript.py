@@ -4,6 +4,7 @@ import json
 from typing import Any
 
 from firmware_protocol.generate.registry import NOTICE, Registry
+from firmware_protocol.spelling import word_of
 
 FIRST_LINE = f"// {NOTICE}"
 
@@ -23,8 +24,8 @@ export interface ChannelRow {
 }
 
 export interface FaultRow {
-  /** WARNING, ASSIST_OFF or LATCHED */
-  readonly severity: string;
+  /** How it ends: by itself, or where it is latched only when it is cleared. */
+  readonly severity: "warning" | "assist_off" | "latched";
   /** What the rider reads: what to do now. */
   readonly rider_text: string;
   /** What a mechanic measures and mends. */
@@ -40,7 +41,11 @@ def module(registry: Registry) -> str:
         for row in registry.parameters
     }
     channels = {row.name: {"unit": row.unit} for row in registry.channels}
-    flags = {table.name: table.members for table in registry.flags if table.name in channels}
+    flags = {
+        table.name: {word_of(name): bit for name, bit in table.members.items()}
+        for table in registry.flags
+        if table.name in channels
+    }
     lines = [FIRST_LINE, "", TYPES]
     lines += [
         "/** The telemetry count that stands for no value. */",
@@ -64,8 +69,8 @@ def module(registry: Registry) -> str:
 def _faults(registry: Registry) -> dict[str, Any]:
     severities = {value: name for name, value in registry.enum("severity").members.items()}
     return {
-        row.name: {
-            "severity": severities[row.severity],
+        word_of(row.name): {
+            "severity": word_of(severities[row.severity]),
             "rider_text": row.rider_text,
             "mechanic_text": row.mechanic_text,
         }

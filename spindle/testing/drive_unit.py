@@ -53,7 +53,7 @@ class DriveUnit:
         scenario: str | None = None,
         config: Mapping[str, Any] | None = None,
         bike: Mapping[str, float] | None = None,
-        market: str = "EU_EPAC",
+        market: str = "eu_epac",
     ) -> None:
         self._seed = seed
         self._bike = read_bike(bike or {})

@@ -17,13 +17,13 @@ from sim_device.lockstep import LockstepUnit
 BOOST = 4
 KMH_PER_MPH = 1.609344
 CUTOFF_KMH = {
-    "EU_EPAC": 25.0,
-    "UK": 15.5 * KMH_PER_MPH,
-    "US_CLASS_1": 20 * KMH_PER_MPH,
-    "US_CLASS_2": 20 * KMH_PER_MPH,
-    "US_CLASS_3": 28 * KMH_PER_MPH,
-    "JAPAN": 24.0,
-    "CHINA": 25.0,
+    "eu_epac": 25.0,
+    "uk": 15.5 * KMH_PER_MPH,
+    "us_class_1": 20 * KMH_PER_MPH,
+    "us_class_2": 20 * KMH_PER_MPH,
+    "us_class_3": 28 * KMH_PER_MPH,
+    "japan": 24.0,
+    "china": 25.0,
 }
 EUROPE_RATED_W = 250.0
 AMERICA_PEAK_W = 750.0
@@ -145,7 +145,7 @@ def shaft_powers_w(market: str) -> list[float]:
 
 
 def test_half_an_hour_uphill_gives_no_more_than_the_rating_where_there_is_one() -> None:
-    europe_w, america_w = shaft_powers_w("EU_EPAC"), shaft_powers_w("US_CLASS_1")
+    europe_w, america_w = shaft_powers_w("eu_epac"), shaft_powers_w("us_class_1")
 
     europe_mean_w, america_mean_w = (sum(p) / len(p) for p in (europe_w, america_w))
     assert max(europe_w) > 1.4 * EUROPE_RATED_W
@@ -164,13 +164,13 @@ def test_a_unit_leaves_the_factory_at_its_market_s_limit(market: str) -> None:
 
 
 def test_a_flash_that_was_in_use_keeps_its_market() -> None:
-    made_for_japan = LockstepUnit(1, market="JAPAN").unit.flash()
+    made_for_japan = LockstepUnit(1, market="japan").unit.flash()
 
-    again = LockstepUnit(1, market="US_CLASS_3", flash=made_for_japan)
+    again = LockstepUnit(1, market="us_class_3", flash=made_for_japan)
 
-    assert unpack_image(read_image(again.unit))["market"] == "JAPAN"
+    assert unpack_image(read_image(again.unit))["market"] == "japan"
 
 
 def test_a_market_that_is_none_is_refused_with_those_there_are() -> None:
-    with pytest.raises(ValueError, match=r"no market MARS.*EU_EPAC"):
+    with pytest.raises(ValueError, match=r"no market MARS.*eu_epac"):
         LockstepUnit(1, market="MARS")

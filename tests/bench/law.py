@@ -28,7 +28,7 @@ def run() -> list[Figure]:
     rates = random.uniform(0, 0.9, POINTS).astype(np.float32)
     table = THESIS_TABLE.to_parameters()
     batch_ns = 1e9 / POINTS * best_of(5, lambda: law.gain_points(table, speeds, rates))
-    bilinear = table | {"fuzzy_inference": "WEIGHTED_AVERAGE"}
+    bilinear = table | {"fuzzy_inference": "weighted_average"}
     bilinear_ns = 1e9 / POINTS * best_of(5, lambda: law.gain_points(bilinear, speeds, rates))
 
     points = np.stack([speeds, rates], axis=1)[:RIVAL_POINTS].astype(float)

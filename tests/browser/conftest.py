@@ -125,7 +125,7 @@ def standing(server: SpindleServer, device: str) -> str:
     changed = {
         p["name"]: p["default"]
         for p in parameters
-        if p["value"] != p["default"] and p["access"] != "FACTORY"
+        if p["value"] != p["default"] and p["access"] != "factory"
     }
     if changed:
         body = {"parameters": changed, "reason": "before a test"}

@@ -33,7 +33,7 @@ def active(server: SpindleServer, device: str) -> list[str]:
 def break_torque_sensor(server: SpindleServer, device: str) -> None:
     """An open arm of the bridge; the unit latches its fault."""
     server.simulate(device, faults={"torque_sensor": "open_high"})
-    eventually(lambda: active(server, device), lambda names: names == ["TORQUE_SENSOR"])
+    eventually(lambda: active(server, device), lambda names: names == ["torque_sensor"])
 
 
 @pytest.fixture
@@ -71,7 +71,7 @@ def test_a_latched_fault_whose_cause_is_gone_is_cleared_by_a_click(
     told = page.get_by_test_id("clear-result")
     expect(told).to_contain_text("Not cleared")
     expect(told).to_contain_text("cause is still there")
-    assert active(server, unit) == ["TORQUE_SENSOR"]
+    assert active(server, unit) == ["torque_sensor"]
     desk.picture("fault-not-cleared")
 
     server.simulate(unit, faults=SOUND)
@@ -103,7 +103,7 @@ def test_a_fault_is_seen_on_every_page_with_word_and_icon(
     expect(page.locator(SERVICE)).to_have_text(re.compile("Service.*1 fault", re.S))
     page.locator(PILL).get_by_role("link").click()
     expect(page).to_have_url(re.compile("/service$"))
-    expect(page.locator("[data-fault=TORQUE_SENSOR]")).to_be_visible()
+    expect(page.locator("[data-fault=torque_sensor]")).to_be_visible()
     page.evaluate(axe)
     assert page.evaluate(JUDGE) == []
     assert page.evaluate("document.documentElement.scrollWidth") == width
@@ -188,12 +188,12 @@ def test_a_fault_that_comes_is_told_once_and_one_that_goes_by_itself_too(
 def test_a_fault_of_a_newer_firmware_is_shown_and_can_be_cleared(
     desk: Desk, server: SpindleServer, unit: str
 ) -> None:
-    listed(desk, server, unit, faults_active=["FAULT_29", "TORQUE_SENSOR"])
+    listed(desk, server, unit, faults_active=["fault_29", "torque_sensor"])
 
     page = desk.open("/live")
 
     expect(page.locator(PILL)).to_contain_text("2 faults")
-    newer = page.locator(f"{BOX} [data-fault=FAULT_29]")
+    newer = page.locator(f"{BOX} [data-fault=fault_29]")
     expect(newer).to_contain_text("firmware is newer")
     expect(page.get_by_role("button", name="Clear the faults")).to_be_enabled()
 
@@ -201,7 +201,7 @@ def test_a_fault_of_a_newer_firmware_is_shown_and_can_be_cleared(
 def test_a_lost_unit_s_fault_is_told_as_old_and_not_cleared(
     desk: Desk, server: SpindleServer, unit: str
 ) -> None:
-    listed(desk, server, unit, faults_active=["TORQUE_SENSOR"], state="lost", reason="Silent.")
+    listed(desk, server, unit, faults_active=["torque_sensor"], state="lost", reason="Silent.")
 
     page = desk.open("/live")
 

@@ -16,7 +16,7 @@ from tests.fakes.server import SpindleServer
 
 FROZEN = {"t_us": 61_000_000, "channels": {"speed_kmh": 12.5, "battery_voltage_v": 36.1}}
 ACTIVE = {
-    "name": "TORQUE_SENSOR",
+    "name": "torque_sensor",
     "description": "Check the cable.",
     "active": True,
     "count": 2,
@@ -24,7 +24,7 @@ ACTIVE = {
     "severity": "latched",
     "mechanic_text": "Measure the bridge.",
 }
-OVER = {**ACTIVE, "name": "BATTERY_LOW", "active": False, "count": 1, "frozen": None}
+OVER = {**ACTIVE, "name": "battery_low", "active": False, "count": 1, "frozen": None}
 
 
 def with_faults(desk: Desk) -> list[str]:
@@ -49,11 +49,11 @@ def test_a_fault_shows_what_the_bike_did_and_what_is_over_is_cleared(
 ) -> None:
     asked = with_faults(desk)
     page = desk.open("/service")
-    fault = page.locator("[data-fault=TORQUE_SENSOR]")
+    fault = page.locator("[data-fault=torque_sensor]")
     expect(fault).to_contain_text("active now")
     expect(fault).to_contain_text("Measure the bridge.")
     expect(fault).to_contain_text("The rider reads: “Check the cable.”")
-    expect(page.locator("[data-fault=BATTERY_LOW]")).to_contain_text("over")
+    expect(page.locator("[data-fault=battery_low]")).to_contain_text("over")
 
     fault.locator("summary").click()
     expect(fault).to_contain_text("1:01 after switch-on")
@@ -61,7 +61,7 @@ def test_a_fault_shows_what_the_bike_did_and_what_is_over_is_cleared(
     desk.picture("faults")
     page.click("text=Clear the faults that are over")
 
-    expect(page.locator("[data-fault=BATTERY_LOW]")).to_have_count(0)
+    expect(page.locator("[data-fault=battery_low]")).to_have_count(0)
     expect(fault).to_be_visible()
     assert asked == ["POST"]
 
@@ -71,7 +71,7 @@ def test_faults_in_chinese_on_a_phone(open_desk: OpenDesk, standing: str) -> Non
     with_faults(desk)
     page = desk.open("/service")
 
-    expect(page.locator("[data-fault=TORQUE_SENSOR]")).to_contain_text("检查传感器插头与电桥")
+    expect(page.locator("[data-fault=torque_sensor]")).to_contain_text("检查传感器插头与电桥")
     assert page.evaluate("document.documentElement.scrollWidth") <= 360
     desk.picture("faults-phone-zh")
 
@@ -85,7 +85,7 @@ def test_a_real_unit_without_faults_says_so(desk: Desk, standing: str) -> None:
 def test_a_rider_is_told_what_to_do_in_plain_words(
     open_desk: OpenDesk, server: SpindleServer, standing: str
 ) -> None:
-    unit = server.get(f"/devices/{standing}") | {"faults_active": ["BATTERY_CUT"]}
+    unit = server.get(f"/devices/{standing}") | {"faults_active": ["battery_cut"]}
     desk = open_desk(width=390, height=844, language="zh-CN")
     desk.page.route(
         "**/api/v1/devices", lambda route: route.fulfill(json={"items": [unit], "next": None})
@@ -93,7 +93,7 @@ def test_a_rider_is_told_what_to_do_in_plain_words(
 
     page = desk.open("/")
 
-    told = page.locator("[data-fault=BATTERY_CUT]")
+    told = page.locator("[data-fault=battery_cut]")
     expect(told).to_contain_text("请停稳后重新打开电池")
     expect(told).not_to_contain_text("电池管理系统")
     desk.picture("fault-rider-zh", full=True)
@@ -125,7 +125,7 @@ def test_on_paper_the_page_names_the_unit_and_shows_no_buttons(
     desk = open_desk(theme=theme)
     with_faults(desk)
     page = desk.open("/service")
-    expect(page.locator("[data-fault=TORQUE_SENSOR]")).to_be_visible()
+    expect(page.locator("[data-fault=torque_sensor]")).to_be_visible()
 
     page.emulate_media(media="print")
 

@@ -38,9 +38,9 @@ def in_japan(page: Page) -> None:
         (body[within] if within else body).update(change)
         return route.fulfill(response=response, body=json.dumps(body))
 
-    ends = {"market": "JAPAN", "effective_assist_cutoff_kmh": 24.0}
+    ends = {"market": "japan", "effective_assist_cutoff_kmh": 24.0}
     page.route("**/limits", lambda route: answer(route, ends, None))
-    page.route("**/config", lambda route: answer(route, {"market": "JAPAN"}, "parameters"))
+    page.route("**/config", lambda route: answer(route, {"market": "japan"}, "parameters"))
 
 
 def test_each_table_is_edited_for_itself_and_both_are_written_together(

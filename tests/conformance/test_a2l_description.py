@@ -25,6 +25,7 @@ from firmware_protocol._generated import (
     LimitFlags,
 )
 from firmware_protocol.parameters import default_config, pack_image
+from firmware_protocol.spelling import word_of
 
 A2L = Path(__file__).resolve().parents[2] / "firmware_protocol" / "a2l" / "ebl.a2l"
 LIVE_ROW = 0x10000
@@ -111,7 +112,7 @@ def elements(described: list[Block], block: Block, image: bytes) -> list[Any]:
     if f"{method}.table" not in tables:
         return values
     names = dict(zip(*[iter(tables[f"{method}.table"])] * 2, strict=True))
-    return [names[str(value)] for value in values]
+    return [word_of(names[str(value)]) for value in values]
 
 
 def flat(value: Any) -> list[Any]:
@@ -121,7 +122,7 @@ def flat(value: Any) -> list[Any]:
 CHANGED = {
     "fuzzy_rules": [["NB", "NS", "ZO", "PS", "PB"]] * 4 + [["PB", "PS", "ZO", "NS", "NB"]],
     "mode_names": ["a", "bb", "ccc", "dddd", "eeeee"],
-    "fuzzy_inference": "WEIGHTED_AVERAGE",
+    "fuzzy_inference": "weighted_average",
     "pedal_stop_ms": 321,
 }
 

@@ -129,7 +129,7 @@ def test_every_tool_is_told_which_bit_of_which_channel_it_is(made: Registry) -> 
     assert f"ECU_ADDRESS {address.split()[0]}" in measurement[:160]
     table = dissector.partition('["fault_flags_high"] = {')[2].partition("}")[0]
     assert '[13] = "MADE_UP_LATCHED", [14] = "MADE_UP_WARNING"' in table
-    assert "MADE_UP_WARNING: 30," in browser
+    assert "made_up_warning: 30," in browser
 
 
 @pytest.mark.parametrize("bit", [15, 31])

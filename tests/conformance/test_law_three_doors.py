@@ -58,19 +58,19 @@ def rough_ride(seed: int) -> npt.NDArray[np.void]:
 def config_of(inference: str, falling: str) -> dict[str, Any]:
     return {
         **default_config(),
-        "mode_laws": ["OFF", "FIXED", "FIXED", "FUZZY", "FUZZY"],
+        "mode_laws": ["off", "fixed", "fixed", "fuzzy", "fuzzy"],
         "fuzzy_inference": inference,
         "fuzzy_falling_torque": falling,
         "fuzzy_gain_points": [0.05, 0.11, 0.27, 0.33, 0.48],
         "assist_cutoff_band_kmh": 2.0,
         "sensor_offset_counts": 12.5,
-        "mode_tapers": ["NONE", "NONE", "JAPAN_1_TO_1", "TAPER_SPEEDS", "JAPAN_2_TO_1"],
+        "mode_tapers": ["none", "none", "japan_1_to_1", "taper_speeds", "japan_2_to_1"],
         "mode_tables": [0, 0, 0, 0, 1],
         "mode_ramp_up_nm_per_s": [2000, 150, 90, 300, 2000],
         "mode_ramp_down_nm_per_s": [2000, 150, 700, 300, 2000],
         "mode_torque_pct": [100, 40, 70, 85, 100],
         "second_gain_points": [0.0, 0.1, 0.21, 0.33, 0.5],
-        "market": "JAPAN" if falling == "NO_GAIN" else "EU_EPAC",
+        "market": "japan" if falling == "no_gain" else "eu_epac",
         "walk_speed_kmh": 4.5,
     }
 
@@ -107,8 +107,8 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return target
 
 
-@pytest.mark.parametrize("inference", ["MAMDANI_CENTROID", "WEIGHTED_AVERAGE"])
-@pytest.mark.parametrize("falling", ["HOLD_ZERO_RATE", "NO_GAIN"])
+@pytest.mark.parametrize("inference", ["mamdani_centroid", "weighted_average"])
+@pytest.mark.parametrize("falling", ["hold_zero_rate", "no_gain"])
 def test_batch_steps_and_program_agree_to_the_bit(
     program: Path, inference: str, falling: str
 ) -> None:
@@ -116,7 +116,7 @@ def test_batch_steps_and_program_agree_to_the_bit(
     ride, other_ride = rough_ride(1), rough_ride(2)
 
     batch = AssistLaw(config).run(ride)
-    law, neighbour = AssistLaw(config), AssistLaw(config_of("WEIGHTED_AVERAGE", "NO_GAIN"))
+    law, neighbour = AssistLaw(config), AssistLaw(config_of("weighted_average", "no_gain"))
     stepwise = np.empty(STEPS, OUTPUT_DTYPE)
     for index in range(STEPS):
         stepwise[index : index + 1] = law.run(ride[index : index + 1])
@@ -135,8 +135,8 @@ def test_batch_steps_and_program_agree_to_the_bit(
 
 
 def test_the_program_refuses_a_broken_record_and_a_bad_configuration(program: Path) -> None:
-    good = pack_image(config_of("MAMDANI_CENTROID", "NO_GAIN"))
-    bad = pack_image({**config_of("MAMDANI_CENTROID", "NO_GAIN"), "gear_ratio": 0.0})
+    good = pack_image(config_of("mamdani_centroid", "no_gain"))
+    bad = pack_image({**config_of("mamdani_centroid", "no_gain"), "gear_ratio": 0.0})
 
     half_a_record = good + bytes(len(INPUT_DTYPE.names or ()) * 4 - 1)
 

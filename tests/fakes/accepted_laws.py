@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from firmware_protocol._generated import ENUM_BY_NAME, PARAMETERS
+from firmware_protocol._generated import PARAMETERS
 from firmware_protocol.layout import Parameter, Value
-from firmware_protocol.parameter_values import STEP_SHARE, is_too_near
+from firmware_protocol.parameter_values import STEP_SHARE, choices_of, is_too_near
 from firmware_protocol.parameters import default_config, violations
 from sim_device.firmware.python.law import INPUT_DTYPE
 
@@ -89,7 +89,7 @@ def value_of(row: Parameter, random: np.random.Generator) -> Value:
     if row.type == "text":
         return _shaped(row, [""] * row.count)
     if row.enum is not None:
-        names = list(ENUM_BY_NAME[row.enum].__members__)
+        names = choices_of(row)
         same = random.random() < 0.3
         chosen = [names[random.integers(len(names))] for _ in range(row.count)]
         return _shaped(row, chosen[:1] * row.count if same else chosen)

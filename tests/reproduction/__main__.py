@@ -310,7 +310,7 @@ def fixed_ratio_at(speed_kmh: float) -> float:
         "battery_voltage_v": 36.0,
         "motor_temperature_degc": 25.0,
         "controller_temperature_degc": 25.0,
-        "mode": float(slots.index(("FIXED", 1.0))),
+        "mode": float(slots.index(("fixed", 1.0))),
     }
     law = AssistLaw(config)
     for _ in range(SETTLED_STEPS):

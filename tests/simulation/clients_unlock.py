@@ -11,6 +11,7 @@ from backend.device.ebl.operations.config_transaction import CommitUnanswered, w
 from backend.errors import ConfigConflict, PeerProtocolError, TokenNeeded
 from firmware_protocol._generated import Access
 from firmware_protocol.layout import Value
+from firmware_protocol.spelling import member_of
 from firmware_protocol.unlock_token import Challenge, Token
 from tests.fakes.maker import Maker
 from tests.simulation.checker import MARKER, Intent
@@ -158,7 +159,7 @@ def challenge_of(error: TokenNeeded) -> Challenge:
     return Challenge(
         bytes.fromhex(str(asked["uid"])),
         bytes.fromhex(str(asked["nonce"])),
-        Access[str(asked["level"])],
+        member_of(Access, str(asked["level"])),
         int(asked["expires_us"]),
         bytes.fromhex(str(asked["image"])),
     )

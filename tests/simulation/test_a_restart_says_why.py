@@ -35,7 +35,7 @@ def test_a_unit_that_hung_is_greeted_again_with_its_cause_and_its_fault(
     bench.run_until(lambda: bench.session.state is LinkState.READY)
 
     assert identity(bench).reset_cause == cause
-    assert bench.session.unit_state.faults_active == ("SAFE_STOP",)
+    assert bench.session.unit_state.faults_active == ("safe_stop",)
 
 
 def test_a_firmware_that_cannot_tell_is_connected_all_the_same() -> None:

@@ -386,7 +386,7 @@ def test_a_fault_comes_with_what_the_bike_did_and_can_be_forgotten() -> None:
     bench.run(2.0)
     (over,) = bench.ask(fault_frames())
 
-    assert (fault.name, fault.active, fault.count) == ("BATTERY_LOW", True, 1)
+    assert (fault.name, fault.active, fault.count) == ("battery_low", True, 1)
     assert fault.frozen is not None
     voltage_v = fault.frozen.channels["battery_voltage_v"]
     assert voltage_v is not None

@@ -13,6 +13,7 @@ from backend.device.ebl.operations.config_transaction import read_config, write_
 from backend.errors import AccessDenied, NotStandingStill, TokenNeeded
 from firmware_protocol._generated import Access
 from firmware_protocol.layout import Value
+from firmware_protocol.spelling import member_of
 from firmware_protocol.unlock_token import Challenge, Token
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.bench import Bench
@@ -52,7 +53,7 @@ def challenge_of(error: TokenNeeded) -> Challenge:
     return Challenge(
         bytes.fromhex(str(asked["uid"])),
         bytes.fromhex(str(asked["nonce"])),
-        Access[str(asked["level"])],
+        member_of(Access, str(asked["level"])),
         int(asked["expires_us"]),
         bytes.fromhex(str(asked["image"])),
     )
@@ -104,7 +105,7 @@ def test_a_factory_parameter_is_asked_for_at_the_factory_s_level() -> None:
 
     error = refusal(bench, {"wheel_pulses_per_turn": 18})
     assert isinstance(error, TokenNeeded)
-    assert error.challenge["level"] == "FACTORY"
+    assert error.challenge["level"] == "factory"
 
     token = MAKER.sign(challenge_of(error))
     bench.ask(write_config(bench.ask(read_config()), {"wheel_pulses_per_turn": 18}, token=token))
@@ -116,7 +117,7 @@ def test_a_wheel_beyond_its_band_is_named_with_what_may_be_set_and_what_to_do() 
     error = refusal(bench, {"wheel_circumference_m": 1.6, "torque_filter_s": 0.4})
 
     assert isinstance(error, TokenNeeded)
-    assert error.challenge["level"] == "FACTORY"
+    assert error.challenge["level"] == "factory"
     assert [(f.field, f.code) for f in error.fields] == [("wheel_circumference_m", "outside_band")]
     assert "from 1.9905131 to 2.156389 it may be set here" in error.message
     assert "within 4 % of the factory's 2.073451" in error.message

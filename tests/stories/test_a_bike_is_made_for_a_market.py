@@ -14,7 +14,7 @@ from tests.fakes.server import SpindleServer, eventually
 @pytest.fixture(scope="module")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     """One unit made for Japan, at rest."""
-    devices = ["sim:tokyo?market=JAPAN&scenario=none"]
+    devices = ["sim:tokyo?market=japan&scenario=none"]
     running = SpindleServer(tmp_path_factory.mktemp("market"), devices).start()
     yield running
     running.stop()
@@ -23,7 +23,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
 def test_a_unit_for_japan_ends_assist_at_24_and_says_so(server: SpindleServer) -> None:
     limits = server.get(f"/devices/{server.ready_device()}/limits")
 
-    assert limits["market"] == "JAPAN"
+    assert limits["market"] == "japan"
     assert limits["assist_cutoff_kmh"] == 24.0
     assert limits["effective_assist_cutoff_kmh"] == 24.0
 
@@ -32,18 +32,18 @@ def test_a_dealer_does_not_move_it_to_another_market(server: SpindleServer) -> N
     device = server.ready_device()
     limits = server.get(f"/devices/{device}/limits")
 
-    response = server.client.put(f"/devices/{device}/limits", json=limits | {"market": "EU_EPAC"})
+    response = server.client.put(f"/devices/{device}/limits", json=limits | {"market": "eu_epac"})
 
     assert response.status_code == 403
-    assert server.get(f"/devices/{device}/limits")["market"] == "JAPAN"
+    assert server.get(f"/devices/{device}/limits")["market"] == "japan"
 
 
 def test_a_market_that_is_none_is_named_with_those_there_are(server: SpindleServer) -> None:
-    device = server.ask("POST", "/devices", json={"url": "sim:mars?market=MARS"})["id"]
+    device = server.ask("POST", "/devices", json={"url": "sim:mars?market=mars"})["id"]
 
     seen = eventually(
-        lambda: server.get(f"/devices/{device}"), lambda seen: "MARS" in str(seen["reason"])
+        lambda: server.get(f"/devices/{device}"), lambda seen: "mars" in str(seen["reason"])
     )
 
-    assert "EU_EPAC" in seen["reason"]
+    assert "eu_epac" in seen["reason"]
     server.ask("DELETE", f"/devices/{device}")

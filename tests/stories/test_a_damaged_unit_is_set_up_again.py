@@ -46,7 +46,7 @@ def active_faults(server: SpindleServer, device: str) -> list[str]:
 def test_writing_what_stands_there_already_ends_the_walking_pace(running: SpindleServer) -> None:
     device = running.ready_device()
     before = running.get(f"/devices/{device}/config")
-    assert active_faults(running, device) == ["CONFIG_DEFAULTED"]
+    assert active_faults(running, device) == ["config_defaulted"]
     assert running.get(f"/devices/{device}/limits")["effective_assist_cutoff_kmh"] is None
 
     written = running.ask("PATCH", f"/devices/{device}/config", json=SAME)
@@ -64,10 +64,10 @@ def test_writing_what_stands_there_already_ends_the_walking_pace(running: Spindl
 def test_a_market_that_is_lost_is_never_called_written_by_a_dealer(running: SpindleServer) -> None:
     device = running.ready_device()
 
-    for market in ("EU_EPAC", "US_CLASS_3"):
+    for market in ("eu_epac", "us_class_3"):
         body = {"parameters": {"market": market}}
         response = running.client.patch(f"/devices/{device}/config", json=body)
 
         assert response.status_code == 403
         assert "the maker" in response.json()["detail"]
-    assert active_faults(running, device) == ["CONFIG_DEFAULTED"]
+    assert active_faults(running, device) == ["config_defaulted"]

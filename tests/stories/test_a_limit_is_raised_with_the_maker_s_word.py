@@ -66,6 +66,7 @@ def test_the_api_s_refusal_carries_the_challenge(shop: SpindleServer) -> None:
 
     assert response.status_code == 403
     assert response.json()["code"] == "token_needed"
+    assert response.json()["challenge"]["level"] == "dealer"
     assert set(response.json()["challenge"]) == {
         "uid", "nonce", "level", "ttl_s", "expires_us", "image", "image_sha512",
     }  # fmt: skip

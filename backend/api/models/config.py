@@ -35,7 +35,8 @@ class Free(Answer):
 class Parameter(Answer):
     """What a parameter is, and its value in the unit now.
 
-    `min`, `max` and `choices` are the unit's own bounds; enumerations are given by name.
+    `min`, `max` and `choices` are the unit's own bounds. Choices are in lower case, but for the
+    labels of rules, NB NS ZO PS PB; they are taken in any case.
     """
 
     id: int
@@ -47,7 +48,7 @@ class Parameter(Answer):
     min: float | None
     max: float | None
     default: ParameterValue
-    access: Literal["RIDER", "DEALER", "FACTORY"]
+    access: Literal["rider", "dealer", "factory"]
     value: ParameterValue | None
     free: Free | None = Field(
         default=None, description="Only of parameters that are held near the factory's value."

@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 from backend.api.models.base import Answer, Question
 
+
+def in_lower_case(value: Any) -> Any:
+    """A choice as it is written; programs of version 0.2 send `JAPAN`."""
+    return value.lower() if isinstance(value, str) else value
+
+
+AnyCase = BeforeValidator(in_lower_case)
 Label = Literal["NB", "NS", "ZO", "PS", "PB"]
 Table = Literal["first", "second"]
-Market = Literal["EU_EPAC", "UK", "US_CLASS_1", "US_CLASS_2", "US_CLASS_3", "JAPAN", "CHINA"]
+Inference = Annotated[Literal["mamdani_centroid", "weighted_average"], AnyCase]
+Law = Annotated[Literal["off", "fixed", "fuzzy"], AnyCase]
+Taper = Annotated[Literal["taper_speeds", "none", "japan_1_to_1", "japan_2_to_1"], AnyCase]
+Market = Annotated[
+    Literal["eu_epac", "uk", "us_class_1", "us_class_2", "us_class_3", "japan", "china"], AnyCase
+]
 Five = Field(min_length=5, max_length=5)
 FivePoints = Annotated[list[float], Five]
 RuleRow = Annotated[list[Label], Five]
@@ -26,7 +38,7 @@ class FuzzyTable(LawModel):
     """Five by five rules: `rules[speed][torque rate]`."""
 
     name: str = Field(max_length=24)
-    inference: Literal["mamdani_centroid", "weighted_average"]
+    inference: Inference
     speed_points_kmh: FivePoints
     torque_rate_points: FivePoints
     gain_points: FivePoints
@@ -37,9 +49,9 @@ class AssistMode(LawModel):
     """One of the five slots the rider's switch selects."""
 
     name: str = Field(max_length=16)
-    law: Literal["off", "fixed", "fuzzy"]
+    law: Law
     ratio: float
-    taper: Literal["taper_speeds", "none", "japan_1_to_1", "japan_2_to_1"] = Field(
+    taper: Taper = Field(
         default="taper_speeds", description="How the fixed law's ratio falls with speed."
     )
     table: Table = Field(default="first", description="Which of the two fuzzy tables.")

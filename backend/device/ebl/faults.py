@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from backend.device.faults import UnitFault
 from backend.device.live_values import LiveValues
-from firmware_protocol._generated import FAULT_BY_NAME, FaultFlags, Severity
+from firmware_protocol._generated import FAULTS, Severity
+from firmware_protocol.spelling import word_of
 
 FAULT_BITS = 32
-KNOWN = {flag.bit_length() - 1: flag.name for flag in FaultFlags}
+KNOWN = {fault.bit: word_of(fault.name) for fault in FAULTS}
+FAULT_BY_WORD = {word_of(fault.name): fault for fault in FAULTS}
 
 UNKNOWN = "This Spindle does not know this fault; the unit's firmware is newer."
 
 
 def fault_name(bit: int) -> str:
-    """The fault of a bit; one of a newer firmware is `FAULT_n`."""
-    return KNOWN.get(bit) or f"FAULT_{bit}"
+    """The fault of a bit; one of a newer firmware is `fault_n`."""
+    return KNOWN.get(bit) or f"fault_{bit}"
 
 
 def fault_names(flags: int) -> tuple[str, ...]:
@@ -27,13 +29,13 @@ def described(
 ) -> UnitFault:
     """A fault by its name with its words; one of a newer firmware says that it is unknown, and
     counts as latched."""
-    fault = FAULT_BY_NAME.get(name)
+    fault = FAULT_BY_WORD.get(name)
     return UnitFault(
         name,
         fault.rider_text if fault else UNKNOWN,
         active,
         count,
         frozen,
-        Severity(fault.severity if fault else Severity.LATCHED).name.lower(),
+        word_of(Severity(fault.severity if fault else Severity.LATCHED).name),
         fault.mechanic_text if fault else UNKNOWN,
     )

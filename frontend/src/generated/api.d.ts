@@ -1499,7 +1499,7 @@ export interface components {
              * Market
              * @description Whose law has the last word.
              */
-            market?: ("EU_EPAC" | "UK" | "US_CLASS_1" | "US_CLASS_2" | "US_CLASS_3" | "JAPAN" | "CHINA") | null;
+            market?: ("eu_epac" | "uk" | "us_class_1" | "us_class_2" | "us_class_3" | "japan" | "china") | null;
             /** Assist Cutoff Extra Kmh */
             assist_cutoff_extra_kmh?: number | null;
             /**
@@ -1616,7 +1616,8 @@ export interface components {
          * Parameter
          * @description What a parameter is, and its value in the unit now.
          *
-         *     `min`, `max` and `choices` are the unit's own bounds; enumerations are given by name.
+         *     `min`, `max` and `choices` are the unit's own bounds. Choices are in lower case, but for the
+         *     labels of rules, NB NS ZO PS PB; they are taken in any case.
          */
         Parameter: {
             /** Id */
@@ -1641,7 +1642,7 @@ export interface components {
              * Access
              * @enum {string}
              */
-            access: "RIDER" | "DEALER" | "FACTORY";
+            access: "rider" | "dealer" | "factory";
             /** Value */
             value: number | string | (number | string)[] | (number | string)[][] | null;
             /** @description Only of parameters that are held near the factory's value. */
@@ -2336,27 +2337,6 @@ export interface components {
             next: string | null;
         };
         /**
-         * WearCounters
-         * @description What the unit knows of its own wear. What is not saved yet is lost with its supply.
-         */
-        WearCounters: {
-            /** Distance M */
-            distance_m: number;
-            /** Operating S */
-            operating_s: number;
-            /** Saved Distance M */
-            saved_distance_m: number;
-            /** Saved Operating S */
-            saved_operating_s: number;
-            /** Config Slots */
-            config_slots: components["schemas"]["ConfigSlot"][];
-            /**
-             * Runs On Default
-             * @description Neither slot is good: the factory's values apply.
-             */
-            runs_on_default: boolean;
-        };
-        /**
          * Upload
          * @description Where a file stands. `code` and `detail` say why it is not a whole ride.
          *
@@ -2401,6 +2381,27 @@ export interface components {
             items: components["schemas"]["Upload"][];
             /** Next */
             next: string | null;
+        };
+        /**
+         * WearCounters
+         * @description What the unit knows of its own wear. What is not saved yet is lost with its supply.
+         */
+        WearCounters: {
+            /** Distance M */
+            distance_m: number;
+            /** Operating S */
+            operating_s: number;
+            /** Saved Distance M */
+            saved_distance_m: number;
+            /** Saved Operating S */
+            saved_operating_s: number;
+            /** Config Slots */
+            config_slots: components["schemas"]["ConfigSlot"][];
+            /**
+             * Runs On Default
+             * @description Neither slot is good: the factory's values apply.
+             */
+            runs_on_default: boolean;
         };
         /**
          * Problem

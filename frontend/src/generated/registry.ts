@@ -15,8 +15,8 @@ export interface ChannelRow {
 }
 
 export interface FaultRow {
-  /** WARNING, ASSIST_OFF or LATCHED */
-  readonly severity: string;
+  /** How it ends: by itself, or where it is latched only when it is cleared. */
+  readonly severity: "warning" | "assist_off" | "latched";
   /** What the rider reads: what to do now. */
   readonly rider_text: string;
   /** What a mechanic measures and mends. */
@@ -32,41 +32,41 @@ export const RESTING_MOTOR_RPM = 30;
 /** Bit numbers of the channels that are flags. */
 export const FLAGS = {
   limit_flags: {
-    TAPER: 0,
-    SPEED_CUTOFF: 1,
-    PEDAL_STOP: 2,
-    BRAKE: 3,
-    RAMP_UP: 4,
-    RAMP_DOWN: 5,
-    MOTOR_TORQUE: 6,
-    BATTERY_CURRENT: 7,
-    MOTOR_SPEED: 8,
-    BATTERY_VOLTAGE: 9,
-    INPUT_REFUSED: 10,
-    MODE_OFF: 11,
-    TEMPERATURE: 12,
-    FAULT: 13,
-    MARKET: 14,
+    taper: 0,
+    speed_cutoff: 1,
+    pedal_stop: 2,
+    brake: 3,
+    ramp_up: 4,
+    ramp_down: 5,
+    motor_torque: 6,
+    battery_current: 7,
+    motor_speed: 8,
+    battery_voltage: 9,
+    input_refused: 10,
+    mode_off: 11,
+    temperature: 12,
+    fault: 13,
+    market: 14,
   },
   fault_flags: {
-    TORQUE_SENSOR: 0,
-    SPEED_SENSOR: 1,
-    BATTERY_LOW: 2,
-    CONFIG_DEFAULTED: 3,
-    OVER_CURRENT: 4,
-    UNDER_VOLTAGE: 5,
-    BATTERY_CUT: 6,
-    MOTOR_TEMPERATURE: 7,
-    CONTROLLER_TEMPERATURE: 8,
-    TORQUE_STUCK: 9,
-    TORQUE_DRIFT: 10,
-    TORQUE_LINK: 11,
-    SPEED_MISMATCH: 12,
-    SPEED_STUCK: 13,
-    MOTOR_HALL: 14,
-    NOT_PROVISIONED: 16,
-    LAW_RESULT: 17,
-    SAFE_STOP: 18,
+    torque_sensor: 0,
+    speed_sensor: 1,
+    battery_low: 2,
+    config_defaulted: 3,
+    over_current: 4,
+    under_voltage: 5,
+    battery_cut: 6,
+    motor_temperature: 7,
+    controller_temperature: 8,
+    torque_stuck: 9,
+    torque_drift: 10,
+    torque_link: 11,
+    speed_mismatch: 12,
+    speed_stuck: 13,
+    motor_hall: 14,
+    not_provisioned: 16,
+    law_result: 17,
+    safe_stop: 18,
   },
 } as const;
 
@@ -394,93 +394,93 @@ export const CHANNELS = {
 export type ChannelName = keyof typeof CHANNELS;
 
 export const FAULTS = {
-  TORQUE_SENSOR: {
-    severity: "LATCHED",
+  torque_sensor: {
+    severity: "latched",
     rider_text: "No assist: the pedal sensor is faulty. Ride on without it and see your dealer.",
     mechanic_text: "The torque reading is missing or at the end of its range. Check the sensor's connection and the bridge for an open or shorted arm, then calibrate the offset.",
   },
-  SPEED_SENSOR: {
-    severity: "LATCHED",
+  speed_sensor: {
+    severity: "latched",
     rider_text: "No assist: the speed sensor is faulty. Check that the magnet sits at the sensor.",
     mechanic_text: "The speed is missing, impossible, or not refreshed. Check magnet, gap and cable.",
   },
-  BATTERY_LOW: {
-    severity: "ASSIST_OFF",
+  battery_low: {
+    severity: "assist_off",
     rider_text: "The battery is empty. Charge it.",
     mechanic_text: "The voltage stayed below battery_voltage_v_min for half a second. If the charge shows more, measure the sag under load: the pack or its contacts are worn.",
   },
-  CONFIG_DEFAULTED: {
-    severity: "LATCHED",
+  config_defaulted: {
+    severity: "latched",
     rider_text: "Walking pace only: settings of the bike were lost. See your dealer.",
     mechanic_text: "Part of the configuration in flash is damaged, and defaults stand in its place. Restore a backup; what the maker sets needs the maker's token. If it comes back, the flash is worn.",
   },
-  OVER_CURRENT: {
-    severity: "LATCHED",
+  over_current: {
+    severity: "latched",
     rider_text: "No assist: the motor drew too much current. Switch the bike off and on at standstill; if it comes back, see your dealer.",
     mechanic_text: "The motor's or the battery's current passed its limit by half. Look for a shorted phase, a blocked gear or a failed bridge before clearing.",
   },
-  UNDER_VOLTAGE: {
-    severity: "LATCHED",
+  under_voltage: {
+    severity: "latched",
     rider_text: "No assist: the supply broke down. Check that the battery is locked in place, then switch off and on.",
     mechanic_text: "The voltage fell 3 V below battery_voltage_v_min, and below 27 V. Check the contacts and each cell group under load.",
   },
-  BATTERY_CUT: {
-    severity: "LATCHED",
+  battery_cut: {
+    severity: "latched",
     rider_text: "No assist: the battery switched itself off. Switch it on again at standstill.",
     mechanic_text: "The battery's management opened its switch: over-current, empty cell or temperature. Read the battery's own log.",
   },
-  MOTOR_TEMPERATURE: {
-    severity: "LATCHED",
+  motor_temperature: {
+    severity: "latched",
     rider_text: "No assist: the motor is too hot. Let it cool down, then switch off and on.",
     mechanic_text: "The winding reached 130 degC although the assist is lowered from 110 degC on. It clears below 110 degC. Check the sensor, the gears for drag, and how the bike is ridden.",
   },
-  CONTROLLER_TEMPERATURE: {
-    severity: "LATCHED",
+  controller_temperature: {
+    severity: "latched",
     rider_text: "No assist: the drive unit is too hot. Let it cool down, then switch off and on.",
     mechanic_text: "The controller reached 100 degC although the assist is lowered from 85 degC on. It clears below 85 degC. Check the heat path from board to housing.",
   },
-  TORQUE_STUCK: {
-    severity: "LATCHED",
+  torque_stuck: {
+    severity: "latched",
     rider_text: "No assist: the pedal sensor does not follow your feet. See your dealer.",
     mechanic_text: "The torque reading did not move by two counts while the cranks turned five times under power, although they had before. Check the amplifier and the rotor board; legs always vary.",
   },
-  TORQUE_DRIFT: {
-    severity: "ASSIST_OFF",
+  torque_drift: {
+    severity: "assist_off",
     rider_text: "No assist: the pedal sensor has moved. Take your feet off the pedals and wait a moment; if it stays, see your dealer.",
     mechanic_text: "At rest the torque read more than 3 Nm for five seconds without a foot's movement. Calibrate the offset; if it moves again, the bond of a gauge is failing.",
   },
-  TORQUE_LINK: {
-    severity: "ASSIST_OFF",
+  torque_link: {
+    severity: "assist_off",
     rider_text: "Assist pauses: the signal of the pedal sensor is interrupted.",
     mechanic_text: "No good word came from the rotor for a quarter of a second. Check the coils' gap and alignment, and the rotor's supply; see the link's counters.",
   },
-  SPEED_MISMATCH: {
-    severity: "LATCHED",
+  speed_mismatch: {
+    severity: "latched",
     rider_text: "No assist: the speed sensor does not follow the motor. Check that the magnet sits at the sensor.",
     mechanic_text: "The motor drove the chain at three times the speed the wheel showed, for a second. Check magnet and sensor, then the gear, teeth and wheel set in the unit.",
   },
-  SPEED_STUCK: {
-    severity: "LATCHED",
+  speed_stuck: {
+    severity: "latched",
     rider_text: "No assist: the speed sensor always shows the same. Check that the magnet sits at the sensor.",
     mechanic_text: "The speed kept one value for five turns of the wheel while the motor that drives it changed its speed by a tenth. Turn the wheel by hand and watch the reading: sensor, cable, and anything that sends pulses of its own.",
   },
-  MOTOR_HALL: {
-    severity: "LATCHED",
+  motor_hall: {
+    severity: "latched",
     rider_text: "No assist: the motor does not tell its position. You can pedal home; see your dealer.",
     mechanic_text: "The motor's speed was missing, or under a quarter of what the cranks demand while it should push, for half a second. Check plug, supply and signals of the Hall sensors, then the phases, and whether the motor turns freely.",
   },
-  NOT_PROVISIONED: {
-    severity: "LATCHED",
+  not_provisioned: {
+    severity: "latched",
     rider_text: "No assist: this drive unit was never set up for a country. See your dealer.",
     mechanic_text: "The flash holds no configuration and never did: the factory's last step is missing. Only the maker can provision the unit, or write a whole configuration with a token.",
   },
-  LAW_RESULT: {
-    severity: "LATCHED",
+  law_result: {
+    severity: "latched",
     rider_text: "No assist: the drive unit could not compute it. Switch the bike off and on at standstill; if it comes back, see your dealer.",
     mechanic_text: "A control step gave no number, or one beyond the motor's limit, and the motor got none. No configuration does that: the unit's memory or program is damaged. Read it out for the maker and replace the unit.",
   },
-  SAFE_STOP: {
-    severity: "LATCHED",
+  safe_stop: {
+    severity: "latched",
     rider_text: "No assist: the drive unit stopped and started again by itself. Switch the bike off and on at standstill; if it comes back, see your dealer.",
     mechanic_text: "The program hung, met a processor fault or missed its control steps, and the motor was switched off by hardware. START_INFO tells which. Check the supply and the board for water first, then ask the maker.",
   },

@@ -8,15 +8,15 @@ import numpy as np
 import numpy.typing as npt
 
 from firmware_protocol._generated import Market
+from firmware_protocol.spelling import member_of, words_of
 from sim_device.firmware.python._native import ffi, lib
 
-MARKETS = tuple(Market.__members__)
-"""Names as in the registry."""
+MARKETS = words_of(Market)
 
 
 def market_speed_kmh(market: str) -> float:
     """The speed at and above which the market allows no assist. Raises KeyError if it is none."""
-    return _shortest(lib.market_profile_of(Market[market]).cutoff_kmh)
+    return _shortest(lib.market_profile_of(member_of(Market, market)).cutoff_kmh)
 
 
 def cutoff_that_holds_kmh(
@@ -27,7 +27,7 @@ def cutoff_that_holds_kmh(
     Raises KeyError if there is no such market.
     """
     config: Any = ffi.new("assist_config *")
-    config.market = Market[market]
+    config.market = member_of(Market, market)
     config.assist_cutoff_kmh = assist_cutoff_kmh
     config.assist_cutoff_extra_kmh = assist_cutoff_extra_kmh
     return _shortest(lib.market_cutoff_kmh(config))
@@ -35,7 +35,7 @@ def cutoff_that_holds_kmh(
 
 def market_ratios(market: str, speeds_kmh: npt.ArrayLike) -> npt.NDArray[np.float32] | None:
     """Largest assist per rider torque at each speed, (n,); None where the market names none."""
-    if not lib.market_profile_of(Market[market]).ratio_falls:
+    if not lib.market_profile_of(member_of(Market, market)).ratio_falls:
         return None
     speeds = np.atleast_1d(np.asarray(speeds_kmh, np.float32))
     return np.array([lib.market_japan_ratio(float(speed)) for speed in speeds], np.float32)

@@ -22,7 +22,7 @@ def written(folder: Path, **changed: object) -> Path:
     challenge = {
         "uid": CHALLENGE.uid.hex(),
         "nonce": CHALLENGE.nonce.hex(),
-        "level": "DEALER",
+        "level": "dealer",
         "ttl_s": 60,
         "expires_us": CHALLENGE.expires_us,
         "image": CHALLENGE.image.hex(),
@@ -45,14 +45,15 @@ def test_a_private_key_is_its_owner_s_alone_and_is_never_overwritten(
     assert "never overwritten" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("level", ["dealer", "DEALER"], ids=["of today", "of version 0.2"])
 def test_a_token_is_signed_for_exactly_the_challenge_and_says_what_it_allows(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], level: str
 ) -> None:
     key = tmp_path / "maker.pem"
     main(["unlock", "keygen", str(key)])
     capsys.readouterr()
 
-    assert main(["unlock", "sign", str(key), str(written(tmp_path))]) == 0
+    assert main(["unlock", "sign", str(key), str(written(tmp_path, level=level))]) == 0
 
     said = capsys.readouterr()
     token = Token.from_hex(said.out.strip())
@@ -61,12 +62,14 @@ def test_a_token_is_signed_for_exactly_the_challenge_and_says_what_it_allows(
     )
     public.verify(token.signature, signed_message(CHALLENGE, token.expires_us))
     assert token.expires_us == CHALLENGE.expires_us
+    assert "level dealer, allows" in said.err
     assert "assist_cutoff_kmh" in said.err
     assert "25.0 km/h" in said.err
 
 
 @pytest.mark.parametrize(
-    "wrong", [{"image": "00"}, {"level": "KING"}, {"uid": "no hex"}, {"expires_us": "soon"}]
+    "wrong",
+    [{"image": "00"}, {"level": "king"}, {"level": 1}, {"uid": "no hex"}, {"expires_us": "soon"}],
 )
 def test_what_is_no_challenge_is_not_signed(tmp_path: Path, wrong: dict[str, object]) -> None:
     key = tmp_path / "maker.pem"

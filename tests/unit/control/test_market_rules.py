@@ -15,6 +15,7 @@ from backend.control.market import MARKET_WORDS, MARKETS
 from backend.domain.assist_mode import AssistMode, AssistModes
 from backend.domain.fuzzy_table import THESIS_TABLE
 from firmware_protocol._generated import Market
+from firmware_protocol.spelling import words_of
 
 OFF = AssistMode("off", "off", 0.0)
 TAPER_SPEEDS_KMH = (15.0, 24.0)
@@ -32,20 +33,20 @@ def found(report: LintReport, code: str) -> list[Finding]:
 
 
 def test_every_market_of_the_registry_has_a_profile_and_words() -> None:
-    assert MARKETS == tuple(Market.__members__) == tuple(MARKET_WORDS)
+    assert MARKETS == words_of(Market) == tuple(MARKET_WORDS)
 
 
 @pytest.mark.parametrize(
     ("market", "configured_kmh", "extra_kmh", "holds_kmh"),
     [
-        ("EU_EPAC", 25.0, 0.0, 25.0),
-        ("EU_EPAC", 20.0, 0.0, 20.0),
-        ("EU_EPAC", 20.0, 10.0, 20.0),
-        ("UK", 25.0, 0.0, 15.5 * 1.609344),
-        ("JAPAN", 25.0, 0.0, 24.0),
-        ("US_CLASS_1", 25.0, 0.0, 25.0),
-        ("US_CLASS_1", 25.0, 20.0, 20 * 1.609344),
-        ("US_CLASS_3", 25.0, 10.0, 35.0),
+        ("eu_epac", 25.0, 0.0, 25.0),
+        ("eu_epac", 20.0, 0.0, 20.0),
+        ("eu_epac", 20.0, 10.0, 20.0),
+        ("uk", 25.0, 0.0, 15.5 * 1.609344),
+        ("japan", 25.0, 0.0, 24.0),
+        ("us_class_1", 25.0, 0.0, 25.0),
+        ("us_class_1", 25.0, 20.0, 20 * 1.609344),
+        ("us_class_3", 25.0, 10.0, 35.0),
         (None, 25.0, 10.0, 25.0),
     ],
 )
@@ -65,23 +66,23 @@ def test_the_lower_of_setting_and_market_ends_assist(
 
 
 def test_a_cutoff_above_the_market_s_is_told_with_the_speed_that_holds() -> None:
-    warning = found(judged("JAPAN"), "cutoff_above_market")[0]
+    warning = found(judged("japan"), "cutoff_above_market")[0]
 
     assert warning.where == "assist_cutoff_kmh"
     assert "25 km/h" in warning.message
     assert "24 km/h: the market, Japan, allows no more" in warning.message
-    assert warning.values == {"market": "JAPAN", "speed_kmh": 24.0}
+    assert warning.values == {"market": "japan", "speed_kmh": 24.0}
 
 
 @pytest.mark.parametrize("configured_kmh", [24.0, 22.1, 22.3, 0.0])
 def test_a_cutoff_the_market_allows_is_not_complained_of(configured_kmh: float) -> None:
-    report = judged("JAPAN", limits={"assist_cutoff_kmh": configured_kmh})
+    report = judged("japan", limits={"assist_cutoff_kmh": configured_kmh})
 
     assert found(report, "cutoff_above_market") == []
 
 
 def test_an_extra_that_the_market_does_not_give_is_told_at_its_field() -> None:
-    report = judged("EU_EPAC", limits={"assist_cutoff_extra_kmh": 10.0})
+    report = judged("eu_epac", limits={"assist_cutoff_extra_kmh": 10.0})
 
     assert [f.where for f in found(report, "cutoff_above_market")] == ["assist_cutoff_extra_kmh"]
 
@@ -89,7 +90,7 @@ def test_an_extra_that_the_market_does_not_give_is_told_at_its_field() -> None:
 def test_rules_whose_speeds_the_market_takes_away_are_named_by_row() -> None:
     fast = replace(THESIS_TABLE, speed_points_kmh=(5.0, 10.0, 20.0, 25.0, 30.0))
 
-    japan, eu = judged("JAPAN", table=fast), judged("EU_EPAC", table=fast)
+    japan, eu = judged("japan", table=fast), judged("eu_epac", table=fast)
 
     assert [f.where for f in found(japan, "peak_above_market")] == ["rules[3]"]
     assert [f.where for f in found(japan, "row_above_market")] == ["rules[4]"]
@@ -99,21 +100,21 @@ def test_rules_whose_speeds_the_market_takes_away_are_named_by_row() -> None:
 
 
 def test_a_setting_below_the_market_s_speed_is_the_reason_that_is_told() -> None:
-    report = judged("JAPAN", limits={"assist_cutoff_kmh": 18.0})
+    report = judged("japan", limits={"assist_cutoff_kmh": 18.0})
 
     assert [f.where for f in found(report, "row_not_reached")] == ["rules[4]"]
     assert found(report, "row_above_market") == []
 
 
 def test_the_thesis_table_in_the_eu_has_nothing_to_explain_to_its_market() -> None:
-    report = judged("EU_EPAC", AssistMode("sport", "fuzzy", 1.0))
+    report = judged("eu_epac", AssistMode("sport", "fuzzy", 1.0))
 
     codes = {finding.code for finding in (*report.warnings, *report.notes)}
     assert not {code for code in codes if code.endswith("_market")}
 
 
 def test_a_fuzzy_mode_of_ratio_one_passes_japans_envelope_from_14_2_km_h_on() -> None:
-    warning = found(judged("JAPAN", AssistMode("sport", "fuzzy", 1.0)), "ratio_above_market")[0]
+    warning = found(judged("japan", AssistMode("sport", "fuzzy", 1.0)), "ratio_above_market")[0]
 
     assert warning.where == "modes[0].ratio"
     assert warning.message.startswith("sport: from 14.2 km/h on")
@@ -123,18 +124,18 @@ def test_a_fuzzy_mode_of_ratio_one_passes_japans_envelope_from_14_2_km_h_on() ->
 def test_a_fuzzy_mode_is_judged_with_the_table_it_uses() -> None:
     second = AssistMode("sport", "fuzzy", 1.0, table="second")
 
-    assert found(judged("JAPAN", second), "ratio_above_market") == []
-    assert len(found(judged("JAPAN", second), "table_not_used")) == 1
-    assert len(found(judged("JAPAN", second, which="second"), "ratio_above_market")) == 1
-    assert found(judged("JAPAN", second, which="second"), "table_not_used") == []
+    assert found(judged("japan", second), "ratio_above_market") == []
+    assert len(found(judged("japan", second), "table_not_used")) == 1
+    assert len(found(judged("japan", second, which="second"), "ratio_above_market")) == 1
+    assert found(judged("japan", second, which="second"), "table_not_used") == []
 
 
 def test_a_demand_beyond_the_motor_is_told_of_modes_with_this_table_only() -> None:
     modes = (AssistMode("first", "fuzzy", 1.0), AssistMode("second", "fuzzy", 1.0, table="second"))
     limits = {"motor_torque_nm_max": 2.0}
 
-    first = found(judged("EU_EPAC", *modes, limits=limits), "demand_beyond_motor")
-    second = found(judged("EU_EPAC", *modes, limits=limits, which="second"), "demand_beyond_motor")
+    first = found(judged("eu_epac", *modes, limits=limits), "demand_beyond_motor")
+    second = found(judged("eu_epac", *modes, limits=limits, which="second"), "demand_beyond_motor")
 
     assert [finding.where for finding in first] == ["modes[0]"]
     assert [finding.where for finding in second] == ["modes[1]"]
@@ -153,19 +154,19 @@ def test_a_demand_beyond_the_motor_is_told_of_modes_with_this_table_only() -> No
 )
 def test_the_fixed_law_is_judged_with_its_taper(taper: str, ratio: float, passes: bool) -> None:
     report = judged(
-        "JAPAN", AssistMode("tour", "fixed", ratio, taper), taper_speeds_kmh=TAPER_SPEEDS_KMH
+        "japan", AssistMode("tour", "fixed", ratio, taper), taper_speeds_kmh=TAPER_SPEEDS_KMH
     )
 
     assert bool(found(report, "ratio_above_market")) is passes
 
 
 def test_a_taper_nobody_told_is_not_judged() -> None:
-    report = judged("JAPAN", AssistMode("tour", "fixed", 3.0))
+    report = judged("japan", AssistMode("tour", "fixed", 3.0))
 
     assert found(report, "ratio_above_market") == []
 
 
 def test_only_a_market_that_names_a_ratio_has_one_to_keep() -> None:
-    report = judged("US_CLASS_1", AssistMode("tour", "fixed", 3.0, "none"))
+    report = judged("us_class_1", AssistMode("tour", "fixed", 3.0, "none"))
 
     assert found(report, "ratio_above_market") == found(report, "ratio_does_not_fall") == []

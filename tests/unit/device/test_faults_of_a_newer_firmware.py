@@ -42,13 +42,13 @@ def listed(active: int) -> list[UnitFault]:
 def test_an_unknown_fault_is_named_by_its_bit() -> None:
     assert NEWER_BIT not in KNOWN
 
-    assert fault_names(FaultFlags.TORQUE_SENSOR | 1 << NEWER_BIT) == ("TORQUE_SENSOR", "FAULT_30")
+    assert fault_names(FaultFlags.TORQUE_SENSOR | 1 << NEWER_BIT) == ("torque_sensor", "fault_30")
 
 
 def test_an_active_fault_of_a_newer_firmware_is_listed() -> None:
     found = listed(FaultFlags.TORQUE_SENSOR | 1 << NEWER_BIT)
 
     assert [(one.name, one.active) for one in found] == [
-        ("TORQUE_SENSOR", True),
-        ("FAULT_30", True),
+        ("torque_sensor", True),
+        ("fault_30", True),
     ]

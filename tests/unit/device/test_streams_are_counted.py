@@ -173,7 +173,7 @@ def test_faults_and_the_unit_s_own_frame_count_are_noted() -> None:
     unit.tell(StreamCountsEvent(1, 1, 500, 3, 0))
     bench.run(0.1)
 
-    assert bench.session.unit_state.faults_active == ("BATTERY_LOW",)
+    assert bench.session.unit_state.faults_active == ("battery_low",)
     assert [event.name for event in bench.of(UnitEvent)] == ["FAULT_SET", "FAULT_CLEARED"]
     assert bench.session.link_statistics().unit_frames_dropped == 3
 

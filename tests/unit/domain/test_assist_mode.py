@@ -68,7 +68,7 @@ def test_a_slot_s_taper_table_ramps_and_torque_come_back() -> None:
     parameters = {**default_config(), **AssistModes.from_json(value).to_parameters()}
 
     assert parameters["mode_tables"] == [0, 0, 0, 0, 1]
-    assert parameters["mode_tapers"][4] == "JAPAN_2_TO_1"
+    assert parameters["mode_tapers"][4] == "japan_2_to_1"
     assert AssistModes.from_parameters(parameters).to_json() == value
 
 

@@ -78,7 +78,7 @@ def test_two_configurations_share_nothing() -> None:
         ({"pedal_stop_ms": -1}, 0, "BELOW_MIN", "must be at least 50 ms, not -1"),
         ({"cog_teeth": True}, 0, "NOT_A_NUMBER", "must be a number"),
         ({"cog_teeth": None}, 0, "NOT_A_NUMBER", "must be a number"),
-        ({"fuzzy_inference": "MAGIC"}, 0, "NOT_A_CHOICE", "MAMDANI_CENTROID, WEIGHTED_AVERAGE"),
+        ({"fuzzy_inference": "MAGIC"}, 0, "NOT_A_CHOICE", "mamdani_centroid, weighted_average"),
         ({"fuzzy_inference": 0}, 0, "NOT_A_CHOICE", "must be one of"),
         ({"mode_ratios": [0, 1, 2, 3, 3.5]}, 4, "ABOVE_MAX", "mode_ratios[4] must be at most 3"),
         ({"mode_ratios": [0, 1]}, 0, "WRONG_SHAPE", "must be a list of 5 values"),
@@ -151,7 +151,7 @@ def test_the_host_names_the_violations_the_golden_images_have(case: dict[str, An
 
 
 def test_changes_travel_as_id_first_index_count_values() -> None:
-    (items,) = parameters.set_items({"pedal_stop_ms": 200, "mode_laws": ["OFF"] * 5})
+    (items,) = parameters.set_items({"pedal_stop_ms": 200, "mode_laws": ["off"] * 5})
 
     assert items.hex(" ") == "02 02 00 05 00 00 00 00 00 06 04 00 01 c8 00"
 

@@ -222,7 +222,7 @@ def test_faults_come_with_words(devices: Devices, workshop: Workshop) -> None:
     heard.wait_for(StreamBlock, count=10)
 
     (fault,) = Inspection(devices).faults(device.id)
-    assert fault.name == "TORQUE_SENSOR"
+    assert fault.name == "torque_sensor"
     assert "see your dealer" in fault.description
     assert "the bridge for an open or shorted arm" in fault.mechanic_text
     assert fault.severity == "latched"

@@ -46,6 +46,12 @@ def bench() -> Iterator[Bench]:
     devices.close()
 
 
+def test_a_choice_is_tried_in_any_case_and_told_in_lower(bench: Bench) -> None:
+    tried = bench.live.set(bench.id, {"fuzzy_inference": "WEIGHTED_AVERAGE"}, 60)
+
+    assert tried.parameters == {"fuzzy_inference": "weighted_average"}
+
+
 def test_a_value_is_tried_over_the_configuration_and_leaves_it_alone(bench: Bench) -> None:
     before = bench.tuning.read_config(bench.id)
 

@@ -117,7 +117,7 @@ def test_every_value_out_of_range_is_named_and_nothing_is_sent(bench: Bench) -> 
     wrong = {
         "motor_torque_nm_max": 2.5,
         "fuzzy_gain_points": [0.1, 0.2, 0.2, 0.4, 0.5],
-        "mode_laws": ["OFF", "FIXED", "TURBO", "FUZZY", "FUZZY"],
+        "mode_laws": ["off", "fixed", "TURBO", "fuzzy", "fuzzy"],
     }
 
     with pytest.raises(LimitViolation) as caught:
@@ -337,8 +337,8 @@ def test_parameters_come_with_bounds_meaning_and_value(bench: Bench) -> None:
 
     torque = rows["motor_torque_nm_max"]
     assert (torque.min, torque.max, torque.unit, torque.value) == (0.0, 2.0, "Nm", 2.0)
-    assert rows["mode_laws"].choices == ("OFF", "FIXED", "FUZZY")
-    assert rows["gear_ratio"].access == "FACTORY"
+    assert rows["mode_laws"].choices == ("off", "fixed", "fuzzy")
+    assert rows["gear_ratio"].access == "factory"
     assert list(rows) == list(PARAMETER_BY_NAME)
 
 
@@ -391,7 +391,7 @@ def test_a_fault_in_the_second_table_names_the_field_of_the_view(bench: Bench) -
     assert [fault.field for fault in caught.value.fields] == ["name"]
 
 
-@pytest.mark.parametrize(("market", "ends_kmh"), [("EU_EPAC", 25.0), ("JAPAN", 24.0)])
+@pytest.mark.parametrize(("market", "ends_kmh"), [("eu_epac", 25.0), ("japan", 24.0)])
 def test_the_limits_say_where_the_market_lets_assist_end(
     bench: Bench, market: str, ends_kmh: float
 ) -> None:
@@ -404,13 +404,13 @@ def test_the_limits_say_where_the_market_lets_assist_end(
 
 
 def test_what_was_read_as_limits_can_be_written_back_as_it_is(bench: Bench) -> None:
-    bench.unit.image = pack_image(default_config() | {"market": "JAPAN"})
+    bench.unit.image = pack_image(default_config() | {"market": "japan"})
     limits = bench.tuning.read_part(bench.id, "limits").value
 
     change = bench.tuning.write_part(bench.id, "limits", limits | {"pedal_stop_ms": 200}, "")
 
     assert [one.name for one in change.changed] == ["pedal_stop_ms"]
-    assert bench.held == default_config() | {"market": "JAPAN", "pedal_stop_ms": 200}
+    assert bench.held == default_config() | {"market": "japan", "pedal_stop_ms": 200}
 
 
 def test_the_assist_modes_are_five_slots(bench: Bench) -> None:
@@ -420,7 +420,7 @@ def test_the_assist_modes_are_five_slots(bench: Bench) -> None:
     bench.tuning.write_part(bench.id, "assist_modes", modes, "")
 
     assert bench.held["mode_names"] == ["off", "rain", "tour", "sport", "boost"]
-    assert bench.held["mode_laws"] == ["OFF", "FUZZY", "FIXED", "FUZZY", "FUZZY"]
+    assert bench.held["mode_laws"] == ["off", "fuzzy", "fixed", "fuzzy", "fuzzy"]
     assert bench.held["mode_ratios"] == [0.0, 0.75, 1.0, 1.0, 1.5]
 
 

@@ -146,7 +146,7 @@ def test_the_rate_keeps_its_memory_over_the_longest_interval() -> None:
     assert rate[100 + 75] == pytest.approx(0.0, abs=0.001)
 
 
-@pytest.mark.parametrize(("falling", "gain"), [("HOLD_ZERO_RATE", 0.3), ("NO_GAIN", 0.0)])
+@pytest.mark.parametrize(("falling", "gain"), [("hold_zero_rate", 0.3), ("no_gain", 0.0)])
 def test_falling_torque_holds_the_rate_at_zero_or_takes_the_gain_away(
     falling: str, gain: float
 ) -> None:
@@ -229,7 +229,7 @@ def test_two_instances_do_not_know_each_other() -> None:
         {"torque_rate_interval_ms": 5000},
         {"fixed_taper_start_kmh": 25.0, "fixed_taper_end_kmh": 20.0},
         {"mode_ratios": [0.0, float("inf"), 1.0, 1.0, 1.0]},
-        {"mode_laws": ["OFF", "FIXED", "FIXED", "FUZZY", "TURBO"]},
+        {"mode_laws": ["off", "fixed", "fixed", "fuzzy", "TURBO"]},
         {"fuzzy_gain_points": [0.5, 0.4, 0.3, 0.2, 0.1]},
     ],
 )

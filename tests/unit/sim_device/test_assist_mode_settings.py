@@ -33,7 +33,7 @@ def run(steps: int = 400, **given: Any) -> dict[str, Any]:
     return assist_run(config, {**readings, **given})
 
 
-def ratio_at(taper: str, speed_kmh: float, ratio: float, market: str = "US_CLASS_3") -> float:
+def ratio_at(taper: str, speed_kmh: float, ratio: float, market: str = "us_class_3") -> float:
     tapers = [taper] * 5
     ratios = [ratio] * 5
     free = {"mode_tapers": tapers, "mode_ratios": ratios, "market": market}
@@ -43,7 +43,7 @@ def ratio_at(taper: str, speed_kmh: float, ratio: float, market: str = "US_CLASS
 @pytest.mark.parametrize(
     ("speed_kmh", "ratio"), [(0, 1), (15, 1), (18, 2 / 3), (20, 4 / 9), (24, 0), (25, 0)]
 )
-@pytest.mark.parametrize("taper", ["TAPER_SPEEDS", "JAPAN_1_TO_1"])
+@pytest.mark.parametrize("taper", ["taper_speeds", "japan_1_to_1"])
 def test_japan_s_old_rule_is_the_fixed_law_of_the_thesis(
     taper: str, speed_kmh: float, ratio: float
 ) -> None:
@@ -57,16 +57,16 @@ def test_japan_s_old_rule_is_the_fixed_law_of_the_thesis(
 def test_japan_s_present_rule_falls_from_two_at_10_to_nothing_at_24(
     speed_kmh: float, ratio: float
 ) -> None:
-    assert ratio_at("JAPAN_2_TO_1", speed_kmh, 3.0) == pytest.approx(ratio, abs=0.001)
+    assert ratio_at("japan_2_to_1", speed_kmh, 3.0) == pytest.approx(ratio, abs=0.001)
 
 
 def test_a_ceiling_leaves_a_smaller_ratio_alone() -> None:
-    assert ratio_at("JAPAN_2_TO_1", 15.0, 1.25) == 1.25
-    assert ratio_at("JAPAN_2_TO_1", 20.0, 1.25) == pytest.approx(4 / 7, abs=1e-6)
+    assert ratio_at("japan_2_to_1", 15.0, 1.25) == 1.25
+    assert ratio_at("japan_2_to_1", 20.0, 1.25) == pytest.approx(4 / 7, abs=1e-6)
 
 
 def test_a_free_ratio_does_not_fall() -> None:
-    assert [ratio_at("NONE", v, 1.7) for v in (0.0, 15.0, 24.9)] == pytest.approx([1.7] * 3)
+    assert [ratio_at("none", v, 1.7) for v in (0.0, 15.0, 24.9)] == pytest.approx([1.7] * 3)
 
 
 def test_each_mode_has_the_table_it_was_given() -> None:
@@ -258,7 +258,7 @@ def test_a_bike_held_back_gets_half_the_motor_and_no_lunge_when_let_go() -> None
 
 
 @pytest.mark.parametrize(
-    "never", [{"mode": 0}, {"config": {"walk_speed_kmh": 0.0}}, {"config": {"market": "JAPAN"}}]
+    "never", [{"mode": 0}, {"config": {"walk_speed_kmh": 0.0}}, {"config": {"market": "japan"}}]
 )
 def test_there_is_no_walk_assist_where_it_is_not_wanted(never: dict[str, Any]) -> None:
     bike = WalkedBike(25.0, **never.pop("config", {}))

@@ -82,10 +82,10 @@ def test_an_acknowledged_change_outlives_a_process_killed_at_once(tmp_path: Path
 def test_what_the_factory_wrote_outlives_a_process_killed_when_it_is_ready(tmp_path: Path) -> None:
     flash = tmp_path / "flash"
 
-    with killed_at_the_end(flash, "--market", "JAPAN"):
+    with killed_at_the_end(flash, "--market", "japan"):
         pass
 
-    with killed_at_the_end(flash, "--market", "CHINA") as unit:
+    with killed_at_the_end(flash, "--market", "china") as unit:
         image = read_image(unit)
     made_for_japan = Unit(uid=bytes(12), boot_id=1, flash=FlashFile(flash).load())
     assert read_image(made_for_japan) == image

@@ -100,7 +100,7 @@ def tables(draw: st.DrawFn) -> dict[str, Any]:
     labels = st.sampled_from(["NB", "NS", "ZO", "PS", "PB"])
     row = st.lists(labels, min_size=5, max_size=5)
     return {
-        "fuzzy_inference": "MAMDANI_CENTROID",
+        "fuzzy_inference": "mamdani_centroid",
         "fuzzy_speed_points_kmh": increasing(0, 30),
         "fuzzy_torque_rate_points": increasing(-0.2, 1.2),
         "fuzzy_gain_points": draw(st.sampled_from([EDGE_TO_EDGE, increasing(0, 0.5)])),
@@ -161,7 +161,7 @@ def test_outermost_sets_are_cut_where_the_universe_ends(points: list[float]) -> 
 
 
 def test_the_weighted_average_is_bilinear_between_the_cells() -> None:
-    table = {**THESIS, "fuzzy_inference": "WEIGHTED_AVERAGE"}
+    table = {**THESIS, "fuzzy_inference": "weighted_average"}
     cells = np.array(
         [[THESIS["fuzzy_gain_points"][Label[x]] for x in row] for row in THESIS["fuzzy_rules"]]
     )
@@ -175,7 +175,7 @@ def test_the_weighted_average_is_bilinear_between_the_cells() -> None:
 
 
 def test_the_weighted_average_of_a_monotone_table_is_monotone() -> None:
-    table = {**THESIS, "fuzzy_inference": "WEIGHTED_AVERAGE"}
+    table = {**THESIS, "fuzzy_inference": "weighted_average"}
 
     surface = gain_surface(table, np.linspace(0, 26, 521), np.linspace(0, 0.9, 361))
 
@@ -204,7 +204,7 @@ def test_a_point_alone_and_in_a_long_batch_gives_the_same_bits() -> None:
     np.testing.assert_array_equal(batch.view(np.uint32), single.view(np.uint32))
 
 
-@pytest.mark.parametrize("inference", ["MAMDANI_CENTROID", "WEIGHTED_AVERAGE"])
+@pytest.mark.parametrize("inference", ["mamdani_centroid", "weighted_average"])
 @pytest.mark.parametrize("broken", [np.nan, np.inf, -np.inf])
 def test_a_coordinate_that_is_not_finite_gives_no_gain(inference: str, broken: float) -> None:
     table = {**THESIS, "fuzzy_inference": inference}

@@ -22,6 +22,7 @@ from sim_device.firmware.python._native import ffi, lib
 
 from firmware_protocol._generated import PARAMETER_BY_NAME, Market
 from firmware_protocol.parameters import default_config, violations
+from firmware_protocol.spelling import words_of
 from sim_device.firmware.python.law import (
     OUTPUT_DTYPE,
     STEP_S,
@@ -42,16 +43,16 @@ ROUNDING = 1e-4
 
 # docs/safety.md and EN 15194, SI 2015/24, US classes, Japan's regulation 1-3, GB 17761: km/h, then
 # shaft power at any moment. A continuous rating may be passed by ten times what the mean is below.
-CUTOFF_KMH = {"EU_EPAC": 25.0, "UK": 24.945, "US_CLASS_1": 32.187, "US_CLASS_2": 32.187}
-CUTOFF_KMH |= {"US_CLASS_3": 45.062, "JAPAN": 24.0, "CHINA": 25.0}
-PEAK_W = {"EU_EPAC": 2750.0, "UK": 2750.0, "CHINA": 4400.0}
-PEAK_W |= {"US_CLASS_1": 750.0, "US_CLASS_2": 750.0, "US_CLASS_3": 750.0}
+CUTOFF_KMH = {"eu_epac": 25.0, "uk": 24.945, "us_class_1": 32.187, "us_class_2": 32.187}
+CUTOFF_KMH |= {"us_class_3": 45.062, "japan": 24.0, "china": 25.0}
+PEAK_W = {"eu_epac": 2750.0, "uk": 2750.0, "china": 4400.0}
+PEAK_W |= {"us_class_1": 750.0, "us_class_2": 750.0, "us_class_3": 750.0}
 FAULT = 0x2000
 
 REPORTED: dict[str, Any] = {
     "fuzzy_gain_points": [k * DENORMAL for k in range(5)],
     "fuzzy_rules": [["NS"] * 5] * 5,
-    "fuzzy_inference": "MAMDANI_CENTROID",
+    "fuzzy_inference": "mamdani_centroid",
 }
 """The table that made the gain 0/0 and the motor give every limit's maximum."""
 
@@ -121,7 +122,7 @@ def allowed_nm(config: dict[str, Any], row: np.void, filtered_nm: float) -> floa
     limits.append(max(0.0, constant * (row["battery_voltage_v"] - back_emf_v) / ohm))
     if rad_s > 0 and market in PEAK_W:
         limits.append(PEAK_W[market] / rad_s)
-    if market == "JAPAN":
+    if market == "japan":
         ratio = 2.0 if row["speed_kmh"] < 10 else max(0.0, 2 - (row["speed_kmh"] - 10) / 7)
         # Two float32 near two are subtracted: the last digits of the ratio are rounding.
         limits.append((ratio + 1e-6) * max(filtered_nm, 0.0) / config["gear_ratio"])
@@ -147,7 +148,7 @@ def judge(config: dict[str, Any], rows: npt.NDArray[np.void]) -> int:
             assert math.isfinite(output[name]), name
         gain = float(output["fuzzy_gain"])
         assert math.isnan(gain) or 0.0 <= gain <= 0.5
-        fuzzy = config["mode_laws"][row["mode"]] == "FUZZY"
+        fuzzy = config["mode_laws"][row["mode"]] == "fuzzy"
         assert fuzzy or math.isnan(gain)
         driven += motor_nm > 0
     assert all(map(math.isfinite, remembered(state)))
@@ -252,7 +253,7 @@ def test_no_configuration_and_ride_that_hypothesis_finds_breaks_a_limit(seed: in
     st.integers(0, 2**32 - 1),
     st.floats(width=32, allow_nan=False, allow_infinity=False),
     st.floats(width=32, allow_nan=False, allow_infinity=False),
-    st.sampled_from(["MAMDANI_CENTROID", "WEIGHTED_AVERAGE"]),
+    st.sampled_from(["mamdani_centroid", "weighted_average"]),
 )
 def test_every_accepted_table_has_a_gain_within_its_points_everywhere(
     seed: int, speed_kmh: float, rate: float, inference: str
@@ -312,4 +313,4 @@ def test_steps_that_were_not_run_let_the_ramps_begin_at_nothing() -> None:
 
 
 def test_every_market_of_the_registry_is_judged() -> None:
-    assert set(CUTOFF_KMH) == {market.name for market in Market}
+    assert set(CUTOFF_KMH) == set(words_of(Market))

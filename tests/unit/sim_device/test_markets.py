@@ -17,35 +17,36 @@ from sim_device.firmware.python._native import lib
 
 from firmware_protocol._generated import LimitFlags, Market
 from firmware_protocol.parameters import default_config
+from firmware_protocol.spelling import member_of
 from sim_device.firmware.python.law import assist_run
 
 GEAR_RATIO = 40.34
 STEP_S = 0.01
 CUTOFF_KMH = {
-    "EU_EPAC": 25.0,
-    "UK": 15.5 * 1.609344,
-    "US_CLASS_1": 20 * 1.609344,
-    "US_CLASS_2": 20 * 1.609344,
-    "US_CLASS_3": 28 * 1.609344,
-    "JAPAN": 24.0,
-    "CHINA": 25.0,
+    "eu_epac": 25.0,
+    "uk": 15.5 * 1.609344,
+    "us_class_1": 20 * 1.609344,
+    "us_class_2": 20 * 1.609344,
+    "us_class_3": 28 * 1.609344,
+    "japan": 24.0,
+    "china": 25.0,
 }
 WALK_KMH = {
-    "EU_EPAC": 6.0,
-    "UK": 6.0,
-    "US_CLASS_1": 3.7 * 1.609344,
-    "US_CLASS_2": 3.7 * 1.609344,
-    "US_CLASS_3": 3.7 * 1.609344,
-    "JAPAN": 0.0,
-    "CHINA": 6.0,
+    "eu_epac": 6.0,
+    "uk": 6.0,
+    "us_class_1": 3.7 * 1.609344,
+    "us_class_2": 3.7 * 1.609344,
+    "us_class_3": 3.7 * 1.609344,
+    "japan": 0.0,
+    "china": 6.0,
 }
-CONTINUOUS_W = {"EU_EPAC": 250.0, "UK": 250.0, "CHINA": 400.0}
-PEAK_W = {"US_CLASS_1": 750.0, "US_CLASS_2": 750.0, "US_CLASS_3": 750.0}
+CONTINUOUS_W = {"eu_epac": 250.0, "uk": 250.0, "china": 400.0}
+PEAK_W = {"us_class_1": 750.0, "us_class_2": 750.0, "us_class_3": 750.0}
 
 # What a maker with no care could build: the law must hold it all the same.
 BEYOND = {
     "mode_ratios": [0.0, 3.0, 3.0, 3.0, 3.0],
-    "mode_tapers": ["NONE"] * 5,
+    "mode_tapers": ["none"] * 5,
     "assist_cutoff_kmh": 99.0,
     "assist_cutoff_extra_kmh": 99.0,
     "assist_cutoff_band_kmh": 0.0,
@@ -95,19 +96,19 @@ def test_a_lower_limit_of_the_unit_stays(market: str) -> None:
 def test_the_extra_speed_of_a_fast_market_does_nothing_in_a_slow_one() -> None:
     child = {"assist_cutoff_kmh": 15.0, "assist_cutoff_extra_kmh": 20.0}
 
-    assert not run("EU_EPAC", speed_kmh=15.0, config=child)["motor_torque_nm"].any()
-    assert run("US_CLASS_3", speed_kmh=34.9, config=child)["motor_torque_nm"][-1] > 0.0
+    assert not run("eu_epac", speed_kmh=15.0, config=child)["motor_torque_nm"].any()
+    assert run("us_class_3", speed_kmh=34.9, config=child)["motor_torque_nm"][-1] > 0.0
 
 
 @pytest.mark.parametrize("market", CUTOFF_KMH)
 def test_the_numbers_of_c_are_those_of_the_law(market: str) -> None:
-    profile = lib.market_profile_of(Market[market])
+    profile = lib.market_profile_of(member_of(Market, market))
 
     assert profile.cutoff_kmh == pytest.approx(CUTOFF_KMH[market])
     assert profile.walk_kmh == pytest.approx(WALK_KMH[market])
     assert profile.continuous_w == CONTINUOUS_W.get(market, 0.0)
     assert profile.peak_w == PEAK_W.get(market, 0.0)
-    assert bool(profile.ratio_falls) == (market == "JAPAN")
+    assert bool(profile.ratio_falls) == (market == "japan")
 
 
 def test_a_number_that_is_no_market_allows_nothing() -> None:
@@ -129,7 +130,7 @@ def test_continuous_power_sinks_to_the_rating_and_stays_there(market: str) -> No
     assert outputs["limit_flags"][-1] & LimitFlags.MARKET
 
 
-@pytest.mark.parametrize("market", ["EU_EPAC", "UK", "CHINA"])
+@pytest.mark.parametrize("market", ["eu_epac", "uk", "china"])
 def test_assist_outlives_pedalling_by_two_metres_at_most(market: str) -> None:
     speed_kmh = CUTOFF_KMH[market] - 0.1
     cadence = np.where(np.arange(500) < 400, 60.0, 0.0)
@@ -143,7 +144,7 @@ def test_assist_outlives_pedalling_by_two_metres_at_most(market: str) -> None:
 def test_japan_s_motor_does_not_outlive_the_push_by_more_than_a_second() -> None:
     pushed = np.where(np.arange(600) < 300, 3000.0, 0.0)
 
-    outputs = run("JAPAN", 600, torque_raw_counts=pushed, config={"torque_filter_s": 2.0})
+    outputs = run("japan", 600, torque_raw_counts=pushed, config={"torque_filter_s": 2.0})
 
     assert outputs["motor_torque_nm"][299] > 0.0
     assert not outputs["motor_torque_nm"][402:].any()
@@ -160,7 +161,7 @@ def test_japan_s_second_passes_while_the_push_is_not_measured(unseen: dict[str, 
     for name, value in unseen.items():
         readings[name] = np.where((steps >= 300) & (steps < 420), value, readings[name])
 
-    outputs = run("JAPAN", 900, **readings, config={"torque_filter_s": 2.0})
+    outputs = run("japan", 900, **readings, config={"torque_filter_s": 2.0})
 
     assert outputs["motor_torque_nm"][299] > 0.0
     assert outputs["rider_torque_filtered_nm"][421] > 1.0  # the average outlives the push
@@ -189,10 +190,10 @@ def rough_rides(draw: st.DrawFn) -> tuple[dict[str, Any], dict[str, Any]]:
     labels = st.sampled_from(["NB", "NS", "ZO", "PS", "PB"])
     config = {
         **BEYOND,
-        "mode_laws": draw(st.lists(st.sampled_from(["FIXED", "FUZZY"]), min_size=5, max_size=5)),
+        "mode_laws": draw(st.lists(st.sampled_from(["fixed", "fuzzy"]), min_size=5, max_size=5)),
         "mode_tapers": draw(
             st.lists(
-                st.sampled_from(["TAPER_SPEEDS", "NONE", "JAPAN_1_TO_1", "JAPAN_2_TO_1"]),
+                st.sampled_from(["taper_speeds", "none", "japan_1_to_1", "japan_2_to_1"]),
                 min_size=5,
                 max_size=5,
             )
@@ -236,7 +237,7 @@ def test_no_ride_under_any_configuration_leaves_the_market_s_envelope(
         energy_j = np.cumsum(power_w) * STEP_S
         bound_j = CONTINUOUS_W[market] * (STEP_S * np.arange(1, power_w.size + 1) + 60.0)
         assert (energy_j <= bound_j).all()
-    if market == "JAPAN":
+    if market == "japan":
         raw_nm = np.maximum(readings["torque_raw_counts"] * 0.01, 0.0)
         last_second = np.lib.stride_tricks.sliding_window_view(np.pad(raw_nm, (101, 0)), 102)
         allowed_nm = japan_ratio(speed_kmh) * last_second.max(axis=1)

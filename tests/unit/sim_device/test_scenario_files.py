@@ -252,10 +252,10 @@ def test_the_page_s_example_is_a_scenario_and_its_complaint_is_true() -> None:
 
 
 def test_a_ride_says_which_faults_the_unit_told_on_the_way() -> None:
-    told = {"TORQUE_SENSOR", "SPEED_SENSOR", "TORQUE_STUCK", "TORQUE_DRIFT"}
+    told = {"torque_sensor", "speed_sensor", "torque_stuck", "torque_drift"}
     assert set(run("sensor_fault")["faults_seen"]) == told
-    assert run("link_bursts")["faults_seen"] == ["TORQUE_LINK"]
-    assert "BATTERY_CUT" in run("worn_battery")["faults_seen"]
+    assert run("link_bursts")["faults_seen"] == ["torque_link"]
+    assert "battery_cut" in run("worn_battery")["faults_seen"]
     for sound in ("alpine_climb", "cold_morning", "commute", "slippery_start", "stop_and_go"):
         assert run(sound)["faults_seen"] == []
 

@@ -36,7 +36,7 @@ from tests.fakes.config_flash import (
 )
 from tests.fakes.maker import Maker, challenged, commit, provision, respond, staged
 
-JAPAN = {"market": "JAPAN", "assist_cutoff_kmh": 18.0, "sensor_offset_counts": 120.0}
+JAPAN = {"market": "japan", "assist_cutoff_kmh": 18.0, "sensor_offset_counts": 120.0}
 UNKNOWN_ID = 0x7F00
 WHEEL_RADIUS = 0x0503
 NOTCHED = 400.0
@@ -131,7 +131,7 @@ def test_it_goes_up_and_down_between_two_firmwares_and_keeps_what_both_know() ->
 
     assert unit.read_image()[0] == 4
     assert unit.config()["sensor_offset_counts"] == 120.0
-    assert unit.config()["market"] == "JAPAN"
+    assert unit.config()["market"] == "japan"
     assert converted(unit) is None
 
 
@@ -311,14 +311,14 @@ def test_what_the_maker_chose_is_not_written_anew_by_a_dealer(record: str) -> No
     refused = unit.write({"assist_cutoff_kmh": 20.0})
     assert (refused.status, refused.detail) == (Status.ACCESS, Access.FACTORY)
     unit.advance(31.0)
-    transaction, image = staged(unit, {"market": "CHINA"})
+    transaction, image = staged(unit, {"market": "china"})
     token = maker.sign(challenged(unit, Access.FACTORY, image))
     assert respond(unit, transaction, token).status == Status.OK
     assert commit(unit, transaction, image).status == Status.OK
 
     assert unit.faults() == 0
     unit.boot()
-    assert (unit.config()["market"], unit.faults()) == ("CHINA", 0)
+    assert (unit.config()["market"], unit.faults()) == ("china", 0)
 
 
 def test_a_newer_slot_that_cannot_be_read_at_all_leaves_the_older_one_at_a_walking_pace() -> None:

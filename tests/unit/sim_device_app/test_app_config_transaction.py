@@ -45,9 +45,9 @@ CHANGES: dict[str, Value] = {
     "sensor_offset_counts": -123.5,
     "torque_rate_interval_ms": 250,
     "mode_names": ["aus", "sparsam", "tour", "sport", "élan"],
-    "mode_laws": ["OFF", "FUZZY", "FIXED", "FUZZY", "FUZZY"],
+    "mode_laws": ["off", "fuzzy", "fixed", "fuzzy", "fuzzy"],
     "fuzzy_rules": [["NB"] * 5, ["NS"] * 5, ["ZO"] * 5, ["PS"] * 5, ["PB"] * 5],
-    "fuzzy_inference": "WEIGHTED_AVERAGE",
+    "fuzzy_inference": "weighted_average",
     "assist_cutoff_kmh": 20.0,
 }
 

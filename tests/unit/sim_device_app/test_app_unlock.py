@@ -251,7 +251,7 @@ def test_a_factory_parameter_needs_a_token_of_that_level(unit: BenchUnit) -> Non
 def test_a_slower_market_takes_the_cutoff_as_it_stands_and_the_unit_goes_on() -> None:
     bench = BenchUnit()
     provision(bench, MAKER)
-    transaction, image = staged(bench, {"market": "JAPAN"})
+    transaction, image = staged(bench, {"market": "japan"})
     token = MAKER.sign(challenged(bench, Access.FACTORY, image))
     assert respond(bench, transaction, token).status == Status.OK
     assert commit(bench, transaction, image).status == Status.OK
@@ -262,7 +262,7 @@ def test_a_slower_market_takes_the_cutoff_as_it_stands_and_the_unit_goes_on() ->
 
     # 25 km/h stays: the law ends assist at 24 by itself, and a market that goes back finds it.
     config = bench.config()
-    assert (config["market"], config["assist_cutoff_kmh"]) == ("JAPAN", 25.0)
+    assert (config["market"], config["assist_cutoff_kmh"]) == ("japan", 25.0)
     assert bench.write({"pedal_stop_ms": 200}).status == Status.OK
 
 

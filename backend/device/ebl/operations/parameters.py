@@ -8,10 +8,15 @@ from collections.abc import Mapping
 from backend.device.configuration import Free, ParameterRow, ParameterTable, Value
 from backend.device.ebl.operations.violations import host_violations
 from backend.errors import FieldError
-from firmware_protocol._generated import BAND_BY_NAME, ENUM_BY_NAME, PARAMETERS, RETIRED, Access
+from firmware_protocol._generated import BAND_BY_NAME, PARAMETERS, RETIRED, Access
 from firmware_protocol.bands import band_limits
 from firmware_protocol.layout import Parameter
+from firmware_protocol.parameter_values import choices_of
 from firmware_protocol.parameters import default_config, pack_image, unpack_image
+from firmware_protocol.retired import with_words_of_today
+from firmware_protocol.spelling import word_of
+
+FACTORY = word_of(Access.FACTORY.name)
 
 
 def _row(row: Parameter, default: Value) -> ParameterRow:
@@ -25,8 +30,8 @@ def _row(row: Parameter, default: Value) -> ParameterRow:
         min=row.min,
         max=row.max,
         default=default,
-        access=Access(row.access).name,
-        choices=tuple(ENUM_BY_NAME[row.enum].__members__) if row.enum else None,
+        access=word_of(Access(row.access).name),
+        choices=choices_of(row) if row.enum else None,
         length=row.length if row.type == "text" else None,
         description=row.doc,
     )
@@ -70,5 +75,6 @@ TABLE = ParameterTable(
     faults_of=faults_of,
     rounded=rounded,
     crc32_of=image_crc32,
-    factory=frozenset(row.name for row in PARAMETER_ROWS if row.access == Access.FACTORY.name),
+    respelled=with_words_of_today,
+    factory=frozenset(row.name for row in PARAMETER_ROWS if row.access == FACTORY),
 )

@@ -28,6 +28,7 @@ from firmware_protocol._generated import (
 )
 from firmware_protocol.bands import band_limits, leaves_band
 from firmware_protocol.layout import Band, Parameter, Value
+from firmware_protocol.spelling import word_of
 from firmware_protocol.unlock_token import Token
 
 __all__ = ["Token", "access_refused", "show_token", "token_from"]
@@ -128,7 +129,7 @@ def access_refused(
         {
             "uid": asked.uid.hex(),
             "nonce": asked.nonce.hex(),
-            "level": Access(asked.level).name,
+            "level": word_of(Access(asked.level).name),
             "ttl_s": asked.ttl_s,
             "expires_us": asked.expires_us,
             "image": image.hex(),

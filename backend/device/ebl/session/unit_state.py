@@ -39,7 +39,7 @@ class UnitState:
 
     @property
     def faults_active(self) -> tuple[str, ...]:
-        """Names of the active faults; one of a newer firmware is `FAULT_n`."""
+        """Names of the active faults; one of a newer firmware is `fault_n`."""
         return fault_names(self.fault_flags)
 
     def begin(self, handshake: Handshake, now_s: float) -> None:

@@ -10,10 +10,9 @@ export type Rules = RuleLabel[][]
 export function tableOf(draft: ConfigDraft, which: TableName): FuzzyTable | null {
   const names = PARAMETERS_OF[which]
   if (!draft.loaded || impossible(draft, Object.values(names))) return null
-  const inference = String(draft.value(names.inference)).toLowerCase()
   return {
     name: String(draft.value(names.name)),
-    inference: inference as FuzzyTable['inference'],
+    inference: draft.value(names.inference) as FuzzyTable['inference'],
     speed_points_kmh: draft.value(names.speeds) as number[],
     torque_rate_points: draft.value(names.rates) as number[],
     gain_points: draft.value(names.gains) as number[],

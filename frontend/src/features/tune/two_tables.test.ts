@@ -18,19 +18,19 @@ const five = <T>(value: T): T[] => Array(5).fill(value)
 const rules = five(five('ZO'))
 const values: Record<string, ParameterValue> = {
   fuzzy_table_name: 'dry',
-  fuzzy_inference: 'MAMDANI_CENTROID',
+  fuzzy_inference: 'mamdani_centroid',
   fuzzy_speed_points_kmh: [5, 10, 15, 20, 25],
   fuzzy_torque_rate_points: [0, 0.2, 0.4, 0.6, 0.8],
   fuzzy_gain_points: [0.1, 0.2, 0.3, 0.4, 0.5],
   fuzzy_rules: rules,
   second_table_name: 'wet',
-  second_inference: 'WEIGHTED_AVERAGE',
+  second_inference: 'weighted_average',
   second_gain_points: [0, 0.1, 0.2, 0.3, 0.4],
   second_rules: rules,
   mode_names: ['off', 'eco', 'tour', 'sport', ''],
-  mode_laws: ['OFF', 'FIXED', 'FUZZY', 'FUZZY', 'FUZZY'],
+  mode_laws: ['off', 'fixed', 'fuzzy', 'fuzzy', 'fuzzy'],
   mode_ratios: five(1),
-  mode_tapers: five('NONE'),
+  mode_tapers: five('none'),
   mode_tables: [1, 1, 0, 1, 1],
   mode_ramp_up_nm_per_s: five(2000),
   mode_ramp_down_nm_per_s: five(2000),
@@ -39,7 +39,7 @@ const values: Record<string, ParameterValue> = {
   fixed_taper_start_kmh: 15,
   fixed_taper_end_kmh: 24,
   assist_cutoff_kmh: 25,
-  market: 'JAPAN',
+  market: 'japan',
 }
 const groups: Record<string, string> = { assist_cutoff_kmh: 'limits', market: 'market' }
 
@@ -57,7 +57,7 @@ function parameter(name: string): Parameter {
     min,
     max,
     default: value,
-    access: 'DEALER',
+    access: 'dealer',
     value,
     choices: null,
     free: null,
@@ -144,7 +144,7 @@ it('has a table judged with the modes, the market and the taper it would run wit
     ramp_down_nm_per_s: 2000,
     torque_pct: 100,
   })
-  expect(limits).toEqual({ assist_cutoff_kmh: 25, market: 'JAPAN' })
+  expect(limits).toEqual({ assist_cutoff_kmh: 25, market: 'japan' })
   expect(taper_speeds_kmh).toEqual([15, 24])
 })
 

@@ -57,7 +57,7 @@ type Read = (name: string) => Edits[string] | undefined
 /** Which table a mode slot runs by; null if its law has none, or nobody knows. */
 export function tableOfMode(read: Read, slot: number): TableName | null {
   const [laws, tables] = [read('mode_laws') as string[], read('mode_tables') as number[]]
-  if (laws?.[slot]?.toLowerCase() !== 'fuzzy') return null
+  if (laws?.[slot] !== 'fuzzy') return null
   return TABLES[tables?.[slot] ?? -1] ?? null
 }
 
@@ -90,12 +90,11 @@ export function surroundings(draft: ConfigDraft): Omit<LintRequest, 'fuzzy_table
 
 function modesOf(draft: ConfigDraft): AssistModes {
   const at = (name: string, slot: number) => (draft.value(name) as (number | string)[])[slot]
-  const word = (name: string, slot: number) => String(at(name, slot)).toLowerCase()
   const modes = [0, 1, 2, 3, 4].map((slot) => ({
     name: String(at('mode_names', slot)),
-    law: word('mode_laws', slot),
+    law: at('mode_laws', slot),
     ratio: Number(at('mode_ratios', slot)),
-    taper: word('mode_tapers', slot),
+    taper: at('mode_tapers', slot),
     table: TABLES[Number(at('mode_tables', slot))],
     ramp_up_nm_per_s: Number(at('mode_ramp_up_nm_per_s', slot)),
     ramp_down_nm_per_s: Number(at('mode_ramp_down_nm_per_s', slot)),

@@ -17,7 +17,7 @@ const parameter = (name: string): Parameter => ({
   min: 0,
   max: 25,
   default: 25,
-  access: name.endsWith('_factory') ? 'FACTORY' : 'DEALER',
+  access: name.endsWith('_factory') ? 'factory' : 'dealer',
   value: 25,
   choices: null,
   free: null,

@@ -14,7 +14,7 @@ const parameter = (name: string, type = 'f32', min: number | null = 0, max: numb
     min,
     max,
     default: 0,
-    access: 'DEALER',
+    access: 'dealer',
     value: null,
     choices: null,
     description: '',

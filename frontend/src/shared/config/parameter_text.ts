@@ -37,9 +37,9 @@ export function groupLabel(locale: Locale, group: string): string {
   return locale.lookup(`group.${group}`, inWords(group))
 }
 
-/** What a choice of an enumeration is called, in whatever case it is spelled. */
+/** What a choice of an enumeration is called. */
 export function choiceLabel(locale: Locale, choice: string): string {
-  return locale.lookup(`choice.${choice.toLowerCase()}`, choice)
+  return locale.lookup(`choice.${choice}`, choice)
 }
 
 /** A number as it is typed: enough digits to be exact in float32, none too many. */

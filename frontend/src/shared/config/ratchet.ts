@@ -14,7 +14,7 @@ export function isRatchet(name: string): boolean {
 
 /** Whether a parameter is the factory's own, which only a token changes. */
 export function isFactorys(parameter: Parameter): boolean {
-  return parameter.access.toLowerCase() === 'factory'
+  return parameter.access === 'factory'
 }
 
 /** Which way such a limit would go; null for any other change. */

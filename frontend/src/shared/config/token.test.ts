@@ -6,7 +6,7 @@ const TOKEN = '0123456789abcdef'.repeat(9)
 const CHALLENGE = {
   uid: 'a1b2',
   nonce: '00112233445566778899',
-  level: 'DEALER',
+  level: 'dealer',
   ttl_s: 60,
   expires_us: 61_000_000,
   image: '00ff',

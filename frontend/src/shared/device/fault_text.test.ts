@@ -17,23 +17,23 @@ it('has words for every fault of the registry', () => {
 })
 
 it('takes a fault it does not know for one that stays, and says that the firmware is newer', () => {
-  expect(severityOf('FAULT_29')).toBe('latched')
-  expect(faultLabel(locale, 'FAULT_29')).toContain('FAULT_29')
-  expect(riderText(locale, 'FAULT_29')).toContain('firmware is newer')
-  expect(faultTone(unit('FAULT_29'))).toBe('bad')
+  expect(severityOf('fault_29')).toBe('latched')
+  expect(faultLabel(locale, 'fault_29')).toContain('fault_29')
+  expect(riderText(locale, 'fault_29')).toContain('firmware is newer')
+  expect(faultTone(unit('fault_29'))).toBe('bad')
 })
 
 it('counts warnings as warnings only while there is nothing worse', () => {
   // No fault of today's units is a mere warning; one of tomorrow's may be.
   const rows = FAULTS as Record<string, FaultRow>
-  rows.TOLD_ONLY = { severity: 'WARNING', rider_text: '', mechanic_text: '' }
+  rows.told_only = { severity: 'warning', rider_text: '', mechanic_text: '' }
   onTestFinished(() => {
-    delete rows.TOLD_ONLY
+    delete rows.told_only
   })
 
   expect([faultTone(null), faultTone(unit())]).toEqual([null, null])
-  expect(faultTone(unit('TOLD_ONLY'))).toBe('warn')
-  expect(faultCount(locale, unit('TOLD_ONLY'))).toBe('1 warning')
-  expect(faultTone(unit('TOLD_ONLY', 'BATTERY_LOW'))).toBe('bad')
-  expect(faultCount(locale, unit('TOLD_ONLY', 'BATTERY_LOW'))).toBe('2 faults')
+  expect(faultTone(unit('told_only'))).toBe('warn')
+  expect(faultCount(locale, unit('told_only'))).toBe('1 warning')
+  expect(faultTone(unit('told_only', 'battery_low'))).toBe('bad')
+  expect(faultCount(locale, unit('told_only', 'battery_low'))).toBe('2 faults')
 })

@@ -3,7 +3,7 @@ import { FAULTS, type FaultRow } from '$generated/registry'
 import type { Device } from '../api/types'
 import type { Locale } from '../i18n/locale.svelte'
 
-export type Severity = 'warning' | 'assist_off' | 'latched'
+export type Severity = FaultRow['severity']
 
 const rows: Readonly<Record<string, FaultRow>> = FAULTS
 
@@ -14,7 +14,7 @@ export function isKnown(name: string): boolean {
 
 /** How a fault ends; one of a newer firmware counts as latched, as the server has it. */
 export function severityOf(name: string): Severity {
-  return (rows[name]?.severity.toLowerCase() ?? 'latched') as Severity
+  return rows[name]?.severity ?? 'latched'
 }
 
 /** What a fault is called. */

@@ -18,5 +18,5 @@ it('says nothing where nothing was sent', () => {
 })
 
 it('names what is set', () => {
-  expect(flagNames('fault_flags', 0b110)).toEqual(['SPEED_SENSOR', 'BATTERY_LOW'])
+  expect(flagNames('fault_flags', 0b110)).toEqual(['speed_sensor', 'battery_low'])
 })
