@@ -37,54 +37,54 @@ static uint64_t delay_us(uint32_t failures)
 
 static uint64_t now(const hal *board) { return board->now_us(board->context); }
 
-void unlock_boot(unlock *lock, const hal *board, size_t reserved)
+void unlock_boot(unlock *self, const hal *board, size_t reserved)
 {
-    memset(lock, 0, sizeof *lock);
-    unlock_store_boot(&lock->store, board, reserved);
-    lock->closed_until_us = now(board) + delay_us(lock->store.failures);
+    memset(self, 0, sizeof *self);
+    unlock_store_boot(&self->store, board, reserved);
+    self->closed_until_us = now(board) + delay_us(self->store.failures);
 }
 
 /* OK for a unit that has a key and no delay to sit out. */
-static uint8_t lock_is_open_to_attempts(const unlock *lock, uint64_t now_us, uint16_t *detail)
+static uint8_t lock_is_open_to_attempts(const unlock *self, uint64_t now_us, uint16_t *detail)
 {
     *detail = 0;
-    if (!lock->store.has_key) return EBL_STATUS_NOT_FOUND;
-    if (now_us >= lock->closed_until_us) return EBL_STATUS_OK;
-    *detail = (uint16_t)((lock->closed_until_us - now_us + US_PER_S - 1) / US_PER_S);
+    if (!self->store.has_key) return EBL_STATUS_NOT_FOUND;
+    if (now_us >= self->closed_until_us) return EBL_STATUS_OK;
+    *detail = (uint16_t)((self->closed_until_us - now_us + US_PER_S - 1) / US_PER_S);
     return EBL_STATUS_AUTH_DELAY;
 }
 
 /* Never the same twice for one that was spent: an attempt moves the sequence, which outlives boots.
  * Chance is not needed, because a token is made for its nonce and cannot be made before it. */
-static void nonce_make(unlock *lock, uint32_t boot_id, uint64_t now_us)
+static void nonce_make(unlock *self, uint32_t boot_id, uint64_t now_us)
 {
-    lock->challenges++;
-    ebl_put_u32(lock->nonce, lock->store.sequence);
-    ebl_put_u32(lock->nonce + 4, boot_id);
-    ebl_put_u32(lock->nonce + 8, lock->challenges);
-    ebl_put_u32(lock->nonce + 12, (uint32_t)now_us);
+    self->challenges++;
+    ebl_put_u32(self->nonce, self->store.sequence);
+    ebl_put_u32(self->nonce + 4, boot_id);
+    ebl_put_u32(self->nonce + 8, self->challenges);
+    ebl_put_u32(self->nonce + 12, (uint32_t)now_us);
 }
 
-uint8_t unlock_challenge(unlock *lock, const hal *board, uint8_t level,
+uint8_t unlock_challenge(unlock *self, const hal *board, uint8_t level,
                          ebl_auth_challenge_response *response, uint16_t *detail)
 {
     uint64_t now_us = now(board);
-    uint8_t status = lock_is_open_to_attempts(lock, now_us, detail);
+    uint8_t status = lock_is_open_to_attempts(self, now_us, detail);
 
     if (status != EBL_STATUS_OK) return status;
     if (level != EBL_ACCESS_DEALER && level != EBL_ACCESS_FACTORY) {
         *detail = EBL_ACCESS_FACTORY;
         return EBL_STATUS_RANGE;
     }
-    nonce_make(lock, board->boot_id, now_us);
-    lock->challenge_level = level;
-    lock->nonce_end_us = now_us + (uint64_t)UNLOCK_TTL_S * US_PER_S;
-    memcpy(response->nonce, lock->nonce, sizeof response->nonce);
+    nonce_make(self, board->boot_id, now_us);
+    self->challenge_level = level;
+    self->nonce_end_us = now_us + (uint64_t)UNLOCK_TTL_S * US_PER_S;
+    memcpy(response->nonce, self->nonce, sizeof response->nonce);
     memcpy(response->uid, board->uid, sizeof response->uid);
     response->boot_id = board->boot_id;
     response->level = level;
     response->ttl_s = UNLOCK_TTL_S;
-    response->expires_us = lock->nonce_end_us;
+    response->expires_us = self->nonce_end_us;
     return EBL_STATUS_OK;
 }
 
@@ -95,65 +95,65 @@ static void image_digest(const uint8_t *image, uint8_t *digest)
     sha512_of(&whole, 1, digest);
 }
 
-static int token_is_good(const unlock *lock, const hal *board, uint8_t level, uint64_t now_us,
+static int token_is_good(const unlock *self, const hal *board, uint8_t level, uint64_t now_us,
                          const ebl_auth_response_request *token, const uint8_t *digest)
 {
     uint8_t message[MESSAGE_LENGTH] = {'E', 'B', 'L', '1'};
 
     memcpy(message + UID_AT, board->uid, UID_LENGTH);
-    memcpy(message + NONCE_AT, lock->nonce, UNLOCK_NONCE_LENGTH);
+    memcpy(message + NONCE_AT, self->nonce, UNLOCK_NONCE_LENGTH);
     message[LEVEL_AT] = level;
     ebl_put_u64(message + EXPIRES_AT, token->expires_us);
     memcpy(message + DIGEST_AT, digest, SHA512_LENGTH);
-    if (!signature_is_valid(token->signature, lock->store.key, message, sizeof message)) return 0;
-    return now_us < token->expires_us && token->expires_us <= lock->nonce_end_us;
+    if (!signature_is_valid(token->signature, self->store.key, message, sizeof message)) return 0;
+    return now_us < token->expires_us && token->expires_us <= self->nonce_end_us;
 }
 
-uint8_t unlock_respond(unlock *lock, const hal *board, const ebl_auth_response_request *request,
+uint8_t unlock_respond(unlock *self, const hal *board, const ebl_auth_response_request *request,
                        const uint8_t *staged_image, uint16_t *detail)
 {
     uint64_t now_us = now(board);
-    uint8_t status = lock_is_open_to_attempts(lock, now_us, detail);
-    uint8_t level = lock->challenge_level;
-    uint32_t failures = lock->store.failures + 1;
+    uint8_t status = lock_is_open_to_attempts(self, now_us, detail);
+    uint8_t level = self->challenge_level;
+    uint32_t failures = self->store.failures + 1;
     uint8_t digest[SHA512_LENGTH];
 
     if (status != EBL_STATUS_OK) return status;
     if (level == EBL_ACCESS_RIDER) return EBL_STATUS_STATE;
-    (void)unlock_drop(lock);
-    if (now_us >= lock->nonce_end_us) return EBL_STATUS_EXPIRED;
-    lock->closed_until_us = now_us + delay_us(failures);
-    if (unlock_store_failures_write(&lock->store, board, failures) < 0) {
+    (void)unlock_drop(self);
+    if (now_us >= self->nonce_end_us) return EBL_STATUS_EXPIRED;
+    self->closed_until_us = now_us + delay_us(failures);
+    if (unlock_store_failures_write(&self->store, board, failures) < 0) {
         return EBL_STATUS_FLASH_FAIL;
     }
     image_digest(staged_image, digest);
-    if (!token_is_good(lock, board, level, now_us, request, digest)) {
+    if (!token_is_good(self, board, level, now_us, request, digest)) {
         *detail = failures < UINT16_MAX ? (uint16_t)failures : UINT16_MAX;
         return EBL_STATUS_AUTH_BAD;
     }
-    if (unlock_store_failures_write(&lock->store, board, 0) < 0) return EBL_STATUS_FLASH_FAIL;
-    lock->closed_until_us = now_us;
-    lock->granted_level = level;
-    lock->grant_end_us = request->expires_us;
-    memcpy(lock->granted_digest, digest, sizeof digest);
+    if (unlock_store_failures_write(&self->store, board, 0) < 0) return EBL_STATUS_FLASH_FAIL;
+    self->closed_until_us = now_us;
+    self->granted_level = level;
+    self->grant_end_us = request->expires_us;
+    memcpy(self->granted_digest, digest, sizeof digest);
     return EBL_STATUS_OK;
 }
 
-int unlock_permits(const unlock *lock, uint8_t level, const uint8_t *image, uint64_t now_us)
+int unlock_permits(const unlock *self, uint8_t level, const uint8_t *image, uint64_t now_us)
 {
     uint8_t digest[SHA512_LENGTH];
 
-    if (lock->granted_level < level || now_us >= lock->grant_end_us) return 0;
+    if (self->granted_level < level || now_us >= self->grant_end_us) return 0;
     image_digest(image, digest);
-    return crypto_verify64(digest, lock->granted_digest) == 0;
+    return crypto_verify64(digest, self->granted_digest) == 0;
 }
 
-int unlock_drop(unlock *lock)
+int unlock_drop(unlock *self)
 {
-    int was_granted = lock->granted_level != EBL_ACCESS_RIDER;
+    int was_granted = self->granted_level != EBL_ACCESS_RIDER;
 
-    lock->challenge_level = EBL_ACCESS_RIDER;
-    lock->granted_level = EBL_ACCESS_RIDER;
+    self->challenge_level = EBL_ACCESS_RIDER;
+    self->granted_level = EBL_ACCESS_RIDER;
     return was_granted;
 }
 

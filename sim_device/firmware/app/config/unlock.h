@@ -37,19 +37,19 @@ typedef struct {
 } unlock;
 
 /* `reserved`: bytes at the start of the flash that are not for unlocking. */
-void unlock_boot(unlock *lock, const hal *board, size_t reserved);
+void unlock_boot(unlock *self, const hal *board, size_t reserved);
 
 /* Both return an ebl_status and fill `detail` where it is not OK. */
-uint8_t unlock_challenge(unlock *lock, const hal *board, uint8_t level,
+uint8_t unlock_challenge(unlock *self, const hal *board, uint8_t level,
                          ebl_auth_challenge_response *response, uint16_t *detail);
-uint8_t unlock_respond(unlock *lock, const hal *board, const ebl_auth_response_request *request,
+uint8_t unlock_respond(unlock *self, const hal *board, const ebl_auth_response_request *request,
                        const uint8_t *staged_image, uint16_t *detail);
 
 /* True while a token allows this image at this level. */
-int unlock_permits(const unlock *lock, uint8_t level, const uint8_t *image, uint64_t now_us);
+int unlock_permits(const unlock *self, uint8_t level, const uint8_t *image, uint64_t now_us);
 
 /* Takes back grant and nonce. True if something was granted. */
-int unlock_drop(unlock *lock);
+int unlock_drop(unlock *self);
 
 /* The level a change needs beyond a dealer's tools: FACTORY for a factory's parameter and for a
  * value that leaves its band, DEALER for a ratchet that goes up, RIDER for none. */

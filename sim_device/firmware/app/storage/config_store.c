@@ -109,8 +109,8 @@ static uint32_t erases_so_far(const hal *board, uint8_t slot_index)
     return seen.erases;
 }
 
-/* What is active counts: nothing is lost any more, and a slot that was can be forgotten. */
-static void settled(config_store *store, const hal *board)
+/* What is active is confirmed: nothing is lost any more, and a slot that was can be forgotten. */
+static void active_confirmed(config_store *store, const hal *board)
 {
     uint8_t other = other_slot(store->slot);
     config_slot seen;
@@ -141,7 +141,7 @@ int config_store_write(config_store *store, const hal *board, const uint8_t *ima
     store->generation++;
     store->slot = target;
     store->on_trial = on_trial ? 1 : 0;
-    if (!on_trial) settled(store, board);
+    if (!on_trial) active_confirmed(store, board);
     return STORAGE_OK;
 }
 
@@ -151,7 +151,7 @@ int config_store_confirm(config_store *store, const hal *board)
 
     if (result != STORAGE_OK) return result;
     store->on_trial = 0;
-    settled(store, board);
+    active_confirmed(store, board);
     return STORAGE_OK;
 }
 
