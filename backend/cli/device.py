@@ -9,7 +9,7 @@ from typing import Any
 
 from backend.cli.client import Server, default_server, print_json, print_table, text_of
 from backend.errors import InvalidRequest, RequestRefused
-from firmware_protocol.retired import brought_forward
+from backend.ingest.backup import parameters_of
 
 
 def server_of(options: Namespace) -> Server:
@@ -108,7 +108,7 @@ def restore(options: Namespace) -> int:
     """Writes the values of a backup that differ from the unit's and that we may change."""
     server = server_of(options)
     unit = server.device_id(options.unit)
-    saved, notes = parameters_of(options.file)
+    saved, notes = parameters_of(read_json(options.file), options.file.name)
     if not options.json:
         for note in notes:
             print(note)
@@ -127,9 +127,9 @@ def restore(options: Namespace) -> int:
 
 def diff(options: Namespace) -> int:
     """What differs between a backup and the unit, or between two backups."""
-    one, _ = parameters_of(options.file)
+    one, _ = parameters_of(read_json(options.file), options.file.name)
     if options.other is not None and Path(options.other).is_file():
-        other, _ = parameters_of(Path(options.other))
+        other, _ = parameters_of(read_json(Path(options.other)), options.other)
     else:
         server = server_of(options)
         unit = server.device_id(options.other)
@@ -183,16 +183,6 @@ def assignment(word: str) -> tuple[str, Any]:
         return name, json.loads(text)
     except ValueError:
         return name, text
-
-
-def parameters_of(file: Path) -> tuple[dict[str, Any], list[str]]:
-    """The parameters in a backup, those of an older unit under their names of today, and what was
-    made of them in words. Raises InvalidRequest if it is none.
-    """
-    saved = read_json(file)
-    if not isinstance(saved, dict) or not isinstance(saved.get("parameters"), dict):
-        raise InvalidRequest(f"{file} is not a backup: it has no `parameters`.")
-    return brought_forward(saved["parameters"])
 
 
 def read_json(file: Path) -> Any:
