@@ -229,9 +229,9 @@ def free_pages(connection: Connection) -> int:
 
 def shrink(connection: Connection) -> int:
     """Cut some free pages off the file; how many are left."""
-    # SQLite frees a page at each step of this, and SQLAlchemy sees no rows to step through.
-    cursor: Any = connection.connection.cursor()
-    cursor.execute(f"PRAGMA incremental_vacuum({PAGES_AT_ONCE})").fetchall()
+    # SQLite frees a page at each step of a statement, and Python takes one step where no rows come.
+    for _ in range(min(free_pages(connection), PAGES_AT_ONCE)):
+        connection.exec_driver_sql("PRAGMA incremental_vacuum(1)")
     return free_pages(connection)
 
 
