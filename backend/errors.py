@@ -14,7 +14,8 @@ SpindleError
 │   │   └── TokenNeeded      the maker's token would do; it says what has to be signed
 │   ├── NotStandingStill     the wheel or the motor still turns
 │   ├── Conflict             the thing is not in a state that allows this
-│   │   └── CapabilityMissing    this make of unit cannot do it; names what is missing
+│   │   ├── CapabilityMissing    this make of unit cannot do it; names what is missing
+│   │   └── NameFirst            nobody knows which unit it is: its owner has to name it
 │   └── NotFound             no such device, ride, upload or port
 ├── BadFile                  a log that cannot be read; says where and what could be saved
 └── StoreError               the database or the object store
@@ -182,6 +183,12 @@ class Conflict(RequestRefused):
     """The thing is not in a state that allows this."""
 
     default_code = "conflict"
+
+
+class NameFirst(Conflict):
+    """A unit without a serial number and without a name was to be written."""
+
+    default_code = "name_first"
 
 
 class CapabilityMissing(Conflict):

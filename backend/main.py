@@ -71,10 +71,12 @@ def open_services(settings: Settings) -> Iterator[Services]:
         store = open_store(settings.db, settings.objects)
         closing.callback(store.close)
         devices = Devices(
-            flash_folder=settings.data / "units", schemas=SchemaFiles(settings.data / "schemas")
+            flash_folder=settings.data / "units",
+            schemas=SchemaFiles(settings.data / "schemas"),
+            bike_of=store.units.bike_of,
         )
         tuning = Tuning(devices, store.revisions)
-        memory = UnitMemory(devices, store.revisions, tuning.note_trial_end)
+        memory = UnitMemory(devices, store.revisions, store.units, tuning.note_trial_end)
         closing.callback(memory.close)
         recorder = Recorder(store.rides, memory.ride_context, unfinished=store.unfinished)
         closing.callback(recorder.close)
@@ -110,7 +112,7 @@ def open_services(settings: Settings) -> Iterator[Services]:
             tuning=tuning,
             live=LiveTuning(devices),
             preview=preview,
-            rides=Rides(store, RideReplay(preview, memory.ride_config)),
+            rides=Rides(store, RideReplay(preview, memory.ride_config), devices.unit_at),
             uploads=uploads,
             collect=collect,
         )

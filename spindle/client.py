@@ -52,7 +52,7 @@ class Spindle:
         return Health.model_validate(self.server.ask("GET", "/health"))
 
     def unit(self, name: str | None = None, within_s: float = 0.0) -> Unit:
-        """The unit of this id or serial number; the only one if None.
+        """The unit of this id, url, key or serial number; the only one if None.
 
         within_s: a server that has just started may not know its units yet. Raises RequestRefused.
         """
@@ -65,9 +65,10 @@ class Spindle:
                     raise
                 time.sleep(LOOK_EVERY_S)
 
-    def add(self, url: str) -> Unit:
-        """Connect the unit at this url, as `POST /devices` does."""
-        added = Device.model_validate(self.server.ask("POST", "/devices", json={"url": url}))
+    def add(self, url: str, name: str | None = None) -> Unit:
+        """Connect the unit at this url, as `POST /devices` does. name: what its owner calls it."""
+        body = {"url": url, "name": name}
+        added = Device.model_validate(self.server.ask("POST", "/devices", json=body))
         return Unit(self.server, added.id)
 
     def rides(self) -> list[Ride]:

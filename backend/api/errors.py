@@ -31,6 +31,7 @@ STATUS_OF: dict[type[errors.SpindleError], int] = {
     errors.TokenNeeded: 403,
     errors.NotStandingStill: 409,
     errors.CapabilityMissing: 409,
+    errors.NameFirst: 409,
     errors.Conflict: 409,
     errors.NotFound: 404,
     errors.BadFile: 422,

@@ -67,14 +67,15 @@ class Server:
         return response
 
     def device_id(self, name: str | None) -> str:
-        """The id of the unit of this id or serial number; of the only unit if None.
+        """The id of the device of this id, url, unit key or serial number; of the only one if None.
 
         Raises RequestRefused when there is none, or several to choose from.
         """
         devices = self.ask("GET", "/devices")["items"]
         for device in devices:
             serial = (device["identity"] or {}).get("serial_number")
-            if name is not None and name in (device["id"], serial):
+            names = (device["id"], device["url"], device["unit_key"], serial)
+            if name is not None and name in names:
                 return str(device["id"])
         if name is None and len(devices) == 1:
             return str(devices[0]["id"])

@@ -33,7 +33,8 @@ def list_devices(options: Namespace) -> int:
 
 def add(options: Namespace) -> int:
     """Opens a unit."""
-    device = server_of(options).ask("POST", "/devices", json={"url": options.url})
+    body = {"url": options.url, "name": options.name}
+    device = server_of(options).ask("POST", "/devices", json=body)
     print_json(device) if options.json else print(device["id"])
     return 0
 

@@ -68,9 +68,11 @@ def _add_device(verbs: Any) -> None:
     group = _group(
         verbs, "device", "units: list, show, get, set, backup, restore, diff, try, service, logs"
     )
-    unit = "id or serial number; may be left out when there is only one unit"
+    unit = "id, url, unit key or serial number; may be left out when there is only one unit"
     _asking(group, "list", device.list_devices, help="every unit and its state")
-    _asking(group, "add", device.add, help="open a unit").add_argument("url")
+    command = _asking(group, "add", device.add, help="open a unit")
+    command.add_argument("url")
+    command.add_argument("--name", help="what you call it; one without a serial number needs it")
     _asking(group, "remove", device.remove, help="let a unit go").add_argument("unit", help=unit)
     command = _asking(group, "show", device.show, help="identity, link and newest values")
     command.add_argument("unit", nargs="?", help=unit)

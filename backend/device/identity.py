@@ -9,11 +9,11 @@ from dataclasses import dataclass
 class Identity:
     """A unit's identity in words and hexadecimal; boot_id and session_id change at every start.
 
-    serial_number: the 12 bytes of the chip's unique id as 24 hexadecimal digits. reset_cause: why
-    the unit started, as a word of the registry's reset_cause; None for a unit that cannot tell.
+    serial_number: lasts as long as the unit; None for one that has none (never ""). reset_cause:
+    why the unit started, as a word of the registry's reset_cause; None for a unit that cannot tell.
     """
 
-    serial_number: str
+    serial_number: str | None
     model: str
     hardware_revision: int
     firmware_version: str

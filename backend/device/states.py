@@ -61,4 +61,11 @@ class UnitEvent:
     fields: Mapping[str, object] = field(default_factory=dict)
 
 
-DeviceEvent: TypeAlias = StateChanged | StreamStarted | StreamBlock | UnitEvent
+@dataclass(frozen=True)
+class Named:
+    """The unit's owner said how it is called, after it was added. Told from any thread."""
+
+    name: str
+
+
+DeviceEvent: TypeAlias = StateChanged | StreamStarted | StreamBlock | UnitEvent | Named

@@ -16,7 +16,7 @@ class Revision:
 
     seq: counts the unit's configurations from 1. created_us: Unix time. state: `verified`,
     `provisional` or `found`. changed: [{name, old, new}] against the one before. parameters: the
-    whole configuration by registry name, as plain JSON.
+    whole configuration by registry name, as plain JSON. unit_key: whose it is.
     """
 
     seq: int
@@ -28,6 +28,7 @@ class Revision:
     crc32: int | None
     changed: Sequence[Mapping[str, Any]]
     parameters: Parameters
+    unit_key: str
 
     def respelled(self, respell: Callable[[Parameters], Parameters]) -> Revision:
         """The same revision with its choices as they are spelled today."""

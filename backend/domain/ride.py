@@ -87,8 +87,9 @@ class RideSummary:
 class RideContext:
     """What was true of the bike while the ride was made; None where nobody knows.
 
-    boot_id, unit_t0_us: which start of the unit, and its clock at the ride's first row: together
-    with the serial number they tell one ride from every other, whichever way it came.
+    device_id: the connection it came over. unit_key: as of domain.unit_key. boot_id, unit_t0_us:
+    which start of the unit, and its clock at the ride's first row: together with the key they tell
+    one ride from every other, whichever way it came.
     """
 
     device_id: str | None = None
@@ -100,6 +101,7 @@ class RideContext:
     gear_ratio: float | None = None
     boot_id: int | None = None
     unit_t0_us: int | None = None
+    unit_key: str | None = None
 
 
 @dataclass(frozen=True)
@@ -110,7 +112,8 @@ class Ride:
     `imported`. period_us: spacing of the rows, None when they are irregular. completeness: share
     of the rows that should be there (0..1), None when nobody can say; a stretch filled from a log
     counts as there. filled: those stretches. events: what happened. cut_short: the recording ended
-    while the bike moved, or with its server, so that nobody knows what came after.
+    while the bike moved, or with its server, so that nobody knows what came after. bike_id: the
+    bike its unit was on; None where nobody knows the unit.
     """
 
     id: int
@@ -134,6 +137,7 @@ class Ride:
     object_bytes: int | None = None
     summary: RideSummary | None = None
     cut_short: bool = False
+    bike_id: int | None = None
 
     @property
     def offered(self) -> tuple[ChannelSpec, ...]:
@@ -155,6 +159,8 @@ class Ride:
                 {**channel_to_json(channel), "derived": channel in self.derived}
                 for channel in self.offered
             ],
+            "unit_key": self.context.unit_key,
+            "bike_id": self.bike_id,
             "device": asdict(self.context),
             "gaps": [asdict(gap) for gap in self.gaps],
             "filled": [asdict(span) for span in self.filled],

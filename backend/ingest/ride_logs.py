@@ -25,6 +25,7 @@ from backend.domain.ride_events import (
     FAULT_SET,
     RideEvent,
 )
+from backend.domain.unit_key import ebl_key
 from backend.ingest.blocks import (
     CONFIG,
     DATA,
@@ -176,6 +177,7 @@ def context_of(blocks: Sequence[Block], notes: list[str]) -> RideContext:
     image = payload[CONFIG_HEAD.size :]
     gear_ratio = gear_ratio_in(image) if zlib.crc32(image) == crc32 else None
     return RideContext(
+        unit_key=ebl_key(uid.hex()),
         device_serial=uid.hex(),
         config_generation=generation,
         config_crc32=crc32,

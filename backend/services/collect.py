@@ -11,8 +11,10 @@ since is all there will ever be of it: it becomes a ride as it is.
 
 from __future__ import annotations
 
+import hashlib
 import logging
 import os
+import re
 import threading
 import time
 import zlib
@@ -26,10 +28,12 @@ from typing import BinaryIO
 from backend.device.ride_logs import LogPieces, RideLog, RideLogs
 from backend.device.unit import Unit
 from backend.domain.ride import iso_utc
+from backend.domain.unit_key import EBL
 from backend.errors import (
     Conflict,
     DeviceRefused,
     LinkError,
+    NameFirst,
     NoAnswer,
     NotFound,
     PeerProtocolError,
@@ -47,6 +51,7 @@ TAKE_EVERY_S = 0.050
 # How long a unit that was unplugged is waited for, and how often that may happen without a byte.
 RECONNECT_S = 600.0
 FRUITLESS_MAX = 5
+WORD_CHARACTERS = 24
 RUNNING = ("waiting", "fetching", "checking", "keeping")
 
 
@@ -163,7 +168,7 @@ class Collect:
             if running is not None and running.state in RUNNING:
                 return running
         found = self._listed(unit_id)
-        for path in self._orphans(self._devices.serial_number(unit_id), found):
+        for path in self._orphans(self._devices.unit_key(unit_id), found):
             self._worker(unit_id).submit(self._salvage, path)
         log = self._find(unit_id, log_id, found)
         if log.recording:
@@ -193,9 +198,11 @@ class Collect:
         whether it is erased as far as could be found out.
 
         Conflict while it is being written or fetched, or before the unit knows that it is safe.
+        NameFirst.
         """
         unit_id = self._devices.get(device_id).id
         with telling("unchanged"):
+            self._devices.own_key(unit_id)
             log = self._find(unit_id, log_id)
         with self._lock:
             download = self._downloads.get((unit_id, log_id))
@@ -231,8 +238,7 @@ class Collect:
 
     def _run(self, unit_id: str, log: RideLog) -> None:
         try:
-            serial = self._devices.serial_number(unit_id)
-            path = self._fetch(unit_id, serial, log)
+            path = self._fetch(unit_id, self._devices.unit_key(unit_id), log)
             self._keep(unit_id, log, path)
         except SpindleError as error:
             self._note(unit_id, log, state="failed", detail=error.message)
@@ -240,10 +246,10 @@ class Collect:
             LOG.exception("Ride log %d of %s was not fetched.", log.log_id, unit_id)
             self._note(unit_id, log, state="failed", detail=f"A fault in Spindle: {error}")
 
-    def _fetch(self, unit_id: str, serial: str, log: RideLog) -> Path:
+    def _fetch(self, unit_id: str, key: str, log: RideLog) -> Path:
         """The whole log on the disk, checked by the unit."""
         self._folder.mkdir(parents=True, exist_ok=True)
-        stem = stem_of(serial, log)
+        stem = stem_of(key, log)
         part, whole = self._folder / f"{stem}.part", self._folder / f"{stem}{BLOCKS_SUFFIX}"
         with storing(part), part.open("a+b") as file:
             fruitless = 0
@@ -326,9 +332,10 @@ class Collect:
             detail=upload.detail,
         )
         try:
+            self._devices.own_key(unit_id)
             self._again(unit_id, lambda unit: unit.confirm_log(log, crc32))
             self._note(unit_id, log, state="done", confirmed=True)
-        except (LinkError, DeviceRefused) as error:
+        except (LinkError, DeviceRefused, NameFirst) as error:
             told = f"The ride is kept; the unit does not know it yet: {error.message}"
             self._note(unit_id, log, state="done", detail=told)
 
@@ -345,12 +352,12 @@ class Collect:
 
     # ------------------------------------------------------------------ what was left behind
 
-    def _orphans(self, serial: str, found: RideLogs) -> list[Path]:
+    def _orphans(self, key: str, found: RideLogs) -> list[Path]:
         """Files of logs that this unit no longer has, or whose end Spindle's own end prevented."""
-        there = {stem_of(serial, log) for log in found.logs}
+        there = {stem_of(key, log) for log in found.logs}
         return [
             path
-            for path in sorted(self._folder.glob(f"{serial}-*"))
+            for path in sorted(self._folder.glob(f"{word_of(key)}-*"))
             if path.suffix in (".part", BLOCKS_SUFFIX) and path.stem not in there
         ]
 
@@ -415,9 +422,17 @@ class Collect:
             self._downloads[key] = changed
 
 
-def stem_of(serial: str, log: RideLog) -> str:
+def stem_of(key: str, log: RideLog) -> str:
     """Name of a log's files without their ending: no other log of any unit has it."""
-    return f"{serial}-{log.boot_id:08x}-{log.log_id}-{log.generation:08x}"
+    return f"{word_of(key)}-{log.boot_id:08x}-{log.log_id}-{log.generation:08x}"
+
+
+def word_of(key: str) -> str:
+    """A unit's key as every disk takes it: our own serial numbers as they are, else a hash."""
+    serial_number = key.removeprefix(f"{EBL}:")
+    if re.fullmatch(r"[0-9a-f]+", serial_number):
+        return serial_number
+    return hashlib.sha256(key.encode()).hexdigest()[:WORD_CHARACTERS]
 
 
 def state_of(log: RideLog) -> str:

@@ -85,7 +85,7 @@ class RevisionLog(Protocol):
 
     def append(
         self,
-        device_serial: str,
+        unit_key: str,
         parameters: Mapping[str, Any],
         changed: Sequence[Mapping[str, Any]] = (),
         reason: str = "",
@@ -97,7 +97,7 @@ class RevisionLog(Protocol):
         """Add a configuration the device has. Raises StoreError."""
         ...
 
-    def list(self, device_serial: str, limit: int = ...) -> Sequence[Revision]:
+    def list(self, unit_key: str, limit: int = ...) -> Sequence[Revision]:
         """Configurations of a device, newest first."""
         ...
 

@@ -1,7 +1,8 @@
 """Units: add one by its url, look at it, listen to it, let it go. Several at once.
 
-A device keeps the id it got when it was added: the unit's serial number if it answered by then,
-else one made of its url. Either way it is found by both: a name once written down stays good.
+A device is a connection: its id comes from its url and is the same after every start. The unit at
+its other end has a key (domain.unit_key), which goes with it to another cable. A device is found by
+its id, its url, its unit's key and its unit's serial number.
 """
 
 from __future__ import annotations
@@ -13,12 +14,14 @@ from pathlib import Path
 
 from backend.device.driver import LinkOpener, Listener
 from backend.device.families import DEFAULT_FAMILY, FAMILIES, Families
+from backend.device.identity import Identity
 from backend.device.ports import Opener, PortInfo, family_of, kind_of, list_ports
-from backend.device.states import DeviceEvent, LinkState
+from backend.device.states import DeviceEvent, LinkState, Named
 from backend.device.unit import Unit
 from backend.domain.capability import Capability
 from backend.domain.channels import ChannelSpec
-from backend.errors import Conflict, InvalidRequest, NoAnswer, NotFound
+from backend.domain.unit_key import tells_unit, unit_key
+from backend.errors import Conflict, InvalidRequest, NameFirst, NoAnswer, NotFound
 from backend.services.device_ids import canonical, id_of
 from backend.services.device_view import ConfigStamp, DeviceView
 
@@ -34,9 +37,13 @@ DEVICES_MAX = 32
 class _Device:
     """One added unit: its thread, its id once it is settled, who listens."""
 
-    def __init__(self, url: str, kind: str, watchers: Callable[[], tuple[Watcher, ...]]) -> None:
+    def __init__(
+        self, url: str, kind: str, name: str | None, watchers: Callable[[], tuple[Watcher, ...]]
+    ) -> None:
         self.url = url
         self.kind = kind
+        self.name = name
+        # None until it is known that no other device has the same unit: nobody hears of it before.
         self.id: str | None = None
         self.unit: Unit
         self._watchers = watchers
@@ -48,6 +55,16 @@ class _Device:
         """The unit's serial number once it has said it."""
         identity = self.unit.status().identity
         return identity.serial_number if identity else None
+
+    @property
+    def unit_key(self) -> str | None:
+        """The unit's key once it has said who it is, if only that it cannot say."""
+        return self.unit_key_of(self.unit.status().identity)
+
+    def unit_key_of(self, identity: Identity | None) -> str | None:
+        if identity is None:
+            return None
+        return unit_key(self.unit.family, identity.serial_number, self.name, self.url)
 
     def listen(self, listener: Listener) -> Callable[[], None]:
         """Add a listener; the result removes it."""
@@ -82,7 +99,7 @@ class Devices:
     flash_folder: where simulated units keep their configuration between runs, None for nowhere.
     streaming: whether rows of every channel are to come by themselves. opener: how a url becomes a
     link. schemas: where descriptions of units with another firmware are kept. families: the makes
-    there are.
+    there are. bike_of: the bike that the unit with a key is on, told at once.
     """
 
     def __init__(
@@ -92,10 +109,12 @@ class Devices:
         opener: Callable[[str], LinkOpener] | None = None,
         schemas: MutableMapping[str, bytes] | None = None,
         families: Families = FAMILIES,
+        bike_of: Callable[[str], int | None] = lambda key: None,
     ) -> None:
         self._streaming = streaming
         self._schemas = {} if schemas is None else schemas
         self._families = families
+        self._bike_of = bike_of
         self._opener = opener or (lambda url: Opener(url, flash_folder))
         self._lock = threading.Lock()
         self._devices: dict[str, _Device] = {}  # by url
@@ -103,27 +122,30 @@ class Devices:
 
     # ------------------------------------------------------------------ which there are
 
-    def add(self, url: str, wait_s: float = IDENTITY_WAIT_S) -> DeviceView:
+    def add(self, url: str, wait_s: float = IDENTITY_WAIT_S, name: str | None = None) -> DeviceView:
         """Open a unit; it connects, and reconnects, in the background.
 
-        Waits up to `wait_s` for the unit to say who it is. The same url twice is the same device.
-        Raises InvalidRequest for a bad url, Conflict when the unit is here by another way already.
+        Waits up to `wait_s` for the unit to say who it is. name: its owner's for the unit. The same
+        url twice is the same device, and another name for it counts from then on. Raises
+        InvalidRequest for a bad url, Conflict when the unit is here by another way already.
         """
         url = canonical(url)
         kind = kind_of(url)
         with self._lock:
             device = self._devices.get(url)
             if device is None:
-                device = self._open(url, kind)
+                device = self._open(url, kind, name)
         device.unit.driver.probed.wait(wait_s)
         twin = self._settle(device)
         if twin is not None:
             self._close(device)
             raise Conflict(
-                f"The unit behind {url} is {device.serial_number}, which is connected as "
+                f"The unit behind {url} is {device.unit_key}, which is connected as "
                 f"{twin.id} over {twin.url} already. Remove that one first."
             )
-        return _view(device)
+        if name is not None and name != device.name:
+            self._name(device, name)
+        return self._view(device)
 
     def remove(self, device_id: str) -> None:
         """Let a unit go and give its port back; a simulated one ends. Raises NotFound."""
@@ -133,11 +155,11 @@ class Devices:
         """Every device in the order of its adding."""
         with self._lock:
             devices = [device for device in self._devices.values() if device.id is not None]
-        return [_view(device) for device in devices]
+        return [self._view(device) for device in devices]
 
     def get(self, device_id: str) -> DeviceView:
-        """One device by its id, its serial number or its url's id. Raises NotFound."""
-        return _view(self._find(device_id))
+        """One device by any of its names. Raises NotFound."""
+        return self._view(self._find(device_id))
 
     def ports(self) -> Sequence[PortInfo]:
         """Ports of this machine that may have a unit, and the simulated unit."""
@@ -193,12 +215,33 @@ class Devices:
         unit.require(Capability.STREAM)
         return unit.channels
 
-    def serial_number(self, device_id: str) -> str:
-        """Who the unit says it is. Raises NotFound, NoAnswer before it has."""
-        status = self.unit(device_id).status()
-        if status.identity is None:
-            raise NoAnswer(status.reason, "not_connected")
-        return status.identity.serial_number
+    def unit_key(self, device_id: str) -> str:
+        """Which unit it is. Raises NotFound, NoAnswer before it has said so."""
+        device = self._find(device_id)
+        key = device.unit_key
+        if key is None:
+            raise NoAnswer(device.unit.status().reason, "not_connected")
+        return key
+
+    def unit_at(self, device_id: str) -> str | None:
+        """As `unit_key`; None where there is no such device or it has not said so."""
+        try:
+            return self._find(device_id).unit_key
+        except NotFound:
+            return None
+
+    def own_key(self, device_id: str) -> str:
+        """As `unit_key`, for whoever is about to write to the unit.
+
+        Raises NameFirst for a unit without a serial number and without a name.
+        """
+        key = self.unit_key(device_id)
+        if not tells_unit(key):
+            raise NameFirst(
+                "This unit has no serial number, so nobody can tell it from the next one on this "
+                "connection. Give it a name first: connect it again with the name you call it by."
+            )
+        return key
 
     def wait_connected(self, device_id: str, timeout_s: float) -> bool:
         """Wait until the unit can be asked; False when it cannot after `timeout_s`."""
@@ -206,7 +249,7 @@ class Devices:
 
     # ------------------------------------------------------------------ inside
 
-    def _open(self, url: str, kind: str) -> _Device:
+    def _open(self, url: str, kind: str, name: str | None) -> _Device:
         """Make a device and start its thread; the caller holds the lock."""
         if len(self._devices) >= DEVICES_MAX:
             raise InvalidRequest(f"There are {DEVICES_MAX} devices already; remove one first.")
@@ -215,7 +258,7 @@ class Devices:
             raise InvalidRequest(
                 f"There is no family {family!r} of units; there is {', '.join(self._families)}."
             )
-        device = _Device(url, kind, lambda: self._watchers)
+        device = _Device(url, kind, name, lambda: self._watchers)
         device.unit = self._families[family](
             self._opener(url),
             lambda event: self._emit(device, event),
@@ -228,21 +271,34 @@ class Devices:
         return device
 
     def _emit(self, device: _Device, event: DeviceEvent) -> None:
-        if device.id is None and device.serial_number is not None:
+        if device.id is None and device.unit_key is not None:
             self._settle(device)
         device.emit(event)
 
     def _settle(self, device: _Device) -> _Device | None:
-        """Give a device its id for good; returns another device that is the same unit."""
-        serial_number = device.serial_number
+        """Let a device be heard of, for good; returns another device that is the same unit."""
+        key = device.unit_key
         with self._lock:
-            others = [other for other in self._devices.values() if other is not device]
-            twins = [other for other in others if serial_number in (other.id, other.serial_number)]
-            if serial_number is not None and twins:
-                return twins[0]
-            if device.id is None:
-                device.id = serial_number or id_of(device.url)
-        return None
+            twin = self._other_with(device, key)
+            if twin is None:
+                device.id = id_of(device.url)
+        return twin
+
+    def _other_with(self, device: _Device, key: str | None) -> _Device | None:
+        """Another device that is the unit with this key; the caller holds the lock."""
+        others = (other for other in self._devices.values() if other is not device)
+        return next((other for other in others if key is not None and other.unit_key == key), None)
+
+    def _name(self, device: _Device, name: str) -> None:
+        """Give a device's unit its owner's name. Raises Conflict where another unit has it."""
+        identity = device.unit.status().identity
+        with self._lock:
+            before, device.name = device.name, name
+            twin = self._other_with(device, device.unit_key_of(identity))
+            if twin is not None:
+                device.name = before
+                raise Conflict(f"{name} is connected as {twin.id} over {twin.url} already.")
+        device.emit(Named(name))
 
     def _close(self, device: _Device) -> None:
         with self._lock:
@@ -259,28 +315,32 @@ class Devices:
             if device.id == device_id:
                 return device
         for device in devices:
-            if device.id is not None and device_id in (device.serial_number, id_of(device.url)):
+            also = (device.url, device.unit_key, device.serial_number)
+            if device.id is not None and device_id in also:
                 return device
         raise NotFound(f"There is no device {device_id}. `GET /devices` lists those there are.")
+
+    def _view(self, device: _Device) -> DeviceView:
+        status = device.unit.status()
+        identity = status.identity
+        key = device.unit_key_of(identity)
+        return DeviceView(
+            id=device.id or id_of(device.url),
+            url=device.url,
+            kind="simulated" if identity and identity.simulated else device.kind,
+            state=status.state.value,
+            reason=status.reason,
+            identity=identity,
+            config=ConfigStamp.of(status),
+            link=asdict(status.statistics),
+            faults_active=status.faults_active,
+            family=device.unit.family,
+            capabilities=tuple(sorted(device.unit.capabilities)),
+            name=device.name,
+            unit_key=key,
+            bike_id=self._bike_of(key) if key is not None else None,
+        )
 
 
 def _bound(watcher: Watcher, device_id: str) -> Listener:
     return lambda event: watcher(device_id, event)
-
-
-def _view(device: _Device) -> DeviceView:
-    status = device.unit.status()
-    identity = status.identity
-    return DeviceView(
-        id=device.id or id_of(device.url),
-        url=device.url,
-        kind="simulated" if identity and identity.simulated else device.kind,
-        state=status.state.value,
-        reason=status.reason,
-        identity=identity,
-        config=ConfigStamp.of(status),
-        link=asdict(status.statistics),
-        faults_active=status.faults_active,
-        family=device.unit.family,
-        capabilities=tuple(sorted(device.unit.capabilities)),
-    )

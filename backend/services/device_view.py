@@ -44,10 +44,12 @@ class ConfigStamp:
 class DeviceView:
     """One device at one moment.
 
-    id: stable as long as the device is here. kind: simulated, serial or socket. state: connecting,
-    ready, read_only, lost or closed. reason: a sentence for people. identity: the last one known.
-    link: counters of LinkStatistics by name. capabilities: as in
-    backend.domain.capability.Capability.
+    id: of the connection, from its url: the same after every start. kind: simulated, serial or
+    socket. state: connecting, ready, read_only, lost or closed. reason: a sentence for people.
+    identity: the last one known. link: counters of LinkStatistics by name. capabilities: as in
+    backend.domain.capability.Capability. name: the owner's for the unit. unit_key: as of
+    backend.domain.unit_key; None until the unit said who it is. bike_id: the bike the unit is on;
+    None for a unit that nobody can tell from another.
     """
 
     id: str
@@ -61,6 +63,9 @@ class DeviceView:
     faults_active: tuple[str, ...]
     family: str
     capabilities: tuple[str, ...]
+    name: str | None
+    unit_key: str | None
+    bike_id: int | None
 
     @property
     def reason_code(self) -> str:

@@ -40,9 +40,11 @@ class Inspection:
     def clear_faults(self, device_id: str) -> Sequence[UnitFault]:
         """Forget the faults that are over; those that are left.
 
-        After a NoAnswer whose outcome is not known they may be forgotten: list them again.
+        After a NoAnswer whose outcome is not known they may be forgotten: list them again. Raises
+        NameFirst.
         """
         with telling("unknown"):
+            self._devices.own_key(device_id)
             return self._devices.unit(device_id).clear_faults()
 
     def wear_counters(self, device_id: str) -> WearCounters:

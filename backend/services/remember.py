@@ -15,11 +15,19 @@ from typing import Any
 
 from backend.control import law_defaults
 from backend.device.configuration import ConfigImage
-from backend.device.states import DeviceEvent, LinkState, StateChanged, UnitEvent
+from backend.device.states import (
+    CONNECTED,
+    DeviceEvent,
+    LinkState,
+    Named,
+    StateChanged,
+    UnitEvent,
+)
+from backend.domain.capability import Capability
 from backend.domain.ride import Ride, RideContext
 from backend.errors import NoAnswer, NotFound, SpindleError
 from backend.services.connect import Devices
-from backend.store import RevisionLog
+from backend.store import RevisionLog, SeenUnit, UnitStore
 
 LOG = logging.getLogger(__name__)
 
@@ -34,28 +42,36 @@ class UnitMemory:
     """
 
     def __init__(
-        self, devices: Devices, revisions: RevisionLog, note_trial_end: Callable[[str], None]
+        self,
+        devices: Devices,
+        revisions: RevisionLog,
+        units: UnitStore,
+        note_trial_end: Callable[[str], None],
     ) -> None:
         self._devices = devices
+        self._units = units
         self._note_trial_end = note_trial_end
         self._revisions = revisions
         self._lock = threading.Lock()
         self._configs: dict[str, ConfigImage] = {}
-        self._waiting: set[str] = set()
+        # Units that are to be read, and whether they were just connected.
+        self._waiting: dict[str, bool] = {}
         self._reader = ThreadPoolExecutor(1, thread_name_prefix="unit-memory")
 
     def follow(self, device_id: str, event: DeviceEvent) -> None:
         """Watcher for every unit's events: reads again when the configuration may be another."""
-        connected = isinstance(event, StateChanged) and event.state is LinkState.READY
+        connected = isinstance(event, StateChanged) and event.state in CONNECTED
+        connected = connected or isinstance(event, Named)
         changed = isinstance(event, UnitEvent) and event.name in CONFIG_EVENTS
         if not connected and not changed:
             return
         with self._lock:
             if device_id in self._waiting:
+                self._waiting[device_id] |= connected
                 return
-            self._waiting.add(device_id)
+            self._waiting[device_id] = connected
         try:
-            self._reader.submit(self._read, device_id, connected)
+            self._reader.submit(self._read, device_id)
         except RuntimeError:
             LOG.debug("%s changed while Spindle was closing.", device_id)
 
@@ -67,6 +83,7 @@ class UnitMemory:
         identity, stamp = device.identity, device.config
         return RideContext(
             device_id=device_id,
+            unit_key=device.unit_key,
             device_serial=identity.serial_number if identity else None,
             device_model=identity.model if identity else None,
             firmware_version=identity.firmware_version if identity else None,
@@ -78,9 +95,9 @@ class UnitMemory:
 
     def ride_config(self, ride: Ride) -> tuple[Mapping[str, Any], str]:
         """The configuration a ride was made with and `ride`, or the law's and `defaults`."""
-        serial, crc32 = ride.context.device_serial, ride.context.config_crc32
-        if serial is not None and crc32 is not None:
-            for revision in self._revisions.list(serial):
+        key, crc32 = ride.context.unit_key, ride.context.config_crc32
+        if key is not None and crc32 is not None:
+            for revision in self._revisions.list(key):
                 if revision.crc32 == crc32:
                     return revision.parameters, "ride"
         return law_defaults(), "defaults"
@@ -89,12 +106,18 @@ class UnitMemory:
         """Give up what waits."""
         self._reader.shutdown(wait=True, cancel_futures=True)
 
-    def _read(self, device_id: str, connected: bool) -> None:
+    def _read(self, device_id: str) -> None:
         with self._lock:
-            self._waiting.discard(device_id)
+            connected = self._waiting.pop(device_id)
         try:
+            if connected:
+                self._note_unit(device_id)
+            unit = self._devices.unit(device_id)
+            is_read = Capability.READ_CONFIG in unit.capabilities
+            if not is_read or unit.status().state is LinkState.READ_ONLY:
+                return
             self._note_trial_end(device_id)
-            config = self._devices.unit(device_id).read_config()
+            config = unit.read_config()
             with self._lock:
                 self._configs[device_id] = config
             if connected:
@@ -105,17 +128,27 @@ class UnitMemory:
         except SpindleError as error:
             LOG.warning("%s: its configuration was not remembered: %s", device_id, error.message)
 
-    def _keep(self, device_id: str, config: ConfigImage) -> None:
-        """Note the unit, and its configuration unless the newest in the log is the same."""
-        identity = self._devices.get(device_id).identity
-        if identity is None:
+    def _note_unit(self, device_id: str) -> None:
+        """Note that the unit is here: the first time makes its bike."""
+        device = self._devices.get(device_id)
+        if device.identity is None or device.unit_key is None:
             return
-        serial = identity.serial_number
-        self._revisions.device_seen(serial, identity.model, identity.firmware_version)
-        newest = self._revisions.list(serial, 1)
+        seen = SeenUnit(
+            device.unit_key,
+            device.identity.serial_number,
+            device.name,
+            device.identity.model,
+            device.identity.firmware_version,
+        )
+        self._units.seen(seen)
+
+    def _keep(self, device_id: str, config: ConfigImage) -> None:
+        """Note the unit's configuration unless the newest in the log is the same."""
+        key = self._devices.unit_key(device_id)
+        newest = self._revisions.list(key, 1)
         if not newest or newest[0].crc32 != config.crc32:
             self._revisions.append(
-                serial,
+                key,
                 config.parameters,
                 reason="found when the unit connected",
                 generation=config.generation,

@@ -35,11 +35,20 @@ class Export:
 
 
 class Rides:
-    """The rides' use cases; safe to call from any thread."""
+    """The rides' use cases; safe to call from any thread.
 
-    def __init__(self, store: Store, replay: Replay | None = None) -> None:
+    unit_at: the key of the unit that a device has now; None for one that is not there.
+    """
+
+    def __init__(
+        self,
+        store: Store,
+        replay: Replay | None = None,
+        unit_at: Callable[[str], str | None] = lambda device_id: None,
+    ) -> None:
         self._store = store
         self._replay = replay
+        self._unit_at = unit_at
 
     def list(
         self,
@@ -49,8 +58,12 @@ class Rides:
         limit: int = 50,
         cursor: str | None = None,
     ) -> dict[str, object]:
-        """One page, newest first: {items, next}. device: serial number."""
-        page = self._store.rides.list(microseconds(begin), microseconds(end), device, limit, cursor)
+        """One page, newest first: {items, next}.
+
+        device: a unit's key or serial number, or the id of a device that is connected now.
+        """
+        unit = None if device is None else self._unit_at(device) or device
+        page = self._store.rides.list(microseconds(begin), microseconds(end), unit, limit, cursor)
         return {"items": [self._told(ride) for ride in page.items], "next": page.next}
 
     def get(self, ride_id: int) -> dict[str, object]:

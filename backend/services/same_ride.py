@@ -27,25 +27,25 @@ def same_rides(rides: RideStore, imported: ImportedRide, upload_id: str | None) 
     not count.
     """
     context = imported.context
-    if context.device_serial is None or context.boot_id is None or context.unit_t0_us is None:
+    if context.unit_key is None or context.boot_id is None or context.unit_t0_us is None:
         return []
     start_us = context.unit_t0_us
     stop_us = start_us + int(imported.rows.times_us[-1]) + (imported.period_us or 0)
     enough_us = min(SHARED_US, (stop_us - start_us) / 2)
     found = [
         ride
-        for ride in rides_of_boot(rides, context.device_serial, context.boot_id)
+        for ride in rides_of_boot(rides, context.unit_key, context.boot_id)
         if (ride.upload_id is None or ride.upload_id != upload_id)
         and overlap_us((start_us, stop_us), ride_span_us(ride)) >= max(enough_us, 1.0)
     ]
     return sorted(found, key=ride_span_us)
 
 
-def rides_of_boot(rides: RideStore, serial: str, boot_id: int) -> Iterator[Ride]:
+def rides_of_boot(rides: RideStore, key: str, boot_id: int) -> Iterator[Ride]:
     """Rides of one start of a unit, the newest first."""
     cursor: str | None = None
     for _ in range(PAGES_MAX):
-        page = rides.list(device=serial, limit=PAGE, cursor=cursor)
+        page = rides.list(device=key, limit=PAGE, cursor=cursor)
         yield from (ride for ride in page.items if ride.context.boot_id == boot_id)
         cursor = page.next
         if cursor is None:

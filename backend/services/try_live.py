@@ -43,7 +43,7 @@ class LiveTuning:
         """Try values for `ttl_s` seconds, on top of what is tried already.
 
         Raises InvalidRequest, LimitViolation with every fault named, AccessDenied for what the
-        maker protects, NotFound, Conflict, NoAnswer.
+        maker protects, NotFound, Conflict, NameFirst, NoAnswer.
         """
         unit = self._devices.writable(device_id)
         unit.require(Capability.LIVE_SET)
@@ -54,6 +54,7 @@ class LiveTuning:
         if unknown:
             raise InvalidRequest(" ".join(fault.message for fault in unknown), fields=unknown)
         with telling("unchanged"):
+            self._devices.own_key(device_id)
             in_force = unit.values_in_force()
         intended = {**in_force, **changes}
         faults = unit.parameters.faults_of(intended)
@@ -74,10 +75,11 @@ class LiveTuning:
         return self._view(state)
 
     def end(self, device_id: str) -> LiveView:
-        """End what is tried: the law runs on the configuration again."""
+        """End what is tried: the law runs on the configuration again. Raises as `set`."""
         unit = self._devices.writable(device_id)
         try:
             with telling("unknown"):
+                self._devices.own_key(device_id)
                 state = unit.end_live()
         except NoAnswer as error:
             if error.outcome != "unknown":

@@ -105,7 +105,7 @@ class Tuning:
     def revisions(self, device_id: str) -> Sequence[Revision]:
         """Every configuration the unit is known to have had, newest first."""
         table = self._devices.unit(device_id).parameters
-        return self._book.list(self._devices.serial_number(device_id), table)
+        return self._book.list(self._devices.unit_key(device_id), table)
 
     # ------------------------------------------------------------------ writing
 
@@ -152,9 +152,9 @@ class Tuning:
         so many seconds. token: the maker's answer to TokenNeeded. kept: names among `changes`
         that are there to be compared: another value than the unit's is refused. Raises
         InvalidRequest, LimitViolation with every fault named, TokenNeeded, AccessDenied,
-        ConfigConflict, NotStandingStill, CapabilityMissing; after each of them the unit is
-        unchanged. NoAnswer says in `outcome` what became of the change. PeerProtocolError names the
-        fields that read back different.
+        ConfigConflict, NotStandingStill, CapabilityMissing, NameFirst; after each of them the unit
+        is unchanged. NoAnswer says in `outcome` what became of the change. PeerProtocolError names
+        the fields that read back different.
         """
         if not 0 <= confirm_s <= CONFIRM_S_MAX:
             raise InvalidRequest(f"confirm_s is from 0 to {CONFIRM_S_MAX} seconds.")
@@ -167,13 +167,13 @@ class Tuning:
         if unknown:
             raise InvalidRequest(" ".join(fault.message for fault in unknown), fields=unknown)
         with self._turn(device_id), telling("unchanged"):
+            key = self._devices.own_key(device_id)
             base = unit.read_config()
             check_base(base, if_match)
             intended = _intended(unit.parameters, base, changes)
             changed = differences(base.parameters, intended)
             _check_kept(changed, kept)
-            serial_number = self._devices.serial_number(device_id)
-            self._book.back_up(serial_number, base)
+            self._book.back_up(key, base)
             found = base
             writes = bool(changed) or unit.settings_are_lost()
             if writes:
@@ -183,9 +183,9 @@ class Tuning:
                     found = self._commit(device_id, base, intended, changed, confirm_s, permit)
                 except NoAnswer as error:
                     if error.outcome == "unknown":
-                        self._book.leave_open(serial_number, meant)
+                        self._book.leave_open(key, meant)
                     raise
-                self._book.note(serial_number, found, meant)
+                self._book.note(key, found, meant)
         if writes and confirm_s:
             with telling("changed"):
                 expires_at = self._expires_at(unit, found)
@@ -197,15 +197,16 @@ class Tuning:
         """Keep the change on trial, after reading it back and comparing it field by field.
 
         Raises Conflict when nothing is on trial or what is on trial was not written by this
-        Spindle, PeerProtocolError naming fields that read back different, NotFound, NoAnswer.
+        Spindle, PeerProtocolError naming fields that read back different, NotFound, NameFirst,
+        NoAnswer.
         """
         with self._turn(device_id), telling("unchanged"):
-            serial_number = self._devices.serial_number(device_id)
+            key = self._devices.own_key(device_id)
             unit = self._devices.unit(device_id)
             trial = unit.trial()
             if not trial.on_trial:
                 raise Conflict(NO_TRIAL, "no_trial")
-            meant = self._book.known(serial_number, trial.crc32, unit.parameters)
+            meant = self._book.known(key, trial.crc32, unit.parameters)
             if meant is None:
                 raise Conflict(
                     "What is on trial was not written by this Spindle, so it does not know what "
@@ -219,7 +220,7 @@ class Tuning:
                 lambda unit: unit.outcome_of_confirm(tried),
             )
             reason = f"Kept after its trial: {meant.reason}" if meant.reason else KEPT_REASON
-            self._book.note(serial_number, found, Meant(found.crc32, (), reason, author, KEPT))
+            self._book.note(key, found, Meant(found.crc32, (), reason, author, KEPT))
         return ConfigChange.of(found)
 
     def rollback_config(self, device_id: str, author: str = "") -> ConfigChange:
@@ -231,6 +232,7 @@ class Tuning:
         with self._turn(device_id), telling("unchanged"):
             unit = self._devices.writable(device_id)
             unit.require(Capability.UNIT_TRIAL)
+            key = self._devices.own_key(device_id)
             tried = unit.read_config()
             found = self._certainly(
                 device_id,
@@ -239,7 +241,7 @@ class Tuning:
             )
             changed = differences(tried.parameters, found.parameters)
             meant = Meant(found.crc32, changed, RETURNED_REASON, author, KEPT)
-            self._book.note(self._devices.serial_number(device_id), found, meant)
+            self._book.note(key, found, meant)
         return ConfigChange.of(found, changed=changed)
 
     def note_trial_end(self, device_id: str) -> None:
@@ -249,9 +251,9 @@ class Tuning:
         whose answer never came. Raises NotFound, NoAnswer, StoreError.
         """
         with self._turn(device_id):
-            serial_number = self._devices.serial_number(device_id)
-            if self._book.may_have_ended(serial_number):
-                self._book.back_up(serial_number, self._devices.writable(device_id).read_config())
+            key = self._devices.unit_key(device_id)
+            if self._book.may_have_ended(key):
+                self._book.back_up(key, self._devices.writable(device_id).read_config())
 
     # ------------------------------------------------------------------ inside
 

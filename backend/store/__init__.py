@@ -1,4 +1,4 @@
-"""SQL and objects: rides, revisions, uploads. The only door to SQLAlchemy and pyarrow."""
+"""SQL and objects: rides, revisions, units, uploads. The only door to SQLAlchemy and pyarrow."""
 
 from backend.store.reader import RideReader
 from backend.store.revisions import RevisionLog
@@ -6,6 +6,7 @@ from backend.store.rides import RidePage, RideStore
 from backend.store.soundness import expected_of
 from backend.store.store import Store, open_store
 from backend.store.trouble import Trouble, WriteWatch
+from backend.store.units import SeenUnit, UnitStore
 from backend.store.uploads import Upload, UploadStore, Verdict
 
 __all__ = [
@@ -13,8 +14,10 @@ __all__ = [
     "RidePage",
     "RideReader",
     "RideStore",
+    "SeenUnit",
     "Store",
     "Trouble",
+    "UnitStore",
     "Upload",
     "UploadStore",
     "Verdict",

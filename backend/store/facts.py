@@ -8,7 +8,7 @@ its columns. A sidecar may hold the facts that a file of version 1 lacks.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 from typing import Any, TypeVar
 
 from backend.domain.channels import ChannelSpec, channel_to_json
@@ -16,6 +16,7 @@ from backend.domain.energy import derivable
 from backend.domain.filled import Filled
 from backend.domain.ride import Gap, Ride, RideContext
 from backend.domain.ride_events import RideEvent
+from backend.domain.unit_key import ebl_key
 
 Item = TypeVar("Item", Filled, Gap, RideContext, RideEvent)
 
@@ -97,6 +98,9 @@ def kept_ride(
         # What has a unit's number was nearly always recorded here.
         known["origin"] = ORIGINS[known.get("device_serial") is None]
     context = known_fields(RideContext, known.get("context") or known)
+    if context.unit_key is None:
+        # A file of before units had keys.
+        context = replace(context, unit_key=ebl_key(context.device_serial))
     ride = Ride(
         id=0,
         state="done",

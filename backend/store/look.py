@@ -19,8 +19,10 @@ from backend.store.database import shown, sqlite_path
 from backend.store.objects import content_key, sidecar_key
 
 MISSING, EMPTY, DAMAGED, FOREIGN, OK = "missing", "empty", "damaged", "foreign", "ok"
-# Tables whose rows somebody would miss.
-OURS = ("ride", "upload", "device", "config_revision")
+# Every schema has these.
+OURS = frozenset({"ride", "upload"})
+# Tables whose rows somebody would miss, of every schema.
+MISSED = frozenset({"ride", "upload", "device", "config_revision", "unit", "revision"})
 
 
 @dataclass(frozen=True)
@@ -115,7 +117,7 @@ def view_of(connection: Connection) -> DatabaseView:
     """What a connection shows, in one snapshot."""
     inspector = inspect(connection)
     tables = set(inspector.get_table_names())
-    if not tables & set(OURS):
+    if not tables >= OURS:
         foreign = tables - {"alembic_version"} and connection.dialect.name == "sqlite"
         named = ", ".join(sorted(tables)[:3])
         return DatabaseView(FOREIGN, f"its tables are {named}") if foreign else DatabaseView(EMPTY)
@@ -135,7 +137,10 @@ def view_of(connection: Connection) -> DatabaseView:
         identity, rebuilding = (row.store_id, bool(row.rebuilding)) if row else (None, False)
         discarded = values("SELECT key FROM discarded_object")
     names = {column["name"] for column in inspector.get_columns("ride")}
-    holds = any(connection.execute(text(f"SELECT 1 FROM {name} LIMIT 1")).first() for name in OURS)
+    holds = any(
+        connection.execute(text(f"SELECT 1 FROM {name} LIMIT 1")).first()
+        for name in sorted(tables & MISSED)
+    )
     return DatabaseView(
         state=OK if holds or identity else EMPTY,
         identity=identity,

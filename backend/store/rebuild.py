@@ -211,7 +211,7 @@ def add_kept(database: Database, objects: FileObjects, kept: KeptRide) -> tuple[
         upload_id = None
         if kept.original is not None:
             upload_id = upload_of(connection, objects, kept.original, state, completeness)
-        ride_id = inserted(connection, row_of(ride) | {"upload_id": upload_id})
+        ride_id = inserted(connection, row_of(ride) | {"upload_id": upload_id}, ride.context)
         finish_row(connection, ride_id, written)
         if upload_id is not None:
             join_source(connection, ride_id, upload_id, MADE)

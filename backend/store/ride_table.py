@@ -19,6 +19,7 @@ from backend.store import tables as t
 from backend.store.blobs import channel_list, encode_level
 from backend.store.discard import take_back, with_sidecar
 from backend.store.finish import WrittenObject
+from backend.store.units import bike_of_ride
 
 NAME_LENGTH_MAX = 200
 # The largest whole number SQL holds.
@@ -44,7 +45,7 @@ def ride_from_row(row: Row[Any]) -> Ride:
     """A row of `whole_ride` -> ride."""
     body = row._mapping
     channels = channel_list(body["channels"])
-    context = RideContext(**body["context"])
+    context = RideContext(**body["context"] | {"unit_key": body["unit_key"]})
     figures = {field.name: body[field.name] for field in fields(RideSummary)}
     return Ride(
         id=body["id"],
@@ -68,6 +69,7 @@ def ride_from_row(row: Row[Any]) -> Ride:
         object_bytes=body["object_bytes"],
         summary=RideSummary(**figures) if figures["duration_s"] is not None else None,
         cut_short=bool(body["cut_short"]),
+        bike_id=body["bike_id"],
     )
 
 
@@ -98,12 +100,11 @@ def ride_row(
         "origin": origin,
         "name": name[:NAME_LENGTH_MAX],
         "notes": "",
-        "device_serial": context.device_serial,
+        **whose(context),
         "started_us": started_us,
         "row_count": 0,
         "period_us": period_us,
         "channels": [channel_to_json(channel) for channel in channels],
-        "context": asdict(context),
         "gaps": [],
         "created_us": time.time_ns() // 1000,
     }
@@ -118,8 +119,22 @@ def row_of(ride: Ride) -> dict[str, object]:
     return row | {"notes": ride.notes, "filled": filled, "cut_short": ride.cut_short}
 
 
-def inserted(connection: Connection, body: dict[str, object]) -> int:
-    """Insert a ride and return its id, which no other ride ever had."""
+def whose(context: RideContext) -> dict[str, object]:
+    """The columns that say what was true of the bike, and by which a unit's rides are found."""
+    return {
+        "context": asdict(context),
+        "device_serial": context.device_serial,
+        "unit_key": context.unit_key,
+    }
+
+
+def inserted(connection: Connection, body: dict[str, object], context: RideContext) -> int:
+    """Insert a ride and return its id, which no other ride ever had.
+
+    Its unit, and the bike this is on, are made where they are not known.
+    """
+    started_us = int(str(body["started_us"]))
+    body = body | {"bike_id": bike_of_ride(connection, context, started_us)}
     count = update(t.ride_number).values(last=t.ride_number.c.last + 1)
     ride_id = int(connection.execute(count.returning(t.ride_number.c.last)).scalar_one())
     connection.execute(insert(t.ride).values(body | {"id": ride_id}))
@@ -178,7 +193,7 @@ def refill_row(connection: Connection, ride: Ride, object_key: str) -> bool:
         .where(t.ride.c.id == ride.id, t.ride.c.object_key == object_key)
         .values(
             started_us=ride.started_us,
-            context=asdict(ride.context),
+            **whose(ride.context),
             filled=[asdict(span) for span in ride.filled],
             cut_short=ride.cut_short,
         )

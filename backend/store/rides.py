@@ -15,7 +15,7 @@ import time
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import partial
 from pathlib import PurePosixPath
 from typing import Any
@@ -58,9 +58,11 @@ from backend.store.ride_table import (
     upload_file,
     upload_key,
     whole_ride,
+    whose,
 )
 from backend.store.sidecar import keep_words, tell_for_old_file
 from backend.store.soundness import Expected, Soundness
+from backend.store.units import bike_of_ride
 
 LOG = logging.getLogger(__name__)
 
@@ -125,7 +127,7 @@ class RideStore:
             raise InvalidRequest("A live ride needs 16 bit channels and a period above 0.")
         body = ride_row("recorded", channels, period_us, started_us, context, name)
         body |= {"server_id": self._server_id, "heartbeat_us": time.time_ns() // 1000}
-        ride_id = self._database.write(lambda c: inserted(c, body))
+        ride_id = self._database.write(lambda c: inserted(c, body, context))
         self._recording.add(ride_id)
         return ride_id
 
@@ -161,10 +163,16 @@ class RideStore:
 
     def set_context(self, ride_id: int, context: RideContext) -> None:
         """Say what was true of the bike, when it is known only after the start."""
-        values = {"context": asdict(context), "device_serial": context.device_serial}
-        self._database.write(
-            lambda c: c.execute(update(t.ride).where(t.ride.c.id == ride_id).values(values))
-        )
+        mine = t.ride.c.id == ride_id
+
+        def work(connection: Connection) -> None:
+            began = select(t.ride.c.started_us).where(mine)
+            started_us = int(connection.execute(began).scalar() or 0)
+            bike_id = bike_of_ride(connection, context, started_us)
+            values = whose(context) | {"bike_id": bike_id}
+            connection.execute(update(t.ride).where(mine).values(values))
+
+        self._database.write(work)
 
     def finish(self, ride_id: int) -> Ride | None:
         """Make a live ride an immutable object. Safe to repeat after any failure.
@@ -243,7 +251,7 @@ class RideStore:
 
             def work(connection: Connection) -> int:
                 key = upload_key(connection, upload_id)
-                ride_id = inserted(connection, row_of(ride) | {"upload_id": key})
+                ride_id = inserted(connection, row_of(ride) | {"upload_id": key}, ride.context)
                 finish_row(connection, ride_id, written)
                 if key is not None:
                     join_source(connection, ride_id, key, MADE)
@@ -314,7 +322,10 @@ class RideStore:
         limit: int = 50,
         cursor: str | None = None,
     ) -> RidePage:
-        """Rides by start, newest first; `cursor` is the `next` of the page before."""
+        """Rides by start, newest first; `cursor` is the `next` of the page before.
+
+        device: a unit's key, or its serial number.
+        """
         if not 1 <= limit <= PAGE_MAX:
             raise InvalidRequest(f"limit is {limit}: it must be from 1 to {PAGE_MAX}.")
         query = whole_ride().order_by(t.ride.c.started_us.desc(), t.ride.c.id.desc())
@@ -323,7 +334,7 @@ class RideStore:
         if to_us is not None:
             query = query.where(t.ride.c.started_us < to_us)
         if device is not None:
-            query = query.where(t.ride.c.device_serial == device)
+            query = query.where((t.ride.c.unit_key == device) | (t.ride.c.device_serial == device))
         if cursor is not None:
             started_us, ride_id = cursor_parts(cursor)
             query = query.where(

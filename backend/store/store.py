@@ -27,6 +27,7 @@ from backend.store.revisions import RevisionLog
 from backend.store.rides import Orphan, RideStore
 from backend.store.soundness import Soundness
 from backend.store.trouble import DISK_FULL, WORDS, code_of
+from backend.store.units import UnitStore
 from backend.store.uploads import UploadStore
 
 LOG = logging.getLogger(__name__)
@@ -37,7 +38,10 @@ NAMED_MAX = 10
 
 
 class Store:
-    """Everything that is kept: `rides`, `revisions`, `uploads`. closing: lets go of the locks."""
+    """Everything that is kept: `rides`, `revisions`, `units`, `uploads`.
+
+    closing: lets go of the locks.
+    """
 
     def __init__(
         self, database: Database, objects: FileObjects, closing: ExitStack, server_id: str
@@ -50,6 +54,7 @@ class Store:
         self.soundness = Soundness(objects.root)
         self.rides = RideStore(database, objects, self.deletions, self.soundness, server_id)
         self.revisions = RevisionLog(database)
+        self.units = UnitStore(database)
         self.uploads = UploadStore(database, objects, objects.root / SPOOL, self.deletions)
         # Rides that the start could not finish.
         self.unfinished: list[int] = []

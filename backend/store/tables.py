@@ -1,4 +1,4 @@
-"""The tables: rides with their tails, pyramids and figures, uploads, devices, configurations.
+"""The tables: rides with their tails, pyramids and figures, uploads, units, bikes, configurations.
 
 Times are microseconds since 1970 UTC in BIGINT, because SQLite drops time zones. Primary keys are
 BIGINT on PostgreSQL and the rowid on SQLite: a blob table without one doubles in size, since
@@ -61,23 +61,44 @@ discarded_object = Table(
     Column("due_us", BigInteger, nullable=False, server_default="0"),
 )
 
-device = Table(
-    "device",
+# Every unit there was, by the key of domain.unit_key. name: its owner's.
+unit = Table(
+    "unit",
     metadata,
-    key(),
-    Column("serial", String(64), nullable=False, unique=True),
-    Column("model", String(64)),
-    Column("firmware_version", String(32)),
+    Column("key", Text, primary_key=True),
+    Column("serial_number", Text),
+    Column("name", Text),
+    Column("model", Text),
+    Column("firmware_version", Text),
     Column("created_us", BigInteger, nullable=False),
     Column("last_seen_us", BigInteger, nullable=False),
 )
 
-config_revision = Table(
-    "config_revision",
+bike = Table(
+    "bike",
     metadata,
     key(),
-    Column("device_id", KEY, ForeignKey("device.id"), nullable=False),
-    Column("parent_id", KEY, ForeignKey("config_revision.id")),
+    Column("name", Text, nullable=False),
+    Column("created_us", BigInteger, nullable=False),
+)
+
+# Which unit was on which bike, from when to when; to_us is null while it is on it.
+bike_unit = Table(
+    "bike_unit",
+    metadata,
+    key(),
+    Column("bike_id", KEY, ForeignKey("bike.id"), nullable=False, index=True),
+    Column("unit_key", Text, ForeignKey("unit.key"), nullable=False, index=True),
+    Column("from_us", BigInteger, nullable=False),
+    Column("to_us", BigInteger),
+)
+
+revision = Table(
+    "revision",
+    metadata,
+    key(),
+    Column("unit_key", Text, ForeignKey("unit.key"), nullable=False),
+    Column("parent_id", KEY, ForeignKey("revision.id")),
     Column("seq", Integer, nullable=False),
     Column("body", JSON, nullable=False),
     Column("sha256", String(64), nullable=False),
@@ -88,7 +109,7 @@ config_revision = Table(
     Column("reason", Text, nullable=False),
     Column("state", String(16), nullable=False),
     Column("created_us", BigInteger, nullable=False),
-    UniqueConstraint("device_id", "seq"),
+    UniqueConstraint("unit_key", "seq"),
 )
 
 upload = Table(
@@ -120,6 +141,8 @@ ride = Table(
     Column("name", Text, nullable=False),
     Column("notes", Text, nullable=False),
     Column("device_serial", String(64), index=True),
+    Column("unit_key", Text, index=True),
+    Column("bike_id", KEY, ForeignKey("bike.id"), index=True),
     Column("started_us", BigInteger, nullable=False, index=True),
     Column("row_count", BigInteger, nullable=False),
     Column("period_us", BigInteger),

@@ -18,7 +18,7 @@ class MemoryRevisions:
 
     def append(
         self,
-        device_serial: str,
+        unit_key: str,
         parameters: Mapping[str, Any],
         changed: Sequence[Mapping[str, Any]] = (),
         reason: str = "",
@@ -29,7 +29,7 @@ class MemoryRevisions:
     ) -> Revision:
         if self.full:
             raise StoreError("The disk is full.")
-        rows = self.kept.setdefault(device_serial, [])
+        rows = self.kept.setdefault(unit_key, [])
         revision = Revision(
             len(rows) + 1,
             1_700_000_000_000_000,
@@ -40,9 +40,10 @@ class MemoryRevisions:
             crc32,
             changed,
             dict(parameters),
+            unit_key,
         )
         rows.append(revision)
         return revision
 
-    def list(self, device_serial: str, limit: int = 1000) -> Sequence[Revision]:
-        return self.kept.get(device_serial, [])[::-1][:limit]
+    def list(self, unit_key: str, limit: int = 1000) -> Sequence[Revision]:
+        return self.kept.get(unit_key, [])[::-1][:limit]

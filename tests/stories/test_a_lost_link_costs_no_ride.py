@@ -93,7 +93,7 @@ def desk(tmp_path: Path) -> Iterator[Desk]:
     cable = UnitOpener(FastUnit(unit), URL)
     devices = Devices(opener=lambda url: cable)
     with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as store:
-        memory = UnitMemory(devices, store.revisions, lambda unit: None)
+        memory = UnitMemory(devices, store.revisions, store.units, lambda unit: None)
         recorder = Recorder(store.rides, memory.ride_context, RecordSettings())
         uploads = Uploads(store, reader=read_here)
         collect = Collect(devices, uploads, tmp_path / "collecting")

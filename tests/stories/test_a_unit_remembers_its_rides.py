@@ -113,7 +113,11 @@ def test_a_ride_nobody_watched_comes_from_the_unit_s_log_with_what_it_was_made_w
         assert done["duplicate_of"] is None
         ride = second.get(f"/rides/{done['ride_id']}")
         assert ride["origin"] == "imported"
-        assert ride["device"]["device_serial"] == device
+        unit = second.get(f"/devices/{device}")
+        assert ride["device"]["device_serial"] == unit["identity"]["serial_number"]
+        assert (ride["unit_key"], ride["bike_id"]) == (unit["unit_key"], unit["bike_id"])
+        assert ride["bike_id"] is not None
+        assert ride in second.get(f"/rides?device={device}")["items"]
         assert ride["device"]["gear_ratio"] == pytest.approx(40.34)
         assert ride["completeness"] == 1.0
         assert ride["period_us"] == 100_000

@@ -47,7 +47,7 @@ def stop_riding(server: SpindleServer, device: str) -> None:
 
 def rides_of(server: SpindleServer, device: str) -> list[dict[str, Any]]:
     rides: list[dict[str, Any]] = server.get("/rides")["items"]
-    return [ride for ride in rides if ride["device"]["device_serial"] == device]
+    return [ride for ride in rides if ride["device"]["device_id"] == device]
 
 
 def states(rides: list[dict[str, Any]]) -> set[str]:

@@ -35,7 +35,14 @@ def test_the_simulated_unit_appears_ready_with_its_identity(
     health = server.get("/health")
 
     assert unit["kind"] == "simulated"
-    assert unit["identity"]["serial_number"] == device
+    serial_number = unit["identity"]["serial_number"]
+    assert unit["url"].startswith("sim:")
+    assert unit["id"].startswith("sim-")
+    assert unit["name"] is None
+    assert unit["unit_key"] == f"ebl:{serial_number}"
+    # Its bike is made as soon as it was seen; a bookmark of before is a serial number.
+    eventually(lambda: server.get(f"/devices/{serial_number}")["bike_id"])
+    assert server.get(f"/devices/{unit['unit_key']}")["id"] == device
     assert unit["identity"]["protocol_version"] == "1.0"
     assert unit["config"]["generation"] >= 1
     (told,) = health["devices"]
@@ -82,15 +89,19 @@ def test_what_a_unit_was_told_survives_a_restart(tmp_path: Path) -> None:
     first.stand_still(device)
     body = {"parameters": {"torque_filter_s": 0.33}, "reason": "to stay"}
     first.ask("PATCH", f"/devices/{device}/config", json=body)
+    bike_id = first.get(f"/devices/{device}")["bike_id"]
     first.stop()
 
     second = SpindleServer(tmp_path).start()
     again = second.ready_device()
     value = second.get(f"/devices/{again}/config")["parameters"]["torque_filter_s"]
     reasons = [item["reason"] for item in second.get(f"/devices/{again}/config/revisions")["items"]]
+    found = second.get(f"/devices/{again}")["bike_id"]
     second.stop()
 
     assert again == device
+    assert bike_id is not None
+    assert found == bike_id
     assert value == pytest.approx(0.33)
     assert "to stay" in reasons
 

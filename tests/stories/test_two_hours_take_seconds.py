@@ -57,7 +57,7 @@ def ride(server: SpindleServer, device: str) -> dict[str, Any]:
         lambda: [
             ride
             for ride in server.get("/rides")["items"]
-            if ride["device"]["device_serial"] == device and ride["state"] == "done"
+            if ride["device"]["device_id"] == device and ride["state"] == "done"
         ]
     )
     return dict(rides[0])

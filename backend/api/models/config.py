@@ -128,6 +128,7 @@ class Revision(Answer):
     generation: int | None
     crc32: int | None
     changed: list[Change]
+    unit_key: str = Field(description="Whose configuration it was, over whatever connection.")
 
 
 class RevisionList(Answer):

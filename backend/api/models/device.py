@@ -86,10 +86,19 @@ class DeviceRequest(Question):
         pattern=r"^[^\x00-\x1f\x7f]+$",
         description="`sim`, `sim:NAME?seed=1`, `/dev/ttyUSB0`, `COM3` or `socket://host:port`.",
     )
+    name: str | None = Field(
+        default=None,
+        min_length=1,
+        max_length=60,
+        pattern=r"^[^\x00-\x20\x7f]([^\x00-\x1f\x7f]*[^\x00-\x20\x7f])?$",
+        description="What you call the unit. A unit without a serial number is known by it, and "
+        "nothing is written to it before it has one (409 `name_first`): give the same name each "
+        "time. Adding the same url again with another name names it anew.",
+    )
 
 
 class Identity(Answer):
-    serial_number: str
+    serial_number: str | None = Field(description="null for a unit that has none.")
     model: str
     hardware_revision: int
     firmware_version: str
@@ -116,10 +125,26 @@ class ConfigStamp(Answer):
 
 
 class Device(Answer):
-    """One unit. `reason` says in a sentence why the state is what it is."""
+    """A connection and the unit at its other end.
 
-    id: str
+    `reason` says in a sentence why the state is what it is.
+    """
+
+    id: str = Field(
+        description="Of the connection: made of its url, the same after every start. Where a path "
+        "takes it, it takes the unit's serial number and `unit_key` too."
+    )
     url: str
+    name: str | None = Field(description="What its owner calls the unit, as it was added.")
+    unit_key: str | None = Field(
+        description="Of the unit, whatever it is connected by: `family:serial`, else "
+        "`family:name:NAME`, else `family:url:URL`. null until it said who it is. Its rides and "
+        "its revisions have the same."
+    )
+    bike_id: int | None = Field(
+        description="The bike the unit is on, made when it was first seen; null for a unit without "
+        "a serial number and without a name."
+    )
     kind: DeviceKind
     state: DeviceState
     reason: str

@@ -83,7 +83,7 @@ class RideChannel(Answer):
 class RideDevice(Answer):
     """What was true of the bike while the ride was made; null where nobody knows."""
 
-    device_id: str | None
+    device_id: str | None = Field(description="The connection it was recorded over.")
     device_serial: str | None
     device_model: str | None
     firmware_version: str | None
@@ -102,6 +102,8 @@ class Ride(Answer):
     row_count: int
     period_us: int | None = Field(description="Spacing of the rows; null when irregular.")
     channels: list[RideChannel]
+    unit_key: str | None = Field(description="The unit it was made with; null where nobody knows.")
+    bike_id: int | None = Field(description="The bike that unit was on; null where nobody knows.")
     device: RideDevice
     gaps: list[Gap]
     filled: list[Filled]

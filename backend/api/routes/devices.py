@@ -47,9 +47,12 @@ async def list_devices(services: Provided) -> dict[str, Any]:
     status_code=status.HTTP_201_CREATED,
 )
 def add_device(body: DeviceRequest, services: Provided, response: Response) -> Any:
-    """Opens a unit; it connects, and reconnects, in the background."""
+    """Opens a unit; it connects, and reconnects, in the background.
+
+    The same url again is the same device, and may give its unit a name.
+    """
     check_asked(body.url)
-    device = services.devices.add(body.url)
+    device = services.devices.add(body.url, name=body.name)
     response.headers["location"] = f"/api/v1/devices/{device.id}"
     return device
 

@@ -50,7 +50,10 @@ def list_rides(
     services: Provided,
     begin: Annotated[datetime | None, Query(alias="from")] = None,
     end: Annotated[datetime | None, Query(alias="to")] = None,
-    device: Annotated[str | None, Query(max_length=200, description="Serial number.")] = None,
+    device: Annotated[
+        str | None,
+        Query(max_length=500, description="A unit's key or serial number, or a device's id."),
+    ] = None,
     limit: Annotated[int, Query(ge=1, le=500)] = 50,
     cursor: Annotated[str | None, Query(max_length=200)] = None,
 ) -> Any:

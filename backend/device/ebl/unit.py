@@ -43,6 +43,7 @@ from backend.device.unit import Unit
 from backend.device.wear_counters import WearCounters
 from backend.domain.capability import Capability
 from backend.domain.channels import ChannelSpec
+from backend.domain.unit_key import EBL
 from backend.errors import CapabilityMissing, DeviceRefused, SpindleError
 
 Result = TypeVar("Result")
@@ -66,7 +67,7 @@ class EblUnit(Unit):
     schemas as in Session.
     """
 
-    family = "ebl"
+    family = EBL
 
     def __init__(
         self,

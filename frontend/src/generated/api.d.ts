@@ -57,6 +57,8 @@ export interface paths {
         /**
          * Add Device
          * @description Opens a unit; it connects, and reconnects, in the background.
+         *
+         *     The same url again is the same device, and may give its unit a name.
          */
         post: operations["add_device"];
         delete?: never;
@@ -1160,13 +1162,33 @@ export interface components {
         };
         /**
          * Device
-         * @description One unit. `reason` says in a sentence why the state is what it is.
+         * @description A connection and the unit at its other end.
+         *
+         *     `reason` says in a sentence why the state is what it is.
          */
         Device: {
-            /** Id */
+            /**
+             * Id
+             * @description Of the connection: made of its url, the same after every start. Where a path takes it, it takes the unit's serial number and `unit_key` too.
+             */
             id: string;
             /** Url */
             url: string;
+            /**
+             * Name
+             * @description What its owner calls the unit, as it was added.
+             */
+            name: string | null;
+            /**
+             * Unit Key
+             * @description Of the unit, whatever it is connected by: `family:serial`, else `family:name:NAME`, else `family:url:URL`. null until it said who it is. Its rides and its revisions have the same.
+             */
+            unit_key: string | null;
+            /**
+             * Bike Id
+             * @description The bike the unit is on, made when it was first seen; null for a unit without a serial number and without a name.
+             */
+            bike_id: number | null;
             /**
              * Kind
              * @enum {string}
@@ -1231,6 +1253,11 @@ export interface components {
              * @description `sim`, `sim:NAME?seed=1`, `/dev/ttyUSB0`, `COM3` or `socket://host:port`.
              */
             url: string;
+            /**
+             * Name
+             * @description What you call the unit. A unit without a serial number is known by it, and nothing is written to it before it has one (409 `name_first`): give the same name each time. Adding the same url again with another name names it anew.
+             */
+            name?: string | null;
         };
         /** ErasedLog */
         ErasedLog: {
@@ -1456,8 +1483,11 @@ export interface components {
         };
         /** Identity */
         Identity: {
-            /** Serial Number */
-            serial_number: string;
+            /**
+             * Serial Number
+             * @description null for a unit that has none.
+             */
+            serial_number: string | null;
             /** Model */
             model: string;
             /** Hardware Revision */
@@ -1797,6 +1827,11 @@ export interface components {
             crc32: number | null;
             /** Changed */
             changed: components["schemas"]["Change"][];
+            /**
+             * Unit Key
+             * @description Whose configuration it was, over whatever connection.
+             */
+            unit_key: string;
         };
         /** RevisionList */
         RevisionList: {
@@ -1837,6 +1872,16 @@ export interface components {
             period_us: number | null;
             /** Channels */
             channels: components["schemas"]["RideChannel"][];
+            /**
+             * Unit Key
+             * @description The unit it was made with; null where nobody knows.
+             */
+            unit_key: string | null;
+            /**
+             * Bike Id
+             * @description The bike that unit was on; null where nobody knows.
+             */
+            bike_id: number | null;
             device: components["schemas"]["RideDevice"];
             /** Gaps */
             gaps: components["schemas"]["Gap"][];
@@ -1884,7 +1929,10 @@ export interface components {
          * @description What was true of the bike while the ride was made; null where nobody knows.
          */
         RideDevice: {
-            /** Device Id */
+            /**
+             * Device Id
+             * @description The connection it was recorded over.
+             */
             device_id: string | null;
             /** Device Serial */
             device_serial: string | null;
@@ -5499,7 +5547,7 @@ export interface operations {
             query?: {
                 from?: string | null;
                 to?: string | null;
-                /** @description Serial number. */
+                /** @description A unit's key or serial number, or a device's id. */
                 device?: string | null;
                 limit?: number;
                 cursor?: string | null;

@@ -81,6 +81,11 @@ class Shop:
     folder: Path
     device: str
 
+    @property
+    def serial_number(self) -> str:
+        """The unit's own, which files of its logs are called by."""
+        return self.devices.unit_key(self.device).removeprefix("ebl:")
+
     def fetch(self, log_id: int = 1) -> Download:
         """Fetch a log to its end."""
         self.collect.start(self.device, log_id)
@@ -128,7 +133,7 @@ def part_of(shop: Shop) -> Path:
     """Where the beginning of the log is kept while it is fetched."""
     (log,) = shop.collect.logs(shop.device).items
     shop.folder.mkdir(exist_ok=True)
-    return shop.folder / f"{shop.device}-00000001-{log.log_id}-{log.generation:08x}.part"
+    return shop.folder / f"{shop.serial_number}-00000001-{log.log_id}-{log.generation:08x}.part"
 
 
 def original(shop: Shop, download: Download) -> bytes:
@@ -148,7 +153,8 @@ def test_a_log_becomes_a_ride_and_is_confirmed(shop: Shop) -> None:
     assert original(shop, done) == flash_bytes(shop)
     assert done.ride_id is not None
     ride = shop.store.rides.get(done.ride_id)
-    assert ride.context.device_serial == shop.device
+    assert ride.context.device_serial == shop.serial_number
+    assert ride.context.unit_key == f"ebl:{shop.serial_number}"
     assert ride.row_count == pytest.approx(10 * log.duration_s, abs=11)
     assert shop.collect.logs(shop.device).items[0].confirmed
     assert list(shop.folder.iterdir()) == []
@@ -271,7 +277,7 @@ def test_what_is_not_there_or_not_finished_is_refused(shop: Shop) -> None:
 def test_what_was_fetched_of_a_log_that_is_gone_becomes_a_ride(shop: Shop, suffix: str) -> None:
     whole = flash_bytes(shop)
     (log,) = shop.collect.logs(shop.device).items
-    gone = part_of(shop).with_name(f"{shop.device}-00000001-9-0badcafe{suffix}")
+    gone = part_of(shop).with_name(f"{shop.serial_number}-00000001-9-0badcafe{suffix}")
     # Half a log, and a piece of a page, as a lost supply leaves it.
     gone.write_bytes(whole[: len(whole) // 1024 * 512 + 100])
     stranger = gone.with_name(f"{'0' * 24}-00000001-9-0badcafe.part")
@@ -294,7 +300,7 @@ def test_a_beginning_the_store_refuses_stays_on_the_disk(
     def full_disk(*_: object, **__: object) -> None:
         raise OSError(28, "No space left on device")
 
-    gone = part_of(shop).with_name(f"{shop.device}-00000001-9-0badcafe.part")
+    gone = part_of(shop).with_name(f"{shop.serial_number}-00000001-9-0badcafe.part")
     gone.write_bytes(flash_bytes(shop))
     with monkeypatch.context() as patched:
         patched.setattr(shop.store.objects, "publish", full_disk)

@@ -51,10 +51,11 @@ def devices(workshop: Workshop) -> Iterator[Devices]:
     devices.close()
 
 
-def test_an_added_unit_has_its_serial_number_as_id(devices: Devices) -> None:
+def test_an_added_unit_has_its_connection_s_id_and_its_own_key(devices: Devices) -> None:
     device = devices.add(LEFT)
 
-    assert device.id == b"LEFT-UNIT-01".hex()
+    assert device.id == "socket-left-1"
+    assert device.unit_key == f"ebl:{b'LEFT-UNIT-01'.hex()}"
     assert device.state == "ready"
     assert device.kind == "socket"
     assert device.identity is not None

@@ -46,7 +46,7 @@ def ridden(seed: int, unit_t0_us: int | None = None, rows: int = ROWS) -> Import
     times_us = np.arange(rows, dtype=np.int64) * 100_000
     context = RideContext()
     if unit_t0_us is not None:
-        context = RideContext("u1", "SP-1", boot_id=7, unit_t0_us=unit_t0_us)
+        context = RideContext("u1", "SP-1", boot_id=7, unit_t0_us=unit_t0_us, unit_key="ebl:SP-1")
     rows_of = RideRows((POSITION, SPEED), times_us, counts)
     return ImportedRide(START_US + seed * DAY_US, 100_000, rows_of, context=context)
 

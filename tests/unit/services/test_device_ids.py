@@ -86,12 +86,13 @@ def test_urls_that_once_collided_are_two_units_and_each_is_removed_by_its_id(
         devices.close()
 
 
-def test_a_unit_is_found_by_its_url_s_id_whatever_its_id_is() -> None:
+def test_a_unit_is_found_by_its_url_its_number_and_its_key_as_well() -> None:
     devices = Devices(opener=lambda url: UnitOpener(FakeUnit(), url))
+    serial_number = FakeUnit().uid.hex()
     try:
-        added = devices.add("socket://bench:1")
-        assert added.id == FakeUnit().uid.hex()
-        assert devices.get("socket-bench-1").id == added.id
+        devices.add("socket://bench:1")
+        for name in ("socket-bench-1", "socket://bench:1", serial_number, f"ebl:{serial_number}"):
+            assert devices.get(name).id == "socket-bench-1"
     finally:
         devices.close()
 

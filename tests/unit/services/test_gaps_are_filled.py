@@ -39,7 +39,7 @@ STEP = 10
 SPEED = 1_800
 T0_US = 5_000_000
 WALL_US = 1_700_000_000_000_000
-CONTEXT = RideContext("u1", "SP-1", boot_id=7)
+CONTEXT = RideContext("u1", "SP-1", boot_id=7, unit_key="ebl:SP-1")
 Rows16 = npt.NDArray[np.int16]
 Span = tuple[int, int]
 

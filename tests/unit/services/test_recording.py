@@ -45,7 +45,10 @@ def store(tmp_path: Path) -> Iterator[Store]:
 
 @pytest.fixture
 def recorder(store: Store) -> Recorder:
-    return Recorder(store.rides, lambda unit: RideContext(unit, "SP-1", gear_ratio=40.34), SETTINGS)
+    def context_of(unit: str) -> RideContext:
+        return RideContext(unit, "SP-1", gear_ratio=40.34, unit_key="ebl:SP-1")
+
+    return Recorder(store.rides, context_of, SETTINGS)
 
 
 def riding(seconds: float, seed: int = 1) -> Rows16:
@@ -111,6 +114,7 @@ def test_a_ride_is_every_row_from_just_before_it_moved_until_it_stood_long_enoug
     assert ride.completeness == 1.0
     assert ride.started_us == WALL_US + (800 - lead) * PERIOD_US
     assert ride.context.device_serial == "SP-1"
+    assert ride.context.unit_key == "ebl:SP-1"
 
 
 @pytest.mark.parametrize(("speed_counts", "cadence_counts"), [(101, 0), (0, 501)])

@@ -17,16 +17,24 @@ from backend.services.connect import Devices
 from backend.services.remember import UnitMemory
 from backend.services.revision_book import GIVEN_UP_REASON
 from backend.services.tune import Tuning
-from backend.store import RevisionLog
+from backend.store import RevisionLog, SeenUnit, UnitStore
 from tests.fakes.revisions import MemoryRevisions
 from tests.fakes.server import eventually
 from tests.fakes.unit import FakeUnit
 from tests.fakes.unit_link import Heard, UnitOpener
 
 
-class Revisions(MemoryRevisions):
-    def device_seen(self, serial: str, model: str | None, firmware_version: str | None) -> None:
-        pass
+class Units:
+    """Those that were noted, in order."""
+
+    def __init__(self) -> None:
+        self.noted: list[SeenUnit] = []
+
+    def seen(self, unit: SeenUnit) -> None:
+        self.noted.append(unit)
+
+
+KEY = f"ebl:{b'FAKE-UNIT-01'.hex()}"
 
 
 @dataclass
@@ -34,21 +42,24 @@ class Bench:
     unit: FakeUnit
     devices: Devices
     tuning: Tuning
-    revisions: Revisions
+    revisions: MemoryRevisions
+    units: Units
     heard: Heard
     id: str
 
 
 @pytest.fixture
 def bench() -> Iterator[Bench]:
-    unit, revisions, heard = FakeUnit(), Revisions(), Heard()
+    unit, revisions, units, heard = FakeUnit(), MemoryRevisions(), Units(), Heard()
     devices = Devices(opener=lambda url: UnitOpener(unit, url))
     tuning = Tuning(devices, revisions)
-    memory = UnitMemory(devices, cast(RevisionLog, revisions), tuning.note_trial_end)
+    memory = UnitMemory(
+        devices, cast(RevisionLog, revisions), cast(UnitStore, units), tuning.note_trial_end
+    )
     devices.watch(lambda device_id, event: heard(event))
     device = devices.add("socket://bench:1")
     devices.watch(memory.follow)
-    yield Bench(unit, devices, tuning, revisions, heard, device.id)
+    yield Bench(unit, devices, tuning, revisions, units, heard, device.id)
     devices.close()
     memory.close()
 
@@ -59,7 +70,7 @@ def test_a_trial_that_ran_out_is_in_the_log_at_once_with_its_reason(bench: Bench
     bench.unit.give_up_trial()
 
     newest = eventually(
-        lambda: bench.revisions.kept[bench.id][-1], lambda row: row.reason == GIVEN_UP_REASON
+        lambda: bench.revisions.kept[KEY][-1], lambda row: row.reason == GIVEN_UP_REASON
     )
     assert (newest.generation, newest.parameters["pedal_stop_ms"]) == (7, 150)
 
@@ -98,5 +109,5 @@ def test_a_unit_that_gave_a_trial_up_by_restarting_says_so(bench: Bench) -> None
     )
     assert stamp is not None
     assert (stamp.rollback_cause, stamp.remaining_s) == ("restart", None)
-    newest = eventually(lambda: bench.revisions.kept[bench.id][-1], lambda row: row.generation == 7)
+    newest = eventually(lambda: bench.revisions.kept[KEY][-1], lambda row: row.generation == 7)
     assert newest.reason == GIVEN_UP_REASON

@@ -45,6 +45,9 @@ OTHER = {
 }
 
 
+KEY = f"ebl:{b'FAKE-UNIT-01'.hex()}"
+
+
 @dataclass
 class Bench:
     unit: FakeUnit
@@ -85,7 +88,7 @@ def test_what_the_unit_had_before_is_kept_first(bench: Bench) -> None:
     assert found.reason == "Found in the unit before a change."
     assert (newest.reason, newest.generation) == ("later stop", 8)
     assert newest.changed == [{"name": "pedal_stop_ms", "old": 150, "new": 200}]
-    kept = bench.revisions.kept[bench.id]
+    kept = bench.revisions.kept[KEY]
     assert kept[0].parameters == default_config()
 
 
@@ -93,7 +96,7 @@ def test_a_known_configuration_is_not_kept_twice(bench: Bench) -> None:
     bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200})
     bench.tuning.write_config(bench.id, {"pedal_stop_ms": 250})
 
-    assert [revision.generation for revision in bench.revisions.kept[bench.id]] == [7, 8, 9]
+    assert [revision.generation for revision in bench.revisions.kept[KEY]] == [7, 8, 9]
 
 
 def test_a_backup_that_cannot_be_kept_stops_the_write(bench: Bench) -> None:
@@ -199,7 +202,7 @@ def test_a_trial_that_is_given_up_brings_back_what_was_there(bench: Bench) -> No
 def test_nothing_is_kept_that_reads_back_different_from_what_was_meant(bench: Bench) -> None:
     bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, confirm_s=60)
     crc32 = zlib.crc32(bench.unit.image)
-    log = bench.revisions.kept[bench.id]
+    log = bench.revisions.kept[KEY]
     log[-1] = replace(log[-1], parameters=default_config() | {"pedal_stop_ms": 201})
     assert log[-1].crc32 == crc32
 

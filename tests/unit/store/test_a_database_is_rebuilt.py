@@ -57,7 +57,16 @@ def add_recorded(store: Store, number: int, rows: int = ROWS) -> Ride:
     counts[50:70, 3] = 4
     counts[100 : 100 + number % 50] = MISSING_INT16
     context = RideContext(
-        "u1", f"SP-{number % 3}", "mid", "1.2", 7, 0xFFFF, 40.34, boot_id=number, unit_t0_us=5_000
+        "u1",
+        f"SP-{number % 3}",
+        "mid",
+        "1.2",
+        7,
+        0xFFFF,
+        40.34,
+        boot_id=number,
+        unit_t0_us=5_000,
+        unit_key=f"ebl:SP-{number % 3}",
     )
     ride_id = store.rides.start_live(CHANNELS, 10_000, STARTED_US + number * HOUR_US, context)
     store.rides.append_tail(ride_id, 0, counts).result()
@@ -345,6 +354,8 @@ def test_rides_of_older_files_come_back_with_what_they_have_and_the_rest_is_name
     with open_store(*urls(tmp_path)) as store:
         imported, recorded = store.rides.list().items
         assert (recorded.origin, recorded.context.device_serial) == ("recorded", "SP-1")
+        assert (recorded.context.unit_key, recorded.bike_id) == ("ebl:SP-1", 1)
+        assert (imported.context.unit_key, imported.bike_id) == (None, None)
         assert recorded.completeness == pytest.approx(1 - 1 / ROWS)
         assert (imported.origin, imported.period_us) == ("imported", None)
         assert recorded.summary is not None

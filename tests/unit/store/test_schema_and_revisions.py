@@ -90,7 +90,7 @@ def test_every_table_can_be_made_on_postgresql() -> None:
     texts = [str(CreateTable(table).compile(dialect=dialect)) for table in metadata.sorted_tables]
 
     keyed = [text for text in texts if "\tid " in text]
-    assert len(texts) == 11
+    assert len(texts) == 13
     assert all("BIGSERIAL" in text for text in keyed)
 
 
@@ -107,10 +107,10 @@ def test_the_database_keeps_what_a_commit_acknowledged(store: Store) -> None:
 def test_configurations_are_numbered_for_each_unit_and_newest_first(store: Store) -> None:
     log = store.revisions
 
-    log.append("SP-1", {"gear_ratio": 40.34}, reason="found", crc32=0xFFFFFFFF, generation=1)
-    log.append("SP-2", {"gear_ratio": 36.744})
+    log.append("ebl:SP-1", {"gear_ratio": 40.34}, reason="found", crc32=0xFFFFFFFF, generation=1)
+    log.append("ebl:SP-2", {"gear_ratio": 36.744})
     second = log.append(
-        "SP-1",
+        "ebl:SP-1",
         {"gear_ratio": 36.744},
         changed=[{"name": "gear_ratio", "old": 40.34, "new": 36.744}],
         reason="counted the teeth",
@@ -118,6 +118,6 @@ def test_configurations_are_numbered_for_each_unit_and_newest_first(store: Store
     )
 
     assert (second.seq, second.author, second.reason) == (2, "workshop", "counted the teeth")
-    assert [revision.seq for revision in log.list("SP-1")] == [2, 1]
-    assert log.list("SP-1")[1].crc32 == 0xFFFFFFFF
-    assert log.list("SP-3") == ()
+    assert [revision.seq for revision in log.list("ebl:SP-1")] == [2, 1]
+    assert log.list("ebl:SP-1")[1].crc32 == 0xFFFFFFFF
+    assert log.list("ebl:SP-3") == ()

@@ -14,7 +14,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from alembic import command
+from alembic.config import Config
+from sqlalchemy import create_engine
 
+import backend.store
 from backend.domain.ride import RideContext
 from backend.errors import StoreError
 from backend.store import Store, open_store
@@ -24,6 +28,7 @@ from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_r
 # A store for every test, or rides of minutes: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
 
+MIGRATIONS = Path(backend.store.__file__).parent / "migrations"
 OpenStore = Callable[..., Store]
 Files = dict[str, bytes]
 
@@ -242,15 +247,13 @@ def test_a_deletion_that_a_crash_cut_in_two_is_completed_and_not_put_aside(
 def without_identity(folder: Path) -> None:
     """The store as a version before the identity left it: schema 2, no file in the folder."""
     (folder / "objects" / IDENTITY).unlink()
-    with sqlite3.connect(folder / "spindle.db") as database:
-        database.execute("DROP TABLE store_identity")
-        database.execute("DROP TABLE discarded_object")
-        database.execute("DROP TABLE ride_source")
-        database.execute("DROP TABLE ride_number")
-        for column in ("server_id", "heartbeat_us", "cut_short"):
-            database.execute(f"ALTER TABLE ride DROP COLUMN {column}")
-        database.execute("UPDATE alembic_version SET version_num = '0002'")
-    database.close()
+    config = Config()
+    config.set_main_option("script_location", str(MIGRATIONS))
+    engine = create_engine(f"sqlite:///{folder}/spindle.db")
+    with engine.begin() as connection:
+        config.attributes["connection"] = connection
+        command.downgrade(config, "0002")
+    engine.dispose()
 
 
 def test_a_store_from_before_is_adopted_when_its_database_knows_every_object(used: Path) -> None:

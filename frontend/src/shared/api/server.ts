@@ -180,8 +180,8 @@ export class Server {
   }
 
   /** The newest ride of a unit; null while there is none. */
-  async lastRide(serial_number: string): Promise<Ride | null> {
-    const query = { device: serial_number, limit: 1 }
+  async lastRide(unit_key: string): Promise<Ride | null> {
+    const query = { device: unit_key, limit: 1 }
     return (await body(this.http.GET('/api/v1/rides', { params: { query } }))).items[0] ?? null
   }
 

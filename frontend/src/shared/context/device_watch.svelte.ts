@@ -50,6 +50,10 @@ export class DeviceWatch {
       const alive = items.filter((d) => d.state === 'ready' || d.state === 'read_only')
       this.seen_ms = { ...this.seen_ms, ...Object.fromEntries(alive.map((d) => [d.id, now_ms])) }
       this.items = items
+      // A choice that an earlier version kept is a serial number.
+      const serial = this.chosen_id
+      const chosen = items.find((d) => serial && d.identity?.serial_number === serial)
+      if (chosen) this.chosen_id = chosen.id
       this.known = true
       this.unreachable = false
     } catch (error) {
