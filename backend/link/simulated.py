@@ -93,6 +93,17 @@ class SimulatedAddress:
         key, market = settings.get("unlock_key"), settings.get("market")
         return cls(name, seed, speed, scenario, flash, key, clock, baud, market)
 
+    @property
+    def memory_name(self) -> str:
+        """The file of a unit that has no flash of its own: another for another market.
+
+        Markets are in upper case there and `none` is not, as version 0.2 wrote them, so that its
+        units keep their settings.
+        """
+        market = (self.market or "").upper()
+        made_for = f"-{'none' if market == 'NONE' else market}" if market else ""
+        return f"unit-{self.seed}{made_for}.flash"
+
     def command(self, pty_path: Path) -> list[str]:
         """The command line of the child that serves this address on `pty_path`."""
         words = [sys.executable, "-m", "sim_device", "unit", "--pty", str(pty_path)]
@@ -135,11 +146,7 @@ class SimulatedLink:
         address = SimulatedAddress.parse(url)
         if address.flash is None and flash_folder is not None:
             flash_folder.mkdir(parents=True, exist_ok=True)
-            # Two units that differ only in their market do not share a memory. Files are named as
-            # version 0.2 named them.
-            made_for = f"-{address.market.upper()}" if address.market else ""
-            remembered = flash_folder / f"unit-{address.seed}{made_for}.flash"
-            address = replace(address, flash=str(remembered))
+            address = replace(address, flash=str(flash_folder / address.memory_name))
         self._url = url
         self._given_up = given_up or threading.Event()
         self._folder = Path(tempfile.mkdtemp(prefix="spindle-sim-"))

@@ -87,6 +87,16 @@ def test_two_names_are_two_simulated_units_and_one_name_is_always_the_same() -> 
     assert left == SimulatedAddress.parse("sim:left")
 
 
+@pytest.mark.parametrize("market", ["JAPAN", "japan"])
+def test_a_market_is_another_memory_in_whatever_case_it_is_asked_for(market: str) -> None:
+    made_for_one = SimulatedAddress.parse(f"sim:tokyo?seed=1&market={market}")
+
+    assert made_for_one.memory_name == "unit-1-JAPAN.flash"
+    assert SimulatedAddress.parse("sim:tokyo?seed=1").memory_name == "unit-1.flash"
+    nobody = SimulatedAddress.parse("sim:tokyo?seed=1&market=none")
+    assert nobody.memory_name == "unit-1-none.flash"
+
+
 def test_an_absent_port_says_so_and_what_to_do(tmp_path: Path) -> None:
     with pytest.raises(LinkError, match=r"no such port.*Plug the unit in") as caught:
         open_link(str(tmp_path / "ttyUSB7"))

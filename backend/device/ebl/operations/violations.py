@@ -9,6 +9,7 @@ from backend.errors import FieldError
 from firmware_protocol._generated import PARAMETER_BY_ID, Violation
 from firmware_protocol.layout import Parameter, Value
 from firmware_protocol.parameters import violations
+from firmware_protocol.spelling import word_of
 
 _ROW = struct.Struct("<HBB")
 
@@ -34,7 +35,7 @@ def host_violations(config: Mapping[str, Value]) -> list[FieldError]:
     return [
         FieldError(
             _field_name(violation.field, violation.index),
-            violation.code.lower(),
+            word_of(violation.code),
             violation.message,
         )
         for violation in violations(config)
@@ -46,7 +47,7 @@ def _named(parameter_id: int, index: int, code: int) -> FieldError:
     known = Violation(code) if code in set(Violation) else None
     field = _position(row, index) if row else f"parameter {parameter_id:#06x}"
     meaning = MEANING[known] if known else f"is refused for reason {code}"
-    word = known.name.lower() if known else f"code_{code}"
+    word = word_of(known.name) if known else f"code_{code}"
     return FieldError(field, word, f"{field} {meaning}{_bounds(row)}.")
 
 

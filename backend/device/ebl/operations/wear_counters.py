@@ -11,6 +11,7 @@ from firmware_protocol._generated import (
     CountersResponse,
     SlotState,
 )
+from firmware_protocol.spelling import word_of
 
 
 def read_wear_counters() -> Operation[WearCounters]:
@@ -34,4 +35,4 @@ def read_wear_counters() -> Operation[WearCounters]:
 
 
 def _state_name(state: int) -> str:
-    return SlotState(state).name.lower() if state in set(SlotState) else "unknown"
+    return word_of(SlotState(state).name) if state in set(SlotState) else "unknown"

@@ -34,6 +34,7 @@ from firmware_protocol._generated import (
     Status,
 )
 from firmware_protocol.layout import Channel
+from firmware_protocol.spelling import word_of
 
 HELLO_ATTEMPTS = 5
 # What a person can take in; the rest is counted.
@@ -94,7 +95,7 @@ def _reset_cause() -> Operation[str | None]:
     if not isinstance(response.message, StartInfoResponse):
         return None
     cause = response.message.reset_cause
-    return ResetCause(cause).name.lower() if cause in set(ResetCause) else f"cause_{cause}"
+    return word_of(ResetCause(cause).name) if cause in set(ResetCause) else f"cause_{cause}"
 
 
 def _other_schema(

@@ -10,6 +10,7 @@ from firmware_protocol._generated import (
     ConfigState,
     RollbackCause,
 )
+from firmware_protocol.spelling import word_of
 
 
 def trial_status() -> Operation[TrialStatus]:
@@ -21,11 +22,12 @@ def trial_status() -> Operation[TrialStatus]:
 def trial_status_of(status: CfgStatusResponse) -> TrialStatus:
     """The unit's answer in our words."""
     known = status.rollback_cause in set(RollbackCause)
+    cause = word_of(RollbackCause(status.rollback_cause).name) if known else "unknown"
     return TrialStatus(
         on_trial=status.state == ConfigState.PROVISIONAL,
         generation=status.generation,
         crc32=status.crc32,
         left_s=status.confirm_left_ms / 1000.0,
-        rollback_cause=RollbackCause(status.rollback_cause).name.lower() if known else "unknown",
+        rollback_cause=cause,
         rolled_back_generation=status.rolled_back_generation,
     )
