@@ -50,6 +50,19 @@ def test_another_table_changes_the_assist() -> None:
     assert before.assist_ratio[-1] > 1.2
 
 
+def test_a_configuration_kept_by_version_0_2_is_the_same_law() -> None:
+    old_words = {
+        "mode_laws": ["OFF", "FIXED", "FIXED", "FUZZY", "FUZZY"],
+        "fuzzy_inference": "MAMDANI_CENTROID",
+        "market": "EU_EPAC",
+    }
+    now = replay(CONFIG, **steady(mode=FUZZY))
+    then = replay({**CONFIG, **old_words}, **steady(mode=FUZZY))
+
+    assert then.motor_work_wh == now.motor_work_wh
+    assert now.motor_work_wh > 0.0
+
+
 def test_missing_samples_give_no_assist_and_are_counted() -> None:
     torque = np.full(1000, 3000.0)
     torque[500:600] = np.nan
