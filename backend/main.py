@@ -25,6 +25,7 @@ from backend.api.app import ApiSettings, create_app
 from backend.api.connections import PatientProtocol
 from backend.api.safety import AllowedHosts
 from backend.api.services import Services
+from backend.device.families import FAMILIES, Families
 from backend.errors import LinkError, SpindleError, StoreError
 from backend.ingest import Children, read_in_child
 from backend.link import kind_of
@@ -58,11 +59,11 @@ FRONTENDS = (CHECKOUT / "frontend" / "dist", Path(__file__).resolve().parent / "
 
 
 @contextlib.contextmanager
-def open_services(settings: Settings) -> Iterator[Services]:
+def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator[Services]:
     """Everything behind the API, opened; closed again in the other order, whatever happens.
 
-    Raises StoreError if the store cannot be opened, InvalidRequest for a bad url of a device or the
-    database.
+    families: the makes of units there are. Raises StoreError if the store cannot be opened,
+    InvalidRequest for a bad url of a device or the database.
     """
     for url in settings.device:
         kind_of(url)
@@ -74,6 +75,7 @@ def open_services(settings: Settings) -> Iterator[Services]:
             flash_folder=settings.data / "units",
             schemas=SchemaFiles(settings.data / "schemas"),
             bike_of=store.units.bike_of,
+            families=families,
         )
         tuning = Tuning(devices, store.revisions)
         memory = UnitMemory(devices, store.revisions, store.units, tuning.note_trial_end)

@@ -98,12 +98,14 @@ class DeviceRequest(Question):
 
 
 class Identity(Answer):
-    serial_number: str | None = Field(description="null for a unit that has none.")
+    """Who a unit says it is; null for what it does not tell."""
+
+    serial_number: str | None
     model: str
-    hardware_revision: int
-    firmware_version: str
-    protocol_version: str
-    schema_hash: str
+    hardware_revision: int | None
+    firmware_version: str | None
+    protocol_version: str | None
+    schema_hash: str | None
     reset_cause: str | None = Field(
         default=None,
         description="Why the unit started: `power_on`, `brown_out`, `watchdog`, `fault_handler`, "

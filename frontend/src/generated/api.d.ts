@@ -1481,23 +1481,23 @@ export interface components {
              */
             part: string;
         };
-        /** Identity */
+        /**
+         * Identity
+         * @description Who a unit says it is; null for what it does not tell.
+         */
         Identity: {
-            /**
-             * Serial Number
-             * @description null for a unit that has none.
-             */
+            /** Serial Number */
             serial_number: string | null;
             /** Model */
             model: string;
             /** Hardware Revision */
-            hardware_revision: number;
+            hardware_revision: number | null;
             /** Firmware Version */
-            firmware_version: string;
+            firmware_version: string | null;
             /** Protocol Version */
-            protocol_version: string;
+            protocol_version: string | null;
             /** Schema Hash */
-            schema_hash: string;
+            schema_hash: string | null;
             /**
              * Reset Cause
              * @description Why the unit started: `power_on`, `brown_out`, `watchdog`, `fault_handler`, `deadline` or `software`; null where its firmware cannot tell.

@@ -19,7 +19,6 @@ def identity_of(hello: HelloResponse, reset_cause: str | None = None) -> Identit
         schema_hash=hello.schema_hash.hex(),
         simulated=bool(hello.device_class & SIMULATED_BIT),
         boot_id=hello.boot_id,
-        session_id=hello.session_id,
         reset_cause=reset_cause,
     )
 

@@ -378,7 +378,7 @@ class Session:
             return
         self.line.proven(self._now_s)
         self.failed_handshakes = 0
-        self._event_deduplicator.handshake_done(handshake.identity.boot_id)
+        self._event_deduplicator.handshake_done(handshake.hello.boot_id)
         self.unit_state.begin(handshake, self._now_s)
         if handshake.read_only_reason is None:
             self.clock.begin(self._now_s)
