@@ -83,6 +83,20 @@ def children_of(server_pid: int, word: bytes = b"sim_device") -> list[int]:
     return found
 
 
+def test_a_unit_is_named_by_connecting_it_again_with_a_name(
+    server: SpindleServer, device: str
+) -> None:
+    unit = server.get(f"/devices/{device}")
+
+    named = server.ask("POST", "/devices", json={"url": unit["url"], "name": "日常 Commuter"})
+    blank = server.client.post("/devices", json={"url": unit["url"], "name": "  "})
+
+    assert named["name"] == "日常 Commuter"
+    assert (named["id"], named["unit_key"]) == (device, unit["unit_key"])
+    assert blank.status_code == 422
+    assert server.get(f"/devices/{device}")["name"] == "日常 Commuter"
+
+
 def test_what_a_unit_was_told_survives_a_restart(tmp_path: Path) -> None:
     first = SpindleServer(tmp_path).start()
     device = first.ready_device()
