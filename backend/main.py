@@ -29,20 +29,20 @@ from backend.device.families import FAMILIES, Families
 from backend.errors import LinkError, SpindleError, StoreError
 from backend.ingest import Children, read_in_child
 from backend.link import kind_of
-from backend.services.collect import Collect
-from backend.services.connect import Devices
-from backend.services.dashboard import Dashboards
 from backend.services.health import Health
-from backend.services.inspection import Inspection
-from backend.services.preview import Preview
-from backend.services.record import Recorder
-from backend.services.remember import UnitMemory
-from backend.services.replay import RideReplay
-from backend.services.review import Rides
-from backend.services.try_live import LiveTuning
-from backend.services.tune import Tuning
-from backend.services.upload import QUICK_S, Uploads, UploadSettings
-from backend.services.watch import Watch
+from backend.services.imports.collect import Collect
+from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
+from backend.services.rides.record import Recorder
+from backend.services.rides.replay import RideReplay
+from backend.services.rides.review import Rides
+from backend.services.tuning.preview import Preview
+from backend.services.tuning.try_live import LiveTuning
+from backend.services.tuning.tune import Tuning
+from backend.services.units.connect import Devices
+from backend.services.units.dashboard import Dashboards
+from backend.services.units.inspection import Inspection
+from backend.services.units.remember import UnitMemory
+from backend.services.units.watch import Watch
 from backend.settings import CHECKOUT, Settings
 from backend.store import Store, open_store
 from backend.store.schemas import SchemaFiles

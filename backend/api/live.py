@@ -17,7 +17,7 @@ from backend.api.live_frames import frame_of
 from backend.api.routes.rides import channel_names
 from backend.api.services import services_of
 from backend.errors import SpindleError
-from backend.services.watch import Viewer
+from backend.services.units.watch import Viewer
 
 router = APIRouter(tags=["live"])
 

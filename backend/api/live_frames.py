@@ -13,7 +13,7 @@ from __future__ import annotations
 import json
 import struct
 
-from backend.services.watch import LiveItem, LiveRows, StreamNow
+from backend.services.units.watch import LiveItem, LiveRows, StreamNow
 
 HEADER = struct.Struct("<IIQHH")
 SEQUENCE_MODULUS = 2**32

@@ -9,17 +9,17 @@ from fastapi import Depends
 from starlette.requests import HTTPConnection
 
 if TYPE_CHECKING:
-    from backend.services.collect import Collect
-    from backend.services.connect import Devices
-    from backend.services.dashboard import Dashboards
     from backend.services.health import Health
-    from backend.services.inspection import Inspection
-    from backend.services.preview import Preview
-    from backend.services.review import Rides
-    from backend.services.try_live import LiveTuning
-    from backend.services.tune import Tuning
-    from backend.services.upload import Uploads
-    from backend.services.watch import Watch
+    from backend.services.imports.collect import Collect
+    from backend.services.imports.upload import Uploads
+    from backend.services.rides.review import Rides
+    from backend.services.tuning.preview import Preview
+    from backend.services.tuning.try_live import LiveTuning
+    from backend.services.tuning.tune import Tuning
+    from backend.services.units.connect import Devices
+    from backend.services.units.dashboard import Dashboards
+    from backend.services.units.inspection import Inspection
+    from backend.services.units.watch import Watch
 
 
 @dataclass(frozen=True)

@@ -1,1 +1,1 @@
-"""Use cases, one verb each: connect, tune, calibrate, record, review, upload."""
+"""Use cases, one verb each. Rides and imports know tuning and units; units know no other room."""

@@ -11,9 +11,9 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from backend.services.connect import Devices
-from backend.services.record import Recorder
-from backend.services.ride_tail import RowCounts
+from backend.services.rides.record import Recorder
+from backend.services.rides.ride_tail import RowCounts
+from backend.services.units.connect import Devices
 from backend.store import WriteWatch
 from backend.store.soundness import Soundness
 

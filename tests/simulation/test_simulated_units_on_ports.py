@@ -15,8 +15,8 @@ import pytest
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock
 from backend.link.simulated import SimulatedLink
-from backend.services.connect import Devices
-from backend.services.tune import Tuning
+from backend.services.tuning.tune import Tuning
+from backend.services.units.connect import Devices
 from tests.fakes.revisions import MemoryRevisions
 from tests.fakes.unit_link import Heard
 

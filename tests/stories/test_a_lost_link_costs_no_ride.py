@@ -18,12 +18,12 @@ import pytest
 from backend.domain.ride import Ride
 from backend.ingest import ImportedRide, Outcome
 from backend.ingest.formats import read_file
-from backend.services.collect import Collect
-from backend.services.connect import Devices
-from backend.services.inspection import Inspection
-from backend.services.record import Recorder, RecordSettings
-from backend.services.remember import UnitMemory
-from backend.services.upload import Uploads
+from backend.services.imports.collect import Collect
+from backend.services.imports.upload import Uploads
+from backend.services.rides.record import Recorder, RecordSettings
+from backend.services.units.connect import Devices
+from backend.services.units.inspection import Inspection
+from backend.services.units.remember import UnitMemory
 from backend.store import Store, open_store
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.server import eventually

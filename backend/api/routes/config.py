@@ -22,7 +22,7 @@ from backend.api.models.config import (
 from backend.api.models.law import AssistModes, Calibration, FuzzyTable, Limits, Table
 from backend.api.problem import refusals
 from backend.api.services import Provided
-from backend.services.config_view import etag
+from backend.services.tuning.config_view import etag
 
 router = APIRouter(
     prefix="/devices/{device_id}",

@@ -22,8 +22,8 @@ from backend.api.models.device import (
 )
 from backend.api.problem import refusals
 from backend.api.services import Provided
-from backend.services.asked_url import check_asked
-from backend.services.simulate import advance, scenarios
+from backend.services.units.asked_url import check_asked
+from backend.services.units.simulate import advance, scenarios
 
 router = APIRouter(tags=["devices"], responses=refusals(404, 409, 503, 504))
 

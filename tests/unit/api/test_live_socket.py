@@ -12,7 +12,7 @@ from typing import Any
 from anyio.from_thread import start_blocking_portal
 
 from backend.api.live import live
-from backend.services.watch import StateNow, Viewer
+from backend.services.units.watch import StateNow, Viewer
 
 
 class Watch:

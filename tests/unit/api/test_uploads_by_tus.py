@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 
 from backend.api.app import ApiSettings, create_app
 from backend.ingest.outcome import rejected
-from backend.services.upload import Uploads
+from backend.services.imports.upload import Uploads
 from backend.store import open_store
 from tests import counts
 

@@ -18,7 +18,7 @@ from anyio.from_thread import start_blocking_portal
 from backend.api.app import ApiSettings, create_app
 from backend.ingest import Outcome
 from backend.ingest.outcome import rejected
-from backend.services.upload import Arrival, Uploads
+from backend.services.imports.upload import Arrival, Uploads
 from backend.store import open_store
 
 # A store for every test, or a crowd of requests: left out of `make test-fast`.

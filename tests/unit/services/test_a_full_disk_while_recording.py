@@ -16,7 +16,7 @@ from sqlalchemy import Connection, event
 
 from backend.errors import StoreFull
 from backend.main import open_services
-from backend.services.record import Recorder, RecordSettings
+from backend.services.rides.record import Recorder, RecordSettings
 from backend.settings import load
 from backend.store import Store, open_store
 from backend.store.objects import FileObjects

@@ -16,7 +16,7 @@ from backend.errors import Conflict, NotFound
 from backend.ingest import Outcome, ReadingStopped
 from backend.ingest.formats import read_file
 from backend.ingest.outcome import rejected
-from backend.services.upload import WAITS, Uploads
+from backend.services.imports.upload import WAITS, Uploads
 from backend.store import Store, Verdict, open_store
 from tests.fakes.fit_file import commute, fit_file
 

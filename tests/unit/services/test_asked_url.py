@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from backend.errors import InvalidRequest
-from backend.services.asked_url import check_asked
+from backend.services.units.asked_url import check_asked
 
 
 @pytest.mark.parametrize(

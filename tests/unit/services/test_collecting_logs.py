@@ -19,10 +19,10 @@ from backend.errors import Conflict, NotFound, SpindleError
 from backend.ingest import Outcome
 from backend.ingest.blocks import BLOCKS_SUFFIX
 from backend.ingest.formats import read_file
-from backend.services.collect import Collect, Download
-from backend.services.connect import Devices
-from backend.services.inspection import Inspection
-from backend.services.upload import Uploads
+from backend.services.imports.collect import Collect, Download
+from backend.services.imports.upload import Uploads
+from backend.services.units.connect import Devices
+from backend.services.units.inspection import Inspection
 from backend.store import Store, open_store
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.server import eventually

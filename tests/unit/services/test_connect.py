@@ -15,8 +15,8 @@ from backend.device.ebl.operations.config_transaction import read_config
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock
 from backend.errors import Conflict, InvalidRequest, NoAnswer, NotFound
-from backend.services.connect import Devices
-from backend.services.inspection import Inspection
+from backend.services.units.connect import Devices
+from backend.services.units.inspection import Inspection
 from firmware_protocol._generated import FaultSetEvent, MessageId, Status
 from tests.fakes.unit import FakeUnit
 from tests.fakes.unit_link import Heard, UnitOpener

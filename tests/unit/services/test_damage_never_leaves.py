@@ -20,8 +20,8 @@ from backend.domain.ride import RideRows
 from backend.errors import ObjectDamaged
 from backend.ingest import ImportedRide, Outcome
 from backend.main import open_services
-from backend.services.review import Rides
-from backend.services.upload import Uploads
+from backend.services.imports.upload import Uploads
+from backend.services.rides.review import Rides
 from backend.settings import load
 from backend.store import RideReader, open_store
 from tests.fakes.server import eventually

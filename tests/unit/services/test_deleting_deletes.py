@@ -18,8 +18,8 @@ from backend.domain.ride import RideContext, RideRows
 from backend.errors import Conflict, NotFound, StoreError
 from backend.ingest import ImportedRide, Outcome
 from backend.ingest.outcome import rejected
-from backend.services.review import Rides
-from backend.services.upload import Uploads, UploadSettings
+from backend.services.imports.upload import Uploads, UploadSettings
+from backend.services.rides.review import Rides
 from backend.store import open_store
 from backend.store.deletion import Deletions
 from backend.store.discard import discarded_keys

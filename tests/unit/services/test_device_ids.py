@@ -12,8 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from backend.errors import NotFound
-from backend.services.connect import Devices
-from backend.services.device_ids import canonical, id_of
+from backend.services.units.connect import Devices
+from backend.services.units.device_ids import canonical, id_of
 from tests.fakes.unit import FakeUnit
 from tests.fakes.unit_link import UnitOpener
 

@@ -13,8 +13,8 @@ import pytest
 
 from backend.errors import Conflict, InvalidRequest, NotFound
 from backend.ingest import Outcome
-from backend.services.review import Rides, safe_name
-from backend.services.upload import Uploads, UploadSettings
+from backend.services.imports.upload import Uploads, UploadSettings
+from backend.services.rides.review import Rides, safe_name
 from backend.store import Store, open_store
 from tests.fakes.fit_file import START_S, commute, fit_file
 

@@ -12,9 +12,9 @@ import pytest
 
 from backend.device.unit import Unit
 from backend.errors import LinkError, NoAnswer, NotFound, SpindleError
-from backend.services import outcome
-from backend.services.connect import Devices
-from backend.services.outcome import find_outcome
+from backend.services.units import outcome
+from backend.services.units.connect import Devices
+from backend.services.units.outcome import find_outcome
 
 SILENT = NoAnswer("silent")
 FOUND = "found"

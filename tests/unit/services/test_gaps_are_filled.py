@@ -21,8 +21,8 @@ from backend.domain.ride import Ride, RideContext, RideRows
 from backend.domain.ride_events import RideEvent
 from backend.errors import StoreError
 from backend.ingest import ImportedRide, Outcome
-from backend.services.record import Recorder, RecordSettings
-from backend.services.upload import Uploads
+from backend.services.imports.upload import Uploads
+from backend.services.rides.record import Recorder, RecordSettings
 from backend.store import Store, open_store, rides
 from backend.store.objects import Disk
 

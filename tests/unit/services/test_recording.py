@@ -19,7 +19,7 @@ from backend.device.stream import StreamBlock
 from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.ride import Ride, RideContext
 from backend.errors import NotFound, StoreError
-from backend.services.record import Recorder, RecordSettings
+from backend.services.rides.record import Recorder, RecordSettings
 from backend.store import Store, open_store
 
 # A store for every test, or rides of minutes: left out of `make test-fast`.

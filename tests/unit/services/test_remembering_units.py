@@ -13,10 +13,10 @@ from typing import cast
 import pytest
 
 from backend.device.states import UnitEvent
-from backend.services.connect import Devices
-from backend.services.remember import UnitMemory
-from backend.services.revision_book import GIVEN_UP_REASON
-from backend.services.tune import Tuning
+from backend.services.tuning.revision_book import GIVEN_UP_REASON
+from backend.services.tuning.tune import Tuning
+from backend.services.units.connect import Devices
+from backend.services.units.remember import UnitMemory
 from backend.store import RevisionLog, SeenUnit, UnitStore
 from tests.fakes.revisions import MemoryRevisions
 from tests.fakes.server import eventually

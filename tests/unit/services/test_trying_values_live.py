@@ -13,10 +13,10 @@ from datetime import UTC, datetime
 import pytest
 
 from backend.errors import AccessDenied, Conflict, InvalidRequest, LimitViolation
-from backend.services.connect import Devices
-from backend.services.inspection import Inspection
-from backend.services.try_live import LiveTuning, LiveView
-from backend.services.tune import Tuning
+from backend.services.tuning.try_live import LiveTuning, LiveView
+from backend.services.tuning.tune import Tuning
+from backend.services.units.connect import Devices
+from backend.services.units.inspection import Inspection
 from firmware_protocol.parameters import default_config
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.revisions import MemoryRevisions

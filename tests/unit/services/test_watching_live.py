@@ -15,7 +15,7 @@ from backend.api.live_frames import frame_of
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock, StreamStarted
 from backend.domain.channels import ChannelSpec
-from backend.services.watch import QUEUE_FRAMES_MAX, Feed, LiveRows, StateNow, Viewer
+from backend.services.units.watch import QUEUE_FRAMES_MAX, Feed, LiveRows, StateNow, Viewer
 
 CHANNELS = (ChannelSpec("speed_kmh", "km/h", 0.01), ChannelSpec("cadence_rpm", "rpm", 0.01))
 PERIOD_US = 10_000

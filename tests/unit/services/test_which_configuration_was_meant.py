@@ -6,7 +6,7 @@ import pytest
 
 from backend.device.configuration import ConfigImage
 from backend.errors import ConfigConflict
-from backend.services.config_view import check_base, etag
+from backend.services.tuning.config_view import check_base, etag
 
 CONFIG = ConfigImage(7, 0xABCD, {})
 TAG = etag(7, 0xABCD)

@@ -17,13 +17,13 @@ import pytest
 from backend.device.ebl.unit import EblUnit
 from backend.device.snapshot import DeviceStatus
 from backend.errors import Conflict, NameFirst
-from backend.services.collect import Collect, word_of
-from backend.services.connect import Devices
-from backend.services.inspection import Inspection
-from backend.services.remember import UnitMemory
-from backend.services.try_live import LiveTuning
-from backend.services.tune import Tuning
-from backend.services.upload import Uploads
+from backend.services.imports.collect import Collect, word_of
+from backend.services.imports.upload import Uploads
+from backend.services.tuning.try_live import LiveTuning
+from backend.services.tuning.tune import Tuning
+from backend.services.units.connect import Devices
+from backend.services.units.inspection import Inspection
+from backend.services.units.remember import UnitMemory
 from backend.store import Store, open_store
 from firmware_protocol._generated import MessageId
 from tests.fakes.server import eventually

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from backend.device.configuration import ConfigImage, ParameterTable
 from backend.domain.revision import Revision
 from backend.errors import StoreError
-from backend.services.config_view import Change, RevisionLog
+from backend.services.tuning.config_view import Change, RevisionLog
 
 LOG = logging.getLogger(__name__)
 

@@ -19,7 +19,7 @@ from backend.domain.energy import RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
 from backend.domain.filled import Filled
 from backend.domain.ride import Ride
 from backend.errors import InvalidRequest
-from backend.services.preview import Preview
+from backend.services.tuning.preview import Preview
 from backend.store import RideReader
 from backend.views.trace import trace
 

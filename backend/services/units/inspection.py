@@ -10,8 +10,8 @@ from backend.device.live_values import LiveValues, last_values
 from backend.device.states import LinkState
 from backend.device.wear_counters import WearCounters
 from backend.errors import CapabilityMissing
-from backend.services.connect import Devices
-from backend.services.outcome import telling
+from backend.services.units.connect import Devices
+from backend.services.units.outcome import telling
 
 
 class Inspection:

@@ -10,8 +10,8 @@ from datetime import UTC, datetime
 from backend.device.configuration import LiveState, Value
 from backend.domain.capability import Capability
 from backend.errors import FieldError, InvalidRequest, LimitViolation, NoAnswer
-from backend.services.connect import Devices
-from backend.services.outcome import find_outcome, telling
+from backend.services.units.connect import Devices
+from backend.services.units.outcome import find_outcome, telling
 
 TTL_S_MAX = 255
 

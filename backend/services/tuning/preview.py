@@ -13,7 +13,7 @@ from backend.control import Finding, LintReport, Replay
 from backend.domain.assist_mode import AssistModes
 from backend.domain.fuzzy_table import FuzzyTable
 from backend.errors import InvalidRequest
-from backend.services.calibrate import evaluate_calibration
+from backend.services.tuning.calibrate import evaluate_calibration
 
 
 class Preview:

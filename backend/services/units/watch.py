@@ -234,7 +234,7 @@ class Device(Protocol):
 
 
 class Devices(Protocol):
-    """What is needed of services.connect."""
+    """What is needed of services.units.connect."""
 
     def get(self, device_id: str) -> Device: ...
     def channels(self, device_id: str) -> tuple[ChannelSpec, ...]: ...

@@ -22,8 +22,8 @@ from backend.domain.capability import Capability
 from backend.domain.channels import ChannelSpec
 from backend.domain.unit_key import tells_unit, unit_key
 from backend.errors import Conflict, InvalidRequest, NameFirst, NoAnswer, NotFound
-from backend.services.device_ids import canonical, id_of
-from backend.services.device_view import ConfigStamp, DeviceView
+from backend.services.units.device_ids import canonical, id_of
+from backend.services.units.device_view import ConfigStamp, DeviceView
 
 # For those who follow every device: its id and what happened.
 Watcher = Callable[[str, DeviceEvent], None]

@@ -22,7 +22,7 @@ from backend.domain.filled import Filled, filled_mask
 from backend.domain.ride import Ride
 from backend.domain.ride_events import RideEvent
 from backend.ingest import ImportedRide
-from backend.services.same_ride import ride_span_us
+from backend.services.imports.same_ride import ride_span_us
 from backend.store import RideStore
 from backend.store.filling import Filling
 

@@ -26,14 +26,14 @@ from backend.domain._generated import MOVING_KMH, MOVING_RPM, STANDING_S
 from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.ride import Ride, RideContext
 from backend.errors import SpindleError, StoreError
-from backend.services.ride_bounds import (
+from backend.services.rides.ride_bounds import (
     Indices,
     moving_rows,
     rows_after,
     rows_until_still,
     still_rows,
 )
-from backend.services.ride_tail import RideTail, RowCounts
+from backend.services.rides.ride_tail import RideTail, RowCounts
 from backend.store import RideStore
 
 LOG = logging.getLogger(__name__)

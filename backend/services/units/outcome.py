@@ -10,7 +10,7 @@ from typing import TypeVar
 from backend.device.driver import NEVER_ASKED
 from backend.device.unit import Unit
 from backend.errors import LinkError, NoAnswer, NotFound, Outcome, RequestRefused
-from backend.services.connect import Devices
+from backend.services.units.connect import Devices
 
 Result = TypeVar("Result")
 

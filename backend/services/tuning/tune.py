@@ -25,7 +25,7 @@ from backend.errors import (
     LimitViolation,
     NoAnswer,
 )
-from backend.services.config_view import (
+from backend.services.tuning.config_view import (
     Change,
     ConfigChange,
     ConfigView,
@@ -35,10 +35,10 @@ from backend.services.config_view import (
     check_base,
     differences,
 )
-from backend.services.connect import Devices
-from backend.services.outcome import find_outcome, telling
-from backend.services.revision_book import KEPT, TRIED, Meant, RevisionBook
-from backend.services.typed_views import PARTS, ConfigPart
+from backend.services.tuning.revision_book import KEPT, TRIED, Meant, RevisionBook
+from backend.services.tuning.typed_views import PARTS, ConfigPart
+from backend.services.units.connect import Devices
+from backend.services.units.outcome import find_outcome, telling
 
 RETURNED_REASON = "Returned to: the trial before was given up."
 KEPT_REASON = "Kept after its trial."

@@ -9,7 +9,7 @@ from typing import Any
 
 from backend.control.scenarios import live_scenarios
 from backend.errors import Conflict, NoAnswer
-from backend.services.inspection import Inspection
+from backend.services.units.inspection import Inspection
 
 LOOK_EVERY_S = 0.01
 # A unit that has not lived through a tenth of a second in this long never will.

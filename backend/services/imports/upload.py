@@ -20,9 +20,9 @@ from backend.domain.ride import Ride, iso_utc
 from backend.errors import Conflict, InvalidRequest
 from backend.ingest import ImportedRide, Outcome, read_in_child
 from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, TOO_SLOW
-from backend.services.fill import fill
-from backend.services.reading import Lanes, TakesLong
-from backend.services.same_ride import same_rides
+from backend.services.imports.fill import fill
+from backend.services.imports.reading import Lanes, TakesLong
+from backend.services.imports.same_ride import same_rides
 from backend.store import Store, Upload, Verdict
 from backend.store.soundness import Expected, damaged_upload
 

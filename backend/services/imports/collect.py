@@ -41,9 +41,9 @@ from backend.errors import (
     StoreError,
 )
 from backend.ingest.blocks import BLOCKS_SUFFIX, PAGE_BYTES, sync_block
-from backend.services.connect import Devices
-from backend.services.outcome import find_outcome, telling
-from backend.services.upload import Uploads
+from backend.services.imports.upload import Uploads
+from backend.services.units.connect import Devices
+from backend.services.units.outcome import find_outcome, telling
 
 LOG = logging.getLogger(__name__)
 

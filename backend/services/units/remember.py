@@ -26,7 +26,7 @@ from backend.device.states import (
 from backend.domain.capability import Capability
 from backend.domain.ride import Ride, RideContext
 from backend.errors import NoAnswer, NotFound, SpindleError
-from backend.services.connect import Devices
+from backend.services.units.connect import Devices
 from backend.store import RevisionLog, SeenUnit, UnitStore
 
 LOG = logging.getLogger(__name__)

@@ -1,0 +1,1 @@
+"""Rides: recorded while a bike is ridden, shown and replayed afterwards."""

@@ -1,0 +1,1 @@
+"""Tuning: configurations read, written, tried and remembered; what a table would do."""
