@@ -357,7 +357,7 @@ class MessageId(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class HelloRequest(Message):
-    """Who are you, and which versions do we share. Frozen for ever, like SCHEMA_READ."""
+    """The unit's identity, and the versions that both sides share. Frozen for ever, like SCHEMA_READ."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.HELLO
     LAYOUT: ClassVar[tuple[Field, ...]] = (
@@ -378,7 +378,7 @@ class HelloRequest(Message):
 
 @dataclass(frozen=True, slots=True)
 class HelloResponse(Message):
-    """Who are you, and which versions do we share. Frozen for ever, like SCHEMA_READ."""
+    """The unit's identity, and the versions that both sides share. Frozen for ever, like SCHEMA_READ."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.HELLO
     LAYOUT: ClassVar[tuple[Field, ...]] = (
@@ -427,14 +427,14 @@ class HelloResponse(Message):
 
 @dataclass(frozen=True, slots=True)
 class PingRequest(Message):
-    """Are you there."""
+    """Whether the unit answers."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.PING
 
 
 @dataclass(frozen=True, slots=True)
 class PingResponse(Message):
-    """Are you there."""
+    """Whether the unit answers."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.PING
 
@@ -471,7 +471,7 @@ class SchemaReadResponse(Message):
 
 @dataclass(frozen=True, slots=True)
 class SetBaudRequest(Message):
-    """Another rate for the line. The answer is the last that comes at the old rate; `switch_after_ms` behind it the unit listens at the new one, and is back at the old one unless a request is heard within `prove_within_ms`."""
+    """Sets another rate for the line. The answer is the last frame at the old rate. The unit listens at the new one `switch_after_ms` later, and returns to the old one unless it hears a request within `prove_within_ms`."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.SET_BAUD
     LAYOUT: ClassVar[tuple[Field, ...]] = (
@@ -484,7 +484,7 @@ class SetBaudRequest(Message):
 
 @dataclass(frozen=True, slots=True)
 class SetBaudResponse(Message):
-    """Another rate for the line. The answer is the last that comes at the old rate; `switch_after_ms` behind it the unit listens at the new one, and is back at the old one unless a request is heard within `prove_within_ms`."""
+    """Sets another rate for the line. The answer is the last frame at the old rate. The unit listens at the new one `switch_after_ms` later, and returns to the old one unless it hears a request within `prove_within_ms`."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.SET_BAUD
     LAYOUT: ClassVar[tuple[Field, ...]] = (
@@ -527,14 +527,14 @@ class StatsResponse(Message):
 
 @dataclass(frozen=True, slots=True)
 class ByeRequest(Message):
-    """The host leaves: streams end, a staged configuration is dropped."""
+    """The host leaves: streams end and a staged configuration is dropped."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.BYE
 
 
 @dataclass(frozen=True, slots=True)
 class ByeResponse(Message):
-    """The host leaves: streams end, a staged configuration is dropped."""
+    """The host leaves: streams end and a staged configuration is dropped."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.BYE
 
@@ -597,14 +597,14 @@ class AliveResponse(Message):
 
 @dataclass(frozen=True, slots=True)
 class StartInfoRequest(Message):
-    """Why the unit started (reset_cause), and how many control steps it has missed since, because the computer was busy or stood still; the motor was let go meanwhile."""
+    """Why the unit started (reset_cause), and how many control steps it has missed since, because the processor was busy or stalled; the motor is off meanwhile."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.START_INFO
 
 
 @dataclass(frozen=True, slots=True)
 class StartInfoResponse(Message):
-    """Why the unit started (reset_cause), and how many control steps it has missed since, because the computer was busy or stood still; the motor was let go meanwhile."""
+    """Why the unit started (reset_cause), and how many control steps it has missed since, because the processor was busy or stalled; the motor is off meanwhile."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.START_INFO
     LAYOUT: ClassVar[tuple[Field, ...]] = (
@@ -1246,7 +1246,7 @@ class EvtFaultClearResponse(Message):
 
 @dataclass(frozen=True, slots=True)
 class TimSyncRequest(Message):
-    """What time it is in the unit: the host's time comes back, with the unit's at hearing and answering."""
+    """The unit's time: the host's time comes back, with the unit's when it heard the request and when it answered."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.TIM_SYNC
     LAYOUT: ClassVar[tuple[Field, ...]] = (
@@ -1259,7 +1259,7 @@ class TimSyncRequest(Message):
 
 @dataclass(frozen=True, slots=True)
 class TimSyncResponse(Message):
-    """What time it is in the unit: the host's time comes back, with the unit's at hearing and answering."""
+    """The unit's time: the host's time comes back, with the unit's when it heard the request and when it answered."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.TIM_SYNC
     LAYOUT: ClassVar[tuple[Field, ...]] = (
@@ -1278,7 +1278,7 @@ class TimSyncResponse(Message):
 
 @dataclass(frozen=True, slots=True)
 class TimSetRequest(Message):
-    """What time it is in the world, for what the unit stores. Kept until it is switched off."""
+    """Tells the unit the Unix time, for what it stores. Kept until it is switched off."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.TIM_SET
     LAYOUT: ClassVar[tuple[Field, ...]] = (
@@ -1295,7 +1295,7 @@ class TimSetRequest(Message):
 
 @dataclass(frozen=True, slots=True)
 class TimSetResponse(Message):
-    """What time it is in the world, for what the unit stores. Kept until it is switched off."""
+    """Tells the unit the Unix time, for what it stores. Kept until it is switched off."""
 
     MESSAGE_ID: ClassVar[MessageId] = MessageId.TIM_SET
 
@@ -2236,7 +2236,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         length=4, min=0.9, max=2.9, enum=None,
         increasing=False, access=1, image_offset=287, record="CALIBRATION",
         default=2.073451,
-        doc="Way of the bike in one turn of the wheel that carries the speed sensor: every speed and distance is counted with it.",
+        doc="Distance the bike covers in one turn of the wheel that carries the speed sensor: every speed and distance is computed with it.",
     ),
     Parameter(
         id=0x0510, name="motor_torque_constant_nm_per_a", group="drivetrain",

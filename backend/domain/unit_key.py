@@ -35,7 +35,7 @@ def ebl_key(serial_number: str | None) -> str | None:
 
 def tells_unit(key: str) -> bool:
     """Whether a key names one unit, and not whatever is behind a url."""
-    return key.split(":", 2)[1] != "url"
+    return not key.partition(":")[2].startswith("url:")
 
 
 def bike_name(key: str, name: str | None, model: str | None) -> str:

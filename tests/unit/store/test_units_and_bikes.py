@@ -42,6 +42,7 @@ def ridden(store: Store, context: RideContext, started_us: int = STARTED_US) -> 
     [
         ("0042", None, "ebl:0042", True),
         ("0042", "Commuter", "ebl:0042", True),
+        ("url", None, "ebl:url", True),
         (None, "Commuter", "ebl:name:Commuter", True),
         (None, "url:", "ebl:name:url:", True),
         (None, None, "ebl:url:socket://shed:1", False),
