@@ -9,6 +9,7 @@ ten; `make prove` all. `make mutate` prints the list.
 from __future__ import annotations
 
 import shutil
+from pathlib import Path
 
 import pytest
 
@@ -18,6 +19,7 @@ from tests.mutation.workshop import FAILED, PASSED, Break, Workshop, breaks
 
 pytestmark = [pytest.mark.slow, pytest.mark.spread]
 
+ROOT = Path(__file__).resolve().parents[2]
 PLANTED = [one for one in breaks() if one.always or counts.proving()]
 
 
@@ -46,6 +48,12 @@ def test_a_known_break_is_noticed(workshop: Workshop, one: Break) -> None:
 
     who = one.caught_by or ("the simulation",)
     assert done.returncode == FAILED, f"{who} did not notice:\n{done.stdout}{done.stderr}"
+
+
+@pytest.mark.parametrize("one", breaks(), ids=lambda one: one.name)
+def test_what_a_break_names_is_there(one: Break) -> None:
+    assert (ROOT / one.file).read_text(encoding="utf-8").count(one.find) == 1
+    assert [name for name in one.caught_by if not (ROOT / name.partition("::")[0]).exists()] == []
 
 
 def test_there_are_twenty_of_them_and_a_tenth_is_always_planted() -> None:

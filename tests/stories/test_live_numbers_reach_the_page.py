@@ -77,7 +77,8 @@ def test_the_first_thing_told_is_where_the_unit_stands(server: SpindleServer, de
         described = next_text(socket, "stream")
 
     assert state["state"] == "ready"
-    assert device in state["reason"]
+    serial_number = server.get(f"/devices/{device}")["identity"]["serial_number"]
+    assert serial_number in state["reason"]
     assert len(described["channels"]) >= 20
 
 

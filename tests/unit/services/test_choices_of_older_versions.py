@@ -27,6 +27,7 @@ class Bench:
     tuning: Tuning
     revisions: MemoryRevisions
     id: str
+    key: str
 
 
 @pytest.fixture
@@ -34,7 +35,7 @@ def bench() -> Iterator[Bench]:
     unit, revisions = FakeUnit(), MemoryRevisions()
     devices = Devices(opener=lambda url: UnitOpener(unit, url))
     device = devices.add("socket://bench:1")
-    yield Bench(unit, Tuning(devices, revisions), revisions, device.id)
+    yield Bench(unit, Tuning(devices, revisions), revisions, device.id, devices.unit_key(device.id))
     devices.close()
 
 
@@ -51,7 +52,7 @@ def test_the_spelling_of_older_versions_is_no_change(bench: Bench) -> None:
 def test_a_change_in_the_old_spelling_is_told_and_kept_in_that_of_today(bench: Bench) -> None:
     change = bench.tuning.write_config(bench.id, {"fuzzy_inference": "WEIGHTED_AVERAGE"})
 
-    newest = bench.revisions.kept[bench.id][-1]
+    newest = bench.revisions.kept[bench.key][-1]
     assert [one.new for one in change.changed] == ["weighted_average"]
     assert change.parameters["fuzzy_inference"] == "weighted_average"
     assert newest.changed[0]["new"] == newest.parameters["fuzzy_inference"] == "weighted_average"
@@ -59,7 +60,7 @@ def test_a_change_in_the_old_spelling_is_told_and_kept_in_that_of_today(bench: B
 
 def test_a_revision_of_an_older_version_is_told_as_choices_are_spelled_today(bench: Bench) -> None:
     changed = [{"name": "mode_laws", "old": None, "new": OLD_WORDS["mode_laws"]}]
-    bench.revisions.append(bench.id, default_config() | OLD_WORDS, changed)
+    bench.revisions.append(bench.key, default_config() | OLD_WORDS, changed)
 
     (told,) = bench.tuning.revisions(bench.id)
 
@@ -70,7 +71,7 @@ def test_a_revision_of_an_older_version_is_told_as_choices_are_spelled_today(ben
 
 def test_a_trial_begun_by_an_older_version_is_kept(bench: Bench) -> None:
     bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, confirm_s=60)
-    log = bench.revisions.kept[bench.id]
+    log = bench.revisions.kept[bench.key]
     log[-1] = replace(log[-1], parameters={**log[-1].parameters, **OLD_WORDS})
 
     assert bench.tuning.confirm_config(bench.id).state == "committed"
