@@ -35,7 +35,7 @@ DEVICES_MAX = 32
 
 
 class _Device:
-    """One added unit: its thread, its id once it is settled, who listens."""
+    """One added unit: its thread, its id once it is announced, who listens."""
 
     def __init__(
         self, url: str, kind: str, name: str | None, watchers: Callable[[], tuple[Watcher, ...]]
@@ -136,7 +136,7 @@ class Devices:
             if device is None:
                 device = self._open(url, kind, name)
         device.unit.driver.probed.wait(wait_s)
-        twin = self._settle(device)
+        twin = self._announce(device)
         if twin is not None:
             self._close(device)
             raise Conflict(
@@ -272,11 +272,11 @@ class Devices:
 
     def _emit(self, device: _Device, event: DeviceEvent) -> None:
         if device.id is None and device.unit_key is not None:
-            self._settle(device)
+            self._announce(device)
         device.emit(event)
 
-    def _settle(self, device: _Device) -> _Device | None:
-        """Let a device be heard of, for good; returns another device that is the same unit."""
+    def _announce(self, device: _Device) -> _Device | None:
+        """Let a device be heard of from now on; returns another device that is the same unit."""
         key = device.unit_key
         with self._lock:
             twin = self._other_with(device, key)
