@@ -97,7 +97,7 @@ class Checker:
         flash = unit.unit.flash()
         self.generations: list[Generation] = [boot_twin(flash)]
         self.trials = TrialChecks()
-        self.lock = UnlockChecks(flash)
+        self.unlock = UnlockChecks(flash)
         self.logs = LogChecks(unit.unit.log())
         self.boot = 1
         self._flash = flash
@@ -127,7 +127,7 @@ class Checker:
         self._epoch = NO_EPOCH
         self.boot += 1
         self._log_changes = -1
-        self.lock.restarted()
+        self.unlock.restarted()
 
     def said(self, data: bytes) -> None:
         """Bytes the unit sent, as it sent them."""
@@ -146,9 +146,9 @@ class Checker:
     def _response(self, response: Response) -> None:
         answer = response.message
         if response.message_id == MessageId.AUTH_RESPONSE and response.status == Status.AUTH_BAD:
-            self.lock.refused(response.detail)
+            self.unlock.refused(response.detail)
         if isinstance(answer, AuthChallengeResponse):
-            self.lock.challenged(answer)
+            self.unlock.challenged(answer)
         elif isinstance(answer, StrSnapshotResponse):
             self._snapshots.add((answer.t_us, bytes(answer.values)))
         elif isinstance(answer, StrSubscribeResponse) and answer.epoch != self._epoch:
@@ -181,7 +181,7 @@ class Checker:
         found = None
         if flash != self._flash:
             self._flash = flash
-            self.lock.looked(flash, unit_s)
+            self.unlock.looked(flash, unit_s)
             found = self._slots_looked(flash, unit_s)
         if unit.unit.powered:
             self.trials.passed(unit_s, self.boot)

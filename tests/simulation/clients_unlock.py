@@ -94,7 +94,7 @@ class Unlocking:
         )
         if what == "good":
             intent.authorised = True
-            self._world.checker.lock.good_tokens_shown += 1
+            self._world.checker.unlock.good_tokens_shown += 1
             token = MAKER.sign(challenge)
         elif what == "stranger":
             token = STRANGER.sign(challenge)

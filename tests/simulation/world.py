@@ -289,7 +289,7 @@ class World:
         figures["frames_bad"] = self.session.link_statistics().frames_bad
         figures["trials"] = len(self.checker.trials.trials)
         figures["logs_given_up"] = self.checker.logs.given_up_unconfirmed
-        figures["attempts"] = self.checker.lock.attempts
+        figures["attempts"] = self.checker.unlock.attempts
         figures["frames_seen"] = self.checker.frames_seen
         figures["conservation_checks"] = self.checker.conservation_checks
         self._trace.update(repr((wrong, figures)).encode())
