@@ -32,18 +32,23 @@ def eventually(
         time.sleep(LOOK_EVERY_S)
 
 
+def api_client(url: str) -> httpx.Client:
+    """Asks the API of the server at `url`."""
+    return httpx.Client(
+        base_url=f"{url}/api/v1",
+        timeout=30.0,
+        trust_env=False,
+        # The server closes idle connections after 5 s; one in use at that moment is reset.
+        limits=httpx.Limits(keepalive_expiry=2.0),
+    )
+
+
 class SpindleServer(RunningServer):
     """A server whose API is asked in plain JSON, as a browser does. `client` is for refusals."""
 
     def start(self) -> Self:
         super().start()
-        self.client = httpx.Client(
-            base_url=f"{self.url}/api/v1",
-            timeout=30.0,
-            trust_env=False,
-            # The server closes idle connections after 5 s; one in use at that moment is reset.
-            limits=httpx.Limits(keepalive_expiry=2.0),
-        )
+        self.client = api_client(self.url)
         return self
 
     def get(self, path: str, **request: Any) -> Any:

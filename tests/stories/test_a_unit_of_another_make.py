@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import threading
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -22,7 +21,7 @@ from websockets.sync.client import connect
 from backend.device.families import FAMILIES
 from backend.main import build_app, listening_socket, open_services, server_config
 from backend.settings import load
-from tests.fakes.server import eventually
+from tests.fakes.server import api_client, eventually
 from tests.fakes.tiny.motor import SETTINGS, TinyMotor, listening
 from tests.fakes.tiny.unit import TinyUnit
 
@@ -81,7 +80,7 @@ class Workshop:
 
 @contextmanager
 def served(data: Path) -> Iterator[str]:
-    """A server that knows the second family; its API's address."""
+    """A server that knows the second family; its address."""
     settings = load({"data": str(data), "device": []}, {})
     families = {**FAMILIES, TinyUnit.family: TinyUnit}
     with open_services(settings, families) as services, listening_socket("127.0.0.1", 0) as port:
@@ -89,7 +88,7 @@ def served(data: Path) -> Iterator[str]:
         thread = threading.Thread(target=server.run, kwargs={"sockets": [port]})
         thread.start()
         try:
-            yield f"http://127.0.0.1:{port.getsockname()[1]}/api/v1"
+            yield f"http://127.0.0.1:{port.getsockname()[1]}"
         finally:
             server.should_exit = True
             thread.join()
@@ -100,8 +99,8 @@ def workshop(tmp_path: Path) -> Iterator[Workshop]:
     motor = TinyMotor()
     with (
         listening(motor) as url,
-        served(tmp_path) as api,
-        httpx.Client(base_url=api, timeout=30.0, trust_env=False) as client,
+        served(tmp_path) as server,
+        api_client(server) as client,
     ):
         yield Workshop(client, motor, url)
 
@@ -276,8 +275,10 @@ def test_it_is_watched_live(workshop: Workshop) -> None:
 def test_its_rides_are_recorded(workshop: Workshop) -> None:
     device = workshop.connect()
     workshop.motor.speed_kmh = 18.0
-    eventually(lambda: workshop.ask("GET", "/rides")["items"], lambda rides: rides)
-    time.sleep(1.0)
+    eventually(
+        lambda: workshop.ask("GET", "/rides")["items"],
+        lambda rides: rides and rides[0]["row_count"] >= 5,
+    )
     workshop.ask("DELETE", device)
 
     (ride,) = eventually(

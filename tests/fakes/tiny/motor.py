@@ -25,7 +25,6 @@ class TinyMotor:
         self.speed_kmh = self.cadence_rpm = 0.0
         self.silent = False
         self.stuck: set[int] = set()
-        self.asked: list[str] = []
         self._lock = threading.Lock()
 
     def answer(self, line: str) -> str | None:
@@ -33,7 +32,6 @@ class TinyMotor:
         with self._lock:
             if self.silent:
                 return None
-            self.asked.append(line)
             word, *numbers = line.split()
             if word == "I":
                 return "TINY 1.2"
