@@ -19,6 +19,7 @@ from sqlalchemy.pool import NullPool
 from backend.errors import StoreError
 from backend.store import tables as t
 from backend.store.database import shown
+from backend.store.trouble import reason_of
 
 LOG = logging.getLogger(__name__)
 
@@ -46,7 +47,9 @@ class AdvisoryLock:
         try:
             taken = self._take()
         except SQLAlchemyError as error:
-            raise StoreError(f"The database {self._shown} cannot be reached: {error}") from error
+            raise StoreError(
+                f"The database {self._shown} cannot be reached: {reason_of(error)}"
+            ) from error
         if not taken:
             raise StoreError(
                 f"Another Spindle is using {self._shown}: stop it, or give this one a database of "
@@ -77,7 +80,7 @@ class AdvisoryLock:
                     "soon as that is possible; should another server take it first, this one "
                     "writes nothing any more.",
                     self._shown,
-                    getattr(error, "orig", error),
+                    reason_of(error),
                 )
             self._drop()
 

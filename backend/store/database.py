@@ -21,7 +21,7 @@ from sqlalchemy.engine import make_url
 from sqlalchemy.exc import SQLAlchemyError
 
 from backend.errors import StoreError
-from backend.store.trouble import QUEUE_FULL, WORDS, WriteWatch, code_of, write_a_little
+from backend.store.trouble import QUEUE_FULL, WORDS, WriteWatch, code_of, reason_of, write_a_little
 
 LOG = logging.getLogger(__name__)
 Result = TypeVar("Result")
@@ -51,6 +51,7 @@ class Database:
         self.fence: Callable[[Connection], None] | None = None
         self.engine = open_engine(url)
         self.one_writer = self.engine.dialect.name == "sqlite"
+        self._writing_engine = self.engine.execution_options(writes=True)
         self._writer = ThreadPoolExecutor(1, thread_name_prefix="store-writer")
         self._waiting = threading.BoundedSemaphore(WRITES_WAITING_MAX)
         try:
@@ -60,7 +61,7 @@ class Database:
         except (SQLAlchemyError, OSError) as error:
             self.close()
             code = code_of(error)
-            reason = str(error) if code is None else f"{WORDS[code]}."
+            reason = reason_of(error) if code is None else f"{WORDS[code]}."
             raise StoreError(
                 f"The database {shown(url)} cannot be opened: {reason}", code
             ) from error
@@ -95,7 +96,7 @@ class Database:
             with self.engine.connect() as connection:
                 return work(connection)
         except SQLAlchemyError as error:
-            raise StoreError(f"The database could not be read: {error}") from error
+            raise StoreError(f"The database could not be read: {reason_of(error)}") from error
 
     def give_back(self) -> bool:
         """Give the disk some of what deleted rows took; False once there is nothing left.
@@ -136,7 +137,7 @@ class Database:
 
     def _transaction(self, work: Callable[[Connection], Result]) -> Result:
         try:
-            with self.engine.begin() as connection:
+            with self._writing_engine.begin() as connection:
                 if self.fence is not None:
                     self.fence(connection)
                 result = work(connection)
@@ -219,7 +220,13 @@ def prepare_sqlite(connection: Any, _record: object) -> None:
 
 
 def begin_sqlite(connection: Connection) -> None:
-    connection.exec_driver_sql("BEGIN")
+    """Begin a transaction; one that writes takes the lock at once.
+
+    Readers take that lock for an instant to look at the head of a log that is just being written.
+    A transaction that has read before it wants the lock does not wait for them: it is refused.
+    """
+    writes = connection.get_execution_options().get("writes")
+    connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
 
 
 def free_pages(connection: Connection) -> int:
@@ -281,7 +288,7 @@ def migrate(engine: Engine, url: str) -> None:
     config = Config()
     config.set_main_option("script_location", str(Path(__file__).parent / "migrations"))
     config.set_main_option("sqlalchemy.url", url.replace("%", "%%"))
-    with engine.begin() as connection:
+    with engine.execution_options(writes=True).begin() as connection:
         config.attributes["connection"] = connection
         command.upgrade(config, "head")
         if engine.dialect.name == "sqlite":

@@ -17,6 +17,7 @@ from sqlalchemy.exc import DatabaseError, OperationalError, SQLAlchemyError
 from backend.errors import StoreError
 from backend.store.database import shown, sqlite_path
 from backend.store.objects import content_key, sidecar_key
+from backend.store.trouble import reason_of
 
 MISSING, EMPTY, DAMAGED, FOREIGN, OK = "missing", "empty", "damaged", "foreign", "ok"
 # Every schema has these.
@@ -71,7 +72,7 @@ def look_at(url: str) -> DatabaseView:
     except DatabaseError as error:
         return DatabaseView(DAMAGED, str(error.orig))
     except SQLAlchemyError as error:
-        raise StoreError(f"The database {shown(url)} cannot be read: {error}") from error
+        raise StoreError(f"The database {shown(url)} cannot be read: {reason_of(error)}") from error
     finally:
         engine.dispose()
 

@@ -104,7 +104,7 @@ class WriteWatch:
     def refused(self, part: str, error: Exception, lost: str) -> StoreError:
         """Note a refused write; the error to raise. lost: what was not done, a sentence's start."""
         code = code_of(error)
-        message = f"{lost}: {error}"
+        message = f"{lost}: {reason_of(error)}"
         if code is None:
             return StoreError(message)
         self.note(part, code)
@@ -157,6 +157,11 @@ def write_a_little(folder: Path) -> None:
             os.fsync(file.fileno())
     finally:
         path.unlink(missing_ok=True)
+
+
+def reason_of(error: BaseException) -> str:
+    """What the disk or the database said, without the SQL it was asked."""
+    return str(getattr(error, "orig", None) or error)
 
 
 def code_of(error: BaseException) -> str | None:

@@ -1,0 +1,63 @@
+"""Goal: a change waits for whoever else holds SQLite's one write lock: another program for a
+second, or a reader for an instant, who takes it to look at the head of a log just being written.
+
+Method: a second connection holds the lock while a change that reads first is under way.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+from threading import Timer
+
+import pytest
+from sqlalchemy import Connection, text
+
+from backend.errors import StoreError
+from backend.store import database as module
+from backend.store.database import Database
+
+HELD_S = 0.3
+
+
+@contextmanager
+def held(path: Path) -> Iterator[sqlite3.Connection]:
+    """Another connection that has the write lock."""
+    with closing(sqlite3.connect(path, isolation_level=None, check_same_thread=False)) as other:
+        other.execute("BEGIN IMMEDIATE")
+        yield other
+
+
+def read_then_write(connection: Connection) -> None:
+    count = connection.execute(text("SELECT count(*) FROM upload")).scalar_one()
+    connection.exec_driver_sql(f"PRAGMA user_version={count + 7}")
+
+
+def test_a_change_that_reads_first_waits_too(tmp_path: Path) -> None:
+    database = Database(f"sqlite:///{tmp_path}/db")
+    with closing(database), held(tmp_path / "db") as other:
+        over = Timer(HELD_S, other.execute, ["ROLLBACK"])
+        over.start()
+
+        database.write(read_then_write)
+
+        over.join()
+        version = database.read(
+            lambda connection: connection.exec_driver_sql("PRAGMA user_version").scalar_one()
+        )
+        assert version == 7
+
+
+def test_who_waits_too_long_is_told_without_a_word_of_sql(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "BUSY_TIMEOUT_MS", 50)
+    database = Database(f"sqlite:///{tmp_path}/db")
+    with (
+        closing(database),
+        held(tmp_path / "db"),
+        pytest.raises(StoreError, match=r"^The database did not save the change: database is loc"),
+    ):
+        database.write(read_then_write)
