@@ -46,12 +46,12 @@ setup: $(STAMP)/native $(STAMP)/web ## install and build everything, start nothi
 test: setup $(STAMP)/chromium lint ## every test there is, a real browser included
 	cd frontend && npm run --silent test
 	$(BIN)/pytest -m serial
-	$(BIN)/pytest -m "not serial" $(PARALLEL) $(WORKERS) --ignore=tests/browser
+	$(BIN)/pytest -m "not serial and not long" $(PARALLEL) $(WORKERS) --ignore=tests/browser
 	$(BIN)/pytest $(PARALLEL) 2 tests/browser
 
 .PHONY: prove
-prove: setup ## the large counts of which `make test` does a tenth, all of them
-	$(BIN)/pytest --prove -m large_count $(PARALLEL) $(WORKERS)
+prove: setup ## what takes longest, and the large counts of which `make test` does a tenth, in full
+	$(BIN)/pytest --prove -m "large_count or long" $(PARALLEL) $(WORKERS)
 
 .PHONY: test-board
 test-board: setup $(STAMP)/arm ## the unit's tests against the firmware on an emulated Cortex-M4F
@@ -63,7 +63,7 @@ test-board-all: setup $(STAMP)/arm ## the same with the longest: power cuts at e
 
 .PHONY: test-fast
 test-fast: $(STAMP)/native ## unit and conformance tests without the slow ones; ONLY=path for some
-	$(BIN)/pytest -m "not slow and not serial and not large_count" $(PARALLEL) 2 \
+	$(BIN)/pytest -m "not slow and not serial and not large_count and not long" $(PARALLEL) 2 \
 		$(or $(ONLY),tests/unit tests/conformance)
 
 .PHONY: simulate

@@ -10,6 +10,7 @@ from tests.reproduction import __main__ as reproduction
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_the_page_is_what_make_reproduction_writes_now(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

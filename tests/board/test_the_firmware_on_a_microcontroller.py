@@ -77,6 +77,7 @@ def test_a_host_finds_it_behind_its_serial_line(board: emulator.Emulator) -> Non
     assert answer.config_generation == 1
 
 
+@pytest.mark.long
 def test_built_for_short_frames_it_says_so(image: Path, tmp_path: Path) -> None:
     short = emulator.build("unit", frame_bytes=MTU_BEFORE_HELLO)
 

@@ -39,7 +39,7 @@ LEFT_OUT = ("node_modules", "dist", "__pycache__", "*.o")
 STEPS = "23456"
 DICTIONARIES = ("en_unit.ts", "zh_unit.ts")
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.long]
 
 
 @dataclass(frozen=True)

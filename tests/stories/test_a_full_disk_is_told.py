@@ -45,6 +45,7 @@ def fill(path: Path) -> None:
             pass
 
 
+@pytest.mark.long
 def test_a_full_disk_while_recording_is_told_and_costs_nothing_when_freed(
     small_disk: Path, tmp_path_factory: pytest.TempPathFactory
 ) -> None:

@@ -13,6 +13,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from tests.fakes.server import SpindleServer, eventually
 
 PATIENCE_S = 60.0
@@ -51,6 +53,7 @@ def longer_than(server: SpindleServer, rows: int) -> dict[str, Any]:
     return newest
 
 
+@pytest.mark.long
 def test_a_store_survives_a_second_server_a_crash_and_a_lost_database(tmp_path: Path) -> None:
     data = tmp_path / "data"
     server = SpindleServer(data, ["sim:one?seed=21&speed=5"]).start()

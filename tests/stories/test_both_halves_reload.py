@@ -74,6 +74,7 @@ def running(tmp_path: Path) -> Iterator[Running]:
         started.process.wait(WITHIN_S)
 
 
+@pytest.mark.long
 def test_a_change_of_python_is_there_at_once_and_ctrl_c_ends_all(running: Running) -> None:
     pages = running.told(r"Local:\s+(http://127\.0\.0\.1:\d+)")
     running.told(r"Spindle is ready at (\S+)")

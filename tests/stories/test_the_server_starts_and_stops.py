@@ -163,6 +163,7 @@ def test_a_unit_that_is_not_there_keeps_nobody_waiting(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("ending", [signal.SIGTERM, signal.SIGKILL])
 def test_a_file_that_is_read_when_the_server_ends_is_one_ride_after_the_next_start(
     tmp_path: Path, ending: signal.Signals
@@ -194,6 +195,7 @@ def test_a_file_that_is_read_when_the_server_ends_is_one_ride_after_the_next_sta
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.host_build("a board takes a tenth of a core at rest: these are about the server")
 @pytest.mark.parametrize("wait_for_all", [True, False], ids=["ready", "starting"])
 def test_thirty_two_simulated_units_end_with_the_server(tmp_path: Path, wait_for_all: bool) -> None:

@@ -48,6 +48,7 @@ def test_an_answer_that_was_cut_is_a_refusal_and_not_a_crash() -> None:
     assert {outcome.code for outcome in outcomes} == {"parser_crashed"}
 
 
+@pytest.mark.long
 def test_a_million_empty_messages_end_in_an_answer(tmp_path: Path) -> None:
     path = tmp_path / "object"
     path.write_bytes(enclosed(definition(0, 20, []) + bytes(1_000_000)))

@@ -165,6 +165,7 @@ def noise_on_an_open_transaction(unit: RecordedUnit) -> None:
             unit.advance(noise.choice([0.01, 0.2, 1.0]))
 
 
+@pytest.mark.long
 @pytest.mark.large_count
 @pytest.mark.host_build("compiles for the host")
 @pytest.mark.parametrize("story", [a_hosts_story, noise_on_an_open_transaction])

@@ -19,6 +19,7 @@ pytest_plugins = ["pytester"]
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_every_example_of_the_page_runs(
     pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
 ) -> None:
