@@ -63,6 +63,23 @@ static void watch(const battery_config *config, battery_state *state, int fault_
     }
 }
 
+battery_source battery_source_now(const battery_config *config, const battery_state *state)
+{
+    const battery_source source = {
+        .open_v = state->cut ? 0.0 : battery_open_circuit_v(state->soc_pct) - state->polarisation_v,
+        .resistance_ohm = battery_resistance_ohm(config, state->soc_pct),
+    };
+    return source;
+}
+
+double battery_voltage_v(battery_source source, double power_w)
+{
+    /* U (E - U) / R = P; the larger root is the one a load settles at, and P is most at E/2. */
+    const double root =
+        source.open_v * source.open_v - 4.0 * source.resistance_ohm * fmax(power_w, 0.0);
+    return 0.5 * (source.open_v + sqrt(fmax(root, 0.0)));
+}
+
 void battery_step(const battery_config *config, battery_state *state, double power_w, int fault_cut,
                   double dt_s)
 {
@@ -72,12 +89,9 @@ void battery_step(const battery_config *config, battery_state *state, double pow
         state->polarisation_v -= state->polarisation_v * dt_s / config->polarisation_s;
         return;
     }
-    const double resistance_ohm = battery_resistance_ohm(config, state->soc_pct);
-    const double open_v = battery_open_circuit_v(state->soc_pct) - state->polarisation_v;
-    /* P = (U - iR)i has its maximum at i = U/2R; the smaller root is the one a load settles at. */
-    const double root = fmax(open_v * open_v - 4.0 * resistance_ohm * fmax(power_w, 0.0), 0.0);
-    state->current_a = (open_v - sqrt(root)) / (2.0 * resistance_ohm);
-    state->voltage_v = open_v - state->current_a * resistance_ohm;
+    const battery_source source = battery_source_now(config, state);
+    state->voltage_v = battery_voltage_v(source, power_w);
+    state->current_a = (source.open_v - state->voltage_v) / source.resistance_ohm;
     const double settled_v = state->current_a * config->polarisation_ohm;
     state->polarisation_v += (settled_v - state->polarisation_v) * dt_s / config->polarisation_s;
     const double charge_ah = state->current_a * dt_s / S_PER_H;

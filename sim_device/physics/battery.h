@@ -25,6 +25,12 @@ typedef struct {
     int cut;               /* 1: opened by its management, for good */
 } battery_state;
 
+/* What a load meets at the terminals: a voltage behind a resistance. */
+typedef struct {
+    double open_v; /* without load; 0 once the management has cut */
+    double resistance_ohm;
+} battery_source;
+
 void battery_reset(const battery_config *config, battery_state *state);
 
 /* Open-circuit voltage of ten lithium-ion cells in series. */
@@ -33,8 +39,14 @@ double battery_open_circuit_v(double soc_pct);
 /* Ohmic resistance now: colder and emptier is more. */
 double battery_resistance_ohm(const battery_config *config, double soc_pct);
 
-/* Delivers `power_w` at the terminals for `dt_s`; more than the cells can give is cut to their
- * maximum. `fault_cut` makes the management open its switch. */
+battery_source battery_source_now(const battery_config *config, const battery_state *state);
+
+/* The terminals while `power_w` is taken: half of open_v and no less, where the cells have no more
+ * to give. */
+double battery_voltage_v(battery_source source, double power_w);
+
+/* Delivers `power_w` at the terminals for `dt_s`; what is more than the cells can give for a moment
+ * the capacitor of the inverter has. `fault_cut` makes the management open its switch. */
 void battery_step(const battery_config *config, battery_state *state, double power_w, int fault_cut,
                   double dt_s);
 

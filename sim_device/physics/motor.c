@@ -5,6 +5,7 @@
 #define RAD_S_PER_RPM (3.14159265358979323846 / 30.0)
 #define REFERENCE_DEGC 20.0
 #define STILL_RAD_S 1e-9
+#define SPEED_FADE_RPM 100.0
 
 double motor_resistance_ohm(const motor_config *config, double winding_degc)
 {
@@ -13,27 +14,36 @@ double motor_resistance_ohm(const motor_config *config, double winding_degc)
     return config->resistance_ohm * (1.0 + winding);
 }
 
-double motor_torque_limit_nm(const motor_config *config, double speed_rad_s, double voltage_v,
-                             double winding_degc)
+static double friction_nm(const motor_config *config, double speed_rad_s)
 {
-    if (speed_rad_s >= config->speed_rpm_max * RAD_S_PER_RPM) {
-        return 0.0;
-    }
-    const double k = config->torque_constant_nm_per_a;
-    const double resistance_ohm = motor_resistance_ohm(config, winding_degc);
-    return fmax(k * (voltage_v - k * speed_rad_s) / resistance_ohm, 0.0);
+    return config->friction_nm_s * speed_rad_s +
+           (speed_rad_s > STILL_RAD_S ? config->hysteresis_nm : 0.0);
 }
 
-motor_drive motor_drive_at(const motor_config *config, double demand_nm, double speed_rad_s,
-                           double voltage_v, double winding_degc)
+double motor_torque_limit_nm(const motor_config *config, motor_rotor rotor, battery_source source,
+                             double winding_degc)
+{
+    const double k = config->torque_constant_nm_per_a;
+    const double ohm = motor_resistance_ohm(config, winding_degc) + source.resistance_ohm;
+    const double gain = rotor.gain_rad_s_per_nm;
+    /* At the step's end w is this plus the gain times the torque. */
+    const double slowed_rad_s = rotor.speed_rad_s - gain * friction_nm(config, rotor.speed_rad_s);
+    const double by_voltage = k * (source.open_v - k * slowed_rad_s) / (ohm + k * k * gain);
+    const double steepness_nm_s = config->torque_nm_max / (SPEED_FADE_RPM * RAD_S_PER_RPM);
+    const double spare_rad_s = config->speed_rpm_max * RAD_S_PER_RPM - slowed_rad_s;
+    const double by_speed = steepness_nm_s * spare_rad_s / (1.0 + steepness_nm_s * gain);
+    return fmax(fmin(by_voltage, by_speed), 0.0);
+}
+
+motor_drive motor_drive_at(const motor_config *config, double demand_nm, motor_rotor rotor,
+                           battery_source source, double winding_degc)
 {
     motor_drive drive = {0};
-    drive.friction_torque_nm = config->friction_nm_s * speed_rad_s;
-    drive.friction_torque_nm += speed_rad_s > STILL_RAD_S ? config->hysteresis_nm : 0.0;
+    drive.friction_torque_nm = friction_nm(config, rotor.speed_rad_s);
     if (demand_nm > 0.0) {
         const double wanted = fmin(demand_nm, config->torque_nm_max) + drive.friction_torque_nm;
         drive.electromagnetic_torque_nm =
-            fmin(wanted, motor_torque_limit_nm(config, speed_rad_s, voltage_v, winding_degc));
+            fmin(wanted, motor_torque_limit_nm(config, rotor, source, winding_degc));
     }
     drive.shaft_torque_nm = drive.electromagnetic_torque_nm - drive.friction_torque_nm;
     drive.current_a = drive.electromagnetic_torque_nm / config->torque_constant_nm_per_a;

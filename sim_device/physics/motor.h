@@ -3,9 +3,15 @@
  * Thesis eq. 4.8 and 4.9 with the constants of thesis_checks I-5. The demand is torque at the shaft
  * (T_f of eq. 4.9): the inverter's inner loop makes up for the motor's own friction. The currents
  * are those of the equivalent direct-current machine; motor_foc.h has the same machine in d and q.
- */
+ *
+ * Motor and battery are solved together. The inverter takes at the terminals what the winding gets,
+ * U i = V I with V = K w + R I, and V is at most U = E - R_b i. At full duty V is U and i is I:
+ * I = (E - K w) / (R + R_b). A free rotor's w is that of the step's end, which the torque makes. So
+ * no value of an earlier step bounds this one, and nothing can swing from step to step. */
 #ifndef SPINDLE_MOTOR_H
 #define SPINDLE_MOTOR_H
+
+#include "battery.h" // battery_source
 
 typedef enum { MOTOR_AVERAGE = 0, MOTOR_FOC = 1 } motor_model;
 
@@ -19,7 +25,7 @@ typedef struct {
     double hysteresis_nm;          /* iron: the same torque at every speed */
     double inertia_kg_m2;
     double torque_nm_max;
-    double speed_rpm_max;
+    double speed_rpm_max;        /* its regulator takes the torque back over the last 100 r/min */
     double inductance_h;         /* of a phase; detailed model only */
     double pole_pairs;           /* detailed model only */
     double current_bandwidth_hz; /* of the current loop; detailed model only */
@@ -41,6 +47,13 @@ typedef struct {
     double magnetic_w;    /* into the field of the windings; 0 on average */
 } motor_drive;
 
+/* The rotor when a step begins. */
+typedef struct {
+    double speed_rad_s;
+    double gain_rad_s_per_nm; /* of it by the step's end: dt/J of a free one, 0 where the bike hangs
+                                 on it */
+} motor_rotor;
+
 typedef struct {
     double winding_degc;
     double housing_degc;
@@ -50,15 +63,15 @@ typedef struct {
 /* Resistance with a winding at `winding_degc`. */
 double motor_resistance_ohm(const motor_config *config, double winding_degc);
 
-/* Largest electromagnetic torque at `speed_rad_s` that `voltage_v` can drive against the back-EMF.
- * A bridge knows no limit of the battery's power: that one the firmware holds (battery_power.c). */
-double motor_torque_limit_nm(const motor_config *config, double speed_rad_s, double voltage_v,
+/* Largest electromagnetic torque that `source` can drive against back-EMF and speed regulator. A
+ * bridge knows no limit of the battery's power: that one the firmware holds (battery_power.c). */
+double motor_torque_limit_nm(const motor_config *config, motor_rotor rotor, battery_source source,
                              double winding_degc);
 
-/* What the motor gives at `speed_rad_s` from a battery at `voltage_v` when asked for `demand_nm`.
- * Never brakes: a demand of zero or less switches the bridge off. */
-motor_drive motor_drive_at(const motor_config *config, double demand_nm, double speed_rad_s,
-                           double voltage_v, double winding_degc);
+/* What the motor gives on `source` when asked for `demand_nm`. Never brakes: a demand of zero or
+ * less switches the bridge off. */
+motor_drive motor_drive_at(const motor_config *config, double demand_nm, motor_rotor rotor,
+                           battery_source source, double winding_degc);
 
 void motor_heat_reset(const motor_config *config, motor_heat *heat);
 

@@ -126,10 +126,13 @@ static double field_j(const machine *seen, rotor_values current_a)
 }
 
 motor_drive motor_foc_drive(const motor_config *config, motor_foc_state *state, double demand_nm,
-                            double speed_rad_s, double voltage_v, double winding_degc, double dt_s)
+                            motor_rotor rotor, battery_source source, double winding_degc,
+                            double dt_s)
 {
-    const motor_drive average =
-        motor_drive_at(config, demand_nm, speed_rad_s, voltage_v, winding_degc);
+    const motor_drive average = motor_drive_at(config, demand_nm, rotor, source, winding_degc);
+    const double speed_rad_s = rotor.speed_rad_s;
+    const double taken_w = average.electromagnetic_torque_nm * speed_rad_s + average.copper_loss_w;
+    const double voltage_v = battery_voltage_v(source, taken_w);
     const machine seen = machine_of(config, speed_rad_s, voltage_v, winding_degc);
     const double wanted_q_a = average.electromagnetic_torque_nm / seen.torque_nm_per_a;
     const int open = wanted_q_a <= 0.0;

@@ -30,10 +30,12 @@ typedef struct {
 rotor_values motor_foc_to_rotor(phase_values phases, double electric_angle_rad);
 phase_values motor_foc_to_phases(rotor_values rotor, double electric_angle_rad);
 
-/* `dt_s` of the current loop at 20 kHz around a rotor at `speed_rad_s`: what motor_drive_at says on
- * average, but with the currents' own inertia and the inverter's voltage circle. Where the average
- * gives nothing the bridge is open: the currents go out within 0.2 ms and none brakes. */
+/* `dt_s` of the current loop at 20 kHz around a rotor at its speed: what motor_drive_at says on
+ * average, but with the currents' own inertia and the inverter's voltage circle, whose size is the
+ * terminals' voltage under that average load. Where the average gives nothing the bridge is open:
+ * the currents go out within 0.2 ms and none brakes. */
 motor_drive motor_foc_drive(const motor_config *config, motor_foc_state *state, double demand_nm,
-                            double speed_rad_s, double voltage_v, double winding_degc, double dt_s);
+                            motor_rotor rotor, battery_source source, double winding_degc,
+                            double dt_s);
 
 #endif

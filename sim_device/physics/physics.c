@@ -60,29 +60,21 @@ typedef struct {
     motion motor_shaft;
 } instant;
 
-/* A free motor gains up to 14 rad/s in one step, and its limits hold at the end of it too. */
-static double motor_speed_to_limit(const physics_config *config, const physics_state *state,
-                                   double demand_nm, int engaged, double dt_s)
-{
-    if (engaged || !(demand_nm > 0.0)) {
-        return state->motor_speed_rad_s;
-    }
-    const double torque_nm = fmin(demand_nm, config->motor.torque_nm_max);
-    return state->motor_speed_rad_s + dt_s * torque_nm / config->motor.inertia_kg_m2;
-}
-
 static motor_drive motor_pull(const physics_config *config, physics_state *state,
                               const physics_command *command, int engaged, double dt_s)
 {
-    const double voltage_v = state->battery.voltage_v;
+    const battery_source source = battery_source_now(&config->battery, &state->battery);
     const double winding_degc = state->heat.winding_degc;
     const double demand_nm = command->faults.motor_hall ? 0.0 : command->motor_torque_nm;
-    const double speed_rad_s = motor_speed_to_limit(config, state, demand_nm, engaged, dt_s);
+    const motor_rotor rotor = {
+        .speed_rad_s = state->motor_speed_rad_s,
+        .gain_rad_s_per_nm = engaged ? 0.0 : dt_s / config->motor.inertia_kg_m2,
+    };
     if (config->motor.model == MOTOR_FOC) {
-        return motor_foc_drive(&config->motor, &state->foc, demand_nm, speed_rad_s, voltage_v,
-                               winding_degc, dt_s);
+        return motor_foc_drive(&config->motor, &state->foc, demand_nm, rotor, source, winding_degc,
+                               dt_s);
     }
-    return motor_drive_at(&config->motor, demand_nm, speed_rad_s, voltage_v, winding_degc);
+    return motor_drive_at(&config->motor, demand_nm, rotor, source, winding_degc);
 }
 
 static drivetrain_load load_of(const physics_config *config, const physics_state *state,

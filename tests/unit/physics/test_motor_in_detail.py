@@ -16,6 +16,16 @@ STEP_S = 0.001
 MOTOR_FOC = 1
 
 
+def stiff(voltage_v: float) -> dict[str, float]:
+    """A source that does not sag."""
+    return {"open_v": voltage_v, "resistance_ohm": 0.0}
+
+
+def turning(rad_s: float) -> dict[str, float]:
+    """A rotor that the bike's inertia keeps at its speed."""
+    return {"speed_rad_s": rad_s, "gain_rad_s_per_nm": 0.0}
+
+
 def motor() -> Any:
     bike = ffi.new("physics_config *")
     lib.physics_default(bike)
@@ -27,7 +37,13 @@ def settled(config: Any, demand_nm: float, rpm: float, voltage_v: float = 38.0) 
     state = ffi.new("motor_foc_state *")
     for _ in range(50):
         drive = lib.motor_foc_drive(
-            config, state, demand_nm, rpm * RAD_S_PER_RPM, voltage_v, 20.0, STEP_S
+            config,
+            state,
+            demand_nm,
+            turning(rpm * RAD_S_PER_RPM),
+            stiff(voltage_v),
+            20.0,
+            STEP_S,
         )
     return drive
 
@@ -56,7 +72,7 @@ def test_a_current_along_phase_a_is_all_d_at_angle_zero_and_all_q_a_quarter_late
 def test_both_models_give_the_same_torque_for_the_same_losses(rpm: float, demand_nm: float) -> None:
     config = motor()
 
-    average = lib.motor_drive_at(config, demand_nm, rpm * RAD_S_PER_RPM, 38.0, 20.0)
+    average = lib.motor_drive_at(config, demand_nm, turning(rpm * RAD_S_PER_RPM), stiff(38.0), 20.0)
     detailed = settled(config, demand_nm, rpm)
 
     assert detailed.shaft_torque_nm == pytest.approx(average.shaft_torque_nm, rel=0.005)
@@ -68,7 +84,9 @@ def test_the_torque_follows_a_step_within_a_few_milliseconds() -> None:
     config = motor()
     state = ffi.new("motor_foc_state *")
     torques = [
-        lib.motor_foc_drive(config, state, 1.0, 100.0, 38.0, 20.0, STEP_S).shaft_torque_nm
+        lib.motor_foc_drive(
+            config, state, 1.0, turning(100.0), stiff(38.0), 20.0, STEP_S
+        ).shaft_torque_nm
         for _ in range(5)
     ]
 
@@ -80,7 +98,7 @@ def test_the_torque_follows_a_step_within_a_few_milliseconds() -> None:
 def test_the_voltage_circle_costs_the_detailed_model_some_torque_near_no_load_speed() -> None:
     config = motor()
 
-    average = lib.motor_drive_at(config, 2.0, 2950 * RAD_S_PER_RPM, 36.0, 20.0)
+    average = lib.motor_drive_at(config, 2.0, turning(2950 * RAD_S_PER_RPM), stiff(36.0), 20.0)
     detailed = settled(config, 2.0, 2950, voltage_v=36.0)
 
     # The inductance takes its part of the circle, which the average model does not know.
@@ -98,9 +116,12 @@ def test_a_motor_that_is_switched_off_lets_go_within_a_millisecond_and_never_bra
     config, state = motor(), ffi.new("motor_foc_state *")
     rad_s = rpm * RAD_S_PER_RPM
     for _ in range(50):
-        lib.motor_foc_drive(config, state, demand_nm, rad_s, 38.0, 20.0, STEP_S)
+        lib.motor_foc_drive(config, state, demand_nm, turning(rad_s), stiff(38.0), 20.0, STEP_S)
 
-    tail = [lib.motor_foc_drive(config, state, 0.0, rad_s, 38.0, 20.0, STEP_S) for _ in range(20)]
+    tail = [
+        lib.motor_foc_drive(config, state, 0.0, turning(rad_s), stiff(38.0), 20.0, STEP_S)
+        for _ in range(20)
+    ]
 
     # 38 V / sqrt 3 against 0.15 mH: 14.6 A a period of 50 us, out of 15 A.
     assert 0.0 <= tail[0].electromagnetic_torque_nm < 0.05 * demand_nm
@@ -180,7 +201,7 @@ def test_the_loss_map_has_the_efficiencies_of_the_bus_limit(rpm: float, efficien
     current_a = (math.sqrt((k * rad_s) ** 2 + 4 * ohm * 432.0) - k * rad_s) / (2 * ohm)
     demand_nm = min(k * current_a - 1.2e-4 * rad_s, 2.0)
 
-    drive = lib.motor_drive_at(motor(), demand_nm, rad_s, 36.0, 20.0)
+    drive = lib.motor_drive_at(motor(), demand_nm, turning(rad_s), stiff(36.0), 20.0)
 
     # thesis_checks 6: replaces the thesis' constant 88 %.
     out_w = drive.shaft_torque_nm * rad_s

@@ -117,8 +117,9 @@ def test_no_torque_comes_from_a_motor_above_3000_rpm() -> None:
     bike = Bike(speed_kmh)
 
     motor = ffi.addressof(bike.config, "motor")
-    voltage_v = bike.state.battery.voltage_v
-    drive = lib.motor_drive_at(motor, 2.0, bike.state.motor_speed_rad_s, voltage_v, 20.0)
+    rotor = {"speed_rad_s": bike.state.motor_speed_rad_s, "gain_rad_s_per_nm": 0.0}
+    source = {"open_v": bike.state.battery.voltage_v, "resistance_ohm": 0.0}
+    drive = lib.motor_drive_at(motor, 2.0, rotor, source, 20.0)
 
     assert drive.electromagnetic_torque_nm == 0.0
 

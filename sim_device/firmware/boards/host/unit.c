@@ -36,6 +36,7 @@ struct unit {
     uint64_t now_us;
     uint64_t target_us;
     rotor_receiver receiver;
+    electric_meter meter;
     uint8_t mode_selected;
     uint8_t bike_alone;
     uint8_t walk_button;
@@ -94,7 +95,7 @@ static int board_serial_drained(void *context)
 static void board_inputs_read(void *context, hal_inputs *inputs)
 {
     const unit *self = context;
-    senses_read(&self->state, &self->stimulus, &self->receiver, self->now_us, inputs);
+    senses_read(&self->state, &self->stimulus, &self->receiver, &self->meter, self->now_us, inputs);
     inputs->mode_selected = self->mode_selected;
     inputs->walk_button = self->walk_button;
 }
@@ -319,6 +320,7 @@ void unit_advance_us(unit *self, uint64_t duration_us)
 {
     self->target_us += duration_us;
     while (self->now_us + PHYSICS_PERIOD_US <= self->target_us) {
+        if (self->now_us % CONTROL_PERIOD_US == 0) senses_meter_end_step(&self->meter);
         if (unit_is_powered(self) && !self->bike_alone) {
             if (self->now_us % CONTROL_PERIOD_US == 0 && !(self->hung & UNIT_HANG_STEPS)) {
                 app_control_step(&self->app);
@@ -329,6 +331,7 @@ void unit_advance_us(unit *self, uint64_t duration_us)
         line_advance(self);
         physics_step(&self->bike, &self->state, &self->stimulus, PHYSICS_PERIOD_US * 1e-6);
         senses_rotor_exchange(&self->state, &self->receiver);
+        senses_meter_convert(&self->meter, &self->state);
         self->now_us += PHYSICS_PERIOD_US;
     }
 }
@@ -421,6 +424,7 @@ void unit_place(unit *self, double speed_kmh, uint64_t seed)
     physics_reset(&self->bike, &self->state, speed_kmh, seed);
     self->state.wheel.pulses = pulses;
     rotor_receiver_init(&self->receiver, torque_sensor_temperature_degc(&self->state.sensor));
+    senses_meter_reset(&self->meter, &self->state);
 }
 
 void unit_renew(unit *self) { physics_renew(&self->bike, &self->state); }
