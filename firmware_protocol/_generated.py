@@ -27,7 +27,7 @@ STANDING_S = 20
 RESTING_KMH = 0.5
 RESTING_MOTOR_RPM = 30.0
 IMAGE_LENGTH = 426
-SCHEMA_HASH = bytes.fromhex("ceb1037aa692a989")
+SCHEMA_HASH = bytes.fromhex("3c1860d1730f6da2")
 
 
 class Status(IntEnum):
@@ -259,6 +259,14 @@ class LimitFlags(IntFlag):
     TEMPERATURE = 4096
     FAULT = 8192
     MARKET = 16384
+
+
+class InputFlags(IntFlag):
+    """What the assist law was told in this control step besides numbers: the brake is on, the walk button is held, a fault forbids any torque."""
+
+    BRAKE = 1
+    WALK_BUTTON = 2
+    INHIBIT = 4
 
 
 class BaudRates(IntFlag):
@@ -2438,6 +2446,9 @@ CHANNELS: tuple[Channel, ...] = (
     Channel(19, "sensor_temperature_degc", "degC", 0.01, "Temperature at the torque sensor."),
     Channel(20, "fault_flags", "flags", 1, "Bits 0 to 14 of fault_flags."),
     Channel(21, "fault_flags_high", "flags", 1, "Bits 16 up of fault_flags: bit 0 here is bit 16 there."),
+    Channel(22, "input_flags", "flags", 1, "Bits of input_flags."),
+    Channel(23, "torque_age_ms", "ms", 1, "Age of the torque reading that the assist law was given; 32767 also stands for older ones."),
+    Channel(24, "controller_temperature_degc", "degC", 0.01, "Temperature of the motor's controller."),
 )
 CHANNEL_BY_NAME = {channel.name: channel for channel in CHANNELS}
 CHANNEL_BY_ID = {channel.id: channel for channel in CHANNELS}

@@ -65,10 +65,14 @@ def replay(
     mode: npt.ArrayLike,
     *,
     brake: npt.ArrayLike = 0,
+    walk_button: npt.ArrayLike = 0,
+    inhibit: npt.ArrayLike = 0,
+    torque_age_ms: npt.ArrayLike = 0,
     motor_speed_rpm: npt.ArrayLike | None = None,
     battery_voltage_v: npt.ArrayLike = BATTERY_VOLTAGE_V,
     battery_current_a: npt.ArrayLike = np.nan,
     motor_temperature_degc: npt.ArrayLike = np.nan,
+    controller_temperature_degc: npt.ArrayLike = np.nan,
     step_s: float = law.STEP_S,
 ) -> Replay:
     """A ride from rest through the law.
@@ -76,7 +80,9 @@ def replay(
     config: the unit's parameters by registry name. speed_kmh, cadence_rpm, torque_raw_counts: (n,).
     mode: slot 0 to 4, (n,) or one. motor_speed_rpm: (n,); without it the motor follows the crank.
     battery_current_a, motor_temperature_degc: (n,); without them the law keeps the margin at the
-    battery's limit that it keeps in a unit that cannot measure them.
+    battery's limit that it keeps in a unit that cannot measure them. brake, walk_button, inhibit,
+    torque_age_ms, controller_temperature_degc: (n,); without them nothing is pressed or faulty, the
+    torque is fresh and the controller cool.
     step_s: time between samples. A sample that is not finite gives no assist and is counted under
     `input_refused`. Raises InvalidRequest for what the law refuses.
     """
@@ -95,8 +101,12 @@ def replay(
             "battery_voltage_v": battery_voltage_v,
             "battery_current_a": battery_current_a,
             "motor_temperature_degc": motor_temperature_degc,
+            "controller_temperature_degc": controller_temperature_degc,
+            "torque_age_ms": torque_age_ms,
             "mode": mode,
             "brake": brake,
+            "walk_button": walk_button,
+            "inhibit": inhibit,
         }
         outputs = law.assist_run(config, inputs, step_s)
     except (law.LawRefused, KeyError, TypeError, ValueError) as refused:

@@ -5,3 +5,9 @@ MOVING_RPM = 5.0
 STANDING_S = 20
 RESTING_KMH = 0.5
 RESTING_MOTOR_RPM = 30.0
+
+INPUT_FLAGS = {
+    "brake": 1,
+    "walk_button": 2,
+    "inhibit": 4,
+}

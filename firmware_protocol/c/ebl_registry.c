@@ -209,6 +209,9 @@ const ebl_channel ebl_channels[EBL_CHANNEL_COUNT] = {
     {19, 0.01f},
     {20, 1.0f},
     {21, 1.0f},
+    {22, 1.0f},
+    {23, 1.0f},
+    {24, 0.01f},
 };
 
 const ebl_message *ebl_message_find(uint16_t id)

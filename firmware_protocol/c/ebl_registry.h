@@ -19,12 +19,12 @@
 #define EBL_ORDER_COUNT 1
 #define EBL_BAND_COUNT 3
 #define EBL_RETIRED_COUNT 1
-#define EBL_CHANNEL_COUNT 21
+#define EBL_CHANNEL_COUNT 24
 #define EBL_FAULT_BITS 19
 #define EBL_FAULTS_ASSIST_OFF 491519
 #define EBL_FAULTS_LATCHED 488443
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 4934
+#define EBL_SCHEMA_LENGTH 4990
 #define EBL_MOVING_KMH 1.0f
 #define EBL_MOVING_RPM 5.0f
 #define EBL_STANDING_S 20u
@@ -243,6 +243,13 @@ enum {
     EBL_LIMIT_MARKET = 16384,
 };
 
+/* What the assist law was told in this control step besides numbers: the brake is on, the walk button is held, a fault forbids any torque. */
+enum {
+    EBL_INPUT_BRAKE = 1,
+    EBL_INPUT_WALK_BUTTON = 2,
+    EBL_INPUT_INHIBIT = 4,
+};
+
 /* Bits a second that a unit's line can run at, as HELLO's baud_bitmap offers them. */
 enum {
     EBL_BAUD_RATES_BAUD_115200 = 1,
@@ -407,6 +414,9 @@ enum {
     EBL_CHANNEL_SENSOR_TEMPERATURE_DEGC = 19,
     EBL_CHANNEL_FAULT_FLAGS = 20,
     EBL_CHANNEL_FAULT_FLAGS_HIGH = 21,
+    EBL_CHANNEL_INPUT_FLAGS = 22,
+    EBL_CHANNEL_TORQUE_AGE_MS = 23,
+    EBL_CHANNEL_CONTROLLER_TEMPERATURE_DEGC = 24,
 };
 
 typedef struct {

@@ -65,7 +65,13 @@ def _riding(registry: Registry) -> list[str]:
 
 def domain_module(registry: Registry) -> str:
     """The text of backend/domain/_generated.py, which needs nothing of the wire."""
-    return "\n".join([FIRST_LINE, "", *_riding(registry)]) + "\n"
+    flags = next(table for table in registry.flags if table.name == "input_flags")
+    return "\n".join([FIRST_LINE, "", *_riding(registry), "", *_masks(flags)]) + "\n"
+
+
+def _masks(table: Table) -> list[str]:
+    members = [f'    "{name.lower()}": {1 << bit},' for name, bit in table.members.items()]
+    return [f"{table.name.upper()} = {{", *members, "}"]
 
 
 def _enum(table: Table, base: str) -> list[str]:

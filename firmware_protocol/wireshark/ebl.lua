@@ -32,6 +32,7 @@ local EBL = {
     flags = {
         ["commit_flags"] = { [0] = "PROVISIONAL" },
         ["limit_flags"] = { [0] = "TAPER", [1] = "SPEED_CUTOFF", [2] = "PEDAL_STOP", [3] = "BRAKE", [4] = "RAMP_UP", [5] = "RAMP_DOWN", [6] = "MOTOR_TORQUE", [7] = "BATTERY_CURRENT", [8] = "MOTOR_SPEED", [9] = "BATTERY_VOLTAGE", [10] = "INPUT_REFUSED", [11] = "MODE_OFF", [12] = "TEMPERATURE", [13] = "FAULT", [14] = "MARKET" },
+        ["input_flags"] = { [0] = "BRAKE", [1] = "WALK_BUTTON", [2] = "INHIBIT" },
         ["baud_rates"] = { [0] = "BAUD_115200", [1] = "BAUD_230400", [2] = "BAUD_460800", [3] = "BAUD_921600", [4] = "BAUD_1000000", [5] = "BAUD_2000000" },
         ["log_flags"] = { [0] = "RECORDING", [1] = "CONFIRMED", [2] = "ENDED" },
         ["fault_flags"] = { [0] = "TORQUE_SENSOR", [1] = "SPEED_SENSOR", [2] = "BATTERY_LOW", [3] = "CONFIG_DEFAULTED", [4] = "OVER_CURRENT", [5] = "UNDER_VOLTAGE", [6] = "BATTERY_CUT", [7] = "MOTOR_TEMPERATURE", [8] = "CONTROLLER_TEMPERATURE", [9] = "TORQUE_STUCK", [10] = "TORQUE_DRIFT", [11] = "TORQUE_LINK", [12] = "SPEED_MISMATCH", [13] = "SPEED_STUCK", [14] = "MOTOR_HALL" },
@@ -194,8 +195,11 @@ local EBL = {
         [19] = { ["name"] = "sensor_temperature_degc", ["unit"] = "degC", ["scale"] = 0.01 },
         [20] = { ["name"] = "fault_flags", ["unit"] = "flags", ["scale"] = 1 },
         [21] = { ["name"] = "fault_flags_high", ["unit"] = "flags", ["scale"] = 1 },
+        [22] = { ["name"] = "input_flags", ["unit"] = "flags", ["scale"] = 1 },
+        [23] = { ["name"] = "torque_age_ms", ["unit"] = "ms", ["scale"] = 1 },
+        [24] = { ["name"] = "controller_temperature_degc", ["unit"] = "degC", ["scale"] = 0.01 },
     },
-    channel_order = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21 },
+    channel_order = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24 },
 }
 
 -- ------------------------------------------------------------------ arithmetic of every Lua

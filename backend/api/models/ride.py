@@ -192,6 +192,13 @@ class Replay(Answer):
         description="Whose parameters the rest of the law ran with."
     )
     engine: str
+    inputs_missing: list[str] = Field(
+        description="Channels of the law's inputs that the ride lacks. Without `input_flags` the "
+        "brake is off, the walk button not held and no fault forbids torque; without "
+        "`torque_age_ms` the torque is fresh, without `controller_temperature_degc` the controller "
+        "cool, without `motor_temperature_degc` the motor hot for the battery's limit; without "
+        "`motor_speed_rpm` the motor follows the crank."
+    )
     rows: int
     motor_work_wh: Compared
     motor_torque_nm_max: Compared

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from backend import control
+from backend.domain._generated import INPUT_FLAGS
 from backend.domain.channels import ChannelSpec, Values
 from backend.domain.energy import RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
 from backend.domain.filled import Filled
@@ -32,7 +33,10 @@ OPTIONAL = (
     "battery_voltage_v",
     "battery_current_a",
     "motor_temperature_degc",
+    "controller_temperature_degc",
+    "torque_age_ms",
 )
+FLAGS = "input_flags"
 COMPARED = (
     ChannelSpec("motor_torque_nm", "Nm", 0.0001),
     ChannelSpec("assist_ratio", "", 0.0002),
@@ -77,6 +81,7 @@ class RideReplay:
             "ride_id": ride.id,
             "config_source": config_source,
             "engine": control.ENGINE,
+            "inputs_missing": inputs_missing(columns),
             "rows": len(new_nm),
             "motor_work_wh": compared(
                 work_wh(recorded_nm, speed_rpm, step_s), replayed.motor_work_wh
@@ -108,7 +113,7 @@ def read_columns(reader: RideReader) -> dict[str, Values]:
             f"needs one at least every {PERIOD_US_MAX // 1000} ms.",
             code="too_slow",
         )
-    names = [*NEEDED, torque, *OPTIONAL, *(channel.name for channel in COMPARED)]
+    names = [*NEEDED, torque, *OPTIONAL, FLAGS, *(channel.name for channel in COMPARED)]
     chosen = [name for name in names if name in offered]
     counts = reader.counts(chosen, 0, reader.row_count)
     return {
@@ -128,8 +133,21 @@ def held(values: Values, filled: Sequence[Filled], period_us: int) -> Values:
     return values
 
 
+def inputs_missing(columns: Mapping[str, Values]) -> list[str]:
+    """The channels of the law's inputs that a ride has not one sample of.
+
+    What stands for them is the law's business: backend.control.replay.
+    """
+    known = {name for name, values in columns.items() if np.isfinite(values).any()}
+    return [name for name in (*OPTIONAL, FLAGS) if name not in known]
+
+
 def law_inputs(columns: Mapping[str, Values]) -> dict[str, npt.ArrayLike]:
-    """The law's inputs by its own names. A sample without a mode gets slot 0, a gap no torque."""
+    """The law's inputs by its own names.
+
+    A sample without a mode gets slot 0, one without a torque or its age no assist, one without
+    flags nothing pressed and no fault.
+    """
     inputs: dict[str, npt.ArrayLike] = {
         name: columns[name] for name in ("speed_kmh", "cadence_rpm", *OPTIONAL) if name in columns
     }
@@ -138,6 +156,9 @@ def law_inputs(columns: Mapping[str, Values]) -> dict[str, npt.ArrayLike]:
     else:
         inputs["rider_torque_nm"] = columns["rider_torque_nm"]
     inputs["mode"] = np.nan_to_num(columns["assist_mode"]).astype(np.uint8)
+    if FLAGS in columns:
+        flags = np.nan_to_num(columns[FLAGS]).astype(np.uint16)
+        inputs |= {name: flags & flag != 0 for name, flag in INPUT_FLAGS.items()}
     return inputs
 
 

@@ -82,9 +82,8 @@ class Preview:
         """What the motor would have done on a recorded ride under another table or other modes.
 
         config: the unit's parameters by registry name. arrays: `speed_kmh`, `cadence_rpm`, `mode`,
-        and `torque_raw_counts` or `rider_torque_nm`, (n,) each; `brake`, `motor_speed_rpm`,
-        `battery_voltage_v`, `battery_current_a` and `motor_temperature_degc` if known. Raises
-        InvalidRequest.
+        and `torque_raw_counts` or `rider_torque_nm`, (n,) each; what else is known by the names of
+        control.replay. Raises InvalidRequest.
         """
         changed = dict(config)
         if fuzzy_table is not None:

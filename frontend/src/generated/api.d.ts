@@ -1783,6 +1783,11 @@ export interface components {
             config_source: "ride" | "defaults";
             /** Engine */
             engine: string;
+            /**
+             * Inputs Missing
+             * @description Channels of the law's inputs that the ride lacks. Without `input_flags` the brake is off, the walk button not held and no fault forbids torque; without `torque_age_ms` the torque is fresh, without `controller_temperature_degc` the controller cool, without `motor_temperature_degc` the motor hot for the battery's limit; without `motor_speed_rpm` the motor follows the crank.
+             */
+            inputs_missing: string[];
             /** Rows */
             rows: number;
             motor_work_wh: components["schemas"]["Compared"];

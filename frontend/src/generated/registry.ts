@@ -48,6 +48,11 @@ export const FLAGS = {
     fault: 13,
     market: 14,
   },
+  input_flags: {
+    brake: 0,
+    walk_button: 1,
+    inhibit: 2,
+  },
   fault_flags: {
     torque_sensor: 0,
     speed_sensor: 1,
@@ -388,6 +393,15 @@ export const CHANNELS = {
   },
   fault_flags_high: {
     unit: "flags",
+  },
+  input_flags: {
+    unit: "flags",
+  },
+  torque_age_ms: {
+    unit: "ms",
+  },
+  controller_temperature_degc: {
+    unit: "degC",
   },
 } as const satisfies Record<string, ChannelRow>;
 

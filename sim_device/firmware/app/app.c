@@ -226,27 +226,27 @@ void app_control_step(app *unit)
     uint64_t now_us = unit_now_us(unit);
     hal_inputs inputs;
     assist_input input;
-    telemetry_sources sources = {&inputs, &unit->output, 0.0f, 0, 0};
+    telemetry_sources sources = {&inputs, &input, &unit->output, 0};
+    float speed_kmh;
     float way_m;
+    uint8_t mode;
 
     if (step_watch_begin(&unit->watch, now_us) > 0) assist_interrupted(&unit->assist_state);
     inputs_take(unit->board, &inputs);
     way_m = road_speed_step(&unit->speed, &unit->config.in_force, &inputs);
-    sources.speed_kmh = road_speed_kmh(&unit->speed, &unit->config.in_force, now_us);
-    sources.mode = mode_select(unit, &inputs);
+    speed_kmh = road_speed_kmh(&unit->speed, &unit->config.in_force, now_us);
+    mode = mode_select(unit, &inputs);
     /* Before the law: what it finds holds in this step. */
-    faults_report(unit, &inputs, sources.speed_kmh, now_us);
-    assist_input_from(&inputs, sources.speed_kmh, sources.mode, faults_inhibit(&unit->faults),
-                      &input);
+    faults_report(unit, &inputs, speed_kmh, now_us);
+    assist_input_from(&inputs, speed_kmh, mode, faults_inhibit(&unit->faults), &input);
     motor_drive(unit, assist_step(&unit->config.law, &unit->assist_state, &input, &unit->output));
 
-    counters_step(&unit->counters, sources.speed_kmh, way_m);
-    ride_log_mode_set(&unit->ride_log, sources.mode, now_us);
+    counters_step(&unit->counters, speed_kmh, way_m);
+    ride_log_mode_set(&unit->ride_log, mode, now_us);
     sources.fault_flags = unit->faults.active;
     telemetry_step(&unit->telemetry, &sources, now_us, &unit->link);
     faults_freeze(&unit->faults, unit->faults_new, now_us, unit->telemetry.row);
-    ride_log_step(&unit->ride_log, unit->telemetry.row, now_us,
-                  is_moving(&inputs, sources.speed_kmh));
+    ride_log_step(&unit->ride_log, unit->telemetry.row, now_us, is_moving(&inputs, speed_kmh));
     step_watch_done(&unit->watch);
 }
 

@@ -66,16 +66,24 @@ def test_an_admitted_stream_keeps_to_its_word_on_the_wire(unit: BenchUnit) -> No
 
 
 def test_streams_share_the_budget_and_one_that_ends_gives_its_part_back(unit: BenchUnit) -> None:
-    unit.line_baud(115200)
-    subscribe(unit, 1, 1)
-    second = subscribe(unit, 2, 1)
-    assert second.status == Status.OK
-    third = subscribe(unit, 3, 1)
-    assert third.status == Status.BANDWIDTH
+    unit.line_baud(230400)
+    for stream_id in (1, 2, 3):
+        assert subscribe(unit, stream_id, 1).status == Status.OK
+    assert subscribe(unit, 4, 1).status == Status.BANDWIDTH
 
     unit.ask(StrUnsubscribeRequest(1))
 
-    assert subscribe(unit, 3, 1).status == Status.OK
+    assert subscribe(unit, 4, 1).status == Status.OK
+
+
+def test_every_channel_at_every_step_leaves_the_slowest_fast_line_a_third(unit: BenchUnit) -> None:
+    """What a recorder asks for: 100 rows a second of all channels, in frames of three."""
+    unit.line_baud(115200)
+
+    agreed = subscribe(unit, 1, 1, batch=3).message
+
+    assert isinstance(agreed, StrSubscribeResponse)
+    assert agreed.bytes_per_s <= 2 / 3 * 11520
 
 
 def test_a_stream_that_is_changed_does_not_stand_in_its_own_way(unit: BenchUnit) -> None:

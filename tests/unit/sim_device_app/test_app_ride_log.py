@@ -45,6 +45,8 @@ from tests.fakes.bench_unit import BenchUnit
 
 BLOCK_BYTES = 2048
 LOG_BYTES = 32 * BLOCK_BYTES
+ROWS_PER_BLOCK = 472 // (2 * len(CHANNELS))
+"""SPEC 11: a block has 472 bytes for rows of one i16 a channel."""
 
 
 def unit_with_room() -> BenchUnit:
@@ -463,7 +465,7 @@ def test_damage_in_the_middle_costs_what_it_hit() -> None:
     counts = outcome.rides[0].rows.counts["speed_kmh"]
     assert len(counts) == len(whole.rows.times_us)
     lost = counts == -32768
-    assert lost.sum() == 5 * 11
+    assert lost.sum() == 5 * ROWS_PER_BLOCK
     assert (counts[~lost] == whole.rows.counts["speed_kmh"][~lost]).all()
 
 
@@ -482,4 +484,4 @@ def test_blocks_of_rows_are_full() -> None:
     blocks = scan(fetch(unit, logs(unit)[0])).blocks
 
     rows = [block.n for block in blocks if block.type == DATA]
-    assert set(rows[:-1]) == {11}
+    assert set(rows[:-1]) == {ROWS_PER_BLOCK}

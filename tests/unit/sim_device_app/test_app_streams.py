@@ -16,6 +16,7 @@ from firmware_protocol._generated import (
     CHANNELS,
     ByeRequest,
     Event,
+    InputFlags,
     PingRequest,
     Status,
     StrRenewRequest,
@@ -74,10 +75,10 @@ def test_rows_come_at_the_rate_and_in_the_batches_that_were_agreed(unit: BenchUn
 
 
 def test_the_announced_rate_covers_what_the_line_really_carries(unit: BenchUnit) -> None:
-    agreed = subscribe(unit, *ID.values(), batch=12)
+    agreed = subscribe(unit, *ID.values(), batch=10)
 
-    unit.advance_unread(0.96)
-    bytes_per_s = len(unit.take_wire()) / 0.96
+    unit.advance_unread(0.9)
+    bytes_per_s = len(unit.take_wire()) / 0.9
 
     assert 0.97 * agreed.bytes_per_s < bytes_per_s <= agreed.bytes_per_s
 
@@ -108,6 +109,31 @@ def test_a_value_is_its_count_times_the_scale_of_its_channel(unit: BenchUnit) ->
     assert isinstance(message, StrSnapshotResponse)
     assert message.t_us == STEP_US
     assert np.frombuffer(message.values, "<i2").tolist() == list(expected.values())
+
+
+def test_what_the_law_was_told_is_told_to_the_host(unit: BenchUnit) -> None:
+    names = ("input_flags", "torque_age_ms", "controller_temperature_degc")
+    unit.inputs(torque_age_ms=7, controller_temperature_degc=41.5)
+    told = []
+    for pressed in ({}, {"brake": 1}, {"brake": 0, "walk_button": 1}):
+        unit.inputs(**pressed)
+        unit.advance(0.01)
+        message = unit.ask(StrSnapshotRequest(bytes(ID[name] for name in names))).message
+        assert isinstance(message, StrSnapshotResponse)
+        told.append(np.frombuffer(message.values, "<i2").tolist())
+
+    brake, walk = int(InputFlags.BRAKE), int(InputFlags.WALK_BUTTON)
+    assert told == [[0, 7, 4150], [brake, 7, 4150], [walk, 7, 4150]]
+
+
+def test_a_fault_that_forbids_torque_is_told_as_an_input_of_the_law(unit: BenchUnit) -> None:
+    unit.inputs(battery_cut=1)
+    unit.advance(1.0)
+
+    message = unit.ask(StrSnapshotRequest(bytes([ID["input_flags"]]))).message
+
+    assert isinstance(message, StrSnapshotResponse)
+    assert np.frombuffer(message.values, "<i2").tolist() == [InputFlags.INHIBIT]
 
 
 def test_what_is_not_known_is_missing_and_never_zero(unit: BenchUnit) -> None:
@@ -178,7 +204,7 @@ def test_the_first_frame_after_a_gap_is_marked(unit: BenchUnit) -> None:
 
 
 def test_a_response_overtakes_the_streams_that_wait(unit: BenchUnit) -> None:
-    subscribe(unit, *ID.values(), batch=12)
+    subscribe(unit, *ID.values(), batch=10)
     unit.line_room(0)
     unit.advance_unread(3.0)
     unit.line_room(LINE_BYTES)

@@ -17,14 +17,27 @@
 #define STATS_PERIOD_US 1000000u
 #define US_PER_S 1000000u
 
+/* telemetry.clipped has a bit for each place in the row. */
+typedef char clipped_has_a_bit_for_each[EBL_CHANNEL_COUNT <= 32 ? 1 : -1];
+
+static float input_flags_of(const assist_input *given)
+{
+    unsigned flags = given->brake ? EBL_INPUT_BRAKE : 0u;
+
+    if (given->walk_button) flags |= EBL_INPUT_WALK_BUTTON;
+    if (given->inhibit) flags |= EBL_INPUT_INHIBIT;
+    return (float)flags;
+}
+
 /* One line for each channel; one that has no line here is missing. */
 static float channel_value(uint8_t channel_id, const telemetry_sources *sources)
 {
     const hal_inputs *inputs = sources->inputs;
+    const assist_input *given = sources->given;
     const assist_output *output = sources->output;
 
     switch (channel_id) {
-    case EBL_CHANNEL_SPEED_KMH: return sources->speed_kmh;
+    case EBL_CHANNEL_SPEED_KMH: return given->speed_kmh;
     case EBL_CHANNEL_CADENCE_RPM: return inputs->cadence_rpm;
     case EBL_CHANNEL_CRANK_ANGLE_DEG: return inputs->crank_angle_deg;
     case EBL_CHANNEL_RIDER_TORQUE_NM: return output->rider_torque_nm;
@@ -39,12 +52,15 @@ static float channel_value(uint8_t channel_id, const telemetry_sources *sources)
     case EBL_CHANNEL_BATTERY_SOC_PCT: return inputs->battery_soc_pct;
     case EBL_CHANNEL_ASSIST_RATIO: return output->assist_ratio;
     case EBL_CHANNEL_FUZZY_GAIN: return output->fuzzy_gain;
-    case EBL_CHANNEL_ASSIST_MODE: return (float)sources->mode;
+    case EBL_CHANNEL_ASSIST_MODE: return (float)given->mode;
     case EBL_CHANNEL_LIMIT_FLAGS: return (float)output->limit_flags;
     case EBL_CHANNEL_MOTOR_TEMPERATURE_DEGC: return inputs->motor_temperature_degc;
     case EBL_CHANNEL_SENSOR_TEMPERATURE_DEGC: return inputs->sensor_temperature_degc;
     case EBL_CHANNEL_FAULT_FLAGS: return (float)(sources->fault_flags & FLAGS_MASK);
     case EBL_CHANNEL_FAULT_FLAGS_HIGH: return (float)(sources->fault_flags >> 16 & FLAGS_MASK);
+    case EBL_CHANNEL_INPUT_FLAGS: return input_flags_of(given);
+    case EBL_CHANNEL_TORQUE_AGE_MS: return (float)given->torque_age_ms;
+    case EBL_CHANNEL_CONTROLLER_TEMPERATURE_DEGC: return given->controller_temperature_degc;
     default: return float32_missing();
     }
 }

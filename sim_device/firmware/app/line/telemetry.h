@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "assist_types.h" // assist_output
+#include "assist_types.h" // assist_input, assist_output
 #include "ebl_registry.h" // EBL_CHANNEL_COUNT
 #include "events.h"       // event_log
 #include "hal.h"          // hal_inputs
@@ -16,9 +16,8 @@
 /* What a row is made of. */
 typedef struct {
     const hal_inputs *inputs;
+    const assist_input *given; /* to the law */
     const assist_output *output;
-    float speed_kmh;
-    uint8_t mode;
     uint32_t fault_flags;
 } telemetry_sources;
 

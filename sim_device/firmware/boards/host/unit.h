@@ -17,7 +17,7 @@
 #define UNIT_FLASH_BLOCK_SIZE 1024
 #define UNIT_FLASH_SIZE 8192 /* the data flash of the RX24T in eight blocks */
 #define UNIT_LOG_BLOCK_SIZE 4096
-#define UNIT_LOG_SIZE 4194304 /* a serial flash beside the chip: two and a half hours of rides */
+#define UNIT_LOG_SIZE 4194304 /* a serial flash beside the chip: two hours of rides */
 #define UNIT_MODE_NOT_SELECTED 255
 #define UNIT_TORQUE_HOLD_US 20000 /* the motor's stage lets go where no new torque comes */
 #define UNIT_WATCHDOG_US 200000   /* without a kick: motor off, and the firmware starts anew */

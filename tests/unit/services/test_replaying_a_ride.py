@@ -1,0 +1,142 @@
+"""Goal: a ride is replayed with everything the law was given on it, and the answer says what of
+that the ride lacks.
+
+Method: rides made row by row, kept in a real store and replayed. What the motor gives is certain:
+nothing while a brake is on, a fault forbids torque or the torque reading is too old.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from backend.control import law_defaults
+from backend.domain.channels import ChannelSpec, Values
+from backend.domain.ride import Ride, RideRows
+from backend.ingest import ImportedRide, Outcome
+from backend.services.imports.upload import Uploads
+from backend.services.rides.replay import RideReplay
+from backend.services.tuning.preview import Preview
+from backend.store import Store, open_store
+from firmware_protocol._generated import CHANNELS, InputFlags
+
+ROWS, PERIOD_US = 1000, 10_000
+SPECS = {row.name: ChannelSpec(row.name, row.unit, float(row.scale)) for row in CHANNELS}
+PUSHING = {
+    "speed_kmh": 12.0,
+    "cadence_rpm": 60.0,
+    "rider_torque_raw": 3000.0,
+    "motor_speed_rpm": 2400.0,
+    "battery_voltage_v": 36.0,
+    "battery_current_a": 2.0,
+    "motor_temperature_degc": 30.0,
+    "controller_temperature_degc": 30.0,
+    "torque_age_ms": 2.0,
+    "input_flags": 0.0,
+    "assist_mode": 2.0,
+}
+SPORT = {"assist_modes": None, "fuzzy_table": None}
+HELD = slice(500, 700)
+
+
+def config_of(ride: Ride) -> tuple[dict[str, Any], str]:
+    return law_defaults(), "defaults"
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Iterator[Store]:
+    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
+        yield opened
+
+
+def replayed(store: Store, columns: dict[str, Values]) -> dict[str, Any]:
+    """The answer for a ride of these channels, (ROWS,) each."""
+    specs = tuple(SPECS[name] for name in columns)
+    counts = {spec.name: spec.to_counts(columns[spec.name]).astype(np.int16) for spec in specs}
+    rows = RideRows(specs, np.arange(ROWS, dtype=np.int64) * PERIOD_US, counts)
+    outcome = Outcome("complete", (ImportedRide(1_700_000_000_000_000, PERIOD_US, rows),))
+    uploads = Uploads(store, reader=lambda path, name: outcome)
+    (ride_id,) = uploads.receive_file("a.csv", b"as it came").ride_ids
+    uploads.close()
+    return RideReplay(Preview(), config_of)(store.rides.reader(ride_id), **SPORT)
+
+
+def pushing(**changes: Values) -> dict[str, Values]:
+    return {name: np.full(ROWS, value) for name, value in PUSHING.items()} | changes
+
+
+def while_held(value: float, otherwise: float) -> Values:
+    values = np.full(ROWS, otherwise)
+    values[HELD] = value
+    return values
+
+
+def motor_nm(answer: dict[str, Any]) -> Values:
+    series = answer["series"]
+    assert series["kind"] == "rows"
+    (motor,) = [c for c in series["channels"] if c["name"] == "replayed_motor_torque_nm"]
+    return np.asarray(motor["max"], np.float64)
+
+
+@pytest.mark.parametrize(
+    ("channel", "value"),
+    [
+        ("input_flags", float(InputFlags.BRAKE)),
+        ("input_flags", float(InputFlags.INHIBIT)),
+        ("input_flags", float(InputFlags.BRAKE | InputFlags.WALK_BUTTON)),
+        ("controller_temperature_degc", 100.0),
+    ],
+)
+def test_what_took_the_torque_away_on_the_ride_takes_it_away_in_its_replay(
+    store: Store, channel: str, value: float
+) -> None:
+    held = while_held(value, PUSHING[channel])
+
+    given_nm = motor_nm(replayed(store, pushing(**{channel: held})))
+
+    assert given_nm[HELD.start - 1] > 0.5
+    assert not given_nm[HELD].any()
+    assert given_nm[-1] > 0.5
+
+
+def test_a_torque_that_was_too_old_is_let_go_in_the_replay_too(store: Store) -> None:
+    aged = while_held(1000.0, 2.0)
+
+    given_nm = motor_nm(replayed(store, pushing(torque_age_ms=aged)))
+
+    # 30 Nm at the crank fall by at least 400 Nm a second.
+    assert given_nm[HELD.start - 1] > 0.5
+    assert not given_nm[HELD.start + 8 : HELD.stop].any()
+
+
+def test_a_ride_of_before_is_replayed_with_the_brake_off_and_the_answer_says_so(
+    store: Store,
+) -> None:
+    columns = pushing()
+    for later in ("input_flags", "torque_age_ms", "controller_temperature_degc"):
+        del columns[later]
+
+    answer = replayed(store, columns)
+
+    assert answer["inputs_missing"] == [
+        "controller_temperature_degc",
+        "torque_age_ms",
+        "input_flags",
+    ]
+    assert motor_nm(answer)[HELD].min() > 0.5
+
+
+def test_a_channel_without_a_single_sample_is_missing(store: Store) -> None:
+    never = np.full(ROWS, np.nan)
+
+    answer = replayed(store, pushing(controller_temperature_degc=never))
+
+    assert answer["inputs_missing"] == ["controller_temperature_degc"]
+
+
+def test_a_ride_with_every_input_lacks_none(store: Store) -> None:
+    assert replayed(store, pushing())["inputs_missing"] == []
