@@ -4,23 +4,21 @@
 #include "ebl_bytes.h" // ebl_get_f32
 
 #define NO_VIOLATION 0
-#define STEP_SHARE 0.99f /* decimals a least step apart may be nearer as float32 */
+#define COUNT_MAX 32767.0f /* what a value beyond the range of its channel becomes */
+#define STEP_SHARE 0.99f   /* decimals a least step apart may be nearer as float32 */
 
 static int is_finite(float value) { return value - value == 0.0f; }
 
 int16_t ebl_channel_counts(float scale, float value)
 {
     float counts = value / scale;
+    if (counts < COUNT_MAX && counts > -COUNT_MAX) {
+        return (int16_t)(counts < 0.0f ? counts - 0.5f : counts + 0.5f);
+    }
     if (!is_finite(value) || counts != counts) {
         return EBL_MISSING;
     }
-    if (counts >= 32767.0f) {
-        return 32767;
-    }
-    if (counts <= -32767.0f) {
-        return -32767;
-    }
-    return (int16_t)(counts < 0.0f ? counts - 0.5f : counts + 0.5f);
+    return (int16_t)(counts > 0.0f ? COUNT_MAX : -COUNT_MAX);
 }
 
 typedef struct {
