@@ -6,6 +6,7 @@ a serial port (sim_device.simulator) is this one with a clock attached.
 
 import hashlib
 import json
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, Final
 
@@ -22,6 +23,7 @@ from sim_device.scenario_phase import (
     Phase,
     ScenarioError,
 )
+from sim_device.scenario_script import Script
 
 US_PER_S: Final[int] = 1_000_000
 
@@ -112,9 +114,8 @@ class LockstepUnit:
         self._scripted = self._phase
         self._by_hand: dict[str, Any] = {}
         self._before_scenario: dict[str, float] = {}
-        self._scenario: ScenarioFile | None = None
         self._running = False
-        self._script_us = 0
+        self._script: Script | None = None
         self.unit = Unit(
             uid=uid_of(name, seed),
             boot_id=boot_id,
@@ -137,12 +138,19 @@ class LockstepUnit:
         """Lets `seconds` of the unit's time pass, through the phases of a running scenario."""
         left_us = round(seconds * US_PER_S)
         while left_us > 0:
-            step_us = min(left_us, self._until_next_phase_us(left_us))
-            self.unit.advance_us(step_us)
-            left_us -= step_us
-            if self._running:
-                self._script_us += step_us
-                self._follow_script()
+            left_us -= self._advance_in_phase(left_us)
+
+    def ride_once(self, look_s: float) -> Iterator[dict[str, Any]]:
+        """Rides the running scenario to the end of its last phase: what is seen every `look_s`,
+        at the end of every phase and of the ride."""
+        while self._running and self._script is not None and not self._script.rounds:
+            self._advance_in_phase(round(look_s * US_PER_S))
+            yield self.observe()
+
+    @property
+    def stalled_phases(self) -> list[int]:
+        """Of the scenario: which phases in metres, from 1, ended because the bike hardly moved."""
+        return list(self._script.stalled) if self._script else []
 
     def pay(self, limit_us: int) -> int:
         """Lets at most `limit_us` of the time pass that was asked for with `advance_s`; how much
@@ -191,14 +199,17 @@ class LockstepUnit:
 
     def place(self, speed_kmh: float) -> None:
         """Puts the bike on the road at this speed, its energy ledger and noise started afresh."""
+        before_m = self._distance_m
         self.unit.place(speed_kmh, self.seed)
+        if self._script is not None:
+            self._script.put_back(before_m, self._distance_m)
 
     def simulation_get(self) -> dict[str, Any]:
         """The JSON object of SIM_GET."""
         seen = self.observe()
         phase = self._phase
         return {
-            "scenario": self._scenario.name if self._scenario else None,
+            "scenario": self._script.scenario.name if self._script else None,
             "running": self._running,
             "speed_factor": self.speed_factor,
             "clock": self.clock,
@@ -262,14 +273,14 @@ class LockstepUnit:
         if changes.bike:
             self._change_bike(changes.bike)
         if changes.stop_scenario:
-            self._scenario, self._running = None, False
+            self._script, self._running = None, False
         if changes.scenario is not None:
             self._start(self._own.get(changes.scenario) or load(changes.scenario))
         if changes.phase:
             self._running = self._running and set(changes.phase) == {"assist_mode"}
         self._by_hand |= changes.by_hand
         if changes.running is not None:
-            self._running = changes.running and self._scenario is not None
+            self._running = changes.running and self._script is not None and not self._script.over
         self._perform(replace(self._phase, **changes.phase))
 
     def _keep_time(self, changes: Changes) -> None:
@@ -285,7 +296,6 @@ class LockstepUnit:
         self.unit.change_bike(values)
 
     def _start(self, scenario: ScenarioFile) -> None:
-        self._scenario, self._running, self._script_us = scenario, True, 0
         self._by_hand = {}
         self._leave_scenario_bike()
         if scenario.bike:
@@ -294,7 +304,8 @@ class LockstepUnit:
             self.unit.renew()
         if scenario.speed_kmh is not None:
             self.unit.place(scenario.speed_kmh, self.seed)
-        self._follow_script()
+        self._script, self._running = Script(scenario, self._distance_m), True
+        self._perform(self._script.phase)
 
     def _leave_scenario_bike(self) -> None:
         """Gives back what the scenario before had changed of the bike and around it."""
@@ -307,28 +318,29 @@ class LockstepUnit:
     def _bike_value(self, path: str) -> float:
         return self._bike[path] if path in self._bike else default_bike()[path]
 
-    def _follow_script(self) -> None:
-        if self._scenario is None:
-            return
-        now_us = self._script_us
-        duration_us = round(self._scenario.duration_s * US_PER_S)
-        if now_us >= duration_us and not self._scenario.repeat:
-            self._running = False
-            return
-        phase = _phase_at(self._scenario, now_us % duration_us)
-        if phase is not self._scripted:
-            self._perform(phase)
+    @property
+    def _distance_m(self) -> float:
+        return float(self.unit.observe(("distance_m",))["distance_m"])
 
-    def _until_next_phase_us(self, otherwise_us: int) -> int:
-        if not self._running or self._scenario is None:
-            return otherwise_us
-        into_us = self._script_us % round(self._scenario.duration_s * US_PER_S)
-        end_us = 0
-        for phase in self._scenario.phases:
-            end_us += round(phase.seconds * US_PER_S)
-            if end_us > into_us:
-                break
-        return end_us - into_us
+    def _advance_in_phase(self, left_us: int) -> int:
+        """Lets at most `left_us` pass, not beyond the end of a phase; how much did."""
+        script = self._script
+        if script is None:
+            return self.unit.advance_us(left_us)
+        before_m = self._distance_m
+        if not self._running:
+            passed_us = self.unit.advance_us(left_us)
+            script.put_back(before_m, self._distance_m)
+            return passed_us
+        passed_us = self.unit.advance_us(min(left_us, script.left_us), script.end_m)
+        if not self._running or self._script is not script:  # the host has said so meanwhile
+            return passed_us
+        script.passed(passed_us, self._distance_m)
+        if script.over:
+            self._running = False
+        elif script.phase is not self._scripted:
+            self._perform(script.phase)
+        return passed_us
 
     def _perform(self, scripted: Phase) -> None:
         self._scripted = scripted
@@ -380,12 +392,3 @@ def _rounded(value: float) -> float | None:
     """A percentage as short as it is worth: the answer has to fit a frame."""
     finite = finite_or_none(value)
     return None if finite is None else round(finite, 6)
-
-
-def _phase_at(scenario: ScenarioFile, into_us: int) -> Phase:
-    end_us = 0
-    for phase in scenario.phases:
-        end_us += round(phase.seconds * US_PER_S)
-        if into_us < end_us:
-            return phase
-    return scenario.phases[-1]

@@ -273,14 +273,13 @@ def _resistance(scenario: ScenarioFile, settings: Settings) -> Result:
 def _ride(scenario: ScenarioFile, _settings: Settings) -> Result:
     unit = LockstepUnit(scenario.seed, name=scenario.name, scenario=scenario)
     faults_seen = 0
-    left_s = scenario.duration_s
-    while left_s > 0.0:
-        unit.advance(min(left_s, FAULT_LOOK_S))
-        left_s = round(left_s - FAULT_LOOK_S, 6)
-        faults_seen |= unit.observe()["fault_flags"]
     seen = unit.observe()
+    begun_s = seen["t_s"]
+    for seen in unit.ride_once(FAULT_LOOK_S):
+        faults_seen |= seen["fault_flags"]
     return {
-        "duration_s": scenario.duration_s,
+        "duration_s": round(seen["t_s"] - begun_s, 3),
+        "stalled_phases": unit.stalled_phases,
         "distance_m": seen["distance_m"],
         "climb_m": seen["height_m"],
         "rider_wh": seen["rider_work_j"] / J_PER_WH,

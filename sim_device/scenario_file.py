@@ -50,10 +50,19 @@ class ScenarioFile:
         return bool(self.phases)
 
     @property
-    def duration_s(self) -> float:
-        return sum(phase.seconds for phase in self.phases)
+    def duration_s(self) -> float | None:
+        """Of one round; None where a phase is given in metres: the ride will say."""
+        if any(phase.metres is not None for phase in self.phases):
+            return None
+        return self.duration_s_max
+
+    @property
+    def duration_s_max(self) -> float:
+        """After which one round has ended, even if the bike stands."""
+        return sum(phase.seconds_max for phase in self.phases)
 
 
+_LENGTHS = {"seconds", "metres"}
 _SCENARIO_KEYS = {"doc", "seed", "settings", "phases", "repeat", "speed_kmh", "bike", "states"}
 _SETTING_KEYS = {field.name for field in fields(Setting)}
 _RIG = {"rig.pan_nm", "rig.scatter_nm"}
@@ -177,8 +186,12 @@ def _phases(source: Source, rows: object, bike: Numbers) -> tuple[Phase, ...]:
     current: dict[str, Any] = {}
     for number, row in enumerate(rows, start=1):
         at = f"phases {number}"
-        if "seconds" not in row:
-            raise ScenarioError(f"{source.at(at)}, phase {number}: needs `seconds`")
+        lengths = row.keys() & _LENGTHS
+        if len(lengths) != 1:
+            raise ScenarioError(
+                f"{source.at(at)}, phase {number}: needs `seconds` or `metres`, and not both"
+            )
+        current = {name: value for name, value in current.items() if name not in _LENGTHS}
         for name, given in row.items():
             where = f"{source.at(at, name)}, phase {number}: {name}"
             current[name] = read_phase_value(where, name, given)

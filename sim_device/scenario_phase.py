@@ -16,6 +16,11 @@ GRADE_DEG_MAX = 30.0
 WIND_MS_MAX = 40.0
 DYNO_NM_MAX = 200.0
 PHASE_S_MAX = 36_000.0
+# A phase in metres ends without them when the bike has been slower than one is pushed, from a
+# standing start: nobody waits for one that stands.
+STALL_KMH = 2.0
+STALL_S = 30.0
+PHASE_M_MAX = (PHASE_S_MAX - STALL_S) * STALL_KMH / 3.6
 WARMER_K_MAX = 300.0
 
 
@@ -75,9 +80,10 @@ class Setting:
 
 @dataclass(frozen=True)
 class Phase:
-    """What rider, road and faults do for `seconds`. None: as the bike has it."""
+    """What rider, road and faults do for `seconds`, or over `metres`. None: as the bike has it."""
 
-    seconds: float
+    seconds: float | None = None
+    metres: float | None = None
     rider: str = "off"
     torque_nm: float = 0.0
     cadence_rpm_max: float = 100.0
@@ -100,6 +106,13 @@ class Phase:
     motor_warmer_k: float = 0.0
     controller_warmer_k: float = 0.0
     pulses_missed: float = 0.0
+
+    @property
+    def seconds_max(self) -> float:
+        """After which it ends, whatever the bike has done."""
+        if self.metres is None:
+            return self.seconds or 0.0
+        return STALL_S + self.metres * 3.6 / STALL_KMH
 
     @property
     def faults(self) -> dict[str, Value]:
@@ -126,6 +139,7 @@ _SOUND = {field.name: field.default for field in fields(Phase)}
 _FLAGS = ("brake", "walk_button", "link_lost", "motor_hall", "battery_cut")
 _RANGES = {
     "seconds": Setting(1.0, min=0.01, max=PHASE_S_MAX),
+    "metres": Setting(1.0, min=0.1, max=PHASE_M_MAX),
     "rider": Setting("off", choices=tuple(RIDER_KINDS)),
     "torque_nm": Setting(0.0, min=-TORQUE_NM_MAX, max=TORQUE_NM_MAX),
     "cadence_rpm_max": Setting(100.0, min=0.0, max=CADENCE_RPM_MAX),

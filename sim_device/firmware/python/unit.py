@@ -168,9 +168,13 @@ class Unit:
         self._transmitted = bytearray(_TRANSMIT_CAPACITY)
         self._transmit_buffer = ffi.from_buffer("uint8_t[]", self._transmitted)
 
-    def advance_us(self, duration_us: int) -> None:
-        """Lets `duration_us` of the unit's time pass."""
-        lib.unit_advance_us(self._unit, duration_us)
+    def advance_us(self, duration_us: int, distance_m: float | None = None) -> int:
+        """Lets `duration_us` of the unit's time pass, less if the bike comes to `distance_m` on its
+        counter before; how much did, to the millisecond."""
+        if distance_m is None:
+            lib.unit_advance_us(self._unit, duration_us)
+            return duration_us
+        return int(lib.unit_advance_to_m(self._unit, duration_us, distance_m))
 
     def poll(self) -> None:
         """Let the unit answer what it has received while its clock stands."""

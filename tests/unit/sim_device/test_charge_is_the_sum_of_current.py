@@ -24,7 +24,7 @@ def test_the_told_current_adds_up_to_the_charge_used(name: str) -> None:
     unit.advance(FLUSH_S)  # until the first row has come
     begun_s, begun_pct = unit.t_s, unit.observe()["battery_soc_pct"]
 
-    unit.advance(min(scenario.duration_s, RIDE_S_MAX))
+    unit.advance(min(scenario.duration_s_max, RIDE_S_MAX))
     ended_s, ended_pct = unit.t_s, unit.observe()["battery_soc_pct"]
     unit.advance(FLUSH_S)
     told = unit.trace("battery_current_a")

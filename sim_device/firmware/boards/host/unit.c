@@ -318,6 +318,12 @@ static void line_advance(unit *self)
 
 void unit_advance_us(unit *self, uint64_t duration_us)
 {
+    (void)unit_advance_to_m(self, duration_us, HUGE_VAL);
+}
+
+uint64_t unit_advance_to_m(unit *self, uint64_t duration_us, double distance_m)
+{
+    const uint64_t from_us = self->target_us;
     self->target_us += duration_us;
     while (self->now_us + PHYSICS_PERIOD_US <= self->target_us) {
         if (self->now_us % CONTROL_PERIOD_US == 0) senses_meter_end_step(&self->meter);
@@ -333,7 +339,9 @@ void unit_advance_us(unit *self, uint64_t duration_us)
         senses_rotor_exchange(&self->state, &self->receiver);
         senses_meter_convert(&self->meter, &self->state);
         self->now_us += PHYSICS_PERIOD_US;
+        if (self->state.distance_m >= distance_m) self->target_us = self->now_us;
     }
+    return self->target_us - from_us;
 }
 
 void unit_poll(unit *self)

@@ -100,6 +100,10 @@ void unit_destroy(unit *self);
 /* Lets time pass; what is left below a millisecond counts towards the next call. */
 void unit_advance_us(unit *self, uint64_t duration_us);
 
+/* The same, but not beyond the millisecond in which the bike comes to `distance_m` of its way. How
+ * long that took. */
+uint64_t unit_advance_to_m(unit *self, uint64_t duration_us, double distance_m);
+
 /* Lets the unit answer what it has received while its clock stands. */
 void unit_poll(unit *self);
 
