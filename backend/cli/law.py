@@ -84,6 +84,7 @@ def lint_question(server: Server, options: Namespace) -> dict[str, Any]:
         "assist_modes": server.ask("GET", f"{path}/assist-modes"),
         "limits": server.ask("GET", f"{path}/limits"),
         "taper_speeds_kmh": [parameters[f"fixed_taper_{end}_kmh"] for end in ("start", "end")],
+        "gear_ratio": parameters["gear_ratio"],
     }
 
 

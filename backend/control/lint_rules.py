@@ -2,52 +2,45 @@
 
 The rules and their thresholds are those of fuzzy_controller 5. They look at the surface the unit
 will compute, not only at the labels: a monotone table does not give a monotone surface under
-min, max and centroid.
+min, max and centroid. What is told of the surface is a proven bound (gain_bounds): never less than
+what the unit does, wherever on the surface it does it.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from backend.control.finding import Finding, LintReport
-from backend.control.gain import surface
+from backend.control.gain_bounds import ROUNDING, Change, gain_range, largest_rise
 from backend.control.market import cutoff_of
-from backend.control.market_rules import cutoff_warnings, ratio_warnings, reach_notes
+from backend.control.market_rules import (
+    band_warnings,
+    cutoff_warnings,
+    ratio_warnings,
+    reach_notes,
+)
 from backend.domain.assist_mode import AssistModes
 from backend.domain.fuzzy_table import LABELS, FuzzyTable
+from sim_device.firmware.python.law import law_defaults
 
-SPEED_STEP_KMH = 0.125
-RATE_STEPS = 144
 RIPPLE_MAX = 0.01
 """What the thesis table itself shows between its points is 0.0091; beyond this is a warning."""
 RIPPLE_SHOWN = 0.001
-SLOPE_MAX_PER_KMH = 0.06
+JERK_DISTANCE_KMH = 1.0
+JERK_MAX = 0.06
+"""Change of the gain within that distance, wherever it begins."""
 CUTOFF_KMH_MAX = 25.0
 """EN 15194: no assist above it. Protects the rider's licence and insurance."""
 MOTOR_TORQUE_NM_MAX = 2.0
 """Table 2-2 of the thesis: what the motor bears."""
 STRONG_RIDER_NM = 70.0
 """Rider torque at which demands are looked at: a heavy rider standing on the pedal."""
-GEAR_RATIO = 40.34
-"""Thesis 4.10; within 10 % of what the teeth give (thesis_checks I-1)."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Swing:
-    """The largest change against the wanted direction along one axis, and where it ends."""
-
-    size: float
-    speed_kmh: float
-    torque_rate: float
-
-    @property
-    def where(self) -> str:
-        return f"{self.speed_kmh:.1f} km/h, torque rate {self.torque_rate:.2f}"
+GEAR_RATIO = law_defaults()["gear_ratio"]
+"""Where no unit told its own."""
 
 
 def lint(
@@ -56,19 +49,17 @@ def lint(
     limits: Mapping[str, Any] | None = None,
     which: str = "first",
     taper_speeds_kmh: tuple[float, float] | None = None,
+    gear_ratio: float | None = None,
 ) -> LintReport:
     """Findings about a table, and about the modes and limits it would run with if given.
 
     limits: the unit's parameters of the groups `limits` and `market` by name; missing ones are not
     judged. which: of the unit's two tables, `first` or `second`: the fuzzy modes that use the other
     one are not judged. taper_speeds_kmh: where the fixed law's ratio begins to fall, and where it
-    is zero.
+    is zero. gear_ratio: motor turns per crank turn; None counts as the registry's default.
     """
-    speeds = np.arange(0.0, table.speed_points_kmh[-1] + SPEED_STEP_KMH / 2, SPEED_STEP_KMH)
-    rates = np.linspace(table.torque_rate_points[0], table.torque_rate_points[-1], RATE_STEPS + 1)
-    gains = surface(table, speeds, rates).astype(np.float64)
-    rise = _rise_with_speed(gains, speeds, rates)
-    fall = _fall_with_rate(gains, speeds, rates)
+    rise = largest_rise(table, "speed", least=RIPPLE_SHOWN)
+    fall = largest_rise(table, "rate", sign=-1, least=RIPPLE_SHOWN)
     limits = limits or {}
     cutoff = cutoff_of(limits)
     return LintReport(
@@ -76,10 +67,11 @@ def lint(
         warnings=(
             *_monotony_warnings(rise, fall),
             *_label_warnings(table),
-            *_slope_warnings(gains),
-            *_steady_warnings(gains),
-            *_demand_warnings(gains, modes, limits, which),
+            *_jerk_warnings(table),
+            *_steady_warnings(table),
+            *_demand_warnings(table, modes, limits, which, gear_ratio or GEAR_RATIO),
             *cutoff_warnings(cutoff),
+            *band_warnings(limits),
             *ratio_warnings(table, modes, which, cutoff, taper_speeds_kmh),
         ),
         notes=(
@@ -89,22 +81,6 @@ def lint(
             *_mode_notes(modes, which, limits.get("market")),
         ),
     )
-
-
-def _rise_with_speed(
-    gains: npt.NDArray[np.float64], speeds: npt.NDArray[np.float64], rates: npt.NDArray[np.float64]
-) -> _Swing:
-    rises = gains - np.minimum.accumulate(gains, axis=0)
-    row, column = np.unravel_index(rises.argmax(), rises.shape)
-    return _Swing(float(rises[row, column]), float(speeds[row]), float(rates[column]))
-
-
-def _fall_with_rate(
-    gains: npt.NDArray[np.float64], speeds: npt.NDArray[np.float64], rates: npt.NDArray[np.float64]
-) -> _Swing:
-    falls = np.maximum.accumulate(gains, axis=1) - gains
-    row, column = np.unravel_index(falls.argmax(), falls.shape)
-    return _Swing(float(falls[row, column]), float(speeds[row]), float(rates[column]))
 
 
 def _limit_errors(limits: Mapping[str, Any]) -> Iterator[Finding]:
@@ -118,13 +94,13 @@ def _limit_errors(limits: Mapping[str, Any]) -> Iterator[Finding]:
         yield Finding("no_torque_limit", message, "motor_torque_nm_max")
 
 
-def _monotony_warnings(rise: _Swing, fall: _Swing) -> Iterator[Finding]:
-    if rise.size > RIPPLE_MAX:
-        message = f"the gain rises by {rise.size:.3f} while the bike gets faster"
-        yield Finding("gain_rises_with_speed", message, rise.where)
-    if fall.size > RIPPLE_MAX:
-        message = f"the gain falls by {fall.size:.3f} while the rider pushes harder"
-        yield Finding("gain_falls_with_torque_rate", message, fall.where)
+def _monotony_warnings(rise: Change, fall: Change) -> Iterator[Finding]:
+    if rise.at_most > RIPPLE_MAX:
+        message = f"the gain rises by up to {_up(rise.at_most, 3)} while the bike gets faster"
+        yield Finding("gain_rises_with_speed", message, rise.where, _told(rise))
+    if fall.at_most > RIPPLE_MAX:
+        message = f"the gain falls by up to {_up(fall.at_most, 3)} while the rider pushes harder"
+        yield Finding("gain_falls_with_torque_rate", message, fall.where, _told(fall))
 
 
 def _label_warnings(table: FuzzyTable) -> Iterator[Finding]:
@@ -137,57 +113,75 @@ def _label_warnings(table: FuzzyTable) -> Iterator[Finding]:
             yield Finding("label_step", message, f"rules[{row}][{column}]")
 
 
-def _slope_warnings(gains: npt.NDArray[np.float64]) -> Iterator[Finding]:
-    steps = round(1.0 / SPEED_STEP_KMH)
-    if len(gains) <= steps:
-        return
-    slope = float(np.abs(gains[steps:] - gains[:-steps]).max())
-    if slope > SLOPE_MAX_PER_KMH:
-        message = f"the gain changes by {slope:.3f} within 1 km/h; the rider feels it as a jerk"
-        yield Finding("steep_gain", message, None)
-
-
-def _steady_warnings(gains: npt.NDArray[np.float64]) -> Iterator[Finding]:
-    steady = gains[:, 0]
-    if steady.max() > 0.0:
+def _jerk_warnings(table: FuzzyTable) -> Iterator[Finding]:
+    rise, fall = (
+        largest_rise(table, "speed", sign, JERK_DISTANCE_KMH, JERK_MAX) for sign in (1, -1)
+    )
+    worst = max(rise, fall, key=lambda change: change.at_most)
+    if worst.at_most > JERK_MAX:
         message = (
-            f"steady pedalling already gains {steady.min():.2f} to {steady.max():.2f}:"
+            f"the gain changes by up to {_up(worst.at_most, 3)} within {JERK_DISTANCE_KMH:g} km/h;"
+            " the rider feels it as a jerk"
+        )
+        yield Finding("steep_gain", message, worst.where, _told(worst))
+
+
+def _steady_warnings(table: FuzzyTable) -> Iterator[Finding]:
+    lowest, highest = gain_range(table, first_rate_only=True)
+    if highest > RIPPLE_SHOWN:
+        message = (
+            f"steady pedalling already gains {lowest:.2f} to {highest:.2f}:"
             " the mode's ratio is never reached alone"
         )
         yield Finding("gain_at_steady_torque", message, "torque rate 0")
 
 
 def _demand_warnings(
-    gains: npt.NDArray[np.float64],
+    table: FuzzyTable,
     modes: AssistModes | None,
     limits: Mapping[str, Any],
     which: str,
+    gear_ratio: float,
 ) -> Iterator[Finding]:
+    if modes is None:
+        return
+    highest = gain_range(table)[1]
     unit_nm = limits.get("motor_torque_nm_max", MOTOR_TORQUE_NM_MAX)
-    for slot, mode in enumerate(modes.modes if modes else ()):
+    for slot, mode in enumerate(modes.modes):
         if mode.law == "off" or (mode.law == "fuzzy" and mode.table != which):
             continue
         limit_nm = unit_nm * mode.torque_pct / 100
-        gain = float(gains.max()) if mode.law == "fuzzy" else 0.0
+        gain = highest if mode.law == "fuzzy" else 0.0
         ratio = mode.ratio * (1.0 + gain)
-        demand_nm = ratio * STRONG_RIDER_NM / GEAR_RATIO
+        demand_nm = ratio * STRONG_RIDER_NM / gear_ratio
         if demand_nm > limit_nm > 0.0:
             message = (
                 f"{mode.name}: {STRONG_RIDER_NM:g} Nm of rider torque ask {demand_nm:.2f} Nm of the"
-                f" motor; above {limit_nm * GEAR_RATIO / ratio:.0f} Nm its {limit_nm:g} Nm limit"
+                f" motor; above {limit_nm * gear_ratio / ratio:.0f} Nm its {limit_nm:g} Nm limit"
                 " decides and the mode has no effect"
             )
             yield Finding("demand_beyond_motor", message, f"modes[{slot}]")
 
 
-def _ripple_notes(rise: _Swing, fall: _Swing) -> Iterator[Finding]:
-    if max(rise.size, fall.size) > RIPPLE_SHOWN and max(rise.size, fall.size) <= RIPPLE_MAX:
-        worst = max(rise, fall, key=lambda swing: swing.size)
+def _ripple_notes(rise: Change, fall: Change) -> Iterator[Finding]:
+    worst = max(rise, fall, key=lambda change: change.at_most)
+    if RIPPLE_SHOWN < worst.at_most <= RIPPLE_MAX:
         message = (
-            f"between the points the surface ripples by up to {worst.size:.4f}, as min, max and"
-            " centroid do; weighted_average does not"
+            f"between the points the surface ripples by up to {_up(worst.at_most, 4)}, as min, max"
+            " and centroid do; weighted_average does not"
         )
-        yield Finding("centroid_ripple", message, worst.where)
+        yield Finding("centroid_ripple", message, worst.where, _told(worst))
+
+
+def _up(gain: float, digits: int) -> str:
+    """A bound in digits that do not understate it; what rounding adds to every bound aside."""
+    scale = 10**digits
+    return f"{math.ceil((gain - ROUNDING) * scale) / scale:.{digits}f}"
+
+
+def _told(change: Change) -> dict[str, float | str]:
+    """What a translated message tells of a change."""
+    return {"at_most": float(_up(change.at_most, 4))}
 
 
 def _neighbour_notes(table: FuzzyTable) -> Iterator[Finding]:

@@ -6,7 +6,8 @@ who reads 25 km/h on a bike that stops helping at 24 was told something that is 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +24,8 @@ RATE_STEPS = 36
 SPEED_SHOWN_KMH = 0.001
 """Differences below it are float32's, not a setting."""
 RATIO_SHOWN = 0.005
+BAND_KMH_MIN = 1.0
+"""With it the motor's torque no longer toggles at the limit; it costs 0.3 km/h."""
 
 Floats = npt.NDArray[np.float64]
 
@@ -43,6 +46,19 @@ def cutoff_warnings(cutoff: Cutoff | None) -> Iterator[Finding]:
     )
     told = _told(cutoff.market, cutoff.holds_kmh)
     yield Finding("cutoff_above_market", message, where, told)
+
+
+def band_warnings(limits: Mapping[str, Any]) -> Iterator[Finding]:
+    """A cut-off so sharp that a rider at the limit feels the motor come and go."""
+    band_kmh = limits.get("assist_cutoff_band_kmh")
+    if band_kmh is None or band_kmh >= BAND_KMH_MIN:
+        return
+    message = (
+        f"assist ends within {band_kmh:g} km/h: at the limit the motor goes on and off several"
+        f" times a second; below a band of {BAND_KMH_MIN:g} km/h EN 15194's progressive reduction"
+        " is not felt as one"
+    )
+    yield Finding("cutoff_band_narrow", message, "assist_cutoff_band_kmh", {"band_kmh": band_kmh})
 
 
 def reach_notes(table: FuzzyTable, cutoff: Cutoff | None) -> Iterator[Finding]:
@@ -84,12 +100,13 @@ def ratio_warnings(
     """
     if modes is None or cutoff is None or cutoff.market is None:
         return
-    speeds = np.arange(0.0, cutoff.holds_kmh, SPEED_STEP_KMH)
+    own = [speed for speed in table.speed_points_kmh if speed < cutoff.holds_kmh]
+    speeds = np.union1d(np.arange(0.0, cutoff.holds_kmh, SPEED_STEP_KMH), own)
     allowed = allowed_ratios(cutoff.market, speeds)
     if allowed is None:
         return
     points = table.torque_rate_points
-    rates = np.linspace(points[0], points[-1], RATE_STEPS + 1)
+    rates = np.union1d(np.linspace(points[0], points[-1], RATE_STEPS + 1), points)
     gains = surface(table, speeds, rates).max(axis=1).astype(np.float64)
     for slot, mode in enumerate(modes.modes):
         if mode.law == "fuzzy" and mode.table == which:

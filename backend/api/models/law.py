@@ -157,6 +157,12 @@ class LintRequest(Question):
             "taper between them are not judged."
         ),
     )
+    gear_ratio: float | None = Field(
+        default=None,
+        ge=1.0,
+        le=100.0,
+        description="The unit's own, motor turns per crank turn; else the registry's default.",
+    )
 
 
 class Finding(Answer):

@@ -46,6 +46,7 @@ def lint_table(body: LintRequest, services: Provided) -> Any:
         question["limits"],
         question["table"],
         question["taper_speeds_kmh"],
+        question["gear_ratio"],
     )
 
 

@@ -51,6 +51,7 @@ class Preview:
         limits: Mapping[str, Any] | None = None,
         which: str = "first",
         taper_speeds_kmh: tuple[float, float] | None = None,
+        gear_ratio: float | None = None,
     ) -> LintReport:
         """Findings about a table; one that cannot exist is an answer too, with its faults.
 
@@ -68,7 +69,7 @@ class Preview:
             faults += _findings(refused)
         if table is None:
             return LintReport(tuple(faults), (), ())
-        report = control.lint(table, modes, limits, which, taper_speeds_kmh)
+        report = control.lint(table, modes, limits, which, taper_speeds_kmh, gear_ratio)
         return LintReport((*faults, *report.errors), report.warnings, report.notes)
 
     def replay(

@@ -1576,6 +1576,11 @@ export interface components {
                 number,
                 number
             ] | null;
+            /**
+             * Gear Ratio
+             * @description The unit's own, motor turns per crank turn; else the registry's default.
+             */
+            gear_ratio?: number | null;
         };
         /**
          * Live

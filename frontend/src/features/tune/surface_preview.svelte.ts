@@ -31,14 +31,16 @@ export class SurfacePreview {
     const rates = table.torque_rate_points
     const torque_rates = spread(rates[0] ?? 0, rates[4] ?? 1, POINTS)
     try {
-      const [surface, lint] = await Promise.all([
-        this.server.surface(table, speeds_kmh, torque_rates, signal),
-        this.server.lint(question, signal),
+      // The findings take longer, as they are proven; the surface does not wait for them.
+      await Promise.all([
+        this.server.surface(table, speeds_kmh, torque_rates, signal).then(({ gain, engine }) => {
+          if (!signal.aborted) this.drawn = { speeds_kmh, torque_rates, gain, engine }
+        }),
+        this.server.lint(question, signal).then((lint) => {
+          if (!signal.aborted) this.lint = lint
+        }),
       ])
-      if (signal.aborted) return
-      this.drawn = { speeds_kmh, torque_rates, gain: surface.gain, engine: surface.engine }
-      this.lint = lint
-      this.trouble = null
+      if (!signal.aborted) this.trouble = null
     } catch (error) {
       if (signal.aborted) return
       if (!(error instanceof Refusal)) throw error

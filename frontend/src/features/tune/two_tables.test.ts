@@ -40,8 +40,13 @@ const values: Record<string, ParameterValue> = {
   fixed_taper_end_kmh: 24,
   assist_cutoff_kmh: 25,
   market: 'japan',
+  gear_ratio: 36.744,
 }
-const groups: Record<string, string> = { assist_cutoff_kmh: 'limits', market: 'market' }
+const groups: Record<string, string> = {
+  assist_cutoff_kmh: 'limits',
+  market: 'market',
+  gear_ratio: 'drivetrain',
+}
 
 function parameter(name: string): Parameter {
   const group = groups[name] ?? (/fuzzy|second/.test(name) ? 'fuzzy' : 'assist')
@@ -132,7 +137,7 @@ it('keeps edits of both, and tells by the names that undo moved which table to s
 })
 
 it('has a table judged with the modes, the market and the taper it would run with', async () => {
-  const { assist_modes, limits, taper_speeds_kmh } = surroundings(await draftOf())
+  const { assist_modes, limits, taper_speeds_kmh, gear_ratio } = surroundings(await draftOf())
 
   expect(assist_modes?.modes[3]).toEqual({
     name: 'sport',
@@ -146,6 +151,7 @@ it('has a table judged with the modes, the market and the taper it would run wit
   })
   expect(limits).toEqual({ assist_cutoff_kmh: 25, market: 'japan' })
   expect(taper_speeds_kmh).toEqual([15, 24])
+  expect(gear_ratio).toBe(36.744)
 })
 
 it('leaves out what cannot be written, instead of having it judged', async () => {
@@ -154,5 +160,10 @@ it('leaves out what cannot be written, instead of having it judged', async () =>
   draft.set('assist_cutoff_kmh', 26)
   draft.set('mode_ratios', [1, NaN, 1, 1, 1])
 
-  expect(surroundings(draft)).toEqual({ assist_modes: null, limits: null, taper_speeds_kmh: null })
+  expect(surroundings(draft)).toEqual({
+    assist_modes: null,
+    limits: null,
+    taper_speeds_kmh: null,
+    gear_ratio: 36.744,
+  })
 })

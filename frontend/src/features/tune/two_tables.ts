@@ -74,6 +74,7 @@ export function surroundings(draft: ConfigDraft): Omit<LintRequest, 'fuzzy_table
   const names = (group: string) => draft.group(group).map((parameter) => parameter.name)
   const limits = [...names('limits'), ...names('market')]
   const modes_possible = !impossible(draft, names('assist'))
+  const gear_known = !impossible(draft, ['gear_ratio'])
   return {
     assist_modes: modes_possible ? modesOf(draft) : null,
     limits: impossible(draft, limits)
@@ -85,6 +86,7 @@ export function surroundings(draft: ConfigDraft): Omit<LintRequest, 'fuzzy_table
           draft.value('fixed_taper_end_kmh') as number,
         ]
       : null,
+    gear_ratio: gear_known ? (draft.value('gear_ratio') as number) : null,
   }
 }
 

@@ -4,17 +4,19 @@ import type { FaultName } from '$generated/registry'
 const lint = {
   assist_above_cutoff: '助力截止速度超过 25 km/h；法规要求此速度以上助力为零',
   no_torque_limit: '电机扭矩上限超过电机所能承受的值',
-  gain_rises_with_speed: '车速升高时增益反而上升',
-  gain_falls_with_torque_rate: '骑手用力加快时增益反而下降',
+  gain_rises_with_speed: '车速升高时增益反而上升，最多 {at_most}',
+  gain_falls_with_torque_rate: '骑手用力加快时增益反而下降，最多 {at_most}',
   label_step: '相邻两格相差超过一级',
-  steep_gain: '增益在 1 km/h 之内变化过大，骑手会感到顿挫',
+  steep_gain: '增益在 1 km/h 之内变化可达 {at_most}，骑手会感到顿挫',
   gain_at_steady_torque: '匀速蹬踏时已有增益：该模式的助力比永远不会单独生效',
   demand_beyond_motor: '强力骑手的需求超出电机上限：此时由上限决定，模式不起作用',
-  centroid_ripple: '各点之间曲面略有起伏，这是最小、最大与重心法的特性；加权平均没有此现象',
+  centroid_ripple: '各点之间曲面起伏最多 {at_most}，这是最小、最大与重心法的特性；加权平均没有此现象',
   equal_neighbours: '相邻两行或两列完全相同',
   row_not_reached: '该速度行仅在截止速度以上起作用',
   table_not_used: '没有带助力比的模糊模式使用此规则表：它不起任何作用',
   ratio_does_not_fall: '助力比不随车速下降，而日本法规要求下降',
+  cutoff_band_narrow:
+    '助力在 {band_kmh} km/h 之内就降为零：在限速附近电机每秒会通断数次；低于 1 km/h 时，EN 15194 的逐渐减小感觉不出来',
   cutoff_above_market:
     '设定的截止速度高于市场（{market}）所允许：无论如何设定，助力都在 {speed_kmh} km/h 截止',
   ratio_above_market:
