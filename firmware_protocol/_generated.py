@@ -27,7 +27,7 @@ STANDING_S = 20
 RESTING_KMH = 0.5
 RESTING_MOTOR_RPM = 30.0
 IMAGE_LENGTH = 426
-SCHEMA_HASH = bytes.fromhex("3c1860d1730f6da2")
+SCHEMA_HASH = bytes.fromhex("cadb378634b4d120")
 
 
 class Status(IntEnum):
@@ -2171,8 +2171,8 @@ PARAMETERS: tuple[Parameter, ...] = (
         type="f32", unit="km/h", shape=(),
         length=4, min=0.0, max=5.0, enum=None,
         increasing=False, access=1, image_offset=259,
-        default=0.0,
-        doc="Width of the soft ramp below the cut-off speed; 0 cuts hard, and a rider at that speed feels each stroke cut.",
+        default=1.5,
+        doc="Width of the soft ramp below the cut-off speed, the progressive reduction of EN 15194. The market may ask for more than is set; under 1 km/h a rider at that speed feels the motor switch on and off.",
     ),
     Parameter(
         id=0x0402, name="motor_torque_nm_max", group="limits",

@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from firmware_protocol._generated import FaultFlags
-from firmware_protocol.parameters import default_config
 from firmware_protocol.spelling import word_of
 from sim_device.controls import NOT_CONSISTENT
 from sim_device.firmware.python.unit import finite_or_none, kinematics
 from sim_device.lockstep import LockstepUnit
+from sim_device.preset_unit import FACTORY, parameters_of, preset_unit
 from sim_device.scenario_calibration import calibrate
 from sim_device.scenario_field_ride import field_ride
 from sim_device.scenario_file import FILE_ENDING, ScenarioFile, load, load_file, names
@@ -121,12 +121,14 @@ class _Trial:
         scenario: ScenarioFile,
         law: str,
         bike: dict[str, float],
+        preset: str = FACTORY,
         config: dict[str, Any] | None = None,
     ) -> None:
-        self.unit = LockstepUnit(
-            scenario.seed, config, name=scenario.name, bike=scenario.bike | bike
+        """preset: that the unit is configured with. config: parameters over it."""
+        self.unit = preset_unit(
+            preset, scenario.seed, config or {}, name=scenario.name, bike=scenario.bike | bike
         )
-        self.unit.select_mode(_mode_of(law))
+        self.unit.select_mode(_mode_of(law, parameters_of(preset)))
         self.samples: list[_Sample] = []
         self._t0_s = 0.0
 
@@ -184,9 +186,8 @@ def _config_of(settings: Settings) -> dict[str, Any]:
     return {"fixed_taper_start_kmh": start_kmh, "fixed_taper_end_kmh": end_kmh}
 
 
-def _mode_of(law: str) -> int:
-    """The mode slot of the factory configuration that runs this law at the thesis's ratio 1."""
-    config: dict[str, Any] = dict(default_config())
+def _mode_of(law: str, config: dict[str, Any]) -> int:
+    """The mode slot that runs this law at the thesis's ratio 1."""
     slots = zip(config["mode_laws"], config["mode_ratios"], strict=True)
     for slot, (slot_law, ratio) in enumerate(slots):
         if slot_law == law and ratio in (0.0, 1.0):
@@ -196,7 +197,7 @@ def _mode_of(law: str) -> int:
 
 def _start_trial(scenario: ScenarioFile, settings: Settings) -> _Trial:
     bike = {"road.mass_kg": settings["mass_kg"]}
-    trial = _Trial(scenario, settings["law"], bike, _config_of(settings))
+    trial = _Trial(scenario, settings["law"], bike, settings["preset"], _config_of(settings))
     trial.begin()
     trial.unit.rider(settings["rider"], settings["rider_torque_nm"], CADENCE_RPM_UNLIMITED)
     trial.advance_until(lambda seen: seen.speed_kmh >= LIMIT_KMH, START_S_MAX)
@@ -221,7 +222,7 @@ def _slope_trial(scenario: ScenarioFile, settings: Settings) -> _Trial:
         "drivetrain.literal_4_14": float(settings["model"] == "literal_4_14"),
         "motor.model": float(settings["motor"] == "foc"),
     }
-    trial = _Trial(scenario, settings["law"], bench, _config_of(settings))
+    trial = _Trial(scenario, settings["law"], bench, settings["preset"], _config_of(settings))
     trial.unit.place(SLOPE_FROM_KMH if settings["taper"] == "on" else UNTAPERED_FROM_KMH)
     trial.unit.rider(settings["rider"], settings["rider_torque_nm"], CADENCE_RPM_UNLIMITED)
     trial.unit.advance(SETTLE_S)

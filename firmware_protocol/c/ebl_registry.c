@@ -284,7 +284,7 @@ void ebl_config_default(ebl_config *config)
             {EBL_LABEL_NB, EBL_LABEL_NB, EBL_LABEL_NS, EBL_LABEL_NS, EBL_LABEL_NS}},
         .fuzzy_falling_torque = EBL_FALLING_TORQUE_HOLD_ZERO_RATE,
         .assist_cutoff_kmh = 25.0f,
-        .assist_cutoff_band_kmh = 0.0f,
+        .assist_cutoff_band_kmh = 1.5f,
         .motor_torque_nm_max = 2.0f,
         .battery_current_a_max = 12.0f,
         .battery_voltage_v_min = 30.0f,

@@ -60,6 +60,7 @@ static int remembers_numbers(const assist_state *state)
     return float32_is_finite(
         state->torque_filtered_nm + state->assist_torque_nm + state->walk_integral_nm +
         state->push_peak_nm[0] + state->push_peak_nm[1] + state->push_peak_nm[2] +
+        state->turn.mean_nm + state->turn.part_sum_nm + state->turn.part_turned +
         state->motor_power_mean_w + state->battery_spared + state->battery_power_w +
         state->battery_torque_nm + state->battery_trim_w);
 }
@@ -75,6 +76,7 @@ static float apply_sensor(const assist_config *config, assist_state *state,
         state->torque_filtered_nm =
             stroke_average_nm(config, state->torque_filtered_nm, output->rider_torque_nm);
         push_nm = output->rider_torque_nm;
+        (void)half_turn_mean_nm(config, &state->turn, input->cadence_rpm, push_nm);
     }
     push_note(config, state, push_nm);
     output->rider_torque_filtered_nm = state->torque_filtered_nm;

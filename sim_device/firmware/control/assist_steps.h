@@ -13,6 +13,10 @@ float sensor_torque_nm(const assist_config *config, float torque_raw_counts);
 /* stroke_average.c: first-order low-pass over the two strokes of a crank turn. */
 float stroke_average_nm(const assist_config *config, float averaged_nm, float torque_nm);
 
+/* half_turn.c: mean over half a turn, told the torque of every step. */
+float half_turn_mean_nm(const assist_config *config, half_turn *turn, float cadence_rpm,
+                        float torque_nm);
+
 /* torque_rate.c: filtered torque one interval ago; stores the present one in its place. */
 float torque_history_swap(const assist_config *config, assist_state *state);
 float torque_rate_of(const assist_config *config, float torque_nm, float earlier_torque_nm);

@@ -7,6 +7,7 @@
 #include "fuzzy_table.h" // fuzzy_table
 
 #define ASSIST_MODE_SLOTS 5
+#define HALF_TURN_PARTS 16
 #define ASSIST_RATE_HISTORY 64 /* control steps the torque-rate interval can span, at most */
 
 /* Bits of limit_flags in registry.toml: which step held the motor back in this control step. A
@@ -101,11 +102,23 @@ typedef struct {
     uint16_t limit_flags;           /* bits of registry.toml limit_flags */
 } assist_output;
 
+/* Torque at the crank over its last half turn, by parts of equal angle; half_turn.c. */
+typedef struct {
+    float part_nm[HALF_TURN_PARTS]; /* ring: mean of each part that was turned through */
+    float part_sum_nm;              /* of the part being turned through, over part_steps */
+    float part_turned;              /* of that part, 0 to 1 */
+    float mean_nm;
+    uint16_t part_steps;
+    uint8_t next;
+    uint8_t known; /* parts since the crank began to turn */
+} half_turn;
+
 /* What the law remembers. Zero-initialised (`assist_state s = {0};`) is a bike at rest. */
 typedef struct {
     float torque_filtered_nm;
     float torque_history_nm[ASSIST_RATE_HISTORY]; /* ring of filtered torque, one a step */
     uint16_t history_next;
+    half_turn turn;
     uint16_t pedal_steps_left; /* steps assist may go on without forward pedalling; 0 at rest */
     float assist_torque_nm;    /* at the crank, after every limit: where the ramps go on from */
     float walk_integral_nm;

@@ -4,7 +4,7 @@
  * and at the cut-off speed), so they come after the ramps and never wait for them. */
 #include "assist_steps.h" // apply_cutoff_band, apply_cutoffs, held_at
 #include "float32.h"      // float32_max, float32_min
-#include "market.h"       // market_cutoff_kmh, market_profile_of
+#include "market.h"       // market_cutoff_band_kmh, market_cutoff_kmh, market_profile_of
 
 static const float PUSH_HALF_SECOND_S = 0.5f;
 
@@ -55,10 +55,11 @@ float apply_cutoff_band(const assist_config *config, const assist_input *input, 
                         assist_output *output)
 {
     float below_kmh = float32_max(market_cutoff_kmh(config) - input->speed_kmh, 0.0f);
+    float band_kmh = market_cutoff_band_kmh(config);
 
-    if (below_kmh >= config->assist_cutoff_band_kmh) return demand_nm;
-    return held_at(demand_nm * (below_kmh / config->assist_cutoff_band_kmh), demand_nm,
-                   ASSIST_LIMIT_SPEED_CUTOFF, output);
+    if (below_kmh >= band_kmh) return demand_nm;
+    return held_at(demand_nm * (below_kmh / band_kmh), demand_nm, ASSIST_LIMIT_SPEED_CUTOFF,
+                   output);
 }
 
 float apply_cutoffs(const assist_config *config, assist_state *state, const assist_input *input,

@@ -1,6 +1,6 @@
 /* The last step of the pipeline: whatever a table, a mode or a limit asks for, the motor gives no
  * more than the market allows, at every speed and not only at the points of a table. */
-#include "assist_steps.h" // apply_market, held_at, walk_is_on
+#include "assist_steps.h" // apply_market, held_at, torque_is_fresh, walk_is_on
 #include "float32.h"      // float32_max, float32_min
 #include "market.h"       // market_japan_ratio, market_profile_of
 
@@ -14,14 +14,14 @@ static const float POWER_HEADROOM = 10.0f;
 
 static const float RAD_PER_S_PER_RPM = 0.104719755f;
 
-/* Against the stroke's average, because the law's ratio is of a rider's mean torque; but never
- * against an average that outlives the push: Japan wants it gone within a second of the last. */
-static float ratio_limit_nm(const assist_config *config, const assist_state *state, float speed_kmh)
+/* Against the mean of a stroke and against the push of this moment, whichever is less: whoever
+ * measures, over whatever time, finds no more than the ratio. An average alone outlives a push. */
+static float ratio_limit_nm(const assist_config *config, const assist_state *state,
+                            const assist_input *input, float push_nm)
 {
-    float push_nm = float32_max(state->push_peak_nm[0], state->push_peak_nm[1]);
-    float rider_nm = float32_min(state->torque_filtered_nm, push_nm);
+    float rider_nm = torque_is_fresh(input) ? float32_min(state->turn.mean_nm, push_nm) : 0.0f;
 
-    return market_japan_ratio(speed_kmh) * float32_max(rider_nm, 0.0f) / config->gear_ratio;
+    return market_japan_ratio(input->speed_kmh) * float32_max(rider_nm, 0.0f) / config->gear_ratio;
 }
 
 static float continuous_limit_w(const market_profile *profile, const assist_state *state)
@@ -42,7 +42,7 @@ float apply_market(const assist_config *config, assist_state *state, const assis
         motor_nm = held_at(0.0f, motor_nm, ASSIST_LIMIT_MARKET, output);
     }
     if (profile->ratio_falls) {
-        motor_nm = held_at(ratio_limit_nm(config, state, input->speed_kmh), motor_nm,
+        motor_nm = held_at(ratio_limit_nm(config, state, input, output->rider_torque_nm), motor_nm,
                            ASSIST_LIMIT_MARKET, output);
     }
     if (speed_rad_s > 0.0f && profile->peak_w > 0.0f) {

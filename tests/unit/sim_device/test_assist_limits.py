@@ -13,10 +13,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from firmware_protocol._generated import LimitFlags
-from firmware_protocol.parameters import default_config
 from sim_device.firmware.python.law import assist_run
+from tests.fakes.thesis import THESIS
 
-CONFIG = default_config()
+CONFIG = THESIS
 GEAR_RATIO = CONFIG["gear_ratio"]
 TORQUE_CONSTANT, RESISTANCE_OHM = 0.112, 0.25
 STEP_S = 0.01

@@ -14,9 +14,9 @@ import numpy.typing as npt
 import pytest
 
 from firmware_protocol._generated import LimitFlags
-from firmware_protocol.parameters import default_config
 from sim_device.firmware.python.law import AssistLaw
 from sim_device.lockstep import LockstepUnit
+from tests.fakes.thesis import THESIS
 
 # A store for every test, or rides of minutes: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
@@ -70,7 +70,7 @@ class Ride:
 
     def __init__(self, motor: Motor, **config: Any) -> None:
         self.motor = motor
-        self.law = AssistLaw({**default_config(), **config})
+        self.law = AssistLaw({**THESIS, **config})
         self.torque_nm: list[float] = []
         self.flags = 0
 

@@ -60,6 +60,7 @@ STATE_FLOATS = [
     name for name, field in ffi.typeof("assist_state").fields if field.type.cname == "float"
 ]
 STATE_ARRAYS = ["torque_history_nm", "push_peak_nm"]
+TURN_FLOATS = ["mean_nm", "part_sum_nm", "part_turned"]
 PEDALLING = {
     "torque_raw_counts": 3000.0,
     "speed_kmh": 12.0,
@@ -95,10 +96,11 @@ def unchecked(config: dict[str, Any]) -> Any:
 
 def remembered(state: Any) -> list[float]:
     plain = [getattr(state, name) for name in STATE_FLOATS]
+    plain += [getattr(state.turn, name) for name in TURN_FLOATS] + list(state.turn.part_nm)
     return plain + [value for name in STATE_ARRAYS for value in getattr(state, name)]
 
 
-def allowed_nm(config: dict[str, Any], row: np.void, filtered_nm: float) -> float:
+def allowed_nm(config: dict[str, Any], row: np.void, push_nm: float) -> float:
     """The most the motor may give for this reading, as the documents have it."""
     row = {name: float(row[name]) for name in row.dtype.names}
     mode, market = int(row["mode"]), config["market"]
@@ -125,7 +127,7 @@ def allowed_nm(config: dict[str, Any], row: np.void, filtered_nm: float) -> floa
     if market == "japan":
         ratio = 2.0 if row["speed_kmh"] < 10 else max(0.0, 2 - (row["speed_kmh"] - 10) / 7)
         # Two float32 near two are subtracted: the last digits of the ratio are rounding.
-        limits.append((ratio + 1e-6) * max(filtered_nm, 0.0) / config["gear_ratio"])
+        limits.append((ratio + 1e-6) * max(push_nm, 0.0) / config["gear_ratio"])
     return min(limits)
 
 
@@ -141,8 +143,7 @@ def judge(config: dict[str, Any], rows: npt.NDArray[np.void]) -> int:
         if code == lib.ASSIST_INPUT_REFUSED:
             assert motor_nm == 0.0
             continue
-        filtered_nm = float(output["rider_torque_filtered_nm"])
-        most_nm = allowed_nm(config, row, filtered_nm)
+        most_nm = allowed_nm(config, row, float(np.nan_to_num(output["rider_torque_nm"])))
         assert motor_nm <= most_nm * (1 + ROUNDING) + DENORMAL, (config, row, output)
         for name in ("rider_torque_filtered_nm", "torque_rate", "assist_ratio"):
             assert math.isfinite(output[name]), name
@@ -176,13 +177,17 @@ def test_put_before_the_law_unchecked_it_gives_no_torque_and_says_so() -> None:
 
 
 @pytest.mark.parametrize("hurt", [math.nan, math.inf, -math.inf], ids=str)
-@pytest.mark.parametrize("name", [*STATE_FLOATS, *STATE_ARRAYS])
+@pytest.mark.parametrize("name", [*STATE_FLOATS, *STATE_ARRAYS, *TURN_FLOATS, "part_nm"])
 def test_what_is_remembered_and_no_number_costs_one_step_and_is_gone(
     name: str, hurt: float
 ) -> None:
     rows = pack_inputs({name: [value] * 1000 for name, value in PEDALLING.items()})
     _, before, state = run(default_config(), rows)
-    if name in STATE_ARRAYS:
+    if name in TURN_FLOATS:
+        setattr(state.turn, name, hurt)
+    elif name == "part_nm":
+        state.turn.part_nm = [hurt] * len(state.turn.part_nm)
+    elif name in STATE_ARRAYS:
         setattr(state, name, [hurt] * len(getattr(state, name)))
     else:
         setattr(state, name, hurt)

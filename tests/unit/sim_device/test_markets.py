@@ -40,6 +40,7 @@ WALK_KMH = {
     "japan": 0.0,
     "china": 6.0,
 }
+BAND_KMH = {"eu_epac": 1.0, "uk": 1.0, "china": 1.0}
 CONTINUOUS_W = {"eu_epac": 250.0, "uk": 250.0, "china": 400.0}
 PEAK_W = {"us_class_1": 750.0, "us_class_2": 750.0, "us_class_3": 750.0}
 
@@ -93,6 +94,20 @@ def test_a_lower_limit_of_the_unit_stays(market: str) -> None:
     assert not run(market, speed_kmh=18.0, config=lowered)["motor_torque_nm"].any()
 
 
+@pytest.mark.parametrize(("band_kmh", "share"), [(0.0, 0.5), (1.0, 0.5), (2.0, 0.25), (5.0, 0.1)])
+@pytest.mark.parametrize("market", BAND_KMH)
+def test_assist_is_reduced_over_a_kilometre_per_hour_or_what_is_set_wider(
+    market: str, band_kmh: float, share: float
+) -> None:
+    gentle = {"mode_ratios": [0.0, 0.5, 0.5, 0.5, 0.5], "assist_cutoff_band_kmh": band_kmh}
+
+    full = run("us_class_1", speed_kmh=20.0, config=gentle)["motor_torque_nm"][-1]
+    half_a_kmh_below = run(market, speed_kmh=CUTOFF_KMH[market] - 0.5, config=gentle)
+
+    assert half_a_kmh_below["motor_torque_nm"][-1] == pytest.approx(share * full, rel=1e-4)
+    assert half_a_kmh_below["limit_flags"][-1] & LimitFlags.SPEED_CUTOFF
+
+
 def test_the_extra_speed_of_a_fast_market_does_nothing_in_a_slow_one() -> None:
     child = {"assist_cutoff_kmh": 15.0, "assist_cutoff_extra_kmh": 20.0}
 
@@ -105,6 +120,7 @@ def test_the_numbers_of_c_are_those_of_the_law(market: str) -> None:
     profile = lib.market_profile_of(member_of(Market, market))
 
     assert profile.cutoff_kmh == pytest.approx(CUTOFF_KMH[market])
+    assert profile.band_kmh == BAND_KMH.get(market, 0.0)
     assert profile.walk_kmh == pytest.approx(WALK_KMH[market])
     assert profile.continuous_w == CONTINUOUS_W.get(market, 0.0)
     assert profile.peak_w == PEAK_W.get(market, 0.0)
