@@ -9,6 +9,7 @@ import tomllib
 from dataclasses import dataclass, fields
 from functools import cache
 from importlib.resources import files
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -117,16 +118,31 @@ def _flag(source: Source, table: dict[str, Any], key: str) -> bool:
 
 
 def _numbers(source: Source, table: str, parts: dict[str, Any], known: set[str]) -> Numbers:
-    numbers = {}
+    numbers: Numbers = {}
     for part, values in parts.items():
         for key, value in values.items():
             where = f"{source.at(f'{table}.{part}', key)}, {table}.{part}.{key}"
+            if isinstance(value, list) and f"{part}.{key}_1" in known:
+                numbers |= _list(where, f"{part}.{key}", value, known)
+                continue
             if f"{part}.{key}" not in known:
                 near = ", ".join(sorted(name for name in known if name.startswith(f"{part}.")))
                 parts_known = ", ".join(sorted({name.split(".")[0] for name in known}))
                 raise ScenarioError(f"{where} is not known; there are: {near or parts_known}")
             numbers[f"{part}.{key}"] = _number(where, f"{part}.{key}", value)
     return numbers
+
+
+def _list(where: str, name: str, given: list[object], known: set[str]) -> Numbers:
+    """The values of a list that rises, smallest first, filled up with zeros."""
+    room = sum(path.startswith(f"{name}_") for path in known)
+    if not 1 <= len(given) <= room:
+        raise ScenarioError(f"{where} has {len(given)} values; it can have 1 to {room}")
+    values = [_number(where, f"{name}_{n}", each) for n, each in enumerate(given, start=1)]
+    if values[0] <= 0.0 or any(later <= now for now, later in pairwise(values)):
+        raise ScenarioError(f"{where} is {given}; its values rise from above 0")
+    values += [0.0] * (room - len(values))
+    return {f"{name}_{n}": value for n, value in enumerate(values, start=1)}
 
 
 def _number(where: str, name: str, given: object) -> float:

@@ -9,7 +9,7 @@
 typedef struct {
     double gear_ratio; /* motor turns per chainring turn */
     double chainring_teeth;
-    double cog_teeth;
+    double cog_teeth; /* without a cassette (gears.h) */
     double gear_efficiency;
     double gear_drag_nm; /* at the motor's shaft whenever it turns, whatever the load */
     double chain_efficiency;
@@ -39,7 +39,7 @@ typedef struct {
     int motor_engaged;
 } drivetrain_flow;
 
-/* Wheel turns per crank turn. */
+/* Wheel turns per crank turn, without a cassette. */
 double drivetrain_chain_ratio(const drivetrain_config *config);
 
 /* Share of the torque that leaves the gears, and the chain. Eq. 4.14 as printed knows no losses and

@@ -12,16 +12,23 @@
 #define WHEEL_STREAM 0x776865656C2E7073u
 #define LINK_STREAM 0x6C696E6B726F746Fu
 
-/* Metres the rear tyre moves per radian of the chainring. */
-static double metres_per_rad(const physics_config *config)
+double physics_cog_teeth(const physics_config *config, const physics_state *state)
 {
-    return config->road.wheel_radius_m * drivetrain_chain_ratio(&config->drivetrain);
+    const double of_cassette = gears_cog_teeth(&config->gears, &state->gears);
+    return of_cassette > 0.0 ? of_cassette : config->drivetrain.cog_teeth;
+}
+
+/* Metres the rear tyre moves per radian of the chainring. */
+static double metres_per_rad(const physics_config *config, const physics_state *state)
+{
+    return config->road.wheel_radius_m * state->chain_ratio;
 }
 
 /* What turns with the chainring: the whole bike, or only its rear wheel while the tyre slips. */
-static double wheel_inertia_kg_m2(const physics_config *config, int slipping)
+static double wheel_inertia_kg_m2(const physics_config *config, const physics_state *state,
+                                  int slipping)
 {
-    const double reach_m = metres_per_rad(config);
+    const double reach_m = metres_per_rad(config, state);
     const double mass_kg =
         slipping ? road_rear_wheel_mass_kg(&config->road) : road_moving_mass_kg(&config->road);
     return mass_kg * reach_m * reach_m;
@@ -80,12 +87,12 @@ static motor_drive motor_pull(const physics_config *config, physics_state *state
 static drivetrain_load load_of(const physics_config *config, const physics_state *state,
                                const instant *now, double chainring_rad_s, int slipping)
 {
-    const double reach_m = metres_per_rad(config);
+    const double reach_m = metres_per_rad(config, state);
     const road_forces *road = &now->road;
     const double pull_n = slipping ? now->grip_n : road->grade_n + road->air_n;
     const double friction_n = slipping ? 0.0 : road->rolling_n + road->brake_n + road->dyno_n;
     const drivetrain_load load = {
-        .bike_inertia_kg_m2 = wheel_inertia_kg_m2(config, slipping),
+        .bike_inertia_kg_m2 = wheel_inertia_kg_m2(config, state, slipping),
         .pull_nm = pull_n * reach_m,
         .friction_nm = friction_n * reach_m,
         .crank_nm = now->rider_nm - now->leg_drag_nm,
@@ -101,10 +108,11 @@ static drivetrain_load load_of(const physics_config *config, const physics_state
 
 /* The tyre lets go when what drives the wheel would have to push with more than its grip. A bike
  * that nothing drives does not: on ice uphill it stands with a foot down. */
-static int tyre_lets_go(const physics_config *config, const instant *now)
+static int tyre_lets_go(const physics_config *config, const physics_state *state,
+                        const instant *now)
 {
     const drivetrain_flow *flow = &now->flow;
-    const double reach_m = metres_per_rad(config);
+    const double reach_m = metres_per_rad(config, state);
     const double drive_nm = drivetrain_wheel_nm(&config->drivetrain, flow);
     const double wheel_n =
         road_rear_wheel_mass_kg(&config->road) * flow->acceleration_rad_s2 * reach_m;
@@ -114,9 +122,8 @@ static int tyre_lets_go(const physics_config *config, const instant *now)
 static void gather(const physics_config *config, physics_state *state,
                    const physics_command *command, double dt_s, instant *now)
 {
-    const double chainring_rad_s = state->wheel_speed_ms / metres_per_rad(config);
-    now->road = road_forces_at(&config->road, &command->road, state->speed_ms,
-                               drivetrain_chain_ratio(&config->drivetrain),
+    const double chainring_rad_s = state->wheel_speed_ms / metres_per_rad(config, state);
+    now->road = road_forces_at(&config->road, &command->road, state->speed_ms, state->chain_ratio,
                                config->drivetrain.chain_efficiency);
     const int motor_engaged =
         state->motor_speed_rad_s >= chainring_rad_s * config->drivetrain.gear_ratio;
@@ -124,6 +131,7 @@ static void gather(const physics_config *config, physics_state *state,
     now->gear_drag_nm = state->motor_speed_rad_s > 0.0 ? config->drivetrain.gear_drag_nm : 0.0;
     now->rider_nm = rider_torque_nm(&config->rider, &state->rider, &command->rider,
                                     state->crank_angle_rad, state->crank_speed_rad_s);
+    now->rider_nm *= gears_push_share(&config->gears, &state->gears);
     now->leg_drag_nm = 0.0;
     if (state->crank_speed_rad_s != 0.0) {
         now->leg_drag_nm =
@@ -133,7 +141,7 @@ static void gather(const physics_config *config, physics_state *state,
     now->slipping = state->slipping;
     drivetrain_load load = load_of(config, state, now, chainring_rad_s, now->slipping);
     now->flow = drivetrain_solve(&config->drivetrain, &load);
-    if (!now->slipping && tyre_lets_go(config, now)) {
+    if (!now->slipping && tyre_lets_go(config, state, now)) {
         now->slipping = 1;
         load = load_of(config, state, now, chainring_rad_s, 1);
         now->flow = drivetrain_solve(&config->drivetrain, &load);
@@ -144,7 +152,7 @@ static void move(const physics_config *config, const physics_state *state, doubl
                  instant *now)
 {
     const double ratio = config->drivetrain.gear_ratio;
-    const double reach_m = metres_per_rad(config);
+    const double reach_m = metres_per_rad(config, state);
     const double chainring_rad_s = state->wheel_speed_ms / reach_m;
     now->chainring = advance(chainring_rad_s, now->flow.acceleration_rad_s2, dt_s, 1);
     now->bike.speed = now->chainring.speed * reach_m;
@@ -187,7 +195,7 @@ static double meet(double inertia, double *speed, double other_inertia, double o
 static void close_grip(const physics_config *config, physics_state *state, instant *now,
                        double *inertia, double *chainring_rad_s)
 {
-    const double reach_m = metres_per_rad(config);
+    const double reach_m = metres_per_rad(config, state);
     state->slipping = now->slipping && *chainring_rad_s * reach_m > now->bike.speed;
     if (!now->slipping || state->slipping) {
         return;
@@ -199,41 +207,65 @@ static void close_grip(const physics_config *config, physics_state *state, insta
     *inertia += outer;
 }
 
-/* A free crank or motor that has become faster than the chainring drops into its clutch. */
-static void close_clutches(const physics_config *config, physics_state *state, instant *now)
+/* A crank or rotor that is free and faster than the chainring drops into its clutch. */
+static void drop_in(const physics_config *config, physics_state *state, double inertia,
+                    double chainring_rad_s, double crank_rad_s, double motor_rad_s)
 {
     const double ratio = config->drivetrain.gear_ratio;
     const double crank_inertia = config->drivetrain.crank_inertia_kg_m2;
     const double motor_inertia = config->motor.inertia_kg_m2 * ratio * ratio;
-    double inertia = wheel_inertia_kg_m2(config, now->slipping);
-    inertia += now->flow.crank_engaged ? crank_inertia : 0.0;
-    inertia += now->flow.motor_engaged ? motor_inertia : 0.0;
+    double speed = chainring_rad_s;
+    if (!state->crank_engaged && crank_rad_s > speed) {
+        state->ledger.clutch_j += meet(inertia, &speed, crank_inertia, crank_rad_s);
+        inertia += crank_inertia;
+        state->crank_engaged = 1;
+    }
+    if (!state->motor_engaged && motor_rad_s > speed * ratio) {
+        state->ledger.clutch_j += meet(inertia, &speed, motor_inertia, motor_rad_s / ratio);
+        state->motor_engaged = 1;
+    }
+    state->wheel_speed_ms = speed * metres_per_rad(config, state);
+    /* Taken back from the wheel, so that an engaged part compares equal in the next step. */
+    speed = state->wheel_speed_ms / metres_per_rad(config, state);
+    state->crank_speed_rad_s = state->crank_engaged ? speed : crank_rad_s;
+    state->motor_speed_rad_s = state->motor_engaged ? speed * ratio : motor_rad_s;
+}
+
+static void close_clutches(const physics_config *config, physics_state *state, instant *now)
+{
+    const double ratio = config->drivetrain.gear_ratio;
+    double inertia = wheel_inertia_kg_m2(config, state, now->slipping);
+    inertia += now->flow.crank_engaged ? config->drivetrain.crank_inertia_kg_m2 : 0.0;
+    inertia += now->flow.motor_engaged ? config->motor.inertia_kg_m2 * ratio * ratio : 0.0;
     state->crank_engaged = now->flow.crank_engaged;
     state->motor_engaged = now->flow.motor_engaged;
     double speed = now->chainring.speed;
     close_grip(config, state, now, &inertia, &speed);
-    if (!state->crank_engaged && now->crank.speed > speed) {
-        state->ledger.clutch_j += meet(inertia, &speed, crank_inertia, now->crank.speed);
-        inertia += crank_inertia;
-        state->crank_engaged = 1;
-    }
-    if (!state->motor_engaged && now->motor_shaft.speed > speed * ratio) {
-        state->ledger.clutch_j +=
-            meet(inertia, &speed, motor_inertia, now->motor_shaft.speed / ratio);
-        state->motor_engaged = 1;
-    }
-    state->wheel_speed_ms = speed * metres_per_rad(config);
+    drop_in(config, state, inertia, speed, now->crank.speed, now->motor_shaft.speed);
     state->speed_ms = state->slipping ? now->bike.speed : state->wheel_speed_ms;
-    /* Taken back from the wheel, so that an engaged part compares equal in the next step. */
-    const double chainring_rad_s = state->wheel_speed_ms / metres_per_rad(config);
-    state->crank_speed_rad_s = state->crank_engaged ? chainring_rad_s : now->crank.speed;
-    state->motor_speed_rad_s =
-        state->motor_engaged ? chainring_rad_s * ratio : now->motor_shaft.speed;
 }
 
-static void book(const physics_config *config, physics_ledger *ledger, const instant *now,
+/* The chain moves to another cog. A chainring that is faster then leaves cranks and rotor behind;
+ * into one that is slower they drop: the wheel keeps its momentum, and the rest is heat. */
+static void shift(const physics_config *config, physics_state *state, double dt_s)
+{
+    const double chainring_rad_s = state->wheel_speed_ms / metres_per_rad(config, state);
+    gears_step(&config->gears, &state->gears, chainring_rad_s * RPM_PER_RAD_S, dt_s);
+    const double ratio = config->drivetrain.chainring_teeth / physics_cog_teeth(config, state);
+    if (ratio == state->chain_ratio) return;
+    state->chain_ratio = ratio;
+    state->crank_engaged = 0;
+    state->motor_engaged = 0;
+    drop_in(config, state, wheel_inertia_kg_m2(config, state, state->slipping),
+            state->wheel_speed_ms / metres_per_rad(config, state), state->crank_speed_rad_s,
+            state->motor_speed_rad_s);
+    if (!state->slipping) state->speed_ms = state->wheel_speed_ms;
+}
+
+static void book(const physics_config *config, physics_state *state, const instant *now,
                  double dt_s)
 {
+    physics_ledger *ledger = &state->ledger;
     const drivetrain_config *drive = &config->drivetrain;
     const double chainring_rad = now->chainring.travel;
     const double travel_m = now->bike.travel;
@@ -258,7 +290,7 @@ static void book(const physics_config *config, physics_ledger *ledger, const ins
     ledger->brake_j += now->road.brake_n * travel_m;
     ledger->dyno_j += now->road.dyno_n * travel_m;
     if (now->slipping) {
-        ledger->slip_j += now->grip_n * (chainring_rad * metres_per_rad(config) - travel_m);
+        ledger->slip_j += now->grip_n * (chainring_rad * metres_per_rad(config, state) - travel_m);
     }
 }
 
@@ -309,10 +341,11 @@ void physics_step(const physics_config *config, physics_state *state,
                   const physics_command *command, double dt_s)
 {
     instant now = {0};
+    shift(config, state, dt_s);
     gather(config, state, command, dt_s, &now);
     move(config, state, dt_s, &now);
     close_clutches(config, state, &now);
-    book(config, &state->ledger, &now, dt_s);
+    book(config, state, &now, dt_s);
 
     const double travel_m = now.bike.travel;
     state->t_s += dt_s;
@@ -381,10 +414,11 @@ void physics_reset(const physics_config *config, physics_state *state, double sp
     state->speed_ms = speed_kmh / KMH_PER_MS;
     state->wheel_speed_ms = state->speed_ms;
     state->seen_speed_ms = state->speed_ms;
-    state->crank_speed_rad_s = state->speed_ms / metres_per_rad(config);
-    state->motor_speed_rad_s = state->crank_speed_rad_s * config->drivetrain.gear_ratio;
     wheel_sensor_reset(&state->wheel, seed ^ WHEEL_STREAM);
     physics_renew(config, state);
+    state->chain_ratio = config->drivetrain.chainring_teeth / physics_cog_teeth(config, state);
+    state->crank_speed_rad_s = state->speed_ms / metres_per_rad(config, state);
+    state->motor_speed_rad_s = state->crank_speed_rad_s * config->drivetrain.gear_ratio;
     rotor_link_reset(&state->link, torque_sensor_temperature_degc(&state->sensor));
     physics_seed(state, seed);
     physics_begin_ledger(config, state);
@@ -393,6 +427,9 @@ void physics_reset(const physics_config *config, physics_state *state, double sp
 void physics_renew(const physics_config *config, physics_state *state)
 {
     const uint64_t noise = state->sensor.random;
+    const double own_rpm =
+        physics_kinematics_at(config, state->wheel_speed_ms * KMH_PER_MS).crank_rpm;
+    gears_reset(&config->gears, &state->gears, own_rpm, config->drivetrain.cog_teeth);
     motor_heat_reset(&config->motor, &state->heat);
     battery_reset(&config->battery, &state->battery);
     rider_reset(&config->rider, &state->rider);

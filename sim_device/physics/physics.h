@@ -9,6 +9,7 @@
 
 #include "battery.h"       // battery_config
 #include "drivetrain.h"    // drivetrain_config
+#include "gears.h"         // gears_config
 #include "ledger.h"        // physics_ledger
 #include "motor.h"         // motor_config
 #include "motor_foc.h"     // motor_foc_state
@@ -21,6 +22,7 @@
 typedef struct {
     road_config road;
     drivetrain_config drivetrain;
+    gears_config gears;
     motor_config motor;
     battery_config battery;
     rider_config rider;
@@ -56,6 +58,7 @@ typedef struct {
     double height_m;
     double speed_ms;
     double wheel_speed_ms;    /* of the rear tyre; more than speed_ms while it slips */
+    double chain_ratio;       /* wheel turns per crank turn, in this gear */
     double crank_speed_rad_s; /* negative backwards */
     double crank_angle_rad;   /* 0 to 2 pi */
     double motor_speed_rad_s;
@@ -68,6 +71,7 @@ typedef struct {
     int motor_engaged;
     int slipping;
     uint32_t steps;
+    gears_state gears;
     motor_heat heat;
     motor_foc_state foc;
     battery_state battery;
@@ -88,7 +92,8 @@ void physics_reset(const physics_config *config, physics_state *state, double sp
 /* Starts the noise of legs, sensor and link afresh; everything else goes on. */
 void physics_seed(physics_state *state, uint64_t seed);
 
-/* A fresh battery, rider and sensor at the air's temperature; the bike rolls on. */
+/* A fresh battery, rider and sensor at the air's temperature, in a gear that suits the speed; the
+ * bike rolls on. */
 void physics_renew(const physics_config *config, physics_state *state);
 
 /* One step of `dt_s` (0.001). Velocity first, then position with the mean velocity of the step,
@@ -106,7 +111,10 @@ double physics_energy_balance_error_pct(const physics_config *config, const phys
 /* 0 where the run follows a printed equation that does not conserve energy: I-9, I-11. */
 int physics_is_energy_consistent(const physics_config *config);
 
-/* Rotation at `speed_kmh` with everything engaged (thesis eq. 2.7 to 2.9). */
+/* Of the cog that the chain is on. */
+double physics_cog_teeth(const physics_config *config, const physics_state *state);
+
+/* Rotation at `speed_kmh` with everything engaged, without a cassette (thesis eq. 2.7 to 2.9). */
 typedef struct {
     double wheel_rpm;
     double crank_rpm;

@@ -49,6 +49,7 @@ HEADERS: tuple[str, ...] = (
     "sim_device/physics/motor.h",
     "sim_device/physics/motor_foc.h",
     "sim_device/physics/drivetrain.h",
+    "sim_device/physics/gears.h",
     "sim_device/physics/torque_sensor.h",
     "sim_device/physics/rotor_link.h",
     "sim_device/physics/wheel_sensor.h",

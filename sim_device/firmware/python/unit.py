@@ -59,14 +59,25 @@ def _answer(
 
 
 def default_bike() -> dict[str, float]:
-    """The pinned bike W1 (thesis_checks 4.7) as `part.name` -> value, e.g. `road.mass_kg`."""
+    """The pinned bike W1 (thesis_checks 4.7) as `part.name` -> value, e.g. `road.mass_kg`; a list's
+    values as `gears.cog_teeth_1`."""
     config = ffi.new("physics_config *")
     lib.physics_default(config)
     return {
-        f"{part}.{name}": float(getattr(getattr(config, part), name))
+        path: float(value)
         for part in _BIKE_PARTS
-        for name, _ in ffi.typeof(getattr(config, part)).fields
+        for name, field in ffi.typeof(getattr(config, part)).fields
+        for path, value in _values(
+            f"{part}.{name}", field.type.kind, getattr(getattr(config, part), name)
+        )
     }
+
+
+def _values(path: str, kind: str, value: Any) -> list[tuple[str, float]]:
+    """A number under its path; those of a list are numbered from 1."""
+    if kind != "array":
+        return [(path, value)]
+    return [(f"{path}_{number}", each) for number, each in enumerate(value, start=1)]
 
 
 def kinematics(bike: dict[str, float], speed_kmh: float) -> dict[str, float]:
@@ -87,6 +98,10 @@ def _change(config: Any, values: dict[str, float]) -> None:
     for path, value in values.items():
         part, name = path.split(".")
         struct = getattr(config, part)
+        if not hasattr(struct, name):
+            listed, number = name.rsplit("_", 1)
+            getattr(struct, listed)[int(number) - 1] = float(value)
+            continue
         whole = isinstance(getattr(struct, name), int)
         setattr(struct, name, int(value) if whole else float(value))
 

@@ -5,10 +5,13 @@
 /* A motor told this little spins up too slowly for its speed to mean anything. */
 #define DRIVING_TORQUE_NM 0.05f
 
-/* The chain is on a bigger cog than the one in the configuration by a factor of three at most: what
- * the motor drives beyond that, the wheel must show. */
+/* The chain is on a bigger cog than the one in the configuration by a factor of three at most (42
+ * for 14): what the motor drives beyond that, the wheel must show. A reading from six pulses a turn
+ * is 1.5 km/h late while the bike gathers speed, and so it moves: one that stays is not late. */
 #define MISMATCH_FACTOR 3.0f
 #define MISMATCH_KMH 3.0f
+#define MISMATCH_LATE_KMH 6.0f
+#define MISMATCH_LATE_TURNS 1.5f
 
 /* A pulse is timed to microseconds, and hardly a wheel turns five times in the same time, to one in
  * 4,000: legs and road see to that. With 0.02 km/h one magnet and even legs gave false alarms. On a
@@ -36,15 +39,16 @@ static float wheel_kmh(const ebl_config *config, float wheel_rpm)
     return wheel_rpm * config->wheel_circumference_m * KMH_PER_M_PER_MIN;
 }
 
-fault_sign fault_motion_mismatch(const hal_inputs *inputs, const ebl_config *config,
-                                 const fault_law *law)
+fault_sign fault_motion_mismatch(const fault_watch *watch, const hal_inputs *inputs,
+                                 const ebl_config *config, const fault_law *law)
 {
+    float late_kmh = watch->kept_turns < MISMATCH_LATE_TURNS ? MISMATCH_LATE_KMH : MISMATCH_KMH;
     float crank_rpm = inputs->motor_speed_rpm / config->gear_ratio;
     float wheel_rpm = crank_rpm * (float)config->chainring_teeth / (float)config->cog_teeth;
     float driven_kmh = wheel_kmh(config, wheel_rpm);
 
     if (!(law->motor_torque_nm > DRIVING_TORQUE_NM)) return FAULT_SIGN_NONE;
-    return fault_sign_of(driven_kmh > MISMATCH_FACTOR * law->speed_kmh + MISMATCH_KMH);
+    return fault_sign_of(driven_kmh > MISMATCH_FACTOR * law->speed_kmh + late_kmh);
 }
 
 /* The chain's speed, in turns of the motor, while it is driven; 0 otherwise. Motor and cranks each

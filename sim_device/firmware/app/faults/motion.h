@@ -8,8 +8,8 @@
 #include "hal.h"          // hal_inputs
 
 /* The motor drives the chain far faster than the wheel is said to turn. */
-fault_sign fault_motion_mismatch(const hal_inputs *inputs, const ebl_config *config,
-                                 const fault_law *law);
+fault_sign fault_motion_mismatch(const fault_watch *watch, const hal_inputs *inputs,
+                                 const ebl_config *config, const fault_law *law);
 
 /* The speed does not change although the motor that drives the wheel does. */
 fault_sign fault_motion_stuck(fault_watch *watch, const hal_inputs *inputs,

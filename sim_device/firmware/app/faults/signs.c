@@ -186,7 +186,7 @@ void fault_signs(fault_watch *watch, uint32_t active, const hal_inputs *inputs,
                        HEAT_CONTROLLER_HOT_DEGC));
     sign_set(signs, EBL_FAULT_TORQUE_DRIFT, drift_sign(watch, inputs, law));
     sign_set(signs, EBL_FAULT_TORQUE_LINK, fault_sign_of(!fresh));
-    sign_set(signs, EBL_FAULT_SPEED_MISMATCH, fault_motion_mismatch(inputs, config, law));
+    sign_set(signs, EBL_FAULT_SPEED_MISMATCH, fault_motion_mismatch(watch, inputs, config, law));
     sign_set(signs, EBL_FAULT_SPEED_STUCK, fault_motion_stuck(watch, inputs, config, law));
     sign_set(signs, EBL_FAULT_MOTOR_HALL, fault_motion_hall(inputs, config, law));
     sign_set(signs, EBL_FAULT_LAW_RESULT, fault_sign_of(law->lost));

@@ -416,6 +416,7 @@ void unit_observe(const unit *self, unit_observation *seen)
         .words_good = self->receiver.words_good,
         .words_bad = self->receiver.words_bad,
         .words_lost = self->receiver.words_lost,
+        .cog_teeth = physics_cog_teeth(&self->bike, state),
     };
     *seen = now;
 }

@@ -89,6 +89,7 @@ typedef struct {
     uint32_t words_good;
     uint32_t words_bad;
     uint32_t words_lost;
+    double cog_teeth; /* of the cog the chain is on; the unit does not know */
 } unit_observation;
 
 typedef struct unit unit;
