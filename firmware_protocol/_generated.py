@@ -27,7 +27,7 @@ STANDING_S = 20
 RESTING_KMH = 0.5
 RESTING_MOTOR_RPM = 30.0
 IMAGE_LENGTH = 426
-SCHEMA_HASH = bytes.fromhex("cadb378634b4d120")
+SCHEMA_HASH = bytes.fromhex("aef085ab6ae7f863")
 
 
 class Status(IntEnum):
@@ -2432,7 +2432,7 @@ CHANNELS: tuple[Channel, ...] = (
     Channel(5, "rider_torque_raw", "counts", 1, "Torque sensor reading before calibration."),
     Channel(6, "rider_torque_filtered_nm", "Nm", 0.01, "Rider torque averaged over the stroke: what the law acts on."),
     Channel(7, "torque_rate", "", 0.0005, "Relative torque change over the rate interval: the law's second input."),
-    Channel(8, "motor_torque_nm", "Nm", 0.0001, "Torque at the motor's shaft; times gear_ratio it is the torque at the crank."),
+    Channel(8, "motor_torque_nm", "Nm", 0.0001, "Torque at the motor's shaft by its current, less the motor's own drag; times gear_ratio it is the torque at the crank. A unit without channel 25 sends here what it asked of the motor."),
     Channel(9, "motor_current_a", "A", 0.001, "Current in the motor."),
     Channel(10, "motor_speed_rpm", "rpm", 0.2, "Motor speed."),
     Channel(11, "battery_current_a", "A", 0.001, "Current from the battery."),
@@ -2449,6 +2449,8 @@ CHANNELS: tuple[Channel, ...] = (
     Channel(22, "input_flags", "flags", 1, "Bits of input_flags."),
     Channel(23, "torque_age_ms", "ms", 1, "Age of the torque reading that the assist law was given; 32767 also stands for older ones."),
     Channel(24, "controller_temperature_degc", "degC", 0.01, "Temperature of the motor's controller."),
+    Channel(25, "motor_torque_demanded_nm", "Nm", 0.0001, "What mode, cut-off band and cut-offs ask of the motor, at its shaft, before ramps and before what motor, heat, battery and market allow."),
+    Channel(26, "motor_torque_available_nm", "Nm", 0.0001, "What motor, heat, battery and back-EMF allow now, at the motor's shaft; none where the crank outruns the motor."),
 )
 CHANNEL_BY_NAME = {channel.name: channel for channel in CHANNELS}
 CHANNEL_BY_ID = {channel.id: channel for channel in CHANNELS}

@@ -212,6 +212,8 @@ const ebl_channel ebl_channels[EBL_CHANNEL_COUNT] = {
     {22, 1.0f},
     {23, 1.0f},
     {24, 0.01f},
+    {25, 0.0001f},
+    {26, 0.0001f},
 };
 
 const ebl_message *ebl_message_find(uint16_t id)

@@ -12,7 +12,7 @@ static int is_finite(float value) { return value - value == 0.0f; }
 int16_t ebl_channel_counts(float scale, float value)
 {
     float counts = value / scale;
-    if (counts < COUNT_MAX && counts > -COUNT_MAX) {
+    if (__builtin_fabsf(counts) < COUNT_MAX) {
         return (int16_t)(counts < 0.0f ? counts - 0.5f : counts + 0.5f);
     }
     if (!is_finite(value) || counts != counts) {

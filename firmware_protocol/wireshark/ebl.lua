@@ -198,8 +198,10 @@ local EBL = {
         [22] = { ["name"] = "input_flags", ["unit"] = "flags", ["scale"] = 1 },
         [23] = { ["name"] = "torque_age_ms", ["unit"] = "ms", ["scale"] = 1 },
         [24] = { ["name"] = "controller_temperature_degc", ["unit"] = "degC", ["scale"] = 0.01 },
+        [25] = { ["name"] = "motor_torque_demanded_nm", ["unit"] = "Nm", ["scale"] = 0.0001 },
+        [26] = { ["name"] = "motor_torque_available_nm", ["unit"] = "Nm", ["scale"] = 0.0001 },
     },
-    channel_order = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24 },
+    channel_order = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26 },
 }
 
 -- ------------------------------------------------------------------ arithmetic of every Lua

@@ -403,6 +403,12 @@ export const CHANNELS = {
   controller_temperature_degc: {
     unit: "degC",
   },
+  motor_torque_demanded_nm: {
+    unit: "Nm",
+  },
+  motor_torque_available_nm: {
+    unit: "Nm",
+  },
 } as const satisfies Record<string, ChannelRow>;
 
 export type ChannelName = keyof typeof CHANNELS;

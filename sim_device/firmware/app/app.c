@@ -226,7 +226,7 @@ void app_control_step(app *unit)
     uint64_t now_us = unit_now_us(unit);
     hal_inputs inputs;
     assist_input input;
-    telemetry_sources sources = {&inputs, &input, &unit->output, 0};
+    telemetry_sources sources = {&inputs, &input, &unit->output, 0.0f, 0};
     float speed_kmh;
     float way_m;
     uint8_t mode;
@@ -243,6 +243,8 @@ void app_control_step(app *unit)
 
     counters_step(&unit->counters, speed_kmh, way_m);
     ride_log_mode_set(&unit->ride_log, mode, now_us);
+    sources.motor_torque_delivered_nm = motor_torque_delivered_nm(
+        &unit->config.law, inputs.motor_current_a, inputs.motor_speed_rpm);
     sources.fault_flags = unit->faults.active;
     telemetry_step(&unit->telemetry, &sources, now_us, &unit->link);
     faults_freeze(&unit->faults, unit->faults_new, now_us, unit->telemetry.row);

@@ -25,6 +25,8 @@ static void output_clear(const assist_state *state, assist_output *output)
     output->assist_ratio = 0.0f;
     output->fuzzy_gain = float32_missing();
     output->motor_torque_nm = 0.0f;
+    output->motor_torque_demanded_nm = 0.0f;
+    output->motor_torque_available_nm = float32_missing();
     output->limit_flags = 0;
 }
 
@@ -113,10 +115,12 @@ int assist_step(const assist_config *config, assist_state *state, const assist_i
     if (!float32_is_finite(demand_nm + output->assist_ratio)) return lose(state, output);
     demand_nm = apply_cutoff_band(config, input, demand_nm, output);
     if (!float32_is_finite(demand_nm)) return lose(state, output);
+    output->motor_torque_demanded_nm = demand_nm / config->gear_ratio;
     demand_nm = apply_ramps(config, input, state->assist_torque_nm, demand_nm, output);
     if (!float32_is_finite(demand_nm)) return lose(state, output);
     demand_nm = apply_cutoffs(config, state, input, demand_nm, output);
     if (!float32_is_finite(demand_nm)) return lose(state, output);
+    if (demand_nm == 0.0f) output->motor_torque_demanded_nm = 0.0f;
     demand_nm = apply_limits(config, state, input, demand_nm, output);
     if (!float32_is_finite(demand_nm)) return lose(state, output);
     output->motor_torque_nm = apply_market(config, state, input, demand_nm, output);

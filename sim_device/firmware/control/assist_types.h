@@ -93,13 +93,17 @@ typedef struct {
 } assist_input;
 
 typedef struct {
-    float rider_torque_nm;          /* calibrated, unfiltered; NaN if the input was refused */
-    float rider_torque_filtered_nm; /* averaged over the stroke */
-    float torque_rate;              /* relative change over the interval, clamped to the table */
-    float assist_ratio;             /* gain included, before limits */
-    float fuzzy_gain;               /* NaN where the mode does not use it */
-    float motor_torque_nm;          /* demand at the motor's shaft after every limit */
-    uint16_t limit_flags;           /* bits of registry.toml limit_flags */
+    float rider_torque_nm;           /* calibrated, unfiltered; NaN if the input was refused */
+    float rider_torque_filtered_nm;  /* averaged over the stroke */
+    float torque_rate;               /* relative change over the interval, clamped to the table */
+    float assist_ratio;              /* gain included, before limits */
+    float fuzzy_gain;                /* NaN where the mode does not use it */
+    float motor_torque_nm;           /* what the motor is told, at its shaft, after every limit */
+    float motor_torque_demanded_nm;  /* asked by the mode, its band and the cut-offs, before ramps
+                                     * and before what motor, heat, battery and market allow */
+    float motor_torque_available_nm; /* what motor, heat, battery and back-EMF allow now; NaN where
+                                      * the input was refused */
+    uint16_t limit_flags;            /* bits of registry.toml limit_flags */
 } assist_output;
 
 /* Torque at the crank over its last half turn, by parts of equal angle; half_turn.c. */

@@ -60,6 +60,8 @@ OUTPUT_DTYPE = np.dtype(
         ("assist_ratio", np.float32),
         ("fuzzy_gain", np.float32),
         ("motor_torque_nm", np.float32),
+        ("motor_torque_demanded_nm", np.float32),
+        ("motor_torque_available_nm", np.float32),
         ("limit_flags", np.uint16),
     ],
     align=True,

@@ -20,7 +20,7 @@ BENCH = "[bike.road]\nsource = 1\n"
 
 def test_the_scenarios_of_the_contract_are_there() -> None:
     asked = "start slope resistance kinematics calibration field_ride commute alpine_climb"
-    more = "stop_and_go cold_morning worn_battery sensor_fault link_bursts slippery_start"
+    more = "stop_and_go cold_morning worn_battery sensor_fault link_bursts slippery_start spinning"
     assert {*asked.split(), *more.split()} <= set(names())
     assert {row["name"] for row in list_scenarios()} == set(names())
 

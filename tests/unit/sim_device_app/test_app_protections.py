@@ -15,6 +15,7 @@ from firmware_protocol._generated import (
     Event,
     EvtFaultFreezeRequest,
     FaultFlags,
+    LimitFlags,
     Severity,
     Status,
 )
@@ -226,14 +227,16 @@ def test_a_motor_that_cannot_say_how_fast_it_turns_gives_nothing_and_latches(
     assert unit.ask(EvtFaultFreezeRequest(bit)).status == Status.OK
 
 
-def test_a_motor_that_follows_fast_legs_as_far_as_its_voltage_goes_has_lost_nothing(
-    unit: BenchUnit,
+@pytest.mark.parametrize("motor_speed_rpm", [0.0, 2900.0])
+def test_a_motor_that_fast_legs_outrun_has_lost_nothing_and_is_asked_for_nothing(
+    unit: BenchUnit, motor_speed_rpm: float
 ) -> None:
-    unit.inputs(cadence_rpm=110.0, motor_speed_rpm=2900.0)  # the legs would want 4437
+    unit.inputs(cadence_rpm=110.0, motor_speed_rpm=motor_speed_rpm)  # the legs would want 4437
     unit.inputs(speed_kmh=20.0)
     unit.advance(3.0)
 
-    assert unit.motor_nm() > 0.1
+    assert unit.motor_nm() == 0.0
+    assert unit.output().limit_flags & LimitFlags.MOTOR_SPEED
     assert unit.faults() == 0
 
 

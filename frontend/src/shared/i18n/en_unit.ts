@@ -114,6 +114,8 @@ export const enUnit = {
   'channel.input_flags': 'Brake, walk button, inhibit',
   'channel.torque_age_ms': 'Age of the torque reading',
   'channel.controller_temperature_degc': 'Controller temperature',
+  'channel.motor_torque_demanded_nm': 'Motor torque asked for',
+  'channel.motor_torque_available_nm': 'Motor torque available',
   'channel.rider_power_w': 'rider',
   'channel.motor_power_w': 'motor',
   'channel.heart_rate_bpm': 'Heart rate',

@@ -107,6 +107,8 @@ export const zhUnit: Record<keyof typeof enUnit, string> = {
   'channel.input_flags': '刹车、推行按钮、禁止',
   'channel.torque_age_ms': '力矩读数的时间',
   'channel.controller_temperature_degc': '控制器温度',
+  'channel.motor_torque_demanded_nm': '要求的电机力矩',
+  'channel.motor_torque_available_nm': '可用的电机力矩',
   'channel.rider_power_w': '骑手',
   'channel.motor_power_w': '电机',
   'channel.heart_rate_bpm': '心率',

@@ -44,7 +44,7 @@ static float channel_value(uint8_t channel_id, const telemetry_sources *sources)
     case EBL_CHANNEL_RIDER_TORQUE_RAW: return inputs->torque_raw_counts;
     case EBL_CHANNEL_RIDER_TORQUE_FILTERED_NM: return output->rider_torque_filtered_nm;
     case EBL_CHANNEL_TORQUE_RATE: return output->torque_rate;
-    case EBL_CHANNEL_MOTOR_TORQUE_NM: return output->motor_torque_nm;
+    case EBL_CHANNEL_MOTOR_TORQUE_NM: return sources->motor_torque_delivered_nm;
     case EBL_CHANNEL_MOTOR_CURRENT_A: return inputs->motor_current_a;
     case EBL_CHANNEL_MOTOR_SPEED_RPM: return inputs->motor_speed_rpm;
     case EBL_CHANNEL_BATTERY_CURRENT_A: return inputs->battery_current_a;
@@ -61,6 +61,8 @@ static float channel_value(uint8_t channel_id, const telemetry_sources *sources)
     case EBL_CHANNEL_INPUT_FLAGS: return input_flags_of(given);
     case EBL_CHANNEL_TORQUE_AGE_MS: return (float)given->torque_age_ms;
     case EBL_CHANNEL_CONTROLLER_TEMPERATURE_DEGC: return given->controller_temperature_degc;
+    case EBL_CHANNEL_MOTOR_TORQUE_DEMANDED_NM: return output->motor_torque_demanded_nm;
+    case EBL_CHANNEL_MOTOR_TORQUE_AVAILABLE_NM: return output->motor_torque_available_nm;
     default: return float32_missing();
     }
 }

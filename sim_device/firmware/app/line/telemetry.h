@@ -18,6 +18,7 @@ typedef struct {
     const hal_inputs *inputs;
     const assist_input *given; /* to the law */
     const assist_output *output;
+    float motor_torque_delivered_nm;
     uint32_t fault_flags;
 } telemetry_sources;
 

@@ -1,7 +1,7 @@
 /* The law as a program of its own, without Python: an image and float32 records in, float32 out.
  *
  * Standard input: one image of the configuration, then one input record (13 floats) a step.
- * Standard output: one output record (7 floats) a step. Floats are in the machine's byte order.
+ * Standard output: one output record (9 floats) a step. Floats are in the machine's byte order.
  * Ends with 0 at the end of the input, 1 for a broken record, 2 for a configuration the law
  * refuses. A test compares it bit for bit with the law's other two doors. */
 #include <stdio.h>
@@ -11,7 +11,7 @@
 #include "storage/config_law.h" // config_law_from
 
 #define INPUT_FLOATS 13
-#define OUTPUT_FLOATS 7
+#define OUTPUT_FLOATS 9
 
 static assist_input input_of(const float *floats)
 {
@@ -43,7 +43,9 @@ static int write_output(const assist_output *output)
     floats[3] = output->assist_ratio;
     floats[4] = output->fuzzy_gain;
     floats[5] = output->motor_torque_nm;
-    floats[6] = (float)output->limit_flags; /* 15 bits: exact */
+    floats[6] = output->motor_torque_demanded_nm;
+    floats[7] = output->motor_torque_available_nm;
+    floats[8] = (float)output->limit_flags; /* 15 bits: exact */
     return fwrite(floats, sizeof floats, 1, stdout) == 1;
 }
 
