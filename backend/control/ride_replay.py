@@ -51,6 +51,7 @@ class Replay:
     assist_ratio: Floats
     fuzzy_gain: Floats
     motor_torque_nm: Floats
+    motor_torque_demanded_nm: Floats
     limit_flags: npt.NDArray[np.uint16]
     motor_torque_nm_max: float
     motor_work_wh: float
@@ -136,6 +137,7 @@ def _summed(
         assist_ratio=outputs["assist_ratio"],
         fuzzy_gain=outputs["fuzzy_gain"],
         motor_torque_nm=torque_nm,
+        motor_torque_demanded_nm=outputs["motor_torque_demanded_nm"],
         limit_flags=flags,
         motor_torque_nm_max=float(torque_nm.max(initial=0.0)),
         motor_work_wh=float(power_w.sum()) * step_s / JOULE_PER_WH,

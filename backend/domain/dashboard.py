@@ -15,7 +15,13 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.energy import RADIANS_PER_S_PER_RPM
+from backend.domain.energy import (
+    DELIVERED,
+    MOTOR_TORQUE,
+    MOTOR_TORQUE_DEMANDED,
+    RADIANS_PER_S_PER_RPM,
+    motor_torque_meaning,
+)
 
 US_PER_S = 1e6
 MS_PER_KMH = 1.0 / 3.6
@@ -30,7 +36,8 @@ CHANNELS = (
     "speed_kmh",
     "rider_torque_nm",
     "cadence_rpm",
-    "motor_torque_nm",
+    MOTOR_TORQUE,
+    MOTOR_TORQUE_DEMANDED,
     "motor_speed_rpm",
     "battery_soc_pct",
     "battery_voltage_v",
@@ -130,7 +137,11 @@ class DashboardAccount:
             t_s=t_s,
             speed_ms=_mean_of(columns.get("speed_kmh")) * MS_PER_KMH,
             rider_power_w=_power_w(columns, "rider_torque_nm", "cadence_rpm"),
-            motor_power_w=_power_w(columns, "motor_torque_nm", "motor_speed_rpm"),
+            motor_power_w=(
+                _power_w(columns, MOTOR_TORQUE, "motor_speed_rpm")
+                if motor_torque_meaning(columns) == DELIVERED
+                else math.nan
+            ),
         )
         self._recent.append(moment)
         while self._recent[0].t_s < moment.t_s - WINDOW_S:

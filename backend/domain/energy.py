@@ -4,6 +4,9 @@
     motor power      = motor shaft torque x motor shaft speed  (mechanical, before the gears)
     battery power    = battery voltage x battery current       (electrical, more than mechanical)
 
+A motor's power is of the torque it delivers. A unit of earlier firmware, and most files, tell only
+what was asked of the motor: such a ride has no motor power, only the battery's.
+
 A head unit that reports power itself reports the rider's (`rider_power_w`) or the motor's
 (`motor_power_w`); such a recorded channel wins over the derived one. A sample with any factor
 missing has no power and is left out of the energy; how much time was left out is part of the
@@ -28,15 +31,23 @@ RIDER_POWER = ChannelSpec("rider_power_w", "W", 0.1, wide=True)
 MOTOR_POWER = ChannelSpec("motor_power_w", "W", 0.1)
 BATTERY_POWER = ChannelSpec("battery_power_w", "W", 0.1)
 MOTOR_TORQUE_CRANK = ChannelSpec("motor_torque_crank_nm", "Nm", 0.01)
+MOTOR_TORQUE_DEMANDED_CRANK = ChannelSpec("motor_torque_demanded_crank_nm", "Nm", 0.01)
+AT_CRANK = (MOTOR_TORQUE_CRANK, MOTOR_TORQUE_DEMANDED_CRANK)
+
+# What a ride's `motor_torque_nm` is. A unit that measures what it delivers tells what it asks, too.
+DEMANDED, DELIVERED = "demanded", "delivered"
+MOTOR_TORQUE = "motor_torque_nm"
+MOTOR_TORQUE_DEMANDED = "motor_torque_demanded_nm"
 
 # Derived channel -> the recorded channels it is made of.
 FACTORS: Mapping[str, tuple[str, ...]] = {
     RIDER_POWER.name: ("rider_torque_nm", "cadence_rpm"),
-    MOTOR_POWER.name: ("motor_torque_nm", "motor_speed_rpm"),
+    MOTOR_POWER.name: (MOTOR_TORQUE, "motor_speed_rpm"),
     BATTERY_POWER.name: ("battery_voltage_v", "battery_current_a"),
-    MOTOR_TORQUE_CRANK.name: ("motor_torque_nm",),
+    MOTOR_TORQUE_CRANK.name: (MOTOR_TORQUE,),
+    MOTOR_TORQUE_DEMANDED_CRANK.name: (MOTOR_TORQUE_DEMANDED,),
 }
-DERIVED: tuple[ChannelSpec, ...] = (RIDER_POWER, MOTOR_POWER, BATTERY_POWER, MOTOR_TORQUE_CRANK)
+DERIVED: tuple[ChannelSpec, ...] = (RIDER_POWER, MOTOR_POWER, BATTERY_POWER, *AT_CRANK)
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +61,13 @@ class Energy:
     excluded_s: float
 
 
+def motor_torque_meaning(recorded: Collection[str]) -> str | None:
+    """Whether the motor torque of these channels was asked for or given; None without one."""
+    if MOTOR_TORQUE in recorded and MOTOR_TORQUE_DEMANDED in recorded:
+        return DELIVERED
+    return DEMANDED if MOTOR_TORQUE in recorded or MOTOR_TORQUE_DEMANDED in recorded else None
+
+
 def derivable(recorded: Collection[str], gear_ratio: float | None) -> tuple[ChannelSpec, ...]:
     """The derived channels a ride with these recorded channels can offer.
 
@@ -60,7 +78,8 @@ def derivable(recorded: Collection[str], gear_ratio: float | None) -> tuple[Chan
         for channel in DERIVED
         if channel.name not in recorded
         and all(factor in recorded for factor in FACTORS[channel.name])
-        and (channel is not MOTOR_TORQUE_CRANK or gear_ratio is not None)
+        and (channel not in AT_CRANK or gear_ratio is not None)
+        and (channel is not MOTOR_POWER or motor_torque_meaning(recorded) == DELIVERED)
     )
 
 
@@ -72,11 +91,11 @@ def derive(name: str, columns: Mapping[str, Values], gear_ratio: float | None) -
     if name == RIDER_POWER.name:
         return columns["rider_torque_nm"] * columns["cadence_rpm"] * RADIANS_PER_S_PER_RPM
     if name == MOTOR_POWER.name:
-        return columns["motor_torque_nm"] * columns["motor_speed_rpm"] * RADIANS_PER_S_PER_RPM
+        return columns[MOTOR_TORQUE] * columns["motor_speed_rpm"] * RADIANS_PER_S_PER_RPM
     if name == BATTERY_POWER.name:
         return columns["battery_voltage_v"] * columns["battery_current_a"]
-    if name == MOTOR_TORQUE_CRANK.name and gear_ratio is not None:
-        return columns["motor_torque_nm"] * gear_ratio
+    if any(name == channel.name for channel in AT_CRANK) and gear_ratio is not None:
+        return columns[FACTORS[name][0]] * gear_ratio
     raise KeyError(name)
 
 

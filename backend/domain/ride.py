@@ -17,6 +17,7 @@ from backend.domain.energy import (
     RIDER_POWER,
     energy,
     held_sum,
+    motor_torque_meaning,
     sample_seconds,
 )
 from backend.domain.filled import Filled
@@ -140,6 +141,11 @@ class Ride:
     bike_id: int | None = None
 
     @property
+    def motor_torque_meaning(self) -> str | None:
+        """`demanded` or `delivered`: what its motor torque is. None without one."""
+        return motor_torque_meaning([channel.name for channel in self.channels])
+
+    @property
     def offered(self) -> tuple[ChannelSpec, ...]:
         """Every channel that can be asked for: recorded first, then derived."""
         return self.channels + self.derived
@@ -159,6 +165,7 @@ class Ride:
                 {**channel_to_json(channel), "derived": channel in self.derived}
                 for channel in self.offered
             ],
+            "motor_torque_meaning": self.motor_torque_meaning,
             "unit_key": self.context.unit_key,
             "bike_id": self.bike_id,
             "device": asdict(self.context),

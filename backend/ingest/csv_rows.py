@@ -41,6 +41,8 @@ UNITS: dict[str, tuple[str, float]] = {
 SCALES: dict[str, float] = {
     "cadence_rpm": 0.01,
     "motor_torque_nm": 0.0001,
+    "motor_torque_demanded_nm": 0.0001,
+    "motor_torque_available_nm": 0.0001,
     "rider_torque_raw": 1.0,
     "torque_rate": 0.0005,
     "fuzzy_gain": 0.00005,

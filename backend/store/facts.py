@@ -60,6 +60,7 @@ def facts_of(ride: Ride) -> dict[str, object]:
         "gear_ratio": ride.context.gear_ratio,
         "device_serial": ride.context.device_serial,
         "origin": ride.origin,
+        "motor_torque_meaning": ride.motor_torque_meaning,
         "channels": [
             {
                 **channel_to_json(channel),

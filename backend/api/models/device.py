@@ -183,7 +183,10 @@ class Dashboard(Answer):
     speed_kmh: float | None
     acceleration_ms2: float | None = Field(description="Over the last second.")
     rider_power_w: float | None = Field(description="The rider's own, over the last second.")
-    motor_power_w: float | None = Field(description="Mechanical, at the motor's shaft.")
+    motor_power_w: float | None = Field(
+        description="Mechanical, at the motor's shaft; null from a unit that tells only what it "
+        "asks of its motor."
+    )
     battery_soc_pct: float | None
     battery_voltage_v: float | None
     distance_km: float = Field(description="Since the unit's start or the last charge.")

@@ -14,7 +14,9 @@ from backend.api.models.law import AssistModes, FuzzyTable
 class RideSummary(Answer):
     """What a ride comes to; null where the ride lacks the channel.
 
-    Rider and motor energy are never added up. `*_excluded_s` is time without the channel.
+    Rider and motor energy are never added up. `*_excluded_s` is time without the channel. The
+    motor's energy and power are of the torque it delivered: null where the ride's
+    `motor_torque_meaning` is `demanded`, unless a file told the power itself.
     """
 
     duration_s: float
@@ -102,6 +104,11 @@ class Ride(Answer):
     row_count: int
     period_us: int | None = Field(description="Spacing of the rows; null when irregular.")
     channels: list[RideChannel]
+    motor_torque_meaning: Literal["demanded", "delivered"] | None = Field(
+        description="What `motor_torque_nm` of this ride is: what the motor gave, by its current; "
+        "or only what was asked of it, as units of firmware before `motor_torque_demanded_nm` and "
+        "most files have it. Null without that channel. The two are not compared or added."
+    )
     unit_key: str | None = Field(description="The unit it was made with; null where nobody knows.")
     bike_id: int | None = Field(description="The bike that unit was on; null where nobody knows.")
     device: RideDevice
@@ -200,6 +207,10 @@ class Replay(Answer):
         "`motor_speed_rpm` the motor follows the crank."
     )
     rows: int
+    motor_torque_meaning: Literal["demanded", "delivered"] | None = Field(
+        description="What the recorded motor torque is; where it is only `demanded`, there is no "
+        "recorded work."
+    )
     motor_work_wh: Compared
     motor_torque_nm_max: Compared
     motor_torque_nm_difference_max: float | None

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from backend import control
 from backend.domain._generated import INPUT_FLAGS
 from backend.domain.channels import ChannelSpec, Values
-from backend.domain.energy import RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
+from backend.domain.energy import DELIVERED, RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
 from backend.domain.filled import Filled
 from backend.domain.ride import Ride
 from backend.errors import InvalidRequest
@@ -39,6 +39,7 @@ OPTIONAL = (
 FLAGS = "input_flags"
 COMPARED = (
     ChannelSpec("motor_torque_nm", "Nm", 0.0001),
+    ChannelSpec("motor_torque_demanded_nm", "Nm", 0.0001),
     ChannelSpec("assist_ratio", "", 0.0002),
     ChannelSpec("fuzzy_gain", "", 0.00005),
 )
@@ -76,13 +77,15 @@ class RideReplay:
         )
         new_nm = np.asarray(replayed.motor_torque_nm, np.float64)
         recorded_nm = columns.get("motor_torque_nm")
-        speed_rpm = columns.get("motor_speed_rpm")
+        delivered = ride.motor_torque_meaning == DELIVERED
+        speed_rpm = columns.get("motor_speed_rpm") if delivered else None
         return {
             "ride_id": ride.id,
             "config_source": config_source,
             "engine": control.ENGINE,
             "inputs_missing": inputs_missing(columns),
             "rows": len(new_nm),
+            "motor_torque_meaning": ride.motor_torque_meaning,
             "motor_work_wh": compared(
                 work_wh(recorded_nm, speed_rpm, step_s), replayed.motor_work_wh
             ),

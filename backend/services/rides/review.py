@@ -10,6 +10,7 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from backend.domain.channels import ChannelSpec, Values
+from backend.domain.energy import DEMANDED, MOTOR_TORQUE, MOTOR_TORQUE_DEMANDED
 from backend.domain.ride import Ride, iso_utc
 from backend.errors import InvalidRequest, NotFound
 from backend.store import RideReader, Store, expected_of
@@ -182,9 +183,14 @@ def file_chunks(file: BinaryIO) -> Iterator[bytes]:
 
 
 def csv_chunks(reader: RideReader, ride: Ride) -> Iterator[bytes]:
-    """The ride as CSV: ISO time, seconds, then every recorded channel; missing is empty."""
+    """The ride as CSV: ISO time, seconds, then every recorded channel; missing is empty.
+
+    A motor torque that was only asked for is named so.
+    """
     names = [channel.name for channel in ride.channels]
-    yield (",".join(["time_utc", "t_s", *names]) + "\r\n").encode()
+    asked = {MOTOR_TORQUE: MOTOR_TORQUE_DEMANDED} if ride.motor_torque_meaning == DEMANDED else {}
+    header = [asked.get(name, name) for name in names]
+    yield (",".join(["time_utc", "t_s", *header]) + "\r\n").encode()
     for rows in reader.chunks(names, CSV_ROWS):
         seconds = (rows.times_us / 1e6).tolist()
         columns = [texts(c, c.to_values(rows.counts[c.name])) for c in rows.channels]

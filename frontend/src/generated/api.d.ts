@@ -1137,7 +1137,7 @@ export interface components {
             rider_power_w: number | null;
             /**
              * Motor Power W
-             * @description Mechanical, at the motor's shaft.
+             * @description Mechanical, at the motor's shaft; null from a unit that tells only what it asks of its motor.
              */
             motor_power_w: number | null;
             /** Battery Soc Pct */
@@ -1795,6 +1795,11 @@ export interface components {
             inputs_missing: string[];
             /** Rows */
             rows: number;
+            /**
+             * Motor Torque Meaning
+             * @description What the recorded motor torque is; where it is only `demanded`, there is no recorded work.
+             */
+            motor_torque_meaning: ("demanded" | "delivered") | null;
             motor_work_wh: components["schemas"]["Compared"];
             motor_torque_nm_max: components["schemas"]["Compared"];
             /** Motor Torque Nm Difference Max */
@@ -1882,6 +1887,11 @@ export interface components {
             period_us: number | null;
             /** Channels */
             channels: components["schemas"]["RideChannel"][];
+            /**
+             * Motor Torque Meaning
+             * @description What `motor_torque_nm` of this ride is: what the motor gave, by its current; or only what was asked of it, as units of firmware before `motor_torque_demanded_nm` and most files have it. Null without that channel. The two are not compared or added.
+             */
+            motor_torque_meaning: ("demanded" | "delivered") | null;
             /**
              * Unit Key
              * @description The unit it was made with; null where nobody knows.
@@ -1990,7 +2000,9 @@ export interface components {
          * RideSummary
          * @description What a ride comes to; null where the ride lacks the channel.
          *
-         *     Rider and motor energy are never added up. `*_excluded_s` is time without the channel.
+         *     Rider and motor energy are never added up. `*_excluded_s` is time without the channel. The
+         *     motor's energy and power are of the torque it delivered: null where the ride's
+         *     `motor_torque_meaning` is `demanded`, unless a file told the power itself.
          */
         RideSummary: {
             /** Duration S */

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "float32.h"           // float32_min, float32_missing
+#include "float32.h"           // float32_max, float32_min, float32_missing
 #include "market.h"            // market_profile_of
 #include "private/report.h"    // report_faults_cleared, report_faults_set
 #include "private/unit.h"      // app
@@ -193,8 +193,14 @@ static void assist_input_from(const hal_inputs *inputs, float speed_kmh, uint8_t
 
 static void faults_report(app *unit, const hal_inputs *inputs, float speed_kmh, uint64_t now_us)
 {
-    const fault_law law = {unit->output.motor_torque_nm, unit->assist_state.torque_filtered_nm,
-                           unit->law_lost, speed_kmh};
+    const assist_output *output = &unit->output;
+    const fault_law law = {
+        output->motor_torque_nm,
+        float32_max(output->motor_torque_nm, output->motor_torque_demanded_nm),
+        unit->assist_state.torque_filtered_nm,
+        unit->law_lost,
+        speed_kmh,
+    };
     uint32_t set;
     uint32_t cleared;
 

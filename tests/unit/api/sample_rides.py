@@ -16,6 +16,7 @@ SAMPLE_RIDE: dict[str, Any] = {
     "row_count": 7200,
     "period_us": 1_000_000,
     "channels": [{"name": "speed_kmh", "unit": "km/h", "scale": 0.01, "derived": False}],
+    "motor_torque_meaning": None,
     "unit_key": None,
     "bike_id": None,
     "device": dict.fromkeys(

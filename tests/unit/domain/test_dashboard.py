@@ -49,12 +49,17 @@ def test_acceleration_is_the_slope_of_speed() -> None:
 
 
 def test_rider_and_motor_power_are_torque_times_angular_speed_and_stay_apart() -> None:
-    seen = dashboard_after(
-        3.0, rider_torque_nm=20.0, cadence_rpm=60.0, motor_torque_nm=1.0, motor_speed_rpm=2400.0
-    )
+    riding = {"rider_torque_nm": 20.0, "cadence_rpm": 60.0, "motor_speed_rpm": 2400.0}
+    seen = dashboard_after(3.0, **riding, motor_torque_nm=1.0, motor_torque_demanded_nm=1.5)
 
     assert seen.rider_power_w == pytest.approx(20.0 * 2 * math.pi)
     assert seen.motor_power_w == pytest.approx(1.0 * 2 * math.pi * 40.0)
+
+
+def test_a_unit_that_tells_only_what_it_asks_of_its_motor_has_no_motor_power() -> None:
+    seen = dashboard_after(3.0, motor_torque_nm=1.0, motor_speed_rpm=2400.0)
+
+    assert seen.motor_power_w is None
 
 
 def test_strokes_are_averaged_over_a_second() -> None:

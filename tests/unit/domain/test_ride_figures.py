@@ -11,7 +11,13 @@ import numpy as np
 import pytest
 
 from backend.domain.channels import MISSING_INT16, MISSING_INT32, ChannelSpec, Values
-from backend.domain.energy import derivable, derive, energy, sample_seconds
+from backend.domain.energy import (
+    derivable,
+    derive,
+    energy,
+    motor_torque_meaning,
+    sample_seconds,
+)
 from backend.domain.ride import TimesUs, find_gaps, summarise
 
 HOUR_ROWS = 36_000
@@ -51,6 +57,7 @@ def test_a_sine_of_torque_has_the_energy_of_its_mean() -> None:
 def test_the_motor_s_power_is_mechanical_and_the_battery_s_is_electrical() -> None:
     columns = steady(
         motor_torque_nm=1.0,
+        motor_torque_demanded_nm=1.5,
         motor_speed_rpm=2400.0,
         battery_voltage_v=36.0,
         battery_current_a=8.0,
@@ -66,6 +73,36 @@ def test_the_motor_s_power_is_mechanical_and_the_battery_s_is_electrical() -> No
     assert summary.battery_wh == pytest.approx(288.0, rel=1e-9)
     assert summary.rider_wh == pytest.approx(20.0 * math.pi, rel=1e-9)
     assert columns["motor_torque_crank_nm"][0] == pytest.approx(40.0)
+    assert columns["motor_torque_demanded_crank_nm"][0] == pytest.approx(60.0)
+
+
+def test_what_was_only_asked_of_the_motor_is_no_motor_energy() -> None:
+    columns = steady(
+        motor_torque_nm=1.0, motor_speed_rpm=2400.0, battery_voltage_v=36.0, battery_current_a=8.0
+    )
+    for channel in derivable(columns.keys(), 40.0):
+        columns[channel.name] = derive(channel.name, columns, 40.0)
+
+    summary = summarise(columns, regular(HOUR_ROWS), TENTH_US)
+
+    assert summary.motor_wh is summary.motor_power_w_mean is summary.motor_excluded_s is None
+    assert summary.battery_wh == pytest.approx(288.0, rel=1e-9)
+    assert summary.motor_torque_nm_max == 1.0
+
+
+@pytest.mark.parametrize(
+    ("recorded", "meaning"),
+    [
+        (("speed_kmh", "motor_torque_nm"), "demanded"),
+        (("motor_torque_nm", "motor_torque_demanded_nm"), "delivered"),
+        (("motor_torque_demanded_nm",), "demanded"),
+        (("speed_kmh", "motor_power_w"), None),
+    ],
+)
+def test_a_motor_torque_was_given_only_where_what_was_asked_stands_beside_it(
+    recorded: tuple[str, ...], meaning: str | None
+) -> None:
+    assert motor_torque_meaning(recorded) == meaning
 
 
 def test_time_without_a_sample_is_left_out_of_the_energy_and_told() -> None:

@@ -165,7 +165,7 @@ def test_the_kept_overview_has_the_exact_extremes_of_recorded_and_derived_channe
     rows[77_777, 2] = 9_500
     ride = finished(store, rows)
     reader = store.rides.reader(ride.id)
-    names = ["rider_torque_nm", "rider_power_w", "motor_power_w", "motor_torque_crank_nm"]
+    names = ["rider_torque_nm", "rider_power_w", "battery_power_w", "motor_torque_crank_nm"]
     raw = reader.counts(names, 0, len(rows))
 
     for pixels in (3, 40, 500):

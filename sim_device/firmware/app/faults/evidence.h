@@ -30,9 +30,11 @@ typedef struct {
 } fault_watch;
 
 /* What the unit makes of its inputs. By the law, in the step before: the torque the motor was told,
- * the rider's average, and whether there was no number to tell. By the wheel's pulses: speed. */
+ * what it was told or asked for (more, where the crank outruns it: the legs drive then), the
+ * rider's average, and whether there was no number to tell. By the wheel's pulses: speed. */
 typedef struct {
     float motor_torque_nm;
+    float asked_torque_nm;
     float rider_torque_filtered_nm;
     uint8_t lost;
     float speed_kmh;

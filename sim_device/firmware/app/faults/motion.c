@@ -58,7 +58,7 @@ static float chain_rpm(float before_rpm, const hal_inputs *inputs, const ebl_con
 {
     float now_rpm = float32_max(inputs->cadence_rpm * config->gear_ratio, inputs->motor_speed_rpm);
 
-    if (!(law->motor_torque_nm > DRIVING_TORQUE_NM) || !(now_rpm > 0.0f)) return 0.0f;
+    if (!(law->asked_torque_nm > DRIVING_TORQUE_NM) || !(now_rpm > 0.0f)) return 0.0f;
     if (!(before_rpm > 0.0f)) return now_rpm;
     return before_rpm + (now_rpm - before_rpm) / SMOOTHING_STEPS;
 }

@@ -107,7 +107,7 @@ static fault_sign stuck_sign(fault_watch *watch, const hal_inputs *inputs, const
 {
     float raw = inputs->torque_raw_counts;
 
-    if (!(law->motor_torque_nm > 0.0f) || !(inputs->cadence_rpm > STUCK_RPM_MIN)) {
+    if (!(law->asked_torque_nm > 0.0f) || !(inputs->cadence_rpm > STUCK_RPM_MIN)) {
         watch->still_turns = 0;
         turn_begin(watch, raw);
         return FAULT_SIGN_NONE;
