@@ -38,8 +38,8 @@ size_t assist_run(const assist_config *config, assist_state *state, const assist
                   assist_output *outputs, size_t count);
 
 /* Torque at the motor's shaft by its current, less what the motor's own drag takes: what it really
- * gives, whatever it was told. NaN where the current or the speed is. A motor that spins free in its
- * clutch draws for its drag alone: 0. */
+ * gives, whatever it was told. NaN where the current or the speed is. A motor that spins free in
+ * its clutch draws for its drag alone: 0. */
 float motor_torque_delivered_nm(const assist_config *config, float motor_current_a,
                                 float motor_speed_rpm);
 
