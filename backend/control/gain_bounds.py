@@ -134,7 +134,7 @@ class _Search:
     """Finds the largest value of something the law does; a subclass says of what."""
 
     def __init__(self, table: FuzzyTable, axis: str, sign: int) -> None:
-        self.parameters = table.to_parameters()
+        self.gain = law.FuzzyGain(table.to_parameters())
         self.axis = axis
         self.sign = sign
         self.pieces = Pieces(table, axis)
@@ -172,7 +172,8 @@ class _Search:
     def law(self, places: Floats, lines: Floats) -> Floats:
         """The unit's gain at places on lines, (n,) each."""
         speeds, rates = (places, lines) if self.axis == "speed" else (lines, places)
-        return law.gain_points(self.parameters, speeds, rates).astype(np.float64)
+        gains = self.gain.points(speeds.astype(np.float32), rates.astype(np.float32))
+        return gains.astype(np.float64)
 
     def note(self, values: Floats, places: Floats, lines: Floats) -> None:
         """Keeps the largest of what the law did."""

@@ -11,10 +11,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from firmware_protocol._generated import PARAMETERS
+from firmware_protocol._generated import PARAMETER_BY_NAME, PARAMETERS
 from firmware_protocol.layout import Parameter
 from firmware_protocol.parameter_values import BadValue
-from firmware_protocol.parameters import default_config, pack_image, pack_parameter
+from firmware_protocol.parameters import (
+    default_config,
+    pack_image,
+    pack_parameter,
+    violations,
+)
 from sim_device.firmware.python._native import ffi, lib
 
 ENGINE = "sim_device/firmware/control (C99, float32)"
@@ -69,6 +74,8 @@ OUTPUT_DTYPE = np.dtype(
 assert INPUT_DTYPE.itemsize == ffi.sizeof("assist_input")
 assert OUTPUT_DTYPE.itemsize == ffi.sizeof("assist_output")
 
+VIOLATIONS_TOLD = 5
+"""Of a configuration that is refused: enough to mend it by."""
 FIRST_LATER_ID = 0x0600
 """Parameters from here on may be missing, as in the configuration of an old ride."""
 
@@ -99,27 +106,43 @@ def gain_points(table: Config, speeds_kmh: npt.ArrayLike, torque_rates: npt.Arra
     rates = _vector(torque_rates, "torque_rates")
     if speeds.size != rates.size:
         raise LawRefused(f"{speeds.size} speeds but {rates.size} torque rates; give pairs")
-    native = _native_table(table)
-    gains = np.empty(speeds.size, np.float32)
-    lib.fuzzy_gain_run(
-        native,
-        ffi.from_buffer("float[]", speeds),
-        ffi.from_buffer("float[]", rates),
-        ffi.from_buffer("float[]", gains, require_writable=True),
-        gains.size,
-    )
-    return gains
+    return FuzzyGain(table).points(speeds, rates)
+
+
+class FuzzyGain:
+    """One table's gain, for who asks more than once."""
+
+    def __init__(self, table: Config) -> None:
+        """table: the `fuzzy_*` parameters. Raises LawRefused for a table the unit refuses."""
+        self._native = _native_table(table)
+
+    def points(self, speeds_kmh: Floats, torque_rates: Floats) -> Floats:
+        """Gain at single points, float32 (k,); NaN where a coordinate is not finite.
+
+        speeds_kmh, torque_rates: float32 (k,) each, contiguous.
+        """
+        gains = np.empty(speeds_kmh.size, np.float32)
+        lib.fuzzy_gain_run(
+            self._native,
+            ffi.from_buffer("float[]", speeds_kmh),
+            ffi.from_buffer("float[]", torque_rates),
+            ffi.from_buffer("float[]", gains, require_writable=True),
+            gains.size,
+        )
+        return gains
 
 
 class AssistLaw:
     """One instance of the law with its own memory, at rest until the first step."""
 
-    def __init__(self, config: Config, step_s: float = STEP_S) -> None:
-        """config: every parameter of the law by its registry name; others are not looked at.
+    def __init__(self, config: Config, step_s: float = STEP_S, in_range: bool = True) -> None:
+        """config: every parameter of the law by its registry name; the unit's others may be there.
 
-        Raises LawRefused if a parameter is missing or the unit would refuse the configuration.
+        Raises LawRefused if one of the law is missing, or in the unit's words for whatever the unit
+        would refuse. Names that the registry does not have are not looked at. in_range: False to
+        see what the law alone makes of a configuration that the unit's check does not let through.
         """
-        self._config = native_config(config, step_s)
+        self._config = native_config(config, step_s, in_range)
         self._state = ffi.new("assist_state *")
 
     def run(self, inputs: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
@@ -147,15 +170,19 @@ class AssistLaw:
 
 
 def assist_run(
-    config: Config, inputs: Mapping[str, npt.ArrayLike], step_s: float = STEP_S
+    config: Config,
+    inputs: Mapping[str, npt.ArrayLike],
+    step_s: float = STEP_S,
+    in_range: bool = True,
 ) -> dict[str, npt.NDArray[Any]]:
     """A whole ride from rest through a fresh law.
 
     inputs: (n,) or one value for each name of INPUT_DTYPE; those of INPUT_DEFAULTS may be missing.
     Returns (n,) for each name of
-    OUTPUT_DTYPE. Raises LawRefused for a bad configuration or unequal lengths.
+    OUTPUT_DTYPE. in_range: as for AssistLaw. Raises LawRefused for a bad configuration or unequal
+    lengths.
     """
-    outputs = AssistLaw(config, step_s).run(pack_inputs(inputs))
+    outputs = AssistLaw(config, step_s, in_range).run(pack_inputs(inputs))
     return {name: outputs[name] for name in OUTPUT_DTYPE.names or ()}
 
 
@@ -268,26 +295,28 @@ def _image_of(config: Config, rows: Iterable[Parameter], what: str) -> bytes:
             raise LawRefused(f"{what}: {row.name} is missing")
         try:
             packed = pack_parameter(row, config[row.name])
-        except (BadValue, OverflowError) as wrong:
+        except BadValue as wrong:
             raise LawRefused(f"{what}: {wrong}") from wrong
         image[row.image_offset : row.image_offset + row.size] = packed
     return bytes(image)
 
 
+def _refuse_violations(given: Config, what: str) -> None:
+    """Raises LawRefused in the unit's words for what it would refuse."""
+    found = violations(given, whole=False)
+    if found:
+        raise LawRefused(f"{what}: {' '.join(one.message for one in found[:VIOLATIONS_TOLD])}")
+
+
 def _native_table(table: Config) -> Any:
     """The first table of a configuration, checked. Raises LawRefused."""
+    given = {row.name: table[row.name] for row in TABLE_PARAMETERS if row.name in table}
+    _refuse_violations(given, "fuzzy table")
     law = _law_of(_image_of(table, TABLE_PARAMETERS, "fuzzy table"))
     native = ffi.new("fuzzy_table *", law.table)
-    _check_table(native)
-    return native
-
-
-def _check_table(native: Any) -> None:
     if lib.fuzzy_table_check(native) != lib.FUZZY_OK:
-        raise LawRefused(
-            "fuzzy table: points must be finite and increasing, speeds by 0.1 km/h, torque rates "
-            "and gains by 0.001 at least, gains between 0 and 0.5"
-        )
+        raise LawRefused("fuzzy table: the unit's own check refuses it")
+    return native
 
 
 def law_defaults() -> dict[str, Any]:
@@ -295,13 +324,14 @@ def law_defaults() -> dict[str, Any]:
     return dict(default_config())
 
 
-def native_config(config: Config, step_s: float = STEP_S) -> Any:
+def native_config(config: Config, step_s: float = STEP_S, in_range: bool = True) -> Any:
     """The assist_config of a configuration, as AssistLaw takes it. Raises LawRefused."""
+    if in_range:
+        known = {name: value for name, value in config.items() if name in PARAMETER_BY_NAME}
+        _refuse_violations(known, "configuration")
     given = [row for row in LAW_PARAMETERS if row.name in config or row.id < FIRST_LATER_ID]
     native = _law_of(_image_of(config, given, "configuration"))
     native.step_s = step_s
-    _check_table(ffi.addressof(native, "table"))
-    _check_table(ffi.addressof(native, "second_table"))
     if lib.assist_config_check(native) != lib.ASSIST_OK:
         raise LawRefused("configuration: a value is not finite or physically impossible")
     return native

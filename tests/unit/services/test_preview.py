@@ -56,7 +56,7 @@ def test_a_table_that_the_unit_would_refuse_is_refused_by_every_question(name: s
 def test_a_ride_whose_own_table_is_refused_today_says_why_and_replays_with_another() -> None:
     recorded = {**default_config(), "fuzzy_gain_points": [0.1, 0.2, 0.2001, 0.3, 0.4]}
 
-    with pytest.raises(InvalidRequest, match=r"0\.001 at least"):
+    with pytest.raises(InvalidRequest, match=r"at least 0\.001 above"):
         PREVIEW.replay(recorded, ride())
 
     replayed = PREVIEW.replay(recorded, ride(), fuzzy_table=TABLE)

@@ -102,7 +102,7 @@ def tables(draw: st.DrawFn) -> dict[str, Any]:
     return {
         "fuzzy_inference": "mamdani_centroid",
         "fuzzy_speed_points_kmh": increasing(0, 30),
-        "fuzzy_torque_rate_points": increasing(-0.2, 1.2),
+        "fuzzy_torque_rate_points": increasing(0, 1.4),
         "fuzzy_gain_points": draw(st.sampled_from([EDGE_TO_EDGE, increasing(0, 0.5)])),
         "fuzzy_rules": draw(st.lists(row, min_size=5, max_size=5)),
     }

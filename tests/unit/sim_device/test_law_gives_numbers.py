@@ -161,7 +161,7 @@ def test_the_table_that_became_every_limits_maximum_is_refused_everywhere() -> N
         "NOT_INCREASING"
     ] * 4
 
-    with pytest.raises(LawRefused, match=r"0\.001 at least"):
+    with pytest.raises(LawRefused, match=r"at least 0\.001 above"):
         native_config({**default_config(), **REPORTED})
 
 

@@ -69,7 +69,7 @@ def run(market: str, steps: int = 400, **given: Any) -> dict[str, npt.NDArray[An
         "mode": 2,
         "brake": 0,
     }
-    return assist_run(config, {**readings, **given})
+    return assist_run(config, {**readings, **given}, in_range=False)
 
 
 def japan_ratio(speed_kmh: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
