@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from backend.cli.client import Server, default_server, print_json, print_table, text_of
+from backend.control import presets
 from backend.errors import InvalidRequest, RequestRefused
-from backend.ingest.backup import parameters_of
+from backend.ingest.backup import Backup, backup_json, backup_of, read_backup
 
 
 def server_of(options: Namespace) -> Server:
@@ -95,7 +96,8 @@ def backup(options: Namespace) -> int:
     unit = server.device_id(options.unit)
     device = server.ask("GET", f"/devices/{unit}")
     config = server.ask("GET", f"/devices/{unit}/config", params={"bank": options.bank})
-    saved = {"identity": device["identity"], **config}
+    items = server.ask("GET", f"/devices/{unit}/parameters")["items"]
+    saved = backup_json(device, config, {item["name"]: item["unit"] for item in items})
     if options.output is None:
         print_json(saved)
         return 0
@@ -109,11 +111,14 @@ def restore(options: Namespace) -> int:
     """Writes the values of a backup that differ from the unit's and that we may change."""
     server = server_of(options)
     unit = server.device_id(options.unit)
-    saved, notes = parameters_of(read_json(options.file), options.file.name)
-    if not options.json:
-        for note in notes:
-            print(note)
+    backup = backup_at(options.file)
     items = server.ask("GET", f"/devices/{unit}/parameters")["items"]
+    family = server.ask("GET", f"/devices/{unit}")["family"]
+    require_same_kind(backup, options.file.name, family, items)
+    saved = backup.parameters
+    if not options.json:
+        for note in [*backup.notes, *unknown_here(saved, items)]:
+            print(note)
     differing = [p for p in items if p["name"] in saved and saved[p["name"]] != p["value"]]
     kept = [p["name"] for p in differing if p["access"] == "factory"]
     changes = {p["name"]: saved[p["name"]] for p in differing if p["access"] != "factory"}
@@ -128,13 +133,14 @@ def restore(options: Namespace) -> int:
 
 def diff(options: Namespace) -> int:
     """What differs between a backup and the unit, or between two backups."""
-    one, _ = parameters_of(read_json(options.file), options.file.name)
+    one = backup_at(options.file).parameters
     if options.other is not None and Path(options.other).is_file():
-        other, _ = parameters_of(read_json(Path(options.other)), options.other)
+        other = backup_at(Path(options.other)).parameters
     else:
         server = server_of(options)
         unit = server.device_id(options.other)
-        other = server.ask("GET", f"/devices/{unit}/config")["parameters"]
+        # A server of before may tell choices in the words of then.
+        other = read_backup(server.ask("GET", f"/devices/{unit}/config"), unit).parameters
     changed = [
         {"name": name, "old": one.get(name), "new": other.get(name)}
         for name in dict.fromkeys([*one, *other])
@@ -142,6 +148,44 @@ def diff(options: Namespace) -> int:
     ]
     print_changes({"changed": changed}, options)
     return 0
+
+
+def list_presets(options: Namespace) -> int:
+    """The configurations and tables that come with Spindle; `restore` takes their names."""
+    found = [presets.load(name) for name in presets.names()]
+    if options.json:
+        print_json({"items": [{"name": one.name, "comment": one.comment} for one in found]})
+        return 0
+    print_table([[one.name, one.comment] for one in found], ["preset", "what it is"])
+    return 0
+
+
+def backup_at(file: Path) -> Backup:
+    """A backup's file, or the preset of that name where there is no such file."""
+    if not file.exists() and str(file) in presets.names():
+        return backup_of(presets.load(str(file)))
+    return read_backup(read_json(file), file.name)
+
+
+def require_same_kind(backup: Backup, name: str, family: str, items: list[dict[str, Any]]) -> None:
+    """Raises InvalidRequest for a backup of another make, or in other units than this unit's."""
+    if backup.family not in (None, family):
+        raise InvalidRequest(
+            f"{name} is for a unit of the family {backup.family}; this one is {family}."
+        )
+    for item in items:
+        unit = backup.units.get(item["name"], item["unit"])
+        if unit != item["unit"]:
+            raise InvalidRequest(
+                f"{name} has {item['name']} in {unit!r}; this unit has it in {item['unit']!r}."
+            )
+
+
+def unknown_here(saved: dict[str, Any], items: list[dict[str, Any]]) -> list[str]:
+    """Says which values of a backup this unit has no parameter for."""
+    known = {item["name"] for item in items}
+    unknown = [name for name in saved if name not in known]
+    return [f"This unit does not have {', '.join(unknown)}."] if unknown else []
 
 
 def write(server: Server, unit: str, changes: dict[str, Any], options: Namespace) -> int:

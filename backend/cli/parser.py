@@ -66,7 +66,9 @@ def _add_bank(command: argparse.ArgumentParser) -> None:
 
 def _add_device(verbs: Any) -> None:
     group = _group(
-        verbs, "device", "units: list, show, get, set, backup, restore, diff, try, service, logs"
+        verbs,
+        "device",
+        "units: list, show, get, set, backup, restore, diff, presets, try, service, logs",
     )
     unit = "id, url, unit key or serial number; may be left out when there is only one unit"
     _asking(group, "list", device.list_devices, help="every unit and its state")
@@ -87,14 +89,17 @@ def _add_device(verbs: Any) -> None:
     command.add_argument("unit", nargs="?", help=unit)
     command.add_argument("--output", "-o", type=Path, help="a file; standard output if absent")
     _add_bank(command)
-    command = _asking(group, "restore", device.restore, help="write a backup's values back")
-    command.add_argument("file", type=Path)
+    command = _asking(
+        group, "restore", device.restore, help="write a backup's values, or a preset's"
+    )
+    command.add_argument("file", type=Path, help="of `device backup`, or a name of `presets`")
     command.add_argument("unit", nargs="?", help=unit)
     command.add_argument("--reason", default="", help="why; kept with the revision")
     command.add_argument("--token", metavar="HEX", help="of `spindle unlock sign`")
     command = _asking(group, "diff", device.diff, help="a backup against the unit, or another")
-    command.add_argument("file", type=Path)
+    command.add_argument("file", type=Path, help="of `device backup`, or a name of `presets`")
     command.add_argument("other", nargs="?", help="another backup's file, or a unit")
+    _asking(group, "presets", device.list_presets, help="what comes with Spindle for `restore`")
     command = _asking(group, "try", device_live.try_values, help="values, until their time is over")
     command.add_argument("words", nargs="*", metavar="[UNIT] NAME=VALUE", help=unit)
     command.add_argument("--seconds", type=int, default=60, help="1 to 255 (60)")

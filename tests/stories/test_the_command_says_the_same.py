@@ -57,7 +57,60 @@ def test_a_parameter_is_set_backed_up_compared_and_restored(
     assert [item["name"] for item in json.loads(differing.stdout)["changed"]] == ["torque_filter_s"]
     assert json.loads(value.stdout)["parameters"]["torque_filter_s"] == pytest.approx(0.5)
     assert json.loads(before.stdout)["parameters"]["torque_filter_s"] == pytest.approx(0.7)
-    assert json.loads(made.stdout)["parameters"] == default_config()
+    values = json.loads(made.stdout)["parameters"]
+    assert {name: entry["value"] for name, entry in values.items()} == default_config()
+    saved = json.loads(kept.read_text())
+    assert (saved["format"], saved["version"]) == ("spindle-configuration", 1)
+    assert saved["parameters"]["torque_filter_s"] == {"value": 0.5, "unit": "s"}
+    assert saved["identity"]["serial_number"] == saved["name"]
+
+
+def test_a_preset_is_a_backup_that_comes_with_spindle(
+    server: SpindleServer, device: str, tmp_path: Path
+) -> None:
+    server.stand_still(device)
+    kept = tmp_path / "kept.json"
+    spindle(server, "device", "backup", "--output", kept)
+
+    listed = spindle(server, "device", "presets")
+    differing = spindle(server, "device", "diff", "thesis", "--json")
+    taken = spindle(server, "device", "restore", "thesis")
+    band = spindle(server, "device", "get", "assist_cutoff_band_kmh", "--json")
+    back = spindle(server, "device", "restore", kept)
+
+    assert "thesis" in listed.stdout
+    missing = {change["name"] for change in json.loads(differing.stdout)["changed"]}
+    assert "assist_cutoff_band_kmh" in missing
+    assert taken.returncode == back.returncode == 0, taken.stderr
+    assert json.loads(band.stdout)["parameters"]["assist_cutoff_band_kmh"] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({"family": "bbsfw"}, "is for a unit of the family bbsfw; this one is ebl"),
+        ({"version": 2}, "version 2, and this Spindle reads version 1: use a newer one"),
+        (
+            {"parameters": {"torque_filter_s": {"value": 700, "unit": "ms"}}},
+            "has torque_filter_s in 'ms'; this unit has it in 's'",
+        ),
+        ({"parameters": {"torque_filter_s": 0.7}}, "parameter torque_filter_s has no `value`"),
+    ],
+)
+def test_a_file_for_another_unit_changes_nothing_and_says_why(
+    server: SpindleServer, device: str, tmp_path: Path, change: dict[str, object], says: str
+) -> None:
+    server.stand_still(device)
+    kept = tmp_path / "kept.json"
+    spindle(server, "device", "backup", "--output", kept)
+    kept.write_text(json.dumps(json.loads(kept.read_text()) | change))
+    before = server.get(f"/devices/{device}/config")
+
+    restore = spindle(server, "device", "restore", kept)
+
+    assert restore.returncode != 0
+    assert says in restore.stderr
+    assert server.get(f"/devices/{device}/config") == before
 
 
 def test_a_backup_of_an_older_unit_is_restored_and_says_what_became_of_the_wheel(
