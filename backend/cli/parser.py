@@ -131,6 +131,7 @@ def _add_ride(verbs: Any) -> None:
     command = _asking(group, "replay", ride.replay, help="the ride with another table")
     command.add_argument("ride", type=int)
     command.add_argument("--table", type=Path, help="a fuzzy_table as JSON")
+    command.add_argument("--second-table", type=Path, help="the second one")
     command.add_argument("--modes", type=Path, help="assist_modes as JSON")
     _asking(group, "delete", ride.delete, help="delete a ride").add_argument("ride", type=int)
     command = _asking(group, "files", ride.list_files, help="files that came, and what became")

@@ -108,18 +108,29 @@ def replay(options: Namespace) -> int:
     """What the motor would have done with another table or other modes."""
     body = {
         name: read_json(file)
-        for name, file in (("fuzzy_table", options.table), ("assist_modes", options.modes))
+        for name, file in (
+            ("fuzzy_table", options.table),
+            ("second_table", options.second_table),
+            ("assist_modes", options.modes),
+        )
         if file is not None
     }
     answer = server_of(options).ask("POST", f"/rides/{options.ride}/replay", json=body)
     if options.json:
         print_json(answer)
         return 0
+    print(answer.pop("meaning"))
     for name, value in answer.items():
         if not isinstance(value, dict | list):
             print(f"{name:32} {text_of(value)}")
-    for name, value in answer.get("difference", {}).items():
-        print(f"difference {name:21} {text_of(value)}")
+    rows = [
+        [name, *(text_of(value[part]) for part in ("recorded", "replayed", "difference"))]
+        for name, value in answer.items()
+        if isinstance(value, dict) and "replayed" in value
+    ]
+    print_table(rows, ["", "recorded", "replayed", "difference"])
+    held = [[name, f"{share:.1%}"] for name, share in answer["limit_shares"].items() if share]
+    print_table(held, ["held back by", "share of time"])
     return 0
 
 

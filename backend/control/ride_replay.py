@@ -19,22 +19,6 @@ STEPS_MAX = 24 * 3600 * 100
 RAD_PER_S_PER_RPM = 2.0 * np.pi / 60.0
 JOULE_PER_WH = 3600.0
 
-# Bits of limit_flags in the registry, as the law's header names them.
-LIMIT_NAMES = (
-    "taper",
-    "speed_cutoff",
-    "pedal_stop",
-    "brake",
-    "ramp_up",
-    "ramp_down",
-    "motor_torque",
-    "battery_current",
-    "motor_speed",
-    "battery_voltage",
-    "input_refused",
-    "mode_off",
-)
-
 Floats = npt.NDArray[np.float32]
 
 
@@ -43,7 +27,7 @@ class Replay:
     """The law's answer, (n,) each, and its sums. NaN is missing.
 
     assist_ratio: gain included, before limits. limit_shares: part of the steps, 0 to 1, in which
-    each limit held the motor back. motor_work_wh: at the motor's shaft.
+    each limit of the registry held the motor back. motor_work_wh: at the motor's shaft.
     """
 
     rider_torque_filtered_nm: Floats
@@ -142,7 +126,6 @@ def _summed(
         motor_torque_nm_max=float(torque_nm.max(initial=0.0)),
         motor_work_wh=float(power_w.sum()) * step_s / JOULE_PER_WH,
         limit_shares={
-            name: np.count_nonzero(flags & (1 << bit)) / steps
-            for bit, name in enumerate(LIMIT_NAMES)
+            name: np.count_nonzero(flags & flag) / steps for name, flag in law.LIMITS.items()
         },
     )

@@ -177,7 +177,13 @@ class Figure(Answer):
 
 
 class ReplayRequest(Question):
+    mode: Literal["open_loop"] = Field(
+        default="open_loop", description="Speed and legs as recorded: the bike does not answer."
+    )
     fuzzy_table: FuzzyTable | None = None
+    second_table: FuzzyTable | None = Field(
+        default=None, description="Shares speed and torque-rate points with the first."
+    )
     assist_modes: AssistModes | None = None
 
 
@@ -191,10 +197,13 @@ class Replay(Answer):
     """What the motor would have done with another table, beside what it did.
 
     `series` has each compared channel as recorded, and as replayed under `replayed_` and its name.
-    `limit_shares`: part of the samples, 0 to 1, in which each limit held the motor back.
+    `limit_shares`: part of the samples, 0 to 1, in which each limit of the registry held the motor
+    back.
     """
 
     ride_id: int
+    mode: Literal["open_loop"]
+    meaning: str = Field(description="What the mode leaves out, in English.")
     config_source: Literal["ride", "defaults"] = Field(
         description="Whose parameters the rest of the law ran with."
     )
@@ -210,6 +219,15 @@ class Replay(Answer):
     motor_torque_meaning: Literal["demanded", "delivered"] | None = Field(
         description="What the recorded motor torque is; where it is only `demanded`, there is no "
         "recorded work."
+    )
+    wh_per_km: Compared | None = Field(
+        description="Work at the motor's shaft for a kilometre, the figure to compare by; null "
+        "where the ride went less than 10 m."
+    )
+    distance_km: float = Field(description="As recorded.")
+    duration_s: float = Field(description="As recorded: in open loop the road takes as long.")
+    range_km: float | None = Field(
+        description="Null in open loop: shaft work is not what leaves the battery."
     )
     motor_work_wh: Compared
     motor_torque_nm_max: Compared

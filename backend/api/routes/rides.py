@@ -145,7 +145,9 @@ def export_ride(
     responses=DAMAGED,
 )
 def replay_ride(ride_id: RideId, body: ReplayRequest, services: Provided) -> Any:
-    """Runs the ride's inputs through the unit's own law with another table or other modes."""
+    """Runs the ride's inputs through the unit's own law with other tables or other modes."""
     question = body.model_dump()
-    answer = services.rides.replay(ride_id, question["fuzzy_table"], question["assist_modes"])
+    answer = services.rides.replay(
+        ride_id, question["fuzzy_table"], question["assist_modes"], question["second_table"]
+    )
     return whole(Replay, answer)

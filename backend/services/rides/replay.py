@@ -1,7 +1,10 @@
 """Replaying a ride: its inputs through the unit's own law, with another table or other modes.
 
 The configuration the unit had on the ride is the starting point, so that only what was changed
-differs. The recorded motor and the replayed one are told side by side; how well a replay without
+differs. The loop is open: speed and legs are as recorded, whatever the motor would have changed of
+them. So what is compared first is work for a kilometre: the same kilometres either way, while work
+alone grows with how long the road took. The recorded motor and the replayed one are told side by
+side; how well a replay without
 any change matches the record says how far the answer can be trusted.
 """
 
@@ -44,6 +47,11 @@ COMPARED = (
     ChannelSpec("fuzzy_gain", "", 0.00005),
 )
 REPLAYED = "replayed_"
+OPEN_LOOP = (
+    "Open loop: speed and legs as recorded. With more help the bike would have been faster and the"
+    " ride shorter; this tells what the motor would have given at the speeds that were ridden."
+)
+DISTANCE_KM_MIN = 0.01
 SERIES_PIXELS = 1200
 
 Config = Mapping[str, Any]
@@ -63,6 +71,7 @@ class RideReplay:
         reader: RideReader,
         fuzzy_table: Mapping[str, Any] | None,
         assist_modes: Mapping[str, Any] | None,
+        second_table: Mapping[str, Any] | None = None,
     ) -> dict[str, Any]:
         """The comparison as the API tells it.
 
@@ -73,22 +82,28 @@ class RideReplay:
         config, config_source = self._config_of(ride)
         step_s = (ride.period_us or 0) / 1e6
         replayed = self._preview.replay(
-            config, law_inputs(columns), fuzzy_table, assist_modes, step_s
+            config, law_inputs(columns), fuzzy_table, assist_modes, step_s, second_table
         )
         new_nm = np.asarray(replayed.motor_torque_nm, np.float64)
         recorded_nm = columns.get("motor_torque_nm")
         delivered = ride.motor_torque_meaning == DELIVERED
         speed_rpm = columns.get("motor_speed_rpm") if delivered else None
+        recorded_wh = work_wh(recorded_nm, speed_rpm, step_s)
+        distance_km = float(np.nansum(columns["speed_kmh"])) * step_s / SECONDS_PER_HOUR
         return {
             "ride_id": ride.id,
+            "mode": "open_loop",
+            "meaning": OPEN_LOOP,
             "config_source": config_source,
             "engine": control.ENGINE,
             "inputs_missing": inputs_missing(columns),
             "rows": len(new_nm),
             "motor_torque_meaning": ride.motor_torque_meaning,
-            "motor_work_wh": compared(
-                work_wh(recorded_nm, speed_rpm, step_s), replayed.motor_work_wh
-            ),
+            "wh_per_km": per_km(recorded_wh, replayed.motor_work_wh, distance_km),
+            "distance_km": distance_km,
+            "duration_s": len(new_nm) * step_s,
+            "range_km": None,
+            "motor_work_wh": compared(recorded_wh, replayed.motor_work_wh),
             "motor_torque_nm_max": compared(largest(recorded_nm), replayed.motor_torque_nm_max),
             "motor_torque_nm_difference_max": difference_max(recorded_nm, new_nm),
             "limit_shares": replayed.limit_shares,
@@ -177,6 +192,16 @@ def compared(recorded: float | None, replayed: float) -> dict[str, float | None]
     """The two figures and what the change makes of it."""
     difference = None if recorded is None else replayed - recorded
     return {"recorded": recorded, "replayed": replayed, "difference": difference}
+
+
+def per_km(
+    recorded_wh: float | None, replayed_wh: float, distance_km: float
+) -> dict[str, float | None] | None:
+    """The two works for a kilometre; None for a ride that went next to nowhere."""
+    if distance_km < DISTANCE_KM_MIN:
+        return None
+    recorded = None if recorded_wh is None else recorded_wh / distance_km
+    return compared(recorded, replayed_wh / distance_km)
 
 
 def work_wh(torque_nm: Values | None, speed_rpm: Values | None, step_s: float) -> float | None:

@@ -22,7 +22,8 @@ CSV_ROWS = 4096
 FORMATS = ("csv", "parquet", "original")
 
 # (columns of the ride by name, fuzzy_table, assist_modes, ride) -> the API's answer
-Replay = Callable[[RideReader, Mapping[str, Any] | None, Mapping[str, Any] | None], Any]
+Changed = Mapping[str, Any] | None
+Replay = Callable[[RideReader, Changed, Changed, Changed], Any]
 
 
 @dataclass(frozen=True)
@@ -134,11 +135,13 @@ class Rides:
         ride_id: int,
         fuzzy_table: Mapping[str, Any] | None = None,
         assist_modes: Mapping[str, Any] | None = None,
+        second_table: Mapping[str, Any] | None = None,
     ) -> Any:
-        """What the motor would have done with another table or other modes."""
+        """What the motor would have done with other tables or other modes."""
         if self._replay is None:
             raise InvalidRequest("This server cannot replay rides.", code="unsupported")
-        return self._replay(self._store.rides.reader(ride_id), fuzzy_table, assist_modes)
+        reader = self._store.rides.reader(ride_id)
+        return self._replay(reader, fuzzy_table, assist_modes, second_table)
 
     def _original(self, ride: Ride) -> Export:
         if ride.upload_id is None:

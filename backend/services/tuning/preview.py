@@ -11,8 +11,8 @@ import numpy.typing as npt
 from backend import control
 from backend.control import Finding, LintReport, Replay
 from backend.domain.assist_mode import AssistModes
-from backend.domain.fuzzy_table import FuzzyTable
-from backend.errors import InvalidRequest
+from backend.domain.fuzzy_table import PARAMETER_NAMES, SHARED_FIELDS, FuzzyTable
+from backend.errors import FieldError, InvalidRequest
 from backend.services.tuning.calibrate import evaluate_calibration
 
 
@@ -79,16 +79,22 @@ class Preview:
         fuzzy_table: Mapping[str, Any] | None = None,
         assist_modes: Mapping[str, Any] | None = None,
         step_s: float = 0.01,
+        second_table: Mapping[str, Any] | None = None,
     ) -> Replay:
         """What the motor would have done on a recorded ride under another table or other modes.
 
         config: the unit's parameters by registry name. arrays: `speed_kmh`, `cadence_rpm`, `mode`,
         and `torque_raw_counts` or `rider_torque_nm`, (n,) each; what else is known by the names of
-        control.replay. Raises InvalidRequest.
+        control.replay. second_table: takes the place of the second, and has the points of the
+        first. Raises InvalidRequest.
         """
         changed = dict(config)
         if fuzzy_table is not None:
             changed |= FuzzyTable.from_json(fuzzy_table).to_parameters()
+        if second_table is not None:
+            second = FuzzyTable.from_json(second_table)
+            _refuse_points_of_its_own(second, changed)
+            changed |= second.to_parameters("second")
         if assist_modes is not None:
             changed |= AssistModes.from_json(assist_modes).to_parameters()
         readings = dict(arrays)
@@ -102,6 +108,23 @@ class Preview:
         return control.replay(changed, step_s=step_s, **readings)
 
     evaluate_calibration = staticmethod(evaluate_calibration)
+
+
+def _refuse_points_of_its_own(second: FuzzyTable, config: Mapping[str, Any]) -> None:
+    """Raises InvalidRequest if a second table differs in what both tables share."""
+    faults = [
+        FieldError(f"second_table.{field}", "shared", f"{field} differ from the first table's")
+        for field in SHARED_FIELDS
+        if not np.array_equal(
+            np.asarray(getattr(second, field), np.float32),
+            np.asarray(config[PARAMETER_NAMES[field]], np.float32),
+        )
+    ]
+    if faults:
+        message = "second table: both tables share speed and torque-rate points: " + "; ".join(
+            fault.message for fault in faults
+        )
+        raise InvalidRequest(message, "shared", faults)
 
 
 def _findings(refused: InvalidRequest) -> list[Finding]:

@@ -750,7 +750,7 @@ export interface paths {
         put?: never;
         /**
          * Replay Ride
-         * @description Runs the ride's inputs through the unit's own law with another table or other modes.
+         * @description Runs the ride's inputs through the unit's own law with other tables or other modes.
          */
         post: operations["replay_ride"];
         delete?: never;
@@ -1775,11 +1775,22 @@ export interface components {
          * @description What the motor would have done with another table, beside what it did.
          *
          *     `series` has each compared channel as recorded, and as replayed under `replayed_` and its name.
-         *     `limit_shares`: part of the samples, 0 to 1, in which each limit held the motor back.
+         *     `limit_shares`: part of the samples, 0 to 1, in which each limit of the registry held the motor
+         *     back.
          */
         Replay: {
             /** Ride Id */
             ride_id: number;
+            /**
+             * Mode
+             * @constant
+             */
+            mode: "open_loop";
+            /**
+             * Meaning
+             * @description What the mode leaves out, in English.
+             */
+            meaning: string;
             /**
              * Config Source
              * @description Whose parameters the rest of the law ran with.
@@ -1800,6 +1811,23 @@ export interface components {
              * @description What the recorded motor torque is; where it is only `demanded`, there is no recorded work.
              */
             motor_torque_meaning: ("demanded" | "delivered") | null;
+            /** @description Work at the motor's shaft for a kilometre, the figure to compare by; null where the ride went less than 10 m. */
+            wh_per_km: components["schemas"]["Compared"] | null;
+            /**
+             * Distance Km
+             * @description As recorded.
+             */
+            distance_km: number;
+            /**
+             * Duration S
+             * @description As recorded: in open loop the road takes as long.
+             */
+            duration_s: number;
+            /**
+             * Range Km
+             * @description Null in open loop: shaft work is not what leaves the battery.
+             */
+            range_km: number | null;
             motor_work_wh: components["schemas"]["Compared"];
             motor_torque_nm_max: components["schemas"]["Compared"];
             /** Motor Torque Nm Difference Max */
@@ -1812,7 +1840,16 @@ export interface components {
         };
         /** ReplayRequest */
         ReplayRequest: {
+            /**
+             * Mode
+             * @description Speed and legs as recorded: the bike does not answer.
+             * @default open_loop
+             * @constant
+             */
+            mode: "open_loop";
             fuzzy_table?: components["schemas"]["FuzzyTable"] | null;
+            /** @description Shares speed and torque-rate points with the first. */
+            second_table?: components["schemas"]["FuzzyTable"] | null;
             assist_modes?: components["schemas"]["AssistModes"] | null;
         };
         /**

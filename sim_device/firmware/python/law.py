@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from firmware_protocol._generated import PARAMETER_BY_NAME, PARAMETERS
+from firmware_protocol._generated import PARAMETER_BY_NAME, PARAMETERS, LimitFlags
 from firmware_protocol.layout import Parameter
 from firmware_protocol.parameter_values import BadValue
 from firmware_protocol.parameters import (
@@ -20,6 +20,7 @@ from firmware_protocol.parameters import (
     pack_parameter,
     violations,
 )
+from firmware_protocol.spelling import word_of
 from sim_device.firmware.python._native import ffi, lib
 
 ENGINE = "sim_device/firmware/control (C99, float32)"
@@ -47,6 +48,8 @@ INPUT_DTYPE = np.dtype(
     ],
     align=True,
 )
+LIMITS = {word_of(flag.name): int(flag) for flag in LimitFlags if flag.name}
+"""Every limit of the registry and its bit in `limit_flags`."""
 INPUT_DEFAULTS = {
     "battery_current_a": np.nan,
     "motor_temperature_degc": np.nan,

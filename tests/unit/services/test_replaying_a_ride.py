@@ -15,14 +15,17 @@ import numpy as np
 import pytest
 
 from backend.control import law_defaults
+from backend.domain.assist_mode import AssistModes
 from backend.domain.channels import ChannelSpec, Values
+from backend.domain.fuzzy_table import THESIS_TABLE
 from backend.domain.ride import Ride, RideRows
+from backend.errors import InvalidRequest
 from backend.ingest import ImportedRide, Outcome
 from backend.services.imports.upload import Uploads
 from backend.services.rides.replay import RideReplay
 from backend.services.tuning.preview import Preview
 from backend.store import Store, open_store
-from firmware_protocol._generated import CHANNELS, InputFlags
+from firmware_protocol._generated import CHANNELS, InputFlags, LimitFlags
 
 ROWS, PERIOD_US = 1000, 10_000
 SPECS = {row.name: ChannelSpec(row.name, row.unit, float(row.scale)) for row in CHANNELS}
@@ -41,6 +44,8 @@ PUSHING = {
 }
 SPORT = {"assist_modes": None, "fuzzy_table": None}
 HELD = slice(500, 700)
+DELIVERED_BY = ("motor_torque_nm", "motor_torque_demanded_nm")
+"""Channels of a ride whose motor torque is what the motor gave."""
 
 
 def config_of(ride: Ride) -> tuple[dict[str, Any], str]:
@@ -53,7 +58,7 @@ def store(tmp_path: Path) -> Iterator[Store]:
         yield opened
 
 
-def replayed(store: Store, columns: dict[str, Values]) -> dict[str, Any]:
+def replayed(store: Store, columns: dict[str, Values], **changes: Any) -> dict[str, Any]:
     """The answer for a ride of these channels, (ROWS,) each."""
     specs = tuple(SPECS[name] for name in columns)
     counts = {spec.name: spec.to_counts(columns[spec.name]).astype(np.int16) for spec in specs}
@@ -62,7 +67,7 @@ def replayed(store: Store, columns: dict[str, Values]) -> dict[str, Any]:
     uploads = Uploads(store, reader=lambda path, name: outcome)
     (ride_id,) = uploads.receive_file("a.csv", b"as it came").ride_ids
     uploads.close()
-    return RideReplay(Preview(), config_of)(store.rides.reader(ride_id), **SPORT)
+    return RideReplay(Preview(), config_of)(store.rides.reader(ride_id), **{**SPORT, **changes})
 
 
 def pushing(**changes: Values) -> dict[str, Values]:
@@ -140,3 +145,82 @@ def test_a_channel_without_a_single_sample_is_missing(store: Store) -> None:
 
 def test_a_ride_with_every_input_lacks_none(store: Store) -> None:
     assert replayed(store, pushing())["inputs_missing"] == []
+
+
+def test_the_answer_tells_every_limit_of_the_registry(store: Store) -> None:
+    faulty = while_held(float(InputFlags.INHIBIT), 0.0)
+
+    shares = replayed(store, pushing(input_flags=faulty))["limit_shares"]
+
+    assert shares.keys() == {str(flag.name).lower() for flag in LimitFlags}
+    assert shares["fault"] == pytest.approx(0.2)  # 200 of 1000 rows
+
+
+def test_heat_is_told_as_what_held_the_motor_back(store: Store) -> None:
+    hot = replayed(store, pushing(controller_temperature_degc=np.full(ROWS, 100.0)))
+
+    assert hot["limit_shares"]["temperature"] > 0.9
+
+
+def test_a_market_is_told_as_what_held_the_motor_back(store: Store) -> None:
+    modes = AssistModes.from_parameters(law_defaults()).to_json()
+    modes["modes"][2] |= {"law": "fixed", "ratio": 3.0, "taper": "none"}
+    japan = RideReplay(Preview(), lambda ride: ({**law_defaults(), "market": "japan"}, "ride"))
+    cool = replayed(store, pushing())["ride_id"]
+    held = japan(store.rides.reader(cool), None, modes)
+
+    assert held["limit_shares"]["market"] > 0.5
+
+
+def test_the_loop_is_open_and_what_is_compared_is_work_for_a_kilometre(store: Store) -> None:
+    modes = AssistModes.from_parameters(law_defaults()).to_json()
+    modes["modes"][2]["ratio"] *= 2
+    delivered = {name: np.full(ROWS, 0.5) for name in DELIVERED_BY}
+    columns = pushing(**delivered)
+
+    answer = replayed(store, columns, assist_modes=modes)
+
+    assert answer["mode"] == "open_loop"
+    assert "speed and legs as recorded" in answer["meaning"]
+    assert answer["duration_s"] == pytest.approx(10.0)
+    assert answer["distance_km"] == pytest.approx(12.0 / 360)
+    # 0.5 Nm at 2400 r/min are 125.66 W; at 12 km/h that is 10.47 Wh for every kilometre.
+    assert answer["wh_per_km"]["recorded"] == pytest.approx(0.5 * 2400 * np.pi / 30 / 12, rel=1e-3)
+    assert answer["wh_per_km"]["replayed"] == pytest.approx(
+        answer["motor_work_wh"]["replayed"] * 360 / 12
+    )
+    assert answer["range_km"] is None
+
+
+def test_a_ride_that_went_nowhere_has_no_work_for_a_kilometre(store: Store) -> None:
+    assert replayed(store, pushing(speed_kmh=np.zeros(ROWS)))["wh_per_km"] is None
+
+
+def test_the_second_table_is_replaced_for_the_modes_that_use_it(store: Store) -> None:
+    modes = AssistModes.from_parameters(law_defaults()).to_json()
+    modes["modes"][2] |= {"law": "fuzzy", "ratio": 1.0, "table": "second"}
+    most = THESIS_TABLE.to_json() | {"rules": [["PB"] * 5] * 5, "inference": "weighted_average"}
+    least = most | {"rules": [["NB"] * 5] * 5}
+
+    strong, weak, first_only = (
+        replayed(store, pushing(), assist_modes=modes, **tables)
+        for tables in (
+            {"second_table": most},
+            {"second_table": least},
+            {"second_table": least, "fuzzy_table": most},
+        )
+    )
+
+    # Gains of 0.5 and 0.1 on a ratio of 1: 1.5 to 1.1.
+    works = [answer["motor_work_wh"]["replayed"] for answer in (strong, weak, first_only)]
+    assert works[0] / works[1] == pytest.approx(1.5 / 1.1, rel=0.01)
+    assert works[2] == works[1]
+
+
+def test_a_second_table_with_points_of_its_own_is_refused(store: Store) -> None:
+    other = THESIS_TABLE.to_json() | {"speed_points_kmh": [4.0, 10.0, 15.0, 20.0, 25.0]}
+
+    with pytest.raises(InvalidRequest) as refused:
+        replayed(store, pushing(), second_table=other)
+
+    assert [fault.field for fault in refused.value.fields] == ["second_table.speed_points_kmh"]
