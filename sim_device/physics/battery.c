@@ -43,6 +43,15 @@ double battery_resistance_ohm(const battery_config *config, double soc_pct)
            (1.0 + emptier);
 }
 
+static battery_source source_of(const battery_config *config, const battery_state *state)
+{
+    const battery_source source = {
+        .open_v = state->cut ? 0.0 : battery_open_circuit_v(state->soc_pct) - state->polarisation_v,
+        .resistance_ohm = battery_resistance_ohm(config, state->soc_pct),
+    };
+    return source;
+}
+
 void battery_reset(const battery_config *config, battery_state *state)
 {
     const battery_state rested = {
@@ -50,6 +59,7 @@ void battery_reset(const battery_config *config, battery_state *state)
         .voltage_v = battery_open_circuit_v(config->soc_pct_start),
     };
     *state = rested;
+    state->source = source_of(config, state);
 }
 
 /* The management waits a moment: a spark is no reason to leave a rider without light. */
@@ -63,25 +73,16 @@ static void watch(const battery_config *config, battery_state *state, int fault_
     }
 }
 
-battery_source battery_source_now(const battery_config *config, const battery_state *state)
+double battery_voltage_v(battery_source source, battery_load load)
 {
-    const battery_source source = {
-        .open_v = state->cut ? 0.0 : battery_open_circuit_v(state->soc_pct) - state->polarisation_v,
-        .resistance_ohm = battery_resistance_ohm(config, state->soc_pct),
-    };
-    return source;
-}
-
-double battery_voltage_v(battery_source source, double power_w)
-{
+    const double left_v = fmax(source.open_v - source.resistance_ohm * load.current_a, 0.0);
     /* U (E - U) / R = P; the larger root is the one a load settles at, and P is most at E/2. */
-    const double root =
-        source.open_v * source.open_v - 4.0 * source.resistance_ohm * fmax(power_w, 0.0);
-    return 0.5 * (source.open_v + sqrt(fmax(root, 0.0)));
+    const double root = left_v * left_v - 4.0 * source.resistance_ohm * fmax(load.power_w, 0.0);
+    return 0.5 * (left_v + sqrt(fmax(root, 0.0)));
 }
 
-void battery_step(const battery_config *config, battery_state *state, double power_w, int fault_cut,
-                  double dt_s)
+void battery_step(const battery_config *config, battery_state *state, battery_load load,
+                  int fault_cut, double dt_s)
 {
     if (state->cut) {
         state->voltage_v = 0.0;
@@ -89,12 +90,13 @@ void battery_step(const battery_config *config, battery_state *state, double pow
         state->polarisation_v -= state->polarisation_v * dt_s / config->polarisation_s;
         return;
     }
-    const battery_source source = battery_source_now(config, state);
-    state->voltage_v = battery_voltage_v(source, power_w);
+    const battery_source source = state->source;
+    state->voltage_v = battery_voltage_v(source, load);
     state->current_a = (source.open_v - state->voltage_v) / source.resistance_ohm;
     const double settled_v = state->current_a * config->polarisation_ohm;
     state->polarisation_v += (settled_v - state->polarisation_v) * dt_s / config->polarisation_s;
     const double charge_ah = state->current_a * dt_s / S_PER_H;
     state->soc_pct = fmax(state->soc_pct - 100.0 * charge_ah / config->capacity_ah, 0.0);
     watch(config, state, fault_cut, dt_s);
+    state->source = source_of(config, state);
 }

@@ -16,20 +16,21 @@ typedef struct {
     double cut_after_s;       /* when either lasts so long */
 } battery_config;
 
-typedef struct {
-    double soc_pct;
-    double voltage_v;      /* at the terminals, under load; 0 while the management has cut */
-    double current_a;      /* out of the battery, never negative: the drive cannot regenerate */
-    double polarisation_v; /* of the RC pair */
-    double over_s;         /* how long voltage or current has been out of bounds */
-    int cut;               /* 1: opened by its management, for good */
-} battery_state;
-
 /* What a load meets at the terminals: a voltage behind a resistance. */
 typedef struct {
     double open_v; /* without load; 0 once the management has cut */
     double resistance_ohm;
 } battery_source;
+
+typedef struct {
+    double soc_pct;
+    double voltage_v;      /* at the terminals, under load; 0 while the management has cut */
+    double current_a;      /* out of the battery, never negative: the drive cannot regenerate */
+    double polarisation_v; /* of the RC pair */
+    battery_source source; /* what the next load meets */
+    double over_s;         /* how long voltage or current has been out of bounds */
+    int cut;               /* 1: opened by its management, for good */
+} battery_state;
 
 void battery_reset(const battery_config *config, battery_state *state);
 
@@ -39,15 +40,19 @@ double battery_open_circuit_v(double soc_pct);
 /* Ohmic resistance now: colder and emptier is more. */
 double battery_resistance_ohm(const battery_config *config, double soc_pct);
 
-battery_source battery_source_now(const battery_config *config, const battery_state *state);
+/* What is taken at the terminals: a power, and a current at whatever voltage. */
+typedef struct {
+    double power_w;
+    double current_a;
+} battery_load;
 
-/* The terminals while `power_w` is taken: half of open_v and no less, where the cells have no more
- * to give. */
-double battery_voltage_v(battery_source source, double power_w);
+/* The terminals under `load`: half of what its current leaves and no less, where the cells have no
+ * more power to give. */
+double battery_voltage_v(battery_source source, battery_load load);
 
-/* Delivers `power_w` at the terminals for `dt_s`; what is more than the cells can give for a moment
+/* Delivers `load` at the terminals for `dt_s`; what is more than the cells can give for a moment
  * the capacitor of the inverter has. `fault_cut` makes the management open its switch. */
-void battery_step(const battery_config *config, battery_state *state, double power_w, int fault_cut,
-                  double dt_s);
+void battery_step(const battery_config *config, battery_state *state, battery_load load,
+                  int fault_cut, double dt_s);
 
 #endif

@@ -60,5 +60,7 @@ void gears_step(const gears_config *config, gears_state *state, double chainring
 
 double gears_push_share(const gears_config *config, const gears_state *state)
 {
-    return state->left_s > 0.0 ? config->shift_torque_share : 1.0;
+    if (!(state->left_s > 0.0)) return 1.0;
+    const double from_middle = fabs(2.0 * state->left_s / config->shift_s - 1.0);
+    return 1.0 - (1.0 - from_middle) * (1.0 - config->shift_torque_share);
 }

@@ -13,7 +13,7 @@ typedef struct {
     double cadence_rpm;               /* as the rider likes it */
     double hysteresis_rpm;
     double shift_s;
-    double shift_torque_share; /* of his push meanwhile */
+    double shift_torque_share; /* of his push in the middle of it */
 } gears_config;
 
 typedef struct {
@@ -32,7 +32,7 @@ void gears_reset(const gears_config *config, gears_state *state, double rpm, dou
 /* The rider at the lever for `dt_s`, the chainring turning at `chainring_rpm`. */
 void gears_step(const gears_config *config, gears_state *state, double chainring_rpm, double dt_s);
 
-/* Share of his push that is left: less while he shifts. */
+/* Share of his push that is left: straight down to the middle of a shift and up again. */
 double gears_push_share(const gears_config *config, const gears_state *state);
 
 #endif

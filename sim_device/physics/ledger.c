@@ -4,9 +4,9 @@
 
 double ledger_losses_j(const physics_ledger *ledger)
 {
-    return ledger->copper_j + ledger->motor_friction_j + ledger->gear_j + ledger->chain_j +
-           ledger->clutch_j + ledger->legs_j + ledger->rolling_j + ledger->air_j + ledger->brake_j +
-           ledger->dyno_j + ledger->slip_j;
+    return ledger->copper_j + ledger->switching_j + ledger->standby_j + ledger->motor_friction_j +
+           ledger->gear_j + ledger->chain_j + ledger->clutch_j + ledger->legs_j +
+           ledger->rolling_j + ledger->air_j + ledger->brake_j + ledger->dyno_j + ledger->slip_j;
 }
 
 double ledger_balance_error_pct(const physics_ledger *ledger, double stored_j)

@@ -9,6 +9,8 @@ typedef struct {
     double stored_start_j;   /* kinetic energy and field, then */
     double potential_j;
     double copper_j; /* winding and bridge */
+    double switching_j;
+    double standby_j;
     double motor_friction_j;
     double gear_j;
     double chain_j;

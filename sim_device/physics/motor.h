@@ -6,8 +6,9 @@
  *
  * Motor and battery are solved together. The inverter takes at the terminals what the winding gets,
  * U i = V I with V = K w + R I, and V is at most U = E - R_b i. At full duty V is U and i is I:
- * I = (E - K w) / (R + R_b). A free rotor's w is that of the step's end, which the torque makes. So
- * no value of an earlier step bounds this one, and nothing can swing from step to step. */
+ * I = (E - K w) / (R + R_b), and less with what the electronics take beside it. A free rotor's w is
+ * that of the step's end, which the torque makes. So no value of an earlier step bounds this one,
+ * and nothing can swing from step to step. */
 #ifndef SPINDLE_MOTOR_H
 #define SPINDLE_MOTOR_H
 
@@ -35,6 +36,9 @@ typedef struct {
     double housing_k_per_w; /* housing to air */
     double bridge_heat_j_per_k;
     double bridge_k_per_w;
+    double switching_share;   /* of the phase current more from the battery: what the bridge's
+                                 switching takes is proportional to voltage and current */
+    double standby_current_a; /* of the unit's own electronics, while there is voltage */
     double ambient_degc;
 } motor_config;
 
@@ -45,6 +49,7 @@ typedef struct {
     double current_a;
     double copper_loss_w; /* winding and bridge */
     double magnetic_w;    /* into the field of the windings; 0 on average */
+    double beside_a;      /* from the battery beside the winding's power: switching, standby */
 } motor_drive;
 
 /* The rotor when a step begins. */
@@ -75,9 +80,10 @@ motor_drive motor_drive_at(const motor_config *config, double demand_nm, motor_r
 
 void motor_heat_reset(const motor_config *config, motor_heat *heat);
 
-/* Temperatures after `dt_s`: copper warms the winding, friction and iron the housing, the bridge
- * its share of the resistance (two nodes of thesis_checks 6, and one for the controller). */
+/* Temperatures after `dt_s`: copper warms the winding, friction and iron the housing; its share of
+ * the resistance and `switching_w` the bridge (two nodes of thesis_checks 6, and one for the
+ * controller). */
 void motor_heat_step(const motor_config *config, motor_heat *heat, double copper_w,
-                     double friction_w, double dt_s);
+                     double friction_w, double switching_w, double dt_s);
 
 #endif

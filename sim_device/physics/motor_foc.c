@@ -132,7 +132,8 @@ motor_drive motor_foc_drive(const motor_config *config, motor_foc_state *state, 
     const motor_drive average = motor_drive_at(config, demand_nm, rotor, source, winding_degc);
     const double speed_rad_s = rotor.speed_rad_s;
     const double taken_w = average.electromagnetic_torque_nm * speed_rad_s + average.copper_loss_w;
-    const double voltage_v = battery_voltage_v(source, taken_w);
+    const battery_load load = {taken_w, average.beside_a};
+    const double voltage_v = battery_voltage_v(source, load);
     const machine seen = machine_of(config, speed_rad_s, voltage_v, winding_degc);
     const double wanted_q_a = average.electromagnetic_torque_nm / seen.torque_nm_per_a;
     const int open = wanted_q_a <= 0.0;
@@ -162,6 +163,7 @@ motor_drive motor_foc_drive(const motor_config *config, motor_foc_state *state, 
     drive.shaft_torque_nm = drive.electromagnetic_torque_nm - drive.friction_torque_nm;
     drive.current_a = drive.electromagnetic_torque_nm / config->torque_constant_nm_per_a;
     drive.copper_loss_w = copper_w / periods;
+    drive.beside_a += config->switching_share * (drive.current_a - average.current_a);
     drive.magnetic_w = (field_j(&seen, state->current_a) - field_before_j) / dt_s;
     return drive;
 }

@@ -55,6 +55,9 @@ static motion advance(double speed, double acceleration, double dt_s, int fricti
 typedef struct {
     road_forces road;
     motor_drive motor;
+    double electric_w; /* of winding and shaft */
+    double switching_w;
+    double standby_w;
     double gear_drag_nm;
     double rider_nm;
     double leg_drag_nm;
@@ -70,7 +73,7 @@ typedef struct {
 static motor_drive motor_pull(const physics_config *config, physics_state *state,
                               const physics_command *command, int engaged, double dt_s)
 {
-    const battery_source source = battery_source_now(&config->battery, &state->battery);
+    const battery_source source = state->battery.source;
     const double winding_degc = state->heat.winding_degc;
     const double demand_nm = command->faults.motor_hall ? 0.0 : command->motor_torque_nm;
     const motor_rotor rotor = {
@@ -274,8 +277,9 @@ static void book(const physics_config *config, physics_state *state, const insta
     const int driven = now->flow.crank_engaged || now->flow.motor_engaged;
     ledger->rider_work_j += now->rider_nm * now->crank.travel;
     ledger->legs_j += now->leg_drag_nm * now->crank.travel;
-    ledger->motor_electric_j += now->motor.electromagnetic_torque_nm * now->motor_shaft.travel +
-                                (now->motor.copper_loss_w + now->motor.magnetic_w) * dt_s;
+    ledger->motor_electric_j += (now->electric_w + now->switching_w + now->standby_w) * dt_s;
+    ledger->switching_j += now->switching_w * dt_s;
+    ledger->standby_j += now->standby_w * dt_s;
     ledger->copper_j += now->motor.copper_loss_w * dt_s;
     ledger->motor_friction_j += now->motor.friction_torque_nm * now->motor_shaft.travel;
     ledger->gear_j += (now->flow.motor_nm - gear_out_nm) * chainring_rad +
@@ -294,15 +298,26 @@ static void book(const physics_config *config, physics_state *state, const insta
     }
 }
 
+/* What the drive has taken in this step, out of the battery. */
+static void supply(const physics_config *config, physics_state *state,
+                   const physics_command *command, double dt_s, instant *now)
+{
+    const double beside_a = now->motor.beside_a;
+    now->electric_w = now->motor.electromagnetic_torque_nm * now->motor_shaft.travel / dt_s +
+                      now->motor.copper_loss_w + now->motor.magnetic_w;
+    const battery_load load = {now->electric_w, beside_a};
+    battery_step(&config->battery, &state->battery, load, command->faults.battery_cut, dt_s);
+    now->standby_w = state->battery.voltage_v * config->motor.standby_current_a;
+    now->switching_w = state->battery.voltage_v * (beside_a - config->motor.standby_current_a);
+}
+
 static void warm(const physics_config *config, physics_state *state, const instant *now,
-                 const physics_command *command, double dt_s)
+                 double dt_s)
 {
     const double motor_rad_s = now->motor_shaft.travel / dt_s;
     const double friction_w = now->motor.friction_torque_nm * motor_rad_s;
-    const double electric_w = now->motor.electromagnetic_torque_nm * motor_rad_s +
-                              now->motor.copper_loss_w + now->motor.magnetic_w;
-    motor_heat_step(&config->motor, &state->heat, now->motor.copper_loss_w, friction_w, dt_s);
-    battery_step(&config->battery, &state->battery, electric_w, command->faults.battery_cut, dt_s);
+    motor_heat_step(&config->motor, &state->heat, now->motor.copper_loss_w, friction_w,
+                    now->switching_w, dt_s);
     rider_tire(&config->rider, &state->rider, now->rider_nm * now->crank.travel / dt_s, dt_s);
 }
 
@@ -345,6 +360,7 @@ void physics_step(const physics_config *config, physics_state *state,
     gather(config, state, command, dt_s, &now);
     move(config, state, dt_s, &now);
     close_clutches(config, state, &now);
+    supply(config, state, command, dt_s, &now);
     book(config, state, &now, dt_s);
 
     const double travel_m = now.bike.travel;
@@ -356,7 +372,7 @@ void physics_step(const physics_config *config, physics_state *state,
     state->spindle_torque_nm = now.flow.crank_nm;
     state->motor_shaft_nm = fmax(now.motor.shaft_torque_nm, 0.0);
     state->motor_current_a = now.motor.current_a;
-    warm(config, state, &now, command, dt_s);
+    warm(config, state, &now, dt_s);
     sense(config, state, command, dt_s);
 }
 

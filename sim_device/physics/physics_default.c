@@ -75,6 +75,7 @@ static const rider_config RIDER = {
     .still_leg_drag_nm = 3.0,
     .cadence_rpm_empty = 200.0,
     .reserve_j = 15000.0,
+    .peak_power_w = 900.0,
 };
 
 static const torque_sensor_config SENSOR = {

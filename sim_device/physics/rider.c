@@ -27,7 +27,7 @@ static double stroke_share(const rider_config *config, rider_state *state, doubl
     return config->stroke_noise > 0.0 ? state->stroke_share : 1.0;
 }
 
-/* Legs give less the faster they turn, and an exhausted rider only what he can give for ever. */
+/* Legs give less the faster they turn and the less of the reserve is left. */
 static double able_nm(const rider_config *config, const rider_state *state, double torque_nm,
                       double cadence_rpm)
 {
@@ -36,8 +36,11 @@ static double able_nm(const rider_config *config, const rider_state *state, doub
         const double left = 1.0 - cadence_rpm / config->cadence_rpm_empty;
         most_nm = fmin(most_nm, config->torque_nm_max * fmax(left, 0.0));
     }
-    if (config->critical_power_w > 0.0 && state->reserve_j <= 0.0 && cadence_rpm > 0.0) {
-        most_nm = fmin(most_nm, config->critical_power_w * RPM_PER_RAD_S / cadence_rpm);
+    if (config->critical_power_w > 0.0 && cadence_rpm > 0.0) {
+        const double above_w = fmax(config->peak_power_w - config->critical_power_w, 0.0);
+        const double most_w =
+            config->critical_power_w + above_w * state->reserve_j / config->reserve_j;
+        most_nm = fmin(most_nm, most_w * RPM_PER_RAD_S / cadence_rpm);
     }
     return most_nm;
 }

@@ -27,6 +27,7 @@ typedef struct {
     double cadence_rpm_empty; /* at which no torque is left, straight between */
     double critical_power_w;  /* for ever; 0: never tires */
     double reserve_j;         /* W', above it */
+    double peak_power_w;      /* with the whole reserve; straight down to the critical power */
 } rider_config;
 
 typedef struct {
@@ -41,7 +42,8 @@ void rider_reset(const rider_config *config, rider_state *state);
 
 /* Driving torque at the cranks. Legs: T(1 - k cos 2 angle + a sin angle), angle 0 with the left
  * crank up (thesis_checks 4.1 and 6). Fades to nothing over the last revolutions before
- * cadence_rpm_max; never above T_max(1 - w/w0), nor above the critical power without reserve. */
+ * cadence_rpm_max; never above T_max(1 - w/w0), nor above P = CP + (P_peak - CP) W/W', Morton's
+ * model of three parameters (Ergonomics 39 (1996) 611). */
 double rider_torque_nm(const rider_config *config, rider_state *state, const rider_command *command,
                        double crank_angle_rad, double crank_speed_rad_s);
 

@@ -4,6 +4,17 @@
 
 #define RAD_PER_DEG (3.14159265358979323846 / 180.0)
 
+/* Most that tyres under this share of the weight push or hold with; infinite where none slips. */
+static double tyres_n(const road_config *config, const road_command *command, double share)
+{
+    if (config->source == LOAD_DYNO || !(config->grip > 0.0)) {
+        return HUGE_VAL;
+    }
+    const double pressed_n =
+        share * config->mass_kg * config->gravity_m_s2 * cos(command->grade_deg * RAD_PER_DEG);
+    return config->grip * pressed_n;
+}
+
 /* The dynamometer only brakes: a slope downwards is no load (thesis_checks 4.6). */
 static double dyno_force_n(const road_config *config, const road_command *command,
                            double chain_ratio, double chain_efficiency)
@@ -24,7 +35,9 @@ road_forces road_forces_at(const road_config *config, const road_command *comman
 {
     road_forces forces = {0};
     const double weight_n = config->mass_kg * config->gravity_m_s2;
-    forces.brake_n = command->brake ? config->brake_force_n : 0.0;
+    if (command->brake) {
+        forces.brake_n = fmin(config->brake_force_n, tyres_n(config, command, 1.0));
+    }
     if (config->source == LOAD_DYNO) {
         forces.dyno_n = dyno_force_n(config, command, chain_ratio, chain_efficiency);
         forces.rolling_n = config->roller_coefficient * weight_n;
@@ -64,10 +77,5 @@ double road_rear_wheel_mass_kg(const road_config *config)
 
 double road_grip_n(const road_config *config, const road_command *command)
 {
-    if (config->source == LOAD_DYNO || !(config->grip > 0.0)) {
-        return HUGE_VAL;
-    }
-    const double pressed_n = config->rear_wheel_share * config->mass_kg * config->gravity_m_s2 *
-                             cos(command->grade_deg * RAD_PER_DEG);
-    return config->grip * pressed_n;
+    return tyres_n(config, command, config->rear_wheel_share);
 }

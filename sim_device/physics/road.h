@@ -19,7 +19,7 @@ typedef struct {
     double drag_area_m2; /* C_w S */
     double air_density_kg_m3;
     double gravity_m_s2;
-    double brake_force_n; /* of a pulled lever */
+    double brake_force_n; /* of a pulled lever; both wheels, and no more than their tyres hold */
     int dyno_convention;  /* dyno_convention */
     double dyno_roller_radius_m;
     double flywheel_kg_m2; /* the bench's, on the roller's shaft */

@@ -18,7 +18,7 @@ class Battery:
 
     def draw(self, power_w: float, seconds: float, fault_cut: int = 0) -> None:
         for _ in range(round(seconds / 0.01)):
-            lib.battery_step(self.config, self.state, power_w, fault_cut, 0.01)
+            lib.battery_step(self.config, self.state, {"power_w": power_w}, fault_cut, 0.01)
 
 
 def test_a_full_pack_has_42_v_and_an_empty_one_30() -> None:
@@ -53,7 +53,7 @@ def test_an_hour_at_one_ampere_takes_one_ampere_hour() -> None:
 
     for _ in range(3600):
         battery.draw(36.0, 0.01)
-        lib.battery_step(battery.config, battery.state, 36.0, 0, 0.99)
+        lib.battery_step(battery.config, battery.state, {"power_w": 36.0}, 0, 0.99)
         drawn_ah += battery.state.current_a / 3600
 
     assert before_pct - battery.state.soc_pct == pytest.approx(10.0 * drawn_ah, rel=0.01)

@@ -113,3 +113,52 @@ def test_the_worn_battery_s_ride_has_no_limit_cycle() -> None:
 
     # The law sets a new torque every ten milliseconds: what it takes away at once is no swing.
     assert swings <= 5
+
+
+@pytest.mark.parametrize("model", [0, MOTOR_FOC], ids=["average", "foc"])
+def test_standby_and_switching_are_taken_at_the_terminals_and_booked(model: int) -> None:
+    rpm, standby_a, share = 1800.0, 0.1, 0.01
+    bike = worn(rpm, model=model, switching_share=share, standby_current_a=standby_a)
+    idle_v, idle_a = steady(bike, 0.0, 40)[-1]
+    before = {name: getattr(bike.state.ledger, name) for name in ("switching_j", "standby_j")}
+    volts, amperes = steady(bike, 0.8, 1020)[-1]
+    booked = bike.state.ledger
+
+    # Electronics alone draw what they draw; 1.02 s under load are booked with both.
+    assert idle_a == pytest.approx(standby_a)
+    assert idle_v > volts
+    phase_a = bike.state.motor_current_a
+    assert booked.standby_j - before["standby_j"] == pytest.approx(
+        volts * standby_a * 1.02, rel=0.01
+    )
+    switched_j = booked.switching_j - before["switching_j"]
+    assert switched_j == pytest.approx(share * volts * phase_a * 1.02, rel=0.01)
+    rad_s = rpm * RAD_S_PER_RPM
+    winding_w = (K * rad_s + R * phase_a) * phase_a
+    beside_w = volts * (standby_a + share * phase_a)
+    assert volts * amperes == pytest.approx(winding_w + beside_w, rel=2e-3)
+
+
+def test_at_full_duty_what_is_taken_beside_the_winding_sags_the_pack_as_well() -> None:
+    rpm, standby_a, share = 2300.0, 0.5, 0.02
+    bike = worn(rpm, switching_share=share, standby_current_a=standby_a)
+    volts, amperes = steady(bike, 2.0)[0]
+
+    # U = E - R_b (i_0 + (1 + s) I) and U = K w + R I.
+    open_v, pack_ohm = 10 * (3.30 + 4 / 5 * 0.15), 0.38 * (1 + 6 / 15)
+    back_emf_v = K * rpm * RAD_S_PER_RPM
+    phase_a = (open_v - pack_ohm * standby_a - back_emf_v) / (R + (1 + share) * pack_ohm)
+    assert bike.state.motor_current_a == pytest.approx(phase_a, rel=0.005)
+    assert volts == pytest.approx(back_emf_v + R * phase_a, rel=0.002)
+    assert amperes == pytest.approx(standby_a + (1 + share) * phase_a, rel=0.005)
+
+
+def test_switching_warms_the_bridge() -> None:
+    bikes = [worn(1800.0), worn(1800.0, switching_share=0.02)]
+    for bike in bikes:
+        bike.advance(20.0, 0.8)
+
+    # 2 % of 33 V times some 7 A into 40 J/K for 20 s, little of which has left.
+    cooler, warmer = (bike.state.heat.bridge_degc for bike in bikes)
+    expected_k = 0.02 * 33.0 * bikes[1].state.motor_current_a * 20 / 40
+    assert warmer - cooler == pytest.approx(expected_k, rel=0.15)

@@ -183,14 +183,14 @@ def test_two_newton_metres_held_warm_the_winding_as_two_nodes_do() -> None:
     lib.motor_heat_reset(config, heat)
 
     for _ in range(95):
-        lib.motor_heat_step(config, heat, 81.0 / 0.8, 0.0, 1.0)
+        lib.motor_heat_step(config, heat, 81.0 / 0.8, 0.0, 0.0, 1.0)
 
     # 80 J/K on 1.2 K/W and 700 J/K: the difference settles with 1.2 * 80 * 700 / 780 = 86 s.
     over_housing_k = heat.winding_degc - heat.housing_degc
     settled_k = 81.0 * 1.2 * 700 / 780
     assert over_housing_k == pytest.approx(settled_k * -math.expm1(-95 / 86), rel=0.03)
     for _ in range(20_000):
-        lib.motor_heat_step(config, heat, 81.0 / 0.8, 0.0, 1.0)
+        lib.motor_heat_step(config, heat, 81.0 / 0.8, 0.0, 0.0, 1.0)
     assert heat.winding_degc == pytest.approx(20.0 + 81.0 * (1.2 + 1.8), rel=0.01)
 
 

@@ -1,5 +1,5 @@
-"""Goal: A12 holds on rides nobody thought of: hills, ice, wind, bench, brakes, tired legs, both
-motors. Energy is neither made nor lost, and no bike is pulled backwards.
+"""Goal: A12 holds on rides nobody thought of: hills, ice, wind, bench, brakes, tired legs, gears,
+both motors. Energy is neither made nor lost, and no bike is pulled backwards.
 
 Method: each seed is another bike with another rider who changes his mind; the books are looked at
 after every change. What is allowed comes from thesis_checks 5, the rest is mechanics.
@@ -26,6 +26,11 @@ def bike_of(wishes: random.Random) -> dict[str, float]:
         "rider.asymmetry": 0.1,
         "rider.stroke_noise": 0.05,
         "battery.capacity_ah": wishes.choice([0.3, 10.0]),
+        "motor.switching_share": wishes.choice([0.0, 0.01]),
+        "motor.standby_current_a": wishes.choice([0.0, 0.1]),
+        "gears.cog_teeth_1": wishes.choice([0.0, 13.0]),
+        "gears.cog_teeth_2": 21.0,
+        "gears.cog_teeth_3": 34.0,
     }
 
 
