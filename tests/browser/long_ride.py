@@ -24,11 +24,12 @@ CHANNELS = (
     ChannelSpec("motor_torque_nm", "Nm", 0.0001),
     ChannelSpec("motor_speed_rpm", "rpm", 0.1),
     ChannelSpec("fuzzy_gain", "", 0.00005),
+    ChannelSpec("motor_torque_demanded_nm", "Nm", 0.0001),
 )
 
 
 def rows() -> npt.NDArray[np.int16]:
-    """Counts (ROWS, 6): legs on rolling ground, at most 60 Nm but for the spike."""
+    """Counts (ROWS, 7): legs on rolling ground, at most 60 Nm but for the spike."""
     t_s = np.arange(ROWS) / 100.0
     hills = np.sin(2 * np.pi * t_s / 900.0)
     cadence = 70.0 + 8.0 * np.sin(2 * np.pi * t_s / 240.0)
@@ -41,6 +42,7 @@ def rows() -> npt.NDArray[np.int16]:
         "motor_torque_nm": 0.03 * mean_nm,
         "motor_speed_rpm": cadence * 40.34,
         "fuzzy_gain": 0.3 + 0.1 * hills,
+        "motor_torque_demanded_nm": 0.033 * mean_nm,
     }
     counts = np.stack([np.rint(values[c.name] / c.scale) for c in CHANNELS], axis=1)
     counts = counts.astype(np.int16)

@@ -20,9 +20,18 @@ export const tiles: TileSpec[] = [
   { channel: 'battery_soc_pct', unit: '%', token: 'battery', digits: 0 },
 ]
 
+const ASKED = 'motor_torque_demanded_nm'
+
+/** Whether the unit tells what its motor gives, by its current: one of earlier firmware sends as
+    `motor_torque_nm` what it asks, and nothing beside it. */
+export function tellsWhatIsGiven(channels: readonly { name: string }[] | undefined): boolean {
+  return channels?.some((channel) => channel.name === ASKED) ?? true
+}
+
 export const CHANNELS = [
   'rider_torque_nm',
   ...tiles.map((tile) => tile.channel),
+  ASKED,
   'battery_current_a',
   'torque_rate',
   'limit_flags',

@@ -151,9 +151,10 @@ function title(text: string, y: number): object {
 
 function rowTitle(row: TraceRow, units: Units, words: FigureWords, theme: Theme): string {
   const unit = row.unit ? ` ${units.label(row.unit)}` : ''
-  const keys = row.lines.map(
-    (l) => `<span style="color:${theme.colour(l.token)}">${words.channel(l.channel)}</span>`,
-  )
+  const keys = row.lines.map((line) => {
+    const swatch = `<span style="color:${theme.colour(line.token)}">▬</span>`
+    return `${swatch} ${words.channel(line.name ?? line.channel)}`
+  })
   return row.lines.length > 1
     ? `<b>${words.row(row.key)}</b>${unit}  ${keys.join('  ')}`
     : `<b>${words.row(row.key)}</b>${unit}`

@@ -44,6 +44,22 @@ it('shows tenths only where whole seconds would repeat', () => {
   expect(moment(3661.2, 0.1)).toBe('1:01:01.2')
 })
 
+it('draws what was asked of the motor behind what it gave', () => {
+  const { shown } = rowsFor(
+    ['motor_torque_crank_nm', 'motor_torque_demanded_crank_nm'],
+    'delivered',
+  )
+
+  expect(shown.map((row) => row.key)).toEqual(['motor_torque_crank'])
+  expect(shown[0]?.lines.map((line) => line.name)).toEqual(['motor_asked', 'motor_given'])
+})
+
+it('calls a motor torque asked where nobody measured it', () => {
+  const { shown } = rowsFor(['motor_torque_crank_nm'], 'demanded')
+
+  expect(shown.map((row) => row.key)).toEqual(['motor_torque_crank_asked'])
+})
+
 it('names what a head unit did not record', () => {
   const { shown, missing } = rowsFor(['speed_kmh', 'rider_power_w', 'heart_rate_bpm'])
 

@@ -1,10 +1,13 @@
 // What the ride page draws: rows of channels, time marks, and bins as points of a line.
 import { niceStep } from '$shared/charts/strip_chart'
+import type { Ride } from '$shared/api/types'
 import { clock } from '$shared/i18n/locale.svelte'
 
 export interface TraceLine {
   channel: string
   token: string
+  /** Its name beside the others of its row, where it is not the channel's. */
+  name?: string
 }
 
 export interface TraceRow {
@@ -13,18 +16,25 @@ export interface TraceRow {
   lines: TraceLine[]
 }
 
-// Each row shows the first of its alternatives that the ride has.
+// Each row shows the first of its alternatives that the ride has. What a unit asked of its motor is
+// drawn behind what the motor gave.
 const rows: (TraceRow & { instead?: TraceRow })[] = [
   { key: 'speed', unit: 'km/h', lines: [{ channel: 'speed_kmh', token: 'speed' }] },
   { key: 'rider_torque', unit: 'Nm', lines: [{ channel: 'rider_torque_nm', token: 'rider' }] },
   {
     key: 'motor_torque_crank',
     unit: 'Nm',
-    lines: [{ channel: 'motor_torque_crank_nm', token: 'motor' }],
+    lines: [
+      { channel: 'motor_torque_demanded_crank_nm', token: 'motor-faint', name: 'motor_asked' },
+      { channel: 'motor_torque_crank_nm', token: 'motor', name: 'motor_given' },
+    ],
     instead: {
       key: 'motor_torque',
       unit: 'Nm',
-      lines: [{ channel: 'motor_torque_nm', token: 'motor' }],
+      lines: [
+        { channel: 'motor_torque_demanded_nm', token: 'motor-faint', name: 'motor_asked' },
+        { channel: 'motor_torque_nm', token: 'motor', name: 'motor_given' },
+      ],
     },
   },
   {
@@ -42,10 +52,15 @@ const rows: (TraceRow & { instead?: TraceRow })[] = [
 ]
 const expected = ['speed', 'rider_torque', 'motor_torque_crank', 'power', 'gain']
 
-/** The rows a ride with these channels can show, and the expected ones it cannot. */
-export function rowsFor(channels: string[]): { shown: TraceRow[]; missing: string[] } {
+/** The rows a ride with these channels can show, and the expected ones it cannot. A motor torque
+    that was only asked for has a row that says so. */
+export function rowsFor(
+  channels: string[],
+  meaning: Ride['motor_torque_meaning'] = null,
+): { shown: TraceRow[]; missing: string[] } {
   const has = (row: TraceRow): TraceRow => ({
     ...row,
+    key: row.key.startsWith('motor') && meaning === 'demanded' ? `${row.key}_asked` : row.key,
     lines: row.lines.filter((line) => channels.includes(line.channel)),
   })
   const shown: TraceRow[] = []

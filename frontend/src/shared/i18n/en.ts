@@ -139,7 +139,9 @@ export const en = {
   'live.now': 'now',
   'live.over_stroke': 'over the stroke',
   'live.motor_torque_crank': 'Motor torque at the crank',
+  'live.motor_torque_crank_asked': 'Motor torque asked, at the crank',
   'live.motor_at_crank': 'Motor torque at the crank (motor × {ratio})',
+  'live.motor_at_crank_asked': 'Motor torque asked, at the crank (motor × {ratio})',
 
   'rider_row.title': "The rider's display",
   'rider_row.speed_kmh': 'Speed',
@@ -385,6 +387,9 @@ export const en = {
   'ride.battery_energy': 'Battery energy',
   'ride.rider_power': 'Mean rider power',
   'ride.motor_power': 'Mean motor power',
+  'ride.only_asked':
+    'What the motor gave was not measured on this ride: its torque is what was asked of it, ' +
+    'and no energy is made of that.',
   'ride.max_power': 'Top rider power',
   'ride.mean_torque': 'Mean rider torque',
   'ride.max_torque': 'Top rider torque',
@@ -437,7 +442,9 @@ export const en = {
   'trace.speed': 'Speed',
   'trace.rider_torque': 'Rider torque',
   'trace.motor_torque_crank': 'Motor torque at the crank',
+  'trace.motor_torque_crank_asked': 'Motor torque asked, at the crank',
   'trace.motor_torque': "Motor torque at the motor's shaft",
+  'trace.motor_torque_asked': "Motor torque asked, at the motor's shaft",
   'trace.power': 'Power',
   'trace.gain': 'Gain',
   'trace.cadence': 'Cadence',
