@@ -26,3 +26,12 @@ def test_the_page_is_what_make_reproduction_writes_now(
     drawn = sorted((tmp_path / "pictures").iterdir())
     assert drawn
     assert all((pictures / picture.name).is_file() for picture in drawn)
+
+
+def test_the_page_tells_what_is_fitted_and_what_counts_as_arrived() -> None:
+    """thesis_checks 3 and 4.1: scatter of the rig, weight of its pan, first crossing of 24.95."""
+    page = (reproduction.DOCS / "thesis-reproduction.md").read_text(encoding="utf-8")
+
+    assert '"Time to 25 km/h" is when 24.95 km/h are first passed' in page
+    for fitted in ("0.223 Nm of scatter of the rig", "0.0796 Nm of pan and hook"):
+        assert fitted in page
