@@ -4,8 +4,8 @@
  * carry their unit in the name. What a board cannot measure it reports as NaN, never as zero.
  * Voltage and currents are means over the control period: a sample at an instant misses what comes
  * and goes within it, and its sum is not the charge. The inputs come prepared to inputs_read:
- * temperatures and the battery's current NaN, ages and buttons 0, no mode selected; a board writes
- * what it has and leaves the rest.
+ * temperatures and currents NaN, ages and buttons 0, no mode selected; a board writes what it has
+ * and leaves the rest.
  *
  * Speed is not among them: the unit makes it itself, from the wheel's pulses and its own
  * circumference and pulses a turn (control/wheel_speed.h). A board counts the pulses and takes the

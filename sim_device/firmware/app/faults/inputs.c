@@ -14,6 +14,7 @@ void inputs_prepare(hal_inputs *inputs)
     inputs->motor_temperature_degc = float32_missing();
     inputs->controller_temperature_degc = float32_missing();
     inputs->battery_current_a = float32_missing();
+    inputs->motor_current_a = float32_missing();
     inputs->mode_selected = HAL_MODE_NOT_SELECTED;
 }
 
