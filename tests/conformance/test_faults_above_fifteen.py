@@ -79,6 +79,7 @@ def block_of(payload: bytes) -> Block:
 
 @pytest.mark.slow
 @pytest.mark.host_build("compiles for the host")
+@pytest.mark.slow
 def test_the_unit_treats_it_like_any_other(made: Registry, tmp_path: Path) -> None:
     program = built(made, tmp_path)
 

@@ -109,6 +109,7 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.parametrize("inference", ["mamdani_centroid", "weighted_average"])
 @pytest.mark.parametrize("falling", ["hold_zero_rate", "no_gain"])
+@pytest.mark.slow
 def test_batch_steps_and_program_agree_to_the_bit(
     program: Path, inference: str, falling: str
 ) -> None:

@@ -33,6 +33,7 @@ def choices(node: Any) -> Iterator[str]:
             yield from choices(child)
 
 
+@pytest.mark.slow
 def test_every_enumeration_of_the_description_is_in_lower_case() -> None:
     found = set(choices(create_app(ApiSettings(version="0")).openapi()))
 

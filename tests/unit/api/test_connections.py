@@ -73,6 +73,7 @@ def ends(talker: socket.socket) -> bytes:
     "beginning",
     [b"", b"G", b"GET /value HTTP/1.1\r\nHost: x\r\nX-Slow: ", b"GET /value HTTP/1.1\r\n"],
 )
+@pytest.mark.slow
 def test_a_head_that_never_comes_ends_the_connection(
     address: tuple[str, int], beginning: bytes
 ) -> None:

@@ -155,6 +155,7 @@ def test_a_vanished_port_is_opened_again_when_it_returns(
     assert driver.status().statistics.connections == 2
 
 
+@pytest.mark.slow
 def test_a_port_that_is_open_and_silent_is_opened_anew(
     opener: UnitOpener, driver: Driver, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -24,6 +24,7 @@ TELLING_S = 3.0
 
 @pytest.mark.parametrize("loss", [0.0, 0.1, 0.4])
 @pytest.mark.parametrize("seed", range(3))
+@pytest.mark.slow
 def test_every_fault_is_told_exactly_once(loss: float, seed: int) -> None:
     unit = BenchUnit()
     wire = SerialWire(unit, loss=loss, seed=seed).connect()

@@ -136,6 +136,7 @@ def test_the_lease_is_renewed_every_two_seconds_and_the_stream_never_ends() -> N
     assert unit.executed.count(MessageId.STR_SUBSCRIBE) == 1
 
 
+@pytest.mark.slow
 def test_the_lease_of_a_simulated_unit_that_runs_two_hundred_times_faster_holds() -> None:
     class Hurried(FakeUnit):
         def advance(self, seconds: float) -> None:

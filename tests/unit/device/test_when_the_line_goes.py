@@ -159,6 +159,7 @@ def far_unit() -> Iterator[TcpUnit]:
     unit.close()
 
 
+@pytest.mark.slow
 def test_a_half_open_connection_is_noticed_and_made_anew(far_unit: TcpUnit) -> None:
     heard = Heard()
     driver = ebl_driver(Opener(f"socket://127.0.0.1:{far_unit.port}"), heard, StreamPlan(batch=5))

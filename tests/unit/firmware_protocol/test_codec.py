@@ -117,6 +117,7 @@ def test_no_bytes_at_all_make_the_decoder_raise(frame: bytes) -> None:
 
 
 @given(st.binary(min_size=8, max_size=8), st.integers(1, 255), st.integers(0, 0xFFFF))
+@pytest.mark.slow
 def test_what_is_encoded_is_what_is_decoded(nonce: bytes, tid: int, mtu: int) -> None:
     request = codec.Request(tid, HelloRequest(1, 1, 0, mtu, nonce))
 

@@ -53,6 +53,7 @@ def test_every_generated_file_is_what_the_registry_says() -> None:
         ('becomes = "wheel_circumference_m"', 'becomes = "wheel"', "is no parameter"),
     ],
 )
+@pytest.mark.slow
 def test_a_registry_that_breaks_its_own_rules_is_refused(
     tmp_path: Path, old: str, new: str, words: str
 ) -> None:

@@ -356,6 +356,7 @@ def test_no_bytes_make_it_fail(noise: bytes) -> None:
 
 @given(st.integers(0, 12), st.integers(0, 511), st.integers(0, 7))
 @settings(max_examples=200, deadline=None)
+@pytest.mark.slow
 def test_no_flipped_bit_makes_a_wrong_row(page: int, at: int, bit: int) -> None:
     data = bytearray(b"".join([*whole_log(), b"\xff" * 1024]))
     data[page * 512 + at] ^= 1 << bit

@@ -91,6 +91,7 @@ def test_a17_without_bit_errors_no_word_of_two_hours_is_lost() -> None:
     assert link.receiver.words_good == 360_000
 
 
+@pytest.mark.slow
 def test_a17_one_bit_in_a_hundred_thousand_spoils_sixteen_words_in_a_hundred_seconds() -> None:
     # p = 1 - (1 - 1e-5)^32 of 500 words: 0.16 a second, +- 20 % over 1,200 s.
     link = Link(bit_error_rate=1e-5)

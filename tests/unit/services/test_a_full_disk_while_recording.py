@@ -123,6 +123,7 @@ def test_a_full_disk_that_is_freed_in_time_costs_no_row(
     assert told(recorder, store) == (len(rows), 0, 0)
 
 
+@pytest.mark.slow
 def test_a_ride_that_ends_on_a_full_disk_is_saved_when_there_is_room(
     store: Store, recorder: Recorder, disk: FullDisk
 ) -> None:
@@ -162,6 +163,7 @@ def test_a_ride_that_could_not_be_finished_is_finished_without_a_restart(
     assert [ride.state for ride in store.rides.list().items] == ["done"]
 
 
+@pytest.mark.slow
 def test_a_ride_that_a_start_could_not_finish_is_finished_without_another_start(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -143,6 +143,7 @@ def test_a_file_that_takes_too_long_in_the_slow_lane_too_is_refused(store: Store
     assert (refused.state, refused.code) == ("rejected", "too_slow")
 
 
+@pytest.mark.slow
 def test_three_files_are_read_at_once_and_no_more(store: Store) -> None:
     at_once = Counter()
     held, patient = HeldReader(at_once), HeldReader(at_once)
@@ -169,6 +170,7 @@ def test_three_files_are_read_at_once_and_no_more(store: Store) -> None:
     assert set(states) == {"complete"}
 
 
+@pytest.mark.slow
 def test_a_stop_ends_the_reading_and_the_next_start_reads_what_waited(store: Store) -> None:
     reader = HeldReader()
     uploads = Uploads(store, reader=reader, stop_readers=reader.stop)

@@ -160,6 +160,7 @@ def test_a_log_becomes_a_ride_and_is_confirmed(shop: Shop) -> None:
     assert list(shop.folder.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_a_cable_pulled_in_the_middle_costs_no_byte_twice_over(shop: Shop) -> None:
     whole = flash_bytes(shop)
     begun = shop.cable.carried
@@ -177,6 +178,7 @@ def test_a_cable_pulled_in_the_middle_costs_no_byte_twice_over(shop: Shop) -> No
     assert shop.cable.carried - begun < 1.3 * len(whole) + 40_000
 
 
+@pytest.mark.slow
 def test_a_beginning_that_is_here_is_gone_on_from(shop: Shop) -> None:
     whole = flash_bytes(shop)
     part_of(shop).write_bytes(whole[: len(whole) * 3 // 4])
@@ -193,6 +195,7 @@ def test_a_beginning_that_is_here_is_gone_on_from(shop: Shop) -> None:
     [b"not of this log at all" * 500, b"x", b"\xff" * (1 << 20)],
     ids=["other", "x", "long"],
 )
+@pytest.mark.slow
 def test_what_is_no_beginning_of_the_log_is_thrown_away(shop: Shop, found: bytes) -> None:
     part_of(shop).write_bytes(found)
 
@@ -217,6 +220,7 @@ def test_the_unit_is_not_told_before_the_ride_is_stored(
     assert shop.fetch().confirmed
 
 
+@pytest.mark.slow
 def test_a_log_fetched_again_is_the_ride_that_is_here(shop: Shop) -> None:
     first = shop.fetch()
 
@@ -241,6 +245,7 @@ def test_a_log_is_erased_only_after_it_is_safe_here(shop: Shop) -> None:
         shop.collect.erase(shop.device, 1)
 
 
+@pytest.mark.slow
 def test_closing_in_the_middle_keeps_what_has_come(shop: Shop) -> None:
     part = part_of(shop)
     shop.cable.breaks_after = shop.cable.carried + 20_000
@@ -257,6 +262,7 @@ def test_closing_in_the_middle_keeps_what_has_come(shop: Shop) -> None:
         shop.collect.start(shop.device, 1)
 
 
+@pytest.mark.slow
 def test_what_is_not_there_or_not_finished_is_refused(shop: Shop) -> None:
     with pytest.raises(NotFound, match="4711"):
         shop.collect.start(shop.device, 4711)
@@ -274,6 +280,7 @@ def test_what_is_not_there_or_not_finished_is_refused(shop: Shop) -> None:
 
 
 @pytest.mark.parametrize("suffix", [".part", BLOCKS_SUFFIX])
+@pytest.mark.slow
 def test_what_was_fetched_of_a_log_that_is_gone_becomes_a_ride(shop: Shop, suffix: str) -> None:
     whole = flash_bytes(shop)
     (log,) = shop.collect.logs(shop.device).items

@@ -213,6 +213,7 @@ def test_a_snapshot_of_an_absent_unit_is_no_answer_with_the_reason(devices: Devi
         Inspection(devices).snapshot(device.id)
 
 
+@pytest.mark.slow
 def test_faults_come_with_words(devices: Devices, workshop: Workshop) -> None:
     device = devices.add(LEFT)
     heard = Heard()

@@ -74,6 +74,7 @@ def test_a_second_try_is_on_top_of_the_first_and_ending_it_ends_both(bench: Benc
     assert bench.live.end(bench.id) == NOTHING
 
 
+@pytest.mark.slow
 def test_what_is_tried_ends_by_itself(bench: Bench) -> None:
     bench.live.set(bench.id, {"pedal_stop_ms": 220}, 1)
 

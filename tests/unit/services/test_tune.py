@@ -240,6 +240,7 @@ def test_a_trial_that_ran_out_is_noted_as_given_up_before_the_next_change(bench:
     assert "not confirmed" in reasons[1]
 
 
+@pytest.mark.slow
 def test_a_commit_too_soon_waits_as_long_as_the_unit_says(bench: Bench) -> None:
     bench.unit.commits_too_soon = 1
 

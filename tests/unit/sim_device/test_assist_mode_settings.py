@@ -197,6 +197,7 @@ class WalkedBike:
 
 
 @pytest.mark.parametrize(("mass_kg", "slope_n"), [(25.0, 2.0), (25.0, 20.0), (100.0, 8.0)])
+@pytest.mark.slow
 def test_walk_assist_holds_its_speed_and_never_passes_6_kmh(mass_kg: float, slope_n: float) -> None:
     bike = WalkedBike(mass_kg, slope_n)
     bike.go(0.1, walk_button=0)

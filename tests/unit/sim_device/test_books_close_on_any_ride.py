@@ -52,6 +52,7 @@ def wish_of(wishes: random.Random) -> dict[str, object]:
 
 
 @pytest.mark.parametrize("seed", range(24))
+@pytest.mark.slow
 def test_a12_the_books_close_whatever_is_ridden(seed: int) -> None:
     wishes = random.Random(seed)
     unit = LockstepUnit(seed, bike=bike_of(wishes))

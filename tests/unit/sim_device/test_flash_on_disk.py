@@ -66,6 +66,7 @@ def killed_at_the_end(flash: Path, *words: str) -> Iterator[Any]:
 
 
 @pytest.mark.slow
+@pytest.mark.slow
 def test_an_acknowledged_change_outlives_a_process_killed_at_once(tmp_path: Path) -> None:
     flash = tmp_path / "flash"
 
@@ -78,6 +79,7 @@ def test_an_acknowledged_change_outlives_a_process_killed_at_once(tmp_path: Path
             assert read_image(unit) == acknowledged
 
 
+@pytest.mark.slow
 @pytest.mark.slow
 def test_what_the_factory_wrote_outlives_a_process_killed_when_it_is_ready(tmp_path: Path) -> None:
     flash = tmp_path / "flash"
@@ -195,6 +197,7 @@ def test_a_flash_half_written_is_the_old_one_or_the_new_one(
     assert seen[-1] == new
 
 
+@pytest.mark.slow
 @pytest.mark.slow
 def test_a_disk_without_room_stops_the_unit_with_the_flash_s_name_and_what_to_do(
     tmp_path: Path,

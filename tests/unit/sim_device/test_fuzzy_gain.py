@@ -130,6 +130,7 @@ def test_inputs_beyond_the_table_are_clamped() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.slow
 def test_the_closed_form_is_the_exact_centroid_of_the_thesis_table() -> None:
     speeds, rates = np.linspace(0, 26, 53), np.linspace(-0.1, 1.0, 34)
     expected = [[reference_centroid(THESIS, v, r) for r in rates] for v in speeds]
@@ -140,6 +141,7 @@ def test_the_closed_form_is_the_exact_centroid_of_the_thesis_table() -> None:
 @pytest.mark.slow
 @settings(max_examples=300, deadline=None)
 @given(tables(), st.floats(-2, 32), st.floats(-0.5, 1.5))
+@pytest.mark.slow
 def test_the_closed_form_is_exact_for_any_table(
     table: dict[str, Any], speed_kmh: float, rate: float
 ) -> None:

@@ -206,6 +206,7 @@ def test_what_is_remembered_and_no_number_costs_one_step_and_is_gone(
 
 
 @pytest.mark.large_count
+@pytest.mark.slow
 def test_every_accepted_configuration_keeps_every_limit_on_every_reading() -> None:
     random = np.random.default_rng(20261121)
 
@@ -217,6 +218,7 @@ def test_every_accepted_configuration_keeps_every_limit_on_every_reading() -> No
 
 
 @pytest.mark.large_count
+@pytest.mark.slow
 def test_what_the_law_alone_would_take_gives_numbers_too() -> None:
     """The law's own check is wider than the registry: a millionth to a million."""
     random = np.random.default_rng(7)
@@ -246,6 +248,7 @@ def test_what_the_law_alone_would_take_gives_numbers_too() -> None:
 @pytest.mark.large_count
 @settings(max_examples=EXAMPLES, deadline=None)
 @given(st.integers(0, 2**32 - 1))
+@pytest.mark.slow
 def test_no_configuration_and_ride_that_hypothesis_finds_breaks_a_limit(seed: int) -> None:
     random = np.random.default_rng(seed)
 
@@ -260,6 +263,7 @@ def test_no_configuration_and_ride_that_hypothesis_finds_breaks_a_limit(seed: in
     st.floats(width=32, allow_nan=False, allow_infinity=False),
     st.sampled_from(["mamdani_centroid", "weighted_average"]),
 )
+@pytest.mark.slow
 def test_every_accepted_table_has_a_gain_within_its_points_everywhere(
     seed: int, speed_kmh: float, rate: float, inference: str
 ) -> None:
@@ -282,6 +286,7 @@ def test_every_accepted_table_has_a_gain_within_its_points_everywhere(
 
 
 @pytest.mark.parametrize("name", ["fuzzy_speed_points_kmh", "fuzzy_torque_rate_points"])
+@pytest.mark.slow
 def test_registry_and_law_agree_on_every_distance_around_the_least(name: str) -> None:
     row = PARAMETER_BY_NAME[name]
     random = np.random.default_rng(5)

@@ -312,6 +312,7 @@ def test_a_fault_made_by_hand_lasts_through_the_scenarios_phases() -> None:
     assert unit.simulation_get()["faults"] == {}
 
 
+@pytest.mark.slow
 def test_every_answer_of_a_busy_simulation_fits_a_frame() -> None:
     unit = LockstepUnit(2**62, scenario="slippery_start")
     unit.advance(3600.0)

@@ -229,6 +229,7 @@ def rough_rides(draw: st.DrawFn) -> tuple[dict[str, Any], dict[str, Any]]:
 @pytest.mark.parametrize("market", CUTOFF_KMH)
 @settings(max_examples=25, deadline=None)
 @given(rough_rides())
+@pytest.mark.slow
 def test_no_ride_under_any_configuration_leaves_the_market_s_envelope(
     market: str, ride: tuple[dict[str, Any], dict[str, Any]]
 ) -> None:

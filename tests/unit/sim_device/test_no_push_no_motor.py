@@ -79,6 +79,7 @@ def pushed(
 
 
 @pytest.mark.large_count
+@pytest.mark.slow
 def test_whatever_is_configured_the_motor_gives_no_more_than_the_mode_says() -> None:
     random = np.random.default_rng(7)
     driven = 0
@@ -98,6 +99,7 @@ def test_whatever_is_configured_the_motor_gives_no_more_than_the_mode_says() -> 
 
 @pytest.mark.large_count
 @pytest.mark.parametrize("turning_rpm", [1e-3, 60.0, 150.0])
+@pytest.mark.slow
 def test_whatever_is_configured_legs_that_turn_and_do_not_push_soon_get_nothing(
     turning_rpm: float,
 ) -> None:
@@ -118,6 +120,7 @@ def test_whatever_is_configured_legs_that_turn_and_do_not_push_soon_get_nothing(
 
 
 @pytest.mark.large_count
+@pytest.mark.slow
 def test_whatever_is_configured_legs_that_push_and_do_not_turn_soon_get_nothing() -> None:
     random = np.random.default_rng(13)
     driven = 0

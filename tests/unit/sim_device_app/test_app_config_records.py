@@ -210,6 +210,7 @@ def told_or_same(unit: BenchUnit, before: tuple[int, bytes]) -> bool:
 @pytest.mark.large_count
 @pytest.mark.board_long
 @pytest.mark.parametrize("copies", [1, 2], ids=["one copy", "two copies"])
+@pytest.mark.slow
 def test_no_flipped_bit_of_a_slot_changes_anything_without_a_word(copies: int) -> None:
     new = slot(items_of(image_with(**JAPAN)), 2)
     old = slot(items_of(image_with()), 1) if copies == 2 else b""
@@ -235,6 +236,7 @@ def test_no_flipped_bit_of_a_slot_changes_anything_without_a_word(copies: int) -
 @pytest.mark.large_count
 @pytest.mark.board_long
 @pytest.mark.parametrize("name", ["new", "second_newer", "second_older"])
+@pytest.mark.slow
 def test_no_flipped_bit_of_an_old_slot_changes_anything_without_a_word(name: str) -> None:
     flash = np.frombuffer(old_files()[name]["flash"], np.uint8)
     unit = BenchUnit(provisioned=False)

@@ -54,6 +54,7 @@ def test_the_free_writes_and_the_pace_after_them_stay_within_what_two_blocks_sta
 
 
 @pytest.mark.board_long
+@pytest.mark.slow
 def test_a_host_that_commits_as_fast_as_it_may_is_told_to_wait_in_the_end() -> None:
     unit = BenchUnit()
 

@@ -85,6 +85,7 @@ def test_learning_does_not_touch_the_configuration() -> None:
 
 
 @pytest.mark.board_long
+@pytest.mark.slow
 def test_the_log_goes_round_and_never_forgets() -> None:
     unit = BenchUnit(flash_block_bytes=512, flash_bytes=6 * 512)
     unit.inputs(speed_kmh=CREEPING_KMH)

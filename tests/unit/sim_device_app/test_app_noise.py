@@ -66,6 +66,7 @@ def assert_alive_and_sane(unit: BenchUnit) -> None:
 @pytest.mark.parametrize(
     "kind", [random_bytes, random_frame, request_as_sent, request_harmed_on_the_line]
 )
+@pytest.mark.slow
 def test_whatever_comes_down_the_line_the_unit_still_answers(unit: BenchUnit, kind: object) -> None:
     assert callable(kind)
     noise = random.Random(f"{kind.__name__} 1")

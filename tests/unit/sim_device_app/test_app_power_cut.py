@@ -61,6 +61,7 @@ def commit_with_power_for(unit: BenchUnit, steps: int) -> Status | int:
 @pytest.mark.large_count
 @pytest.mark.board_long
 @pytest.mark.parametrize("commits_before", [0, 1, 2])
+@pytest.mark.slow
 def test_power_lost_after_any_byte_leaves_the_old_or_the_new_configuration(
     commits_before: int,
 ) -> None:
@@ -104,6 +105,7 @@ def test_power_lost_after_any_byte_leaves_the_old_or_the_new_configuration(
 @pytest.mark.large_count
 @pytest.mark.board_long
 @pytest.mark.parametrize("commits_before", [0, 1, 2])
+@pytest.mark.slow
 def test_power_lost_anywhere_in_a_trial_brings_back_the_old_configuration(
     commits_before: int,
 ) -> None:

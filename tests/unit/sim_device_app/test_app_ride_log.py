@@ -261,6 +261,7 @@ def test_a_full_flash_gives_up_confirmed_logs_first_and_says_when_it_must_take_a
 
 
 @pytest.mark.board_long
+@pytest.mark.slow
 def test_every_log_in_a_ring_that_went_round_many_times_is_whole() -> None:
     unit = unit_with_log(BLOCK_BYTES, 16 * BLOCK_BYTES)
     for number in range(40):

@@ -54,6 +54,7 @@ def is_closed(unit: BenchUnit) -> bool:
     return int(lib.bench_unlock_nonces(unit.board, Access.DEALER, 1, nonce)) == 0
 
 
+@pytest.mark.slow
 def test_a_million_nonces_over_restarts_are_a_million_nonces(unit: BenchUnit) -> None:
     nonces = np.zeros((NONCES, NONCE_BYTES), dtype=np.uint8)
     for part in np.split(nonces, BOOTS):
@@ -66,6 +67,7 @@ def test_a_million_nonces_over_restarts_are_a_million_nonces(unit: BenchUnit) ->
     assert len(np.unique(nonces.view("<u8").view("V16"))) == NONCES
 
 
+@pytest.mark.slow
 def test_ten_thousand_guesses_over_restarts_are_all_counted_and_all_slow(unit: BenchUnit) -> None:
     """Blocks of 85 records: the count moves between them more than a hundred times."""
     for attempt in range(1, GUESSES + 1):

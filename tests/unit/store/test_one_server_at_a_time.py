@@ -68,6 +68,7 @@ def test_a_second_name_of_the_same_file_is_refused(tmp_path: Path) -> None:
             opened(tmp_path, "second.db", "others")
 
 
+@pytest.mark.slow
 def test_the_lock_dies_with_its_process(tmp_path: Path) -> None:
     urls = [f"sqlite:///{tmp_path}/spindle.db", (tmp_path / "objects").as_uri()]
     waits = BEHIND + "print('in', flush=True); sys.stdin.read()"

@@ -142,6 +142,7 @@ def test_a_unit_moved_to_another_bike_leaves_its_old_rides_where_they_were(store
     assert (older.bike_id, between.bike_id, after.bike_id) == (before.bike_id, None, 7)
 
 
+@pytest.mark.slow
 def test_a_rebuilt_store_has_its_rides_on_their_units_and_bikes(tmp_path: Path) -> None:
     urls = (f"sqlite:///{tmp_path}/spindle.db", (tmp_path / "objects").as_uri())
     named = RideContext("dev-ttyusb0", unit_key="bafang:name:Commuter")
@@ -159,6 +160,7 @@ def test_a_rebuilt_store_has_its_rides_on_their_units_and_bikes(tmp_path: Path) 
     assert after == before == [("ebl:SP-1", 1), (None, None), (named.unit_key, 2), ("ebl:SP-1", 1)]
 
 
+@pytest.mark.slow
 def test_a_database_of_before_has_every_ride_and_configuration_on_its_unit(
     tmp_path: Path,
 ) -> None:

@@ -91,6 +91,7 @@ def rows_of_bins(shown: Trace) -> list[tuple[int, int]]:
     ends=st.tuples(st.integers(0, ROWS), st.integers(0, ROWS)).map(sorted),
     pixels=st.integers(1, 3000),
 )
+@pytest.mark.slow
 def test_every_bin_has_exactly_the_extremes_of_its_rows(ends: list[int], pixels: int) -> None:
     from_s, to_s = (end * PERIOD_US / 1e6 for end in ends)
 
@@ -164,6 +165,7 @@ def irregular_ride() -> tuple[PlainReader, npt.NDArray[np.int64], Counts]:
 
 
 @pytest.mark.parametrize("pixels", [10_000, 1000, 77, 1])
+@pytest.mark.slow
 def test_irregular_rows_are_binned_by_time_and_cut_at_pauses(pixels: int) -> None:
     ride, times, counts = irregular_ride()
 
@@ -254,6 +256,7 @@ def test_a_ride_without_rows_has_an_empty_trace() -> None:
     assert trace(empty).to_json()["bins"] == 0
 
 
+@pytest.mark.slow
 def test_the_figure_is_one_that_plotly_accepts() -> None:
     graph_objects = pytest.importorskip("plotly.graph_objects")
 
