@@ -96,10 +96,13 @@ def test_what_a_simulated_unit_can_break_is_broken_from_the_panel(
     expect(broken.get_by_label("Speed sensor")).to_have_value("lost")
     desk.picture("simulation-faults", full=True)
 
-    with page.expect_request(lambda request: request.method == "PUT") as changed:
+    # Its answer, too: a request still under way when the test ends would reach the unit.
+    with page.expect_response(lambda answer: answer.request.method == "PUT") as changed:
         broken.get_by_label("Torque sensor").select_option("drifting")
 
-    assert changed.value.post_data_json == {"faults": {"torque_sensor": "drifting"}}
+    sent = changed.value.request.post_data_json
+    assert sent == {"faults": {"torque_sensor": "drifting"}}
+    assert server.get(f"/devices/{standing}/simulation")["faults"] == {}
 
 
 def test_the_bike_s_surroundings_are_set_from_the_panel(
@@ -115,9 +118,9 @@ def test_the_bike_s_surroundings_are_set_from_the_panel(
     expect(panel.get_by_role("slider", name="Rider torque")).to_be_visible()
 
     def asked(act: Callable[[], None]) -> object:
-        with page.expect_request(lambda request: request.method == "PUT") as change:
+        with page.expect_response(lambda answer: answer.request.method == "PUT") as change:
             act()
-        return change.value.post_data_json
+        return change.value.request.post_data_json
 
     ground = panel.get_by_label("Ground under the tyres")
     assert asked(lambda: ground.select_option(label="ice") and None) == {"grip": 0.1}
