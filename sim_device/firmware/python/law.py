@@ -74,8 +74,9 @@ OUTPUT_DTYPE = np.dtype(
     ],
     align=True,
 )
-assert INPUT_DTYPE.itemsize == ffi.sizeof("assist_input")
-assert OUTPUT_DTYPE.itemsize == ffi.sizeof("assist_output")
+OTHER_SOURCES = "The compiled extension is of other sources than law.py: run `make native`."
+assert INPUT_DTYPE.itemsize == ffi.sizeof("assist_input"), OTHER_SOURCES
+assert OUTPUT_DTYPE.itemsize == ffi.sizeof("assist_output"), OTHER_SOURCES
 
 VIOLATIONS_TOLD = 5
 """Of a configuration that is refused: enough to mend it by."""
