@@ -35,6 +35,7 @@ from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
 from backend.services.rides.record import Recorder
 from backend.services.rides.replay import RideReplay
 from backend.services.rides.review import Rides
+from backend.services.rides.use_of_table import UseOfTable
 from backend.services.tuning.preview import Preview
 from backend.services.tuning.try_live import LiveTuning
 from backend.services.tuning.tune import Tuning
@@ -115,6 +116,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             live=LiveTuning(devices),
             preview=preview,
             rides=Rides(store, RideReplay(preview, memory.ride_config), devices.unit_at),
+            use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
             uploads=uploads,
             collect=collect,
         )

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from backend.services.imports.collect import Collect
     from backend.services.imports.upload import Uploads
     from backend.services.rides.review import Rides
+    from backend.services.rides.use_of_table import UseOfTable
     from backend.services.tuning.preview import Preview
     from backend.services.tuning.try_live import LiveTuning
     from backend.services.tuning.tune import Tuning
@@ -35,6 +36,7 @@ class Services:
     live: LiveTuning
     preview: Preview
     rides: Rides
+    use_of_table: UseOfTable
     uploads: Uploads
     collect: Collect
 

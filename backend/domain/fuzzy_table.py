@@ -86,7 +86,7 @@ class FuzzyTable:
         faults = [
             *_name_faults(self.name),
             *_inference_faults(self.inference),
-            *(fault for name in POINT_FIELDS for fault in _point_faults(name, getattr(self, name))),
+            *(fault for name in POINT_FIELDS for fault in point_faults(name, getattr(self, name))),
             *_rule_faults(self.rules),
         ]
         if faults:
@@ -149,25 +149,8 @@ def stored_json(parameters: Mapping[str, Any], which: str = "first") -> dict[str
     return {field: parameters[name] for field, name in PARAMETERS_OF[which].items()}
 
 
-def _frozen(value: Any) -> tuple[Any, ...]:
-    """Lists become tuples; anything else stays one wrong element for the checks to name."""
-    return tuple(value) if isinstance(value, Sequence) and not isinstance(value, str) else (value,)
-
-
-def _name_faults(name: Any) -> Iterable[FieldError]:
-    if not isinstance(name, str):
-        yield FieldError("name", "not_text", "name must be text")
-    elif len(name.encode()) > NAME_BYTES_MAX:
-        yield FieldError("name", "too_long", f"name is longer than {NAME_BYTES_MAX} bytes")
-
-
-def _inference_faults(inference: Any) -> Iterable[FieldError]:
-    if inference not in INFERENCES:
-        choices = " or ".join(INFERENCES)
-        yield FieldError("inference", "not_a_choice", f"inference must be {choices}")
-
-
-def _point_faults(field: str, points: Sequence[Any]) -> Iterable[FieldError]:
+def point_faults(field: str, points: Sequence[Any]) -> Iterable[FieldError]:
+    """Whatever is wrong with five points. field: which of POINT_FIELDS they are."""
     if len(points) != len(LABELS):
         yield FieldError(field, "wrong_shape", f"{field} needs five numbers, not {len(points)}")
         return
@@ -191,6 +174,24 @@ def _point_faults(field: str, points: Sequence[Any]) -> Iterable[FieldError]:
                 where, "out_of_range", f"{where} is {point:g}, not within {low:g} to {high:g}"
             )
         previous = point
+
+
+def _frozen(value: Any) -> tuple[Any, ...]:
+    """Lists become tuples; anything else stays one wrong element for the checks to name."""
+    return tuple(value) if isinstance(value, Sequence) and not isinstance(value, str) else (value,)
+
+
+def _name_faults(name: Any) -> Iterable[FieldError]:
+    if not isinstance(name, str):
+        yield FieldError("name", "not_text", "name must be text")
+    elif len(name.encode()) > NAME_BYTES_MAX:
+        yield FieldError("name", "too_long", f"name is longer than {NAME_BYTES_MAX} bytes")
+
+
+def _inference_faults(inference: Any) -> Iterable[FieldError]:
+    if inference not in INFERENCES:
+        choices = " or ".join(INFERENCES)
+        yield FieldError("inference", "not_a_choice", f"inference must be {choices}")
 
 
 def _narrow(point: float) -> np.float32:

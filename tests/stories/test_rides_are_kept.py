@@ -214,6 +214,34 @@ def test_a_replay_with_the_motor_off_does_no_work(
     assert answer["motor_work_wh"]["difference"] < 0.0
 
 
+def test_a_ride_says_where_in_the_table_it_was(
+    workshop: SpindleServer, ride: dict[str, Any]
+) -> None:
+    channels = ("torque_rate", "motor_torque_demanded_nm", "cadence_rpm", "assist_mode")
+    rows = whole_series(workshop, ride, *channels)
+    rates = [0.0, 0.05, 0.1, 0.2, 0.4]
+    points = {"speed_points_kmh": [5, 10, 15, 20, 25], "torque_rate_points": rates}
+
+    answer = workshop.ask("POST", "/rides/table-use", json={"ride_ids": [ride["id"]], **points})
+    second = workshop.ask("POST", "/rides/table-use", json={"table": "second", **points})
+    refused = workshop.client.post(
+        "/rides/table-use", json=points | {"torque_rate_points": [0, 0.2, 0.1, 0.3, 0.4]}
+    )
+
+    acts = (rows["motor_torque_demanded_nm"] > 0.0) & (rows["cadence_rpm"] > 0.0)
+    assert set(rows["assist_mode"][acts]) == {3.0}
+    assert answer["assisted_s"] == pytest.approx(np.count_nonzero(acts) / 100.0)
+    # A set's membership is a hat: 1 at its point, 0 at its neighbours, level beyond the ends.
+    hats = [np.interp(rows["torque_rate"][acts], rates, hat).sum() / 100.0 for hat in np.eye(5)]
+    assert [column["seconds"] for column in answer["columns"]] == pytest.approx(hats, abs=1e-6)
+    assert sum(map(sum, answer["cells"]["seconds"])) == pytest.approx(answer["assisted_s"])
+    motor_wh = sum(map(sum, answer["cells"]["motor_wh"]))
+    assert motor_wh == pytest.approx(ride["summary"]["motor_wh"], rel=0.05)
+    assert ride["id"] in [one["id"] for one in second["rides_without"]]
+    assert refused.status_code == 422
+    assert refused.json()["errors"][0]["field"] == "torque_rate_points[2]"
+
+
 def test_two_units_are_two_bikes(workshop: SpindleServer) -> None:
     one, two = workshop.ready_device(0), workshop.ready_device(1)
     workshop.stand_still(one)

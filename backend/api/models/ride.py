@@ -8,7 +8,7 @@ from typing import Any, Literal
 from pydantic import Field
 
 from backend.api.models.base import Answer, Question
-from backend.api.models.law import AssistModes, FuzzyTable
+from backend.api.models.law import AssistModes, FivePoints, FuzzyTable, Table
 
 
 class RideSummary(Answer):
@@ -234,6 +234,84 @@ class Replay(Answer):
     motor_torque_nm_difference_max: float | None
     limit_shares: dict[str, float]
     series: Series
+
+
+class TableUseRequest(Question):
+    """Which rides, and the table as it is edited: its points may differ from those ridden with."""
+
+    ride_ids: list[int] | None = Field(
+        default=None,
+        min_length=1,
+        max_length=20,
+        description="Without it the latest 20 rides that are over.",
+    )
+    device: str | None = Field(
+        default=None,
+        max_length=500,
+        description="Whose latest rides: a unit's key or serial number, or a device's id. Without "
+        "it every unit's. Not together with `ride_ids`.",
+    )
+    table: Table = Field(
+        default="first", description="Counted is what modes gave that ran by this one then."
+    )
+    speed_points_kmh: FivePoints
+    torque_rate_points: FivePoints
+
+
+class RideWithout(Answer):
+    """A ride that says nothing about the table, and why.
+
+    `missing_channel`: it lacks what the law's inputs are known by, as files of head units do.
+    `not_assisted`: no mode gave assist by this table. `object_damaged`: its file is not as written.
+    """
+
+    id: int
+    code: Literal["missing_channel", "not_assisted", "object_damaged"]
+    message: str
+
+
+class UseOfPoint(Answer):
+    """A row or column of the table: its cells together."""
+
+    point: float = Field(description="Speed in km/h of a row, torque rate of a column.")
+    seconds: float
+    share: float | None = Field(description="Of `assisted_s`, 0 to 1; null where that is 0.")
+    motor_wh: float | None
+
+
+class UseOfCells(Answer):
+    """`[speed][torque rate]`, as the rules."""
+
+    seconds: list[list[float]]
+    motor_wh: list[list[float]] | None
+
+
+class TableUse(Answer):
+    """Where in the table the rides were: time and motor energy of each cell.
+
+    Counted are the moments in which the rider pedalled and the table said what the motor was asked
+    for. Each belongs to the at most four cells whose rules fired, in the shares of the law's sets,
+    so the cells' seconds add up to `assisted_s`. A recorded torque rate never exceeds the last
+    point of the table ridden with. `motor_wh` is work at the motor's shaft, null where no ride has
+    a torque that the motor delivered.
+    """
+
+    table: Table
+    rides: list[int] = Field(description="Ids of the rides counted, newest first.")
+    rides_without: list[RideWithout]
+    rides_by_defaults: list[int] = Field(
+        description="Of the rides counted those whose configuration nobody kept; the law's "
+        "defaults say which of their modes ran by the table."
+    )
+    more: bool = Field(description="There are older rides, which were not looked at.")
+    since: datetime | None = Field(description="Start of the oldest ride counted.")
+    assisted_s: float
+    motor_excluded_s: float = Field(
+        description="Part of `assisted_s` whose motor power is not known: not in `motor_wh`."
+    )
+    columns: list[UseOfPoint]
+    rows: list[UseOfPoint]
+    cells: UseOfCells
 
 
 class Upload(Answer):

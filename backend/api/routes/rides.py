@@ -18,6 +18,8 @@ from backend.api.models.ride import (
     RideList,
     RidePatch,
     Series,
+    TableUse,
+    TableUseRequest,
 )
 from backend.api.problem import refusals
 from backend.api.services import Provided
@@ -151,3 +153,9 @@ def replay_ride(ride_id: RideId, body: ReplayRequest, services: Provided) -> Any
         ride_id, question["fuzzy_table"], question["assist_modes"], question["second_table"]
     )
     return whole(Replay, answer)
+
+
+@router.post("/table-use", operation_id="table_use", response_model=TableUse)
+def table_use(body: TableUseRequest, services: Provided) -> Any:
+    """Where in a fuzzy table rides were: seconds and motor energy of each cell."""
+    return whole(TableUse, services.use_of_table(**body.model_dump()))

@@ -759,6 +759,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/rides/table-use": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Table Use
+         * @description Where in a fuzzy table rides were: seconds and motor energy of each cell.
+         */
+        post: operations["table_use"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/rides/import": {
         parameters: {
             query?: never;
@@ -2088,6 +2108,24 @@ export interface components {
             motor_temperature_degc_max: number | null;
         };
         /**
+         * RideWithout
+         * @description A ride that says nothing about the table, and why.
+         *
+         *     `missing_channel`: it lacks what the law's inputs are known by, as files of head units do.
+         *     `not_assisted`: no mode gave assist by this table. `object_damaged`: its file is not as written.
+         */
+        RideWithout: {
+            /** Id */
+            id: number;
+            /**
+             * Code
+             * @enum {string}
+             */
+            code: "missing_channel" | "not_assisted" | "object_damaged";
+            /** Message */
+            message: string;
+        };
+        /**
          * Scenario
          * @description A ride that a simulated unit can be sent on.
          */
@@ -2395,6 +2433,84 @@ export interface components {
             torque_rates: number[];
         };
         /**
+         * TableUse
+         * @description Where in the table the rides were: time and motor energy of each cell.
+         *
+         *     Counted are the moments in which the rider pedalled and the table said what the motor was asked
+         *     for. Each belongs to the at most four cells whose rules fired, in the shares of the law's sets,
+         *     so the cells' seconds add up to `assisted_s`. A recorded torque rate never exceeds the last
+         *     point of the table ridden with. `motor_wh` is work at the motor's shaft, null where no ride has
+         *     a torque that the motor delivered.
+         */
+        TableUse: {
+            /**
+             * Table
+             * @enum {string}
+             */
+            table: "first" | "second";
+            /**
+             * Rides
+             * @description Ids of the rides counted, newest first.
+             */
+            rides: number[];
+            /** Rides Without */
+            rides_without: components["schemas"]["RideWithout"][];
+            /**
+             * Rides By Defaults
+             * @description Of the rides counted those whose configuration nobody kept; the law's defaults say which of their modes ran by the table.
+             */
+            rides_by_defaults: number[];
+            /**
+             * More
+             * @description There are older rides, which were not looked at.
+             */
+            more: boolean;
+            /**
+             * Since
+             * @description Start of the oldest ride counted.
+             */
+            since: string | null;
+            /** Assisted S */
+            assisted_s: number;
+            /**
+             * Motor Excluded S
+             * @description Part of `assisted_s` whose motor power is not known: not in `motor_wh`.
+             */
+            motor_excluded_s: number;
+            /** Columns */
+            columns: components["schemas"]["UseOfPoint"][];
+            /** Rows */
+            rows: components["schemas"]["UseOfPoint"][];
+            cells: components["schemas"]["UseOfCells"];
+        };
+        /**
+         * TableUseRequest
+         * @description Which rides, and the table as it is edited: its points may differ from those ridden with.
+         */
+        TableUseRequest: {
+            /**
+             * Ride Ids
+             * @description Without it the latest 20 rides that are over.
+             */
+            ride_ids?: number[] | null;
+            /**
+             * Device
+             * @description Whose latest rides: a unit's key or serial number, or a device's id. Without it every unit's. Not together with `ride_ids`.
+             */
+            device?: string | null;
+            /**
+             * Table
+             * @description Counted is what modes gave that ran by this one then.
+             * @default first
+             * @enum {string}
+             */
+            table: "first" | "second";
+            /** Speed Points Kmh */
+            speed_points_kmh: number[];
+            /** Torque Rate Points */
+            torque_rate_points: number[];
+        };
+        /**
          * TwoDefinitions
          * @description By deviation from the mean, and by the range of the readings (thesis_checks I-26).
          */
@@ -2488,6 +2604,36 @@ export interface components {
             items: components["schemas"]["Upload"][];
             /** Next */
             next: string | null;
+        };
+        /**
+         * UseOfCells
+         * @description `[speed][torque rate]`, as the rules.
+         */
+        UseOfCells: {
+            /** Seconds */
+            seconds: number[][];
+            /** Motor Wh */
+            motor_wh: number[][] | null;
+        };
+        /**
+         * UseOfPoint
+         * @description A row or column of the table: its cells together.
+         */
+        UseOfPoint: {
+            /**
+             * Point
+             * @description Speed in km/h of a row, torque rate of a column.
+             */
+            point: number;
+            /** Seconds */
+            seconds: number;
+            /**
+             * Share
+             * @description Of `assisted_s`, 0 to 1; null where that is 0.
+             */
+            share: number | null;
+            /** Motor Wh */
+            motor_wh: number | null;
         };
         /**
          * WearCounters
@@ -6135,6 +6281,75 @@ export interface operations {
             };
             /** @description `object_damaged`: the ride's file is not as written */
             500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    table_use: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TableUseRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TableUse"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unsupported Media Type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };

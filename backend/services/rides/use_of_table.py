@@ -1,0 +1,218 @@
+"""Where in a fuzzy table rides were, so that whoever edits it sees which cells do anything.
+
+The points are those of the table as it is edited, the moments those in which a mode ran by it then:
+a ride keeps its speeds and torque rates, so a table with other points can be asked about as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from backend.domain.channels import Values
+from backend.domain.energy import MOTOR_POWER, sample_seconds
+from backend.domain.filled import filled_seconds
+from backend.domain.fuzzy_table import PARAMETERS_OF, point_faults
+from backend.domain.ride import Ride, iso_utc, pause_us
+from backend.errors import InvalidRequest, ObjectDamaged
+from backend.services.rides.replay import ConfigOf
+from backend.store import RideReader, Store
+from backend.views.table_use import ASKED, FUZZY_GAIN, NEEDED, TableUse, acting, table_use
+
+RIDES_MAX = 20
+"""What one question costs: 20 rides of two hours at 100 Hz take some seconds of a thread."""
+PIECE_ROWS = 1 << 18
+"""Rows at once: 44 min at 100 Hz, 20 MB."""
+
+Points = Mapping[str, Sequence[float]]
+
+
+class UseOfTable:
+    """Looks at rides one after the other; holds nothing of them.
+
+    config_of: a ride's configuration and where it is from. unit_at: the key of the unit that a
+    device has now; None for one that is not there.
+    """
+
+    def __init__(
+        self, store: Store, config_of: ConfigOf, unit_at: Callable[[str], str | None]
+    ) -> None:
+        self._store = store
+        self._config_of = config_of
+        self._unit_at = unit_at
+
+    def __call__(
+        self,
+        speed_points_kmh: Sequence[float],
+        torque_rate_points: Sequence[float],
+        table: str = "first",
+        ride_ids: Sequence[int] | None = None,
+        device: str | None = None,
+    ) -> dict[str, Any]:
+        """The answer as the API tells it. Raises InvalidRequest, NotFound."""
+        points = checked(speed_points_kmh, torque_rate_points)
+        rides, more = self._chosen(ride_ids, device)
+        whole = TableUse.none()
+        counted: list[Ride] = []
+        without: list[dict[str, Any]] = []
+        by_defaults: list[int] = []
+        for ride in rides:
+            use, source, reason = self._of(ride, table, points)
+            if reason is not None:
+                without.append({"id": ride.id, **reason})
+                continue
+            whole += use
+            counted.append(ride)
+            if source == "defaults":
+                by_defaults.append(ride.id)
+        return {
+            "table": table,
+            "rides": [ride.id for ride in counted],
+            "rides_without": without,
+            "rides_by_defaults": by_defaults,
+            "more": more,
+            "since": iso_utc(min(ride.started_us for ride in counted)) if counted else None,
+            **told(whole, points),
+        }
+
+    def _chosen(
+        self, ride_ids: Sequence[int] | None, device: str | None
+    ) -> tuple[Sequence[Ride], bool]:
+        """The rides to look at, newest first, and whether there are older ones."""
+        if ride_ids is not None:
+            if device is not None:
+                raise InvalidRequest(
+                    "Rides were named and a device as well: leave out ride_ids for the device's "
+                    "latest rides, or the device."
+                )
+            named = [self._store.rides.get(ride_id) for ride_id in dict.fromkeys(ride_ids)]
+            return sorted(named, key=lambda ride: ride.started_us, reverse=True), False
+        unit = None if device is None else self._unit_at(device) or device
+        # One more, because the newest may still be going on.
+        page = self._store.rides.list(device=unit, limit=RIDES_MAX + 1)
+        over = [ride for ride in page.items if ride.state == "done"]
+        return over[:RIDES_MAX], page.next is not None or len(over) > RIDES_MAX
+
+    def _of(
+        self, ride: Ride, table: str, points: Points
+    ) -> tuple[TableUse, str, dict[str, str] | None]:
+        """What a ride adds, where its configuration is from, and why it adds nothing."""
+        none = TableUse.none()
+        missing = channels_missing(ride)
+        if missing:
+            message = f"Ride {ride.id} has no {', '.join(missing)}: where it was is not known."
+            return none, "", {"code": "missing_channel", "message": message}
+        config, source = self._config_of(ride)
+        slots = slots_by(config, table)
+        try:
+            use = self._use(ride, slots, config, points) if slots else none
+        except ObjectDamaged as damage:
+            return none, source, {"code": damage.code, "message": damage.message}
+        if not use.seconds.any():
+            message = f"On ride {ride.id} no mode gave assist by this table."
+            return none, source, {"code": "not_assisted", "message": message}
+        return use, source, None
+
+    def _use(
+        self, ride: Ride, slots: Sequence[int], config: Mapping[str, Any], points: Points
+    ) -> TableUse:
+        """One ride's use of the table, read piece by piece."""
+        reader = self._store.rides.reader(ride.id)
+        needs_gain = config.get("fuzzy_falling_torque", "hold_zero_rate") != "hold_zero_rate"
+        seconds = row_seconds(reader)
+        use = TableUse.none()
+        for start in range(0, reader.row_count, PIECE_ROWS):
+            stop = min(start + PIECE_ROWS, reader.row_count)
+            columns = read_columns(reader, start, stop)
+            acts = acting(columns, slots, needs_gain)
+            use += table_use(
+                {name: values[acts] for name, values in columns.items()},
+                seconds[start:stop][acts],
+                points["speed_points_kmh"],
+                points["torque_rate_points"],
+            )
+        return use
+
+
+def checked(speed_points_kmh: Sequence[float], torque_rate_points: Sequence[float]) -> Points:
+    """The points by their fields. Raises InvalidRequest naming what no table may have."""
+    points = {"speed_points_kmh": speed_points_kmh, "torque_rate_points": torque_rate_points}
+    faults = [fault for field, five in points.items() for fault in point_faults(field, five)]
+    if faults:
+        listed = "; ".join(fault.message for fault in faults)
+        raise InvalidRequest(f"points of the table: {listed}", "invalid_fuzzy_table", faults)
+    return points
+
+
+def channels_missing(ride: Ride) -> list[str]:
+    """What a ride lacks for saying where in a table it was."""
+    offered = {channel.name for channel in ride.channels}
+    missing = [name for name in NEEDED if name not in offered]
+    return missing if offered.intersection(ASKED) else [*missing, ASKED[-1]]
+
+
+def slots_by(config: Mapping[str, Any], table: str) -> list[int]:
+    """The mode slots that run by a table. Units of the first version had one table only."""
+    laws = config.get("mode_laws", ())
+    numbers = config.get("mode_tables", [0] * len(laws))
+    wanted = tuple(PARAMETERS_OF).index(table)
+    return [
+        slot
+        for slot, (law, number) in enumerate(zip(laws, numbers, strict=True))
+        if law == "fuzzy" and number == wanted
+    ]
+
+
+def read_columns(reader: RideReader, start: int, stop: int) -> dict[str, Values]:
+    """What the view asks for of rows [start, stop), as far as the ride has it; missing as NaN."""
+    offered = {channel.name: channel for channel in reader.offered}
+    asked = next(name for name in ASKED if name in offered)
+    names = [*NEEDED, asked, FUZZY_GAIN, MOTOR_POWER.name]
+    chosen = [name for name in names if name in offered]
+    counts = reader.counts(chosen, start, stop)
+    return {name: offered[name].to_values(counts[name]) for name in chosen}
+
+
+def row_seconds(reader: RideReader) -> Values:
+    """How long the sample of each row (n,) of a ride holds; see domain.filled, domain.energy."""
+    ride, count = reader.ride, reader.row_count
+    if ride.period_us is None:
+        times_us = reader.times_us(0, count)
+        return sample_seconds(times_us, pause_us(times_us, None))
+    if not ride.filled:
+        return np.broadcast_to(np.float64(ride.period_us / 1e6), (count,))
+    speed = next(channel for channel in ride.channels if channel.name == "speed_kmh")
+    empty = reader.counts([speed.name], 0, count)[speed.name] == speed.missing
+    return filled_seconds(ride.filled, empty, ride.period_us)
+
+
+def told(use: TableUse, points: Points) -> dict[str, Any]:
+    """Sums and cells as the API tells them."""
+    total_s = float(use.seconds.sum())
+    wh = use.motor_wh
+
+    def by_point(field: str, axis: int) -> list[dict[str, float | None]]:
+        seconds = use.seconds.sum(axis=axis)
+        energies = [None] * len(seconds) if wh is None else wh.sum(axis=axis).tolist()
+        return [
+            {
+                "point": point,
+                "seconds": float(spent_s),
+                "share": float(spent_s) / total_s if total_s else None,
+                "motor_wh": energy_wh,
+            }
+            for point, spent_s, energy_wh in zip(points[field], seconds, energies, strict=True)
+        ]
+
+    return {
+        "assisted_s": total_s,
+        "motor_excluded_s": use.motor_excluded_s,
+        "columns": by_point("torque_rate_points", 0),
+        "rows": by_point("speed_points_kmh", 1),
+        "cells": {
+            "seconds": use.seconds.tolist(),
+            "motor_wh": None if wh is None else wh.tolist(),
+        },
+    }
