@@ -3,9 +3,9 @@
     {"format": "spindle-configuration", "version": 1, "name": "thesis", "comment": "...",
      "family": "ebl", "parameters": {"assist_cutoff_kmh": {"value": 25.0, "unit": "km/h"}}}
 
-`spindle-table` is the same with the parameters of one fuzzy table. A backup adds `identity`,
-`generation` and `crc32` of the unit it was made of. Only the form is looked at here: whether a unit
-has these parameters, the unit's own rows say.
+`spindle-table` is the same with the parameters of one fuzzy table, all of them and no other, under
+the names of a unit's first. A backup adds `identity`, `generation` and `crc32` of the unit it was
+made of. Only the form is looked at here: whether a unit takes the values, the unit's own rows say.
 """
 
 from collections.abc import Iterable
@@ -15,6 +15,16 @@ from typing import Any
 CONFIGURATION = "spindle-configuration"
 TABLE = "spindle-table"
 VERSION = 1
+
+TABLE_PARAMETERS = (
+    "fuzzy_table_name",
+    "fuzzy_inference",
+    "fuzzy_speed_points_kmh",
+    "fuzzy_torque_rate_points",
+    "fuzzy_gain_points",
+    "fuzzy_rules",
+)
+"""What a table is made of."""
 
 _WORDS = ("name", "comment", "family")
 _ENTRY_KEYS = {"value", "unit", "comment"}
@@ -44,6 +54,11 @@ class ConfigurationFile:
     parameters: dict[str, Entry]
 
     @property
+    def kind(self) -> str:
+        """`configuration` or `table`, as people and the API say it."""
+        return self.format.removeprefix("spindle-")
+
+    @property
     def values(self) -> dict[str, Any]:
         """The values alone, by their parameters' names."""
         return {name: entry.value for name, entry in self.parameters.items()}
@@ -69,6 +84,8 @@ def read(saved: object) -> ConfigurationFile:
     parameters = saved.get("parameters")
     if not isinstance(parameters, dict):
         raise BadConfigurationFile("it has no `parameters`")
+    if saved["format"] == TABLE:
+        _require_one_table(set(parameters))
     return ConfigurationFile(
         format=saved["format"],
         name=saved["name"],
@@ -76,6 +93,13 @@ def read(saved: object) -> ConfigurationFile:
         family=saved["family"],
         parameters={name: _entry(name, entry) for name, entry in parameters.items()},
     )
+
+
+def _require_one_table(names: set[str]) -> None:
+    if missing := sorted(set(TABLE_PARAMETERS) - names):
+        raise BadConfigurationFile(f"it is a table without {', '.join(missing)}")
+    if other := sorted(names - set(TABLE_PARAMETERS)):
+        raise BadConfigurationFile(f"it is a table, and {', '.join(other)} is no part of one")
 
 
 def _entry(name: str, entry: object) -> Entry:

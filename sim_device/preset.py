@@ -25,6 +25,8 @@ def load(name: str) -> ConfigurationFile:
         raise KeyError(f"there is no preset {name!r}; there are: {', '.join(names())}")
     source = files("sim_device") / "presets" / f"{name}.json"
     preset = read(json.loads(source.read_text(encoding="utf-8")))
+    if preset.name != name:
+        raise BadConfigurationFile(f"preset {name}: it calls itself {preset.name}")
     for parameter, entry in preset.parameters.items():
         if parameter not in PARAMETER_BY_NAME:
             raise BadConfigurationFile(f"preset {name}: there is no parameter {parameter}")

@@ -132,19 +132,21 @@ def restore(options: Namespace) -> int:
 
 
 def diff(options: Namespace) -> int:
-    """What differs between a backup and the unit, or between two backups."""
-    one = backup_at(options.file).parameters
+    """What differs between a backup and the unit, or between two backups; of a table the table."""
+    one = backup_at(options.file)
     if options.other is not None and Path(options.other).is_file():
-        other = backup_at(Path(options.other)).parameters
+        other = backup_at(Path(options.other))
     else:
         server = server_of(options)
         unit = server.device_id(options.other)
         # A server of before may tell choices in the words of then.
-        other = read_backup(server.ask("GET", f"/devices/{unit}/config"), unit).parameters
+        other = read_backup(server.ask("GET", f"/devices/{unit}/config"), unit)
+    told = [backup for backup in (one, other) if backup.is_table] or [one, other]
+    old, new = one.parameters, other.parameters
     changed = [
-        {"name": name, "old": one.get(name), "new": other.get(name)}
-        for name in dict.fromkeys([*one, *other])
-        if one.get(name) != other.get(name)
+        {"name": name, "old": old.get(name), "new": new.get(name)}
+        for name in dict.fromkeys(name for backup in told for name in backup.parameters)
+        if old.get(name) != new.get(name)
     ]
     print_changes({"changed": changed}, options)
     return 0
@@ -154,9 +156,11 @@ def list_presets(options: Namespace) -> int:
     """The configurations and tables that come with Spindle; `restore` takes their names."""
     found = [presets.load(name) for name in presets.names()]
     if options.json:
-        print_json({"items": [{"name": one.name, "comment": one.comment} for one in found]})
+        items = [{"name": one.name, "kind": one.kind, "comment": one.comment} for one in found]
+        print_json({"items": items})
         return 0
-    print_table([[one.name, one.comment] for one in found], ["preset", "what it is"])
+    rows = [[one.name, one.kind, one.comment] for one in found]
+    print_table(rows, ["preset", "kind", "what it is"])
     return 0
 
 

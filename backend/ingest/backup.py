@@ -8,6 +8,7 @@ from typing import Any
 
 from backend.errors import InvalidRequest
 from firmware_protocol.configuration_file import (
+    TABLE,
     BadConfigurationFile,
     ConfigurationFile,
     configuration_json,
@@ -27,13 +28,15 @@ class Backup:
     """Parameters by their names and spelling of today.
 
     notes: what was made of those of an older unit, in words. family: of the unit it is for, None
-    where an old file does not say. units: of each value, empty for an old file.
+    where an old file does not say. units: of each value, empty for an old file. is_table: it is one
+    fuzzy table and says nothing of the rest.
     """
 
     parameters: dict[str, Any]
     notes: list[str] = field(default_factory=list)
     family: str | None = None
     units: dict[str, str] = field(default_factory=dict)
+    is_table: bool = False
 
 
 def read_backup(saved: object, name: str) -> Backup:
@@ -54,12 +57,9 @@ def read_backup(saved: object, name: str) -> Backup:
 
 def backup_of(file: ConfigurationFile) -> Backup:
     """What a file of the format of today holds, a preset for one."""
-    if file.family != EBL:
-        units = {name: entry.unit for name, entry in file.parameters.items()}
-        return Backup(file.values, [], file.family, units)
-    parameters, notes = brought_forward(file.values)
-    units = {name: file.parameters[name].unit for name in parameters if name in file.parameters}
-    return Backup(parameters, notes, file.family, units)
+    values, notes = brought_forward(file.values) if file.family == EBL else (file.values, [])
+    units = {name: entry.unit for name, entry in file.parameters.items() if name in values}
+    return Backup(values, notes, file.family, units, file.format == TABLE)
 
 
 def backup_json(

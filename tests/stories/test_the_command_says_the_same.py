@@ -85,6 +85,30 @@ def test_a_preset_is_a_backup_that_comes_with_spindle(
     assert json.loads(band.stdout)["parameters"]["assist_cutoff_band_kmh"] == 0.0
 
 
+def test_a_table_that_comes_with_spindle_changes_the_table_alone(
+    server: SpindleServer, device: str
+) -> None:
+    server.stand_still(device)
+    before = server.get(f"/devices/{device}/config")["parameters"]
+
+    listed = spindle(server, "device", "presets", "--json")
+    differing = spindle(server, "device", "diff", "strong-start", "--json")
+    taken = spindle(server, "device", "restore", "strong-start")
+    now = server.get(f"/devices/{device}/config")["parameters"]
+    none_left = spindle(server, "device", "diff", "strong-start", "--json")
+    spindle(server, "device", "restore", "thesis-table")
+
+    kinds = {item["name"]: item["kind"] for item in json.loads(listed.stdout)["items"]}
+    assert (kinds["strong-start"], kinds["thesis"]) == ("table", "configuration")
+    told = {change["name"] for change in json.loads(differing.stdout)["changed"]}
+    assert taken.returncode == 0, taken.stderr
+    assert told == {name for name in before if before[name] != now[name]}
+    assert "fuzzy_rules" in told
+    assert all(name.startswith("fuzzy_") for name in told)
+    assert json.loads(none_left.stdout)["changed"] == []
+    assert server.get(f"/devices/{device}/config")["parameters"] == before
+
+
 @pytest.mark.parametrize(
     ("change", "says"),
     [

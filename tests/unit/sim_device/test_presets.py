@@ -7,19 +7,27 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from firmware_protocol._generated import PARAMETERS, Access
-from firmware_protocol.configuration_file import BadConfigurationFile, read
-from firmware_protocol.parameters import unpack_image
+from firmware_protocol.configuration_file import TABLE_PARAMETERS, BadConfigurationFile, read
+from firmware_protocol.parameters import default_config, unpack_image
 from sim_device import preset
 from sim_device.configure import read_image, write_config
 from sim_device.lockstep import LockstepUnit
-from sim_device.preset_unit import preset_unit
+from sim_device.preset_unit import parameters_of, preset_unit
 
 # A bike's own, which no preset may overwrite.
 MEASURED = {"sensor_offset_counts", "sensor_gain_nm_per_count", "wheel_circumference_m"}
+
+
+def saved_preset(name: str) -> dict[str, Any]:
+    """A preset's file as JSON."""
+    path = Path(preset.__file__).parent / "presets" / f"{name}.json"
+    saved: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+    return saved
 
 
 @pytest.mark.parametrize("name", preset.names())
@@ -54,6 +62,47 @@ def test_the_thesis_s_set_is_the_thesis_s() -> None:
     assert (values["assist_cutoff_kmh"], values["assist_cutoff_band_kmh"]) == (25, 0)
 
 
+def test_a_table_is_the_factory_s_unit_with_another_table() -> None:
+    table = preset.load("even").values
+
+    assert set(table) == set(TABLE_PARAMETERS)
+    assert parameters_of("even") == default_config() | table
+    made = preset_unit("even", 1, {"torque_filter_s": 0.7}).unit
+    assert unpack_image(read_image(made)) == default_config() | table | {"torque_filter_s": 0.7}
+
+
+def test_the_thesis_s_table_is_that_of_its_configuration() -> None:
+    of_configuration = preset.load("thesis").values
+
+    table = preset.load("thesis-table").values
+    rescaled = preset.load("thesis-rescaled").values
+
+    assert table == {name: of_configuration[name] for name in TABLE_PARAMETERS}
+    assert {name for name in table if table[name] != rescaled[name]} == {
+        "fuzzy_table_name",
+        "fuzzy_torque_rate_points",
+    }
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({"motor_torque_nm_max": {"value": 1.0, "unit": "Nm"}}, "motor_torque_nm_max is no part"),
+        ({"second_rules": {"value": [], "unit": ""}}, "second_rules is no part"),
+        ({"fuzzy_rules": None}, "a table without fuzzy_rules"),
+    ],
+)
+def test_a_table_s_file_holds_one_table_and_nothing_else(
+    change: dict[str, object], says: str
+) -> None:
+    saved = saved_preset("even")
+    whole = {**saved["parameters"], **change}
+    saved["parameters"] = {name: entry for name, entry in whole.items() if entry is not None}
+
+    with pytest.raises(BadConfigurationFile, match=says):
+        read(saved)
+
+
 def test_the_thesis_s_unit_assists_to_25_kmh_and_not_beyond() -> None:
     unit = preset_unit("thesis", 1, {})
     unit.select_mode(3)
@@ -83,8 +132,5 @@ def test_the_thesis_s_unit_assists_to_25_kmh_and_not_beyond() -> None:
     ],
 )
 def test_a_file_that_is_none_says_where(change: dict[str, object], says: str) -> None:
-    path = Path(preset.__file__).parent / "presets" / "thesis.json"
-    saved = json.loads(path.read_text(encoding="utf-8"))
-
     with pytest.raises(BadConfigurationFile, match=says):
-        read(saved | change)
+        read(saved_preset("thesis") | change)
