@@ -8,7 +8,6 @@ the names of a unit's first. A backup adds `identity`, `generation` and `crc32` 
 made of. Only the form is looked at here: whether a unit takes the values, the unit's own rows say.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -42,6 +41,11 @@ class Entry:
     unit: str
     comment: str = ""
 
+    def to_json(self) -> dict[str, Any]:
+        """As it stands in a file."""
+        comment = {"comment": self.comment} if self.comment else {}
+        return {"value": self.value, "unit": self.unit, **comment}
+
 
 @dataclass(frozen=True)
 class ConfigurationFile:
@@ -62,6 +66,17 @@ class ConfigurationFile:
     def values(self) -> dict[str, Any]:
         """The values alone, by their parameters' names."""
         return {name: entry.value for name, entry in self.parameters.items()}
+
+    def to_json(self) -> dict[str, Any]:
+        """The file's JSON, which `read` takes; an entry without a comment has none."""
+        return {
+            "format": self.format,
+            "version": VERSION,
+            "name": self.name,
+            "comment": self.comment,
+            "family": self.family,
+            "parameters": {name: entry.to_json() for name, entry in self.parameters.items()},
+        }
 
 
 def is_configuration_file(saved: object) -> bool:
@@ -111,17 +126,3 @@ def _entry(name: str, entry: object) -> Entry:
     if not isinstance(unit, str) or not isinstance(comment, str):
         raise BadConfigurationFile(f"the unit or comment of its parameter {name} is no text")
     return Entry(entry["value"], unit, comment)
-
-
-def configuration_json(
-    name: str, comment: str, family: str, rows: Iterable[tuple[str, Any, str]]
-) -> dict[str, Any]:
-    """A configuration as JSON that `read` takes. rows: name, value and unit of each parameter."""
-    return {
-        "format": CONFIGURATION,
-        "version": VERSION,
-        "name": name,
-        "comment": comment,
-        "family": family,
-        "parameters": {row: {"value": value, "unit": unit} for row, value, unit in rows},
-    }

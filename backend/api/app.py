@@ -12,7 +12,7 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 
 from backend.api import docs, errors, live, pages
 from backend.api.problem import Problem, refusals
-from backend.api.routes import config, devices, health, law, logs, rides, uploads
+from backend.api.routes import config, devices, health, law, library, logs, rides, uploads
 from backend.api.safety import AllowedHosts, BodyBound, SameOriginOnly, SecurityHeaders
 from backend.api.services import Services
 
@@ -51,7 +51,7 @@ def create_app(settings: ApiSettings, services: Services | None = None) -> FastA
     app.state.services = services
     app.state.upload_bytes_max = settings.upload_bytes_max
     api = APIRouter(prefix=PREFIX)
-    for module in (health, devices, logs, config, law, rides, uploads, live):
+    for module in (health, devices, logs, config, law, library, rides, uploads, live):
         api.include_router(module.router)
     app.include_router(api)
     app.include_router(health.probes)

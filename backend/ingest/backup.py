@@ -8,10 +8,11 @@ from typing import Any
 
 from backend.errors import InvalidRequest
 from firmware_protocol.configuration_file import (
+    CONFIGURATION,
     TABLE,
     BadConfigurationFile,
     ConfigurationFile,
-    configuration_json,
+    Entry,
     is_configuration_file,
     read,
 )
@@ -70,7 +71,10 @@ def backup_json(
     device, config: as the API tells them. units: of each parameter, by name.
     """
     serial_number = (device["identity"] or {}).get("serial_number")
-    rows = [(name, value, units.get(name, "")) for name, value in config["parameters"].items()]
-    saved = configuration_json(serial_number or device["id"], "", device["family"], rows)
+    entries = {
+        name: Entry(value, units.get(name, "")) for name, value in config["parameters"].items()
+    }
+    name = serial_number or device["id"]
+    saved = ConfigurationFile(CONFIGURATION, name, "", device["family"], entries)
     told = {key: value for key, value in config.items() if key != "parameters"}
-    return {**saved, "identity": device["identity"], **told}
+    return {**saved.to_json(), "identity": device["identity"], **told}

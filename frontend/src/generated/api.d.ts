@@ -631,6 +631,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/library": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Library
+         * @description Every table and configuration there is under a name, without its values.
+         */
+        get: operations["list_library"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/library/{entry_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Library Entry
+         * @description One of them whole, as the file that `spindle device restore` takes.
+         */
+        get: operations["get_library_entry"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/rides": {
         parameters: {
             query?: never;
@@ -1523,6 +1563,85 @@ export interface components {
              * @description Why the unit started: `power_on`, `brown_out`, `watchdog`, `fault_handler`, `deadline` or `software`; null where its firmware cannot tell.
              */
             reset_cause: string | null;
+        };
+        /**
+         * LibraryEntry
+         * @description A file as `spindle device restore` takes it; a table holds the parameters of one table.
+         */
+        LibraryEntry: {
+            /**
+             * Format
+             * @enum {string}
+             */
+            format: "spindle-table" | "spindle-configuration";
+            /**
+             * Version
+             * @constant
+             */
+            version: 1;
+            /** Name */
+            name: string;
+            /** Comment */
+            comment: string;
+            /** Family */
+            family: string;
+            /** Parameters */
+            parameters: {
+                [key: string]: components["schemas"]["LibraryParameter"];
+            };
+        };
+        /** LibraryList */
+        LibraryList: {
+            /** Items */
+            items: components["schemas"]["LibraryRow"][];
+            /** Next */
+            next: string | null;
+        };
+        /** LibraryParameter */
+        LibraryParameter: {
+            /** Value */
+            value: number | string | (number | string)[] | (number | string)[][];
+            /**
+             * Unit
+             * @description Empty for a number without one, and for a text or a choice.
+             */
+            unit: string;
+            /**
+             * Comment
+             * @default
+             */
+            comment: string;
+        };
+        /**
+         * LibraryRow
+         * @description One entry without its values.
+         */
+        LibraryRow: {
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "table" | "configuration";
+            /**
+             * Comment
+             * @description What it is good for.
+             */
+            comment: string;
+            /**
+             * Family
+             * @description Of the units it is for.
+             */
+            family: string;
+            /**
+             * Source
+             * @description `preset`: it comes with Spindle, read only.
+             * @constant
+             */
+            source: "preset";
         };
         /**
          * Limits
@@ -5729,6 +5848,75 @@ export interface operations {
             };
             /** @description The body is not JSON */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_library: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LibraryList"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_library_entry: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                entry_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LibraryEntry"];
+                };
+            };
+            /** @description Not Found */
+            404: {
                 headers: {
                     [name: string]: unknown;
                 };
