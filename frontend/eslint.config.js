@@ -16,7 +16,7 @@ const SHARED = {
   i18n: ['api'],
   units: ['i18n'],
   context: ['api', 'i18n', 'ui', 'units'],
-  charts: ['context', 'i18n', 'stream', 'ui'],
+  charts: ['api', 'context', 'i18n', 'stream', 'ui', 'units'],
   device: ['api', 'context', 'i18n', 'stream', 'ui', 'units'],
   config: ['api', 'context', 'device', 'i18n', 'ui', 'units'],
 }

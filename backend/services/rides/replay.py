@@ -4,8 +4,8 @@ The configuration the unit had on the ride is the starting point, so that only w
 differs. The loop is open: speed and legs are as recorded, whatever the motor would have changed of
 them. So what is compared first is work for a kilometre: the same kilometres either way, while work
 alone grows with how long the road took. The recorded motor and the replayed one are told side by
-side; how well a replay without
-any change matches the record says how far the answer can be trusted.
+side. How well a replay without any change matches the record says how far the answer can be
+trusted.
 """
 
 from __future__ import annotations

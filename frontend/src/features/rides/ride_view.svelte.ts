@@ -1,20 +1,12 @@
 // The window of a ride on screen and the series that fills it: the newest window wins, and the old
 // curve stays until the new one is there.
 import { Refusal } from '$shared/api/client'
-import type { Series } from '$shared/api/series'
 import type { Server } from '$shared/api/server'
-
-export interface TimeWindow {
-  from_s: number
-  to_s: number
-}
+import { TraceWindow, type TimeWindow } from '$shared/charts/trace_window.svelte'
 
 const PACE_MS = 60 // a drag asks this often at most
-const WINDOW_S_MIN = 0.2
 
-export class RideView {
-  window: TimeWindow = $state.raw({ from_s: 0, to_s: 1 })
-  series = $state.raw<Series | null>(null)
+export class RideView extends TraceWindow {
   loading = $state(false)
   trouble = $state<string | null>(null)
   private asked = new AbortController()
@@ -25,44 +17,14 @@ export class RideView {
     private readonly server: Server,
     private readonly ride_id: number,
     readonly channels: string[],
-    private readonly duration_s: number,
+    duration_s: number,
     window: TimeWindow | null,
   ) {
-    this.window = this.inside(window ?? { from_s: 0, to_s: duration_s })
+    super(duration_s, window)
   }
 
-  get whole(): boolean {
-    return this.window.from_s <= 0 && this.window.to_s >= this.duration_s
-  }
-
-  /** Shows another window and fetches it: at once, or with the last of a quick row of them. */
-  show(window: TimeWindow, px: number): void {
-    this.window = this.inside(window)
-    this.fetchSoon(px)
-  }
-
-  showAll(px: number): void {
-    this.show({ from_s: 0, to_s: this.duration_s }, px)
-  }
-
-  /** Scales the window about its middle: 0.5 zooms in, 2 zooms out. */
-  zoom(factor: number, px: number): void {
-    const middle = (this.window.from_s + this.window.to_s) / 2
-    const half = ((this.window.to_s - this.window.from_s) / 2) * factor
-    this.show({ from_s: middle - half, to_s: middle + half }, px)
-  }
-
-  /** Moves the window by a share of its width. */
-  pan(share: number, px: number): void {
-    const width = this.window.to_s - this.window.from_s
-    const from_s = Math.min(
-      Math.max(0, this.window.from_s + share * width),
-      this.duration_s - width,
-    )
-    this.show({ from_s, to_s: from_s + width }, px)
-  }
-
-  fetchSoon(px: number): void {
+  /** Fetches the window: at once, or with the last of a quick row of them. */
+  override fetchSoon(px: number): void {
     if (this.timer) clearTimeout(this.timer)
     const wait_ms = this.fetched_ms + PACE_MS - performance.now()
     if (wait_ms <= 0) void this.fetch(px)
@@ -94,11 +56,5 @@ export class RideView {
       this.trouble = error.message
     }
     this.loading = false
-  }
-
-  private inside(window: TimeWindow): TimeWindow {
-    const from_s = Math.max(0, Math.min(window.from_s, this.duration_s - WINDOW_S_MIN))
-    const to_s = Math.min(this.duration_s, Math.max(window.to_s, from_s + WINDOW_S_MIN))
-    return { from_s, to_s }
   }
 }

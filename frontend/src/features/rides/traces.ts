@@ -1,20 +1,6 @@
-// What the ride page draws: rows of channels, time marks, and bins as points of a line.
-import { niceStep } from '$shared/charts/strip_chart'
+// What the ride page draws: rows of the channels that a ride has.
 import type { Ride } from '$shared/api/types'
-import { clock } from '$shared/i18n/locale.svelte'
-
-export interface TraceLine {
-  channel: string
-  token: string
-  /** Its name beside the others of its row, where it is not the channel's. */
-  name?: string
-}
-
-export interface TraceRow {
-  key: string
-  unit: string
-  lines: TraceLine[]
-}
+import type { TraceRow } from '$shared/charts/trace_line'
 
 // Each row shows the first of its alternatives that the ride has. What a unit asked of its motor is
 // drawn behind what the motor gave.
@@ -71,46 +57,4 @@ export function rowsFor(
     else if (expected.includes(row.key)) missing.push(row.key)
   }
   return { shown, missing }
-}
-
-/** Bins as a line that touches the least and the greatest value of each. NaN breaks the line. */
-export function binLine(
-  first_s: Float64Array,
-  last_s: Float64Array,
-  min: Float64Array,
-  max: Float64Array,
-): { x: Float64Array; y: Float64Array } {
-  if (min === max) return { x: first_s, y: min }
-  const x = new Float64Array(2 * min.length)
-  const y = new Float64Array(2 * min.length)
-  for (let i = 0; i < min.length; i++) {
-    x[2 * i] = first_s[i] ?? NaN
-    x[2 * i + 1] = last_s[i] ?? NaN
-    y[2 * i] = min[i] ?? NaN
-    y[2 * i + 1] = max[i] ?? NaN
-  }
-  return { x, y }
-}
-
-const STEPS_S = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 14400, 28800]
-
-/** About `count` round moments in a window, with their texts. */
-export function timeTicks(
-  from_s: number,
-  to_s: number,
-  count: number,
-): { at: number[]; text: string[] } {
-  const rough = (to_s - from_s) / count
-  const step = rough < 0.7 ? niceStep(rough) : (STEPS_S.find((s) => s >= rough) ?? niceStep(rough))
-  const at: number[] = []
-  for (let i = Math.ceil(from_s / step - 1e-9); i * step <= to_s + 1e-9; i++) at.push(i * step)
-  return { at, text: at.map((t) => moment(t, step)) }
-}
-
-/** A moment of the ride, with decimals where whole seconds would repeat. */
-export function moment(t_s: number, step_s = 1): string {
-  if (step_s >= 1) return clock(t_s)
-  const digits = Math.ceil(-Math.log10(step_s))
-  const whole = Math.floor(t_s + 1e-9)
-  return `${clock(whole)}${(t_s - whole).toFixed(digits).slice(1)}`
 }

@@ -1,24 +1,8 @@
-// A fuzzy table: between the unit's parameters and what the server's law takes; grids to text.
-import type { FuzzyTable, RuleLabel } from '$shared/api/types'
-import type { ConfigDraft } from '$shared/config/config_draft.svelte'
+// The rules of a fuzzy table as a grid: blocks of it, nudges, and to and from text.
+import type { RuleLabel } from '$shared/api/types'
 import { LABELS } from '$shared/config/parameter_text'
-import { impossible, PARAMETERS_OF, type TableName } from './two_tables'
 
 export type Rules = RuleLabel[][]
-
-/** One of the draft's tables, or null while a value of it is impossible. */
-export function tableOf(draft: ConfigDraft, which: TableName): FuzzyTable | null {
-  const names = PARAMETERS_OF[which]
-  if (!draft.loaded || impossible(draft, Object.values(names))) return null
-  return {
-    name: String(draft.value(names.name)),
-    inference: draft.value(names.inference) as FuzzyTable['inference'],
-    speed_points_kmh: draft.value(names.speeds) as number[],
-    torque_rate_points: draft.value(names.rates) as number[],
-    gain_points: draft.value(names.gains) as number[],
-    rules: draft.value(names.rules) as Rules,
-  }
-}
 
 /** `count` values from `from` to `to`, both included. */
 export function spread(from: number, to: number, count: number): number[] {

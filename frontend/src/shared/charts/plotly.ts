@@ -17,8 +17,8 @@ export function plotConfig(language: Language): object {
   }
 }
 
-export async function loadLines() {
-  return (await import('./plotly_lines')).default
+export function loadLines() {
+  return import('./plotly_lines')
 }
 
 export async function loadHeatmap() {

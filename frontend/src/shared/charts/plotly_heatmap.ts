@@ -1,6 +1,6 @@
 // Lines and heatmaps.
 import heatmap from 'plotly.js/lib/heatmap'
-import plotly from './plotly_lines'
+import { plotly } from './plotly_lines'
 
 plotly.register(heatmap)
 

@@ -1,4 +1,4 @@
-// Lines only; the smallest Plotly there is.
+// Lines only, the smallest Plotly there is, and what draws a ride with it: needed together.
 import core from 'plotly.js/lib/core'
 import chinese from 'plotly.js/lib/locales/zh-cn'
 import type { Plotly } from './plotly_types'
@@ -6,4 +6,6 @@ import type { Plotly } from './plotly_types'
 const plotly = core as unknown as Plotly
 plotly.register(chinese)
 
-export default plotly
+export { markData } from './event_marks'
+export { axisName, traceData, traceLayout, windowLayout } from './trace_figure'
+export { plotly }

@@ -1,11 +1,17 @@
 // A ride's series as one Plotly figure: rows above each other, one time axis, gaps left open.
-import { plotLook } from '$shared/charts/plotly'
-import type { Series } from '$shared/api/series'
-import type { RideEvent } from '$shared/api/types'
-import type { Theme } from '$shared/ui/theme.svelte'
-import type { Units } from '$shared/units/units.svelte'
-import { markAxis, markLines, MARKS_PX } from './event_marks'
-import { binLine, moment, timeTicks, type TraceRow } from './traces'
+import type { Series } from '../api/series'
+import type { Theme } from '../ui/theme.svelte'
+import type { Units } from '../units/units.svelte'
+import { markAxis, markLines, type MarkedEvent } from './event_marks'
+import { plotLook } from './plotly'
+import {
+  binLine,
+  MARKS_PX,
+  moment,
+  timeTicks,
+  type TraceLine,
+  type TraceRow,
+} from './trace_line'
 
 export interface FigureWords {
   row: (key: string) => string
@@ -23,13 +29,14 @@ export interface Frame {
   gaps: Span[]
   /** Stretches that came from the unit's own log, coarser than the rest. */
   filled: Span[]
-  events: RideEvent[]
+  events: MarkedEvent[]
   /** Size of the plot in pixels. */
   width: number
   height: number
 }
 
 const ROW_GAP_PX = 26 // room for a row's title
+const SWATCH = { thin: '▬', broad: '▬', dashed: '╍' }
 
 /** The lines of a series, each in the row that shows its channel. */
 export function traceData(
@@ -52,13 +59,18 @@ export function traceData(
         x,
         y: y.map((value) => units.show(value, row.unit)),
         yaxis: axisName(i),
-        line: { color: theme.colour(line.token), width: 1.4, simplify: false },
+        line: { color: theme.colour(line.token), simplify: false, ...stroke(line) },
         connectgaps: false,
         customdata: moments,
         hovertemplate: `${units.label(row.unit)} %{y:.4~g}<br>%{customdata}`,
       }
     }),
   )
+}
+
+function stroke({ look }: TraceLine): { width: number; dash?: string } {
+  if (look === 'dashed') return { width: 1.6, dash: '5px,3px' }
+  return { width: look === 'broad' ? 3 : 1.4 }
 }
 
 /** The part of the layout that a zoom changes; a figure is not built anew for it. */
@@ -152,7 +164,7 @@ function title(text: string, y: number): object {
 function rowTitle(row: TraceRow, units: Units, words: FigureWords, theme: Theme): string {
   const unit = row.unit ? ` ${units.label(row.unit)}` : ''
   const keys = row.lines.map((line) => {
-    const swatch = `<span style="color:${theme.colour(line.token)}">▬</span>`
+    const swatch = `<span style="color:${theme.colour(line.token)}">${SWATCH[line.look ?? 'thin']}</span>`
     return `${swatch} ${words.channel(line.name ?? line.channel)}`
   })
   return row.lines.length > 1

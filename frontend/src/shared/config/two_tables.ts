@@ -1,8 +1,8 @@
-// The unit's two fuzzy tables: their parameters, the modes that use them, and what else the linter
-// is told so that it judges a table as the bike runs it.
-import type { AssistModes, Limits, LintRequest } from '$shared/api/types'
-import type { ConfigDraft, Edits } from '$shared/config/config_draft.svelte'
-import { faultsOf } from '$shared/config/limits'
+// The unit's two fuzzy tables: between its parameters and what the server's law takes, the modes that
+// use them, and what else the linter is told so that it judges a table as the bike runs it.
+import type { AssistModes, FuzzyTable, Limits, LintRequest } from '../api/types'
+import type { ConfigDraft, Edits } from './config_draft.svelte'
+import { faultsOf } from './limits'
 
 export const TABLES = ['first', 'second'] as const
 export type TableName = (typeof TABLES)[number]
@@ -29,6 +29,64 @@ export const PARAMETERS_OF: Record<TableName, TableParameters> = {
   },
 }
 
+/** The value of a parameter: what the unit has, or what an edit would make of it. */
+export type Read = (name: string) => Edits[string] | undefined
+
+const MODE_PARAMETERS = [
+  'mode_names',
+  'mode_laws',
+  'mode_ratios',
+  'mode_tapers',
+  'mode_tables',
+  'mode_ramp_up_nm_per_s',
+  'mode_ramp_down_nm_per_s',
+  'mode_torque_pct',
+  'assist_mode_at_start',
+]
+
+/** One of two tables as the law takes it; null where a parameter of it is unknown. */
+export function tableFrom(read: Read, which: TableName): FuzzyTable | null {
+  const names = PARAMETERS_OF[which]
+  if (Object.values(names).some((name) => read(name) === undefined)) return null
+  return {
+    name: String(read(names.name)),
+    inference: read(names.inference) as FuzzyTable['inference'],
+    speed_points_kmh: read(names.speeds) as number[],
+    torque_rate_points: read(names.rates) as number[],
+    gain_points: read(names.gains) as number[],
+    rules: read(names.rules) as FuzzyTable['rules'],
+  }
+}
+
+/** One of the draft's tables, or null while a value of it is impossible. */
+export function tableOf(draft: ConfigDraft, which: TableName): FuzzyTable | null {
+  if (!draft.loaded || impossible(draft, Object.values(PARAMETERS_OF[which]))) return null
+  return tableFrom((name) => draft.value(name), which)
+}
+
+/** The five modes as the law takes them; null where a parameter of them is unknown. */
+export function modesFrom(read: Read): AssistModes | null {
+  if (MODE_PARAMETERS.some((name) => read(name) === undefined)) return null
+  const at = (name: string, slot: number) => (read(name) as (number | string)[])[slot]
+  const modes = [0, 1, 2, 3, 4].map((slot) => ({
+    name: String(at('mode_names', slot)),
+    law: at('mode_laws', slot),
+    ratio: Number(at('mode_ratios', slot)),
+    taper: at('mode_tapers', slot),
+    table: TABLES[Number(at('mode_tables', slot))],
+    ramp_up_nm_per_s: Number(at('mode_ramp_up_nm_per_s', slot)),
+    ramp_down_nm_per_s: Number(at('mode_ramp_down_nm_per_s', slot)),
+    torque_pct: Number(at('mode_torque_pct', slot)),
+  }))
+  return { modes, mode_at_start: read('assist_mode_at_start') } as AssistModes
+}
+
+/** The draft's modes, or null where it has none or a value of them is impossible. */
+export function modesOf(draft: ConfigDraft): AssistModes | null {
+  if (!draft.loaded || impossible(draft, MODE_PARAMETERS)) return null
+  return modesFrom((name) => draft.value(name))
+}
+
 /** Whether one of these parameters is absent or has a value the unit refuses. */
 export function impossible(draft: ConfigDraft, names: string[]): boolean {
   return names.some((name) => {
@@ -52,8 +110,6 @@ export function isChanged(draft: ConfigDraft, which: TableName): boolean {
   return changed.some((name) => tableWith([name]) === which)
 }
 
-type Read = (name: string) => Edits[string] | undefined
-
 /** Which table a mode slot runs by; null if its law has none, or nobody knows. */
 export function tableOfMode(read: Read, slot: number): TableName | null {
   const [laws, tables] = [read('mode_laws') as string[], read('mode_tables') as number[]]
@@ -76,7 +132,7 @@ export function surroundings(draft: ConfigDraft): Omit<LintRequest, 'fuzzy_table
   const modes_possible = !impossible(draft, names('assist'))
   const gear_known = !impossible(draft, ['gear_ratio'])
   return {
-    assist_modes: modes_possible ? modesOf(draft) : null,
+    assist_modes: modes_possible ? modesFrom((name) => draft.value(name)) : null,
     limits: impossible(draft, limits)
       ? null
       : (Object.fromEntries(limits.map((name) => [name, draft.value(name)])) as unknown as Limits),
@@ -88,19 +144,4 @@ export function surroundings(draft: ConfigDraft): Omit<LintRequest, 'fuzzy_table
       : null,
     gear_ratio: gear_known ? (draft.value('gear_ratio') as number) : null,
   }
-}
-
-function modesOf(draft: ConfigDraft): AssistModes {
-  const at = (name: string, slot: number) => (draft.value(name) as (number | string)[])[slot]
-  const modes = [0, 1, 2, 3, 4].map((slot) => ({
-    name: String(at('mode_names', slot)),
-    law: at('mode_laws', slot),
-    ratio: Number(at('mode_ratios', slot)),
-    taper: at('mode_tapers', slot),
-    table: TABLES[Number(at('mode_tables', slot))],
-    ramp_up_nm_per_s: Number(at('mode_ramp_up_nm_per_s', slot)),
-    ramp_down_nm_per_s: Number(at('mode_ramp_down_nm_per_s', slot)),
-    torque_pct: Number(at('mode_torque_pct', slot)),
-  }))
-  return { modes, mode_at_start: draft.value('assist_mode_at_start') } as AssistModes
 }

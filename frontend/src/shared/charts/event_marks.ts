@@ -1,10 +1,8 @@
 // What happened on a ride, above its traces: one mark for each event, and a line down through the
 // rows. The list below the traces says the same in words.
-import type { RideEvent } from '$shared/api/types'
-import type { Theme } from '$shared/ui/theme.svelte'
+import type { RideEvent } from '../api/types'
+import type { Theme } from '../ui/theme.svelte'
 
-/** Room for the marks and their title above the first row, in pixels. */
-export const MARKS_PX = 40
 const MARK_ROW_PX = 14
 const LINES_MAX = 40 // more would hide the curves; the marks are all there
 
@@ -16,15 +14,19 @@ const looks: Record<Kind, { symbol: string; token: string }> = {
 }
 const kinds = Object.keys(looks) as Kind[] // the worst first
 
+/** An event with its sentence. */
+export interface MarkedEvent extends RideEvent {
+  text: string
+}
+
 export interface EventWords {
   kind: (kind: Kind) => string
-  event: (event: RideEvent) => string
   moment: (t_s: number) => string
 }
 
 /** One series of marks for each kind of event there is, on the axis `yaxis`. */
 export function markData(
-  events: RideEvent[],
+  events: MarkedEvent[],
   yaxis: string,
   theme: Theme,
   words: EventWords,
@@ -43,7 +45,7 @@ export function markData(
       yaxis,
       marker: { symbol, size: 10, color: theme.colour(token), line: { width: 1.5 } },
       cliponaxis: false,
-      text: those.map((event) => `${words.event(event)}<br>${words.moment(event.t_s)}`),
+      text: those.map((event) => `${event.text}<br>${words.moment(event.t_s)}`),
       hovertemplate: '%{text}<extra></extra>',
     }
   })
@@ -55,8 +57,8 @@ export function markAxis(height: number): object {
 }
 
 /** Lines through the rows below `top` (0 to 1); faults before modes where there are too many. */
-export function markLines(events: RideEvent[], top: number, theme: Theme): object[] {
-  const rank = (event: RideEvent) => kinds.indexOf(event.kind)
+export function markLines(events: MarkedEvent[], top: number, theme: Theme): object[] {
+  const rank = (event: MarkedEvent) => kinds.indexOf(event.kind)
   const worst = [...events].sort((a, b) => rank(a) - rank(b)).slice(0, LINES_MAX)
   return worst.map(({ kind, t_s }) => ({
     type: 'line',

@@ -1,15 +1,15 @@
 /* Goal: each table is edited by its own parameters, and is judged with the modes that use it. */
 import { PARAMETERS } from '$generated/registry'
-import type { Server } from '$shared/api/server'
-import type { Parameter, ParameterValue } from '$shared/api/types'
-import { ConfigDraft } from '$shared/config/config_draft.svelte'
 import { expect, it } from 'vitest'
-import { tableOf } from './table'
+import type { Server } from '../api/server'
+import type { Parameter, ParameterValue } from '../api/types'
+import { ConfigDraft } from './config_draft.svelte'
 import {
   isChanged,
   modesWith,
   PARAMETERS_OF,
   surroundings,
+  tableOf,
   tableOfMode,
   tableWith,
 } from './two_tables'
