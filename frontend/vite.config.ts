@@ -5,11 +5,18 @@ import { defineConfig } from 'vitest/config'
 const folder = (path: string) => fileURLToPath(new URL(path, import.meta.url))
 const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
 
-// What most pages need of a unit, in one file: a dozen tiny ones compress worse than they save.
-const UNIT = {
-  name: 'unit',
-  test: /src\/shared\/(device|i18n\/(refusal_text|ride_title)|stream\/flags)/,
-}
+// What most pages need in one file, and the pages about rides in another: dozens of tiny ones compress
+// worse than they save.
+const MOST = [
+  'api|context|device|ui|units',
+  'i18n/(?!zh)',
+  'stream/flags',
+  'config/(config_draft|drafts|limits|page_draft|parameter_text|ratchet|two_tables)',
+]
+const GROUPS = [
+  { name: 'unit', test: new RegExp(`src/shared/(${MOST.join('|')})`) },
+  { name: 'rides', test: /src\/features\/(rides|try)/ },
+]
 
 export default defineConfig({
   plugins: [svelte()],
@@ -28,7 +35,7 @@ export default defineConfig({
     target: 'es2022',
     chunkSizeWarningLimit: 1500,
     modulePreload: { polyfill: false },
-    rolldownOptions: { output: { codeSplitting: { groups: [UNIT] } } },
+    rolldownOptions: { output: { codeSplitting: { groups: GROUPS } } },
   },
   server: {
     host: '127.0.0.1',

@@ -129,8 +129,13 @@ def replay(options: Namespace) -> int:
         if isinstance(value, dict) and "replayed" in value
     ]
     print_table(rows, ["", "recorded", "replayed", "difference"])
-    held = [[name, f"{share:.1%}"] for name, share in answer["limit_shares"].items() if share]
-    print_table(held, ["held back by", "share of time"])
+    before = answer["limit_shares_recorded"] or {}
+    held = [
+        [name, f"{before[name]:.1%}" if name in before else "-", f"{share:.1%}"]
+        for name, share in answer["limit_shares"].items()
+        if share or before.get(name)
+    ]
+    print_table(held, ["share of time held back by", "recorded", "replayed"])
     return 0
 
 

@@ -4,7 +4,7 @@ from backend.control.finding import Finding, LintReport
 from backend.control.gain import ENGINE, points, surface
 from backend.control.lint_rules import lint
 from backend.control.market import Cutoff, cutoff_of
-from backend.control.ride_replay import Replay, raw_counts_of, replay
+from backend.control.ride_replay import Replay, limit_shares, raw_counts_of, replay
 from sim_device.firmware.python.law import law_defaults
 
 __all__ = [
@@ -15,6 +15,7 @@ __all__ = [
     "Replay",
     "cutoff_of",
     "law_defaults",
+    "limit_shares",
     "lint",
     "points",
     "raw_counts_of",

@@ -108,13 +108,20 @@ def raw_counts_of(config: Mapping[str, Any], torque_nm: npt.ArrayLike) -> Floats
     return np.asarray(counts + config["sensor_offset_counts"], np.float32)
 
 
+def limit_shares(limit_flags: npt.NDArray[np.uint16]) -> dict[str, float]:
+    """Part of the samples, 0 to 1, in which each limit of the registry was at work. (n,)."""
+    samples = max(limit_flags.size, 1)
+    return {
+        name: np.count_nonzero(limit_flags & flag) / samples for name, flag in law.LIMITS.items()
+    }
+
+
 def _summed(
     outputs: Mapping[str, npt.NDArray[Any]], motor_speed_rpm: Floats, step_s: float
 ) -> Replay:
     flags = outputs["limit_flags"]
     torque_nm = outputs["motor_torque_nm"]
     power_w = torque_nm.astype(np.float64) * np.nan_to_num(motor_speed_rpm) * RAD_PER_S_PER_RPM
-    steps = max(flags.size, 1)
     return Replay(
         rider_torque_filtered_nm=outputs["rider_torque_filtered_nm"],
         torque_rate=outputs["torque_rate"],
@@ -125,7 +132,5 @@ def _summed(
         limit_flags=flags,
         motor_torque_nm_max=float(torque_nm.max(initial=0.0)),
         motor_work_wh=float(power_w.sum()) * step_s / JOULE_PER_WH,
-        limit_shares={
-            name: np.count_nonzero(flags & flag) / steps for name, flag in law.LIMITS.items()
-        },
+        limit_shares=limit_shares(flags),
     )

@@ -230,9 +230,15 @@ class Replay(Answer):
         description="Null in open loop: shaft work is not what leaves the battery."
     )
     motor_work_wh: Compared
-    motor_torque_nm_max: Compared
+    motor_torque_nm_max: Compared = Field(
+        description="At the motor's shaft, as delivered; nothing is recorded where it is only "
+        "`demanded`."
+    )
     motor_torque_nm_difference_max: float | None
     limit_shares: dict[str, float]
+    limit_shares_recorded: dict[str, float] | None = Field(
+        description="The same as the unit told it on the ride; null where it did not."
+    )
     series: Series
 
 

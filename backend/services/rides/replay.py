@@ -40,6 +40,7 @@ OPTIONAL = (
     "torque_age_ms",
 )
 FLAGS = "input_flags"
+LIMITS = "limit_flags"
 COMPARED = (
     ChannelSpec("motor_torque_nm", "Nm", 0.0001),
     ChannelSpec("motor_torque_demanded_nm", "Nm", 0.0001),
@@ -85,8 +86,9 @@ class RideReplay:
             config, law_inputs(columns), fuzzy_table, assist_modes, step_s, second_table
         )
         new_nm = np.asarray(replayed.motor_torque_nm, np.float64)
-        recorded_nm = columns.get("motor_torque_nm")
+        # What was only asked of a motor is not compared with what it gives.
         delivered = ride.motor_torque_meaning == DELIVERED
+        recorded_nm = columns.get("motor_torque_nm") if delivered else None
         speed_rpm = columns.get("motor_speed_rpm") if delivered else None
         recorded_wh = work_wh(recorded_nm, speed_rpm, step_s)
         distance_km = float(np.nansum(columns["speed_kmh"])) * step_s / SECONDS_PER_HOUR
@@ -107,6 +109,7 @@ class RideReplay:
             "motor_torque_nm_max": compared(largest(recorded_nm), replayed.motor_torque_nm_max),
             "motor_torque_nm_difference_max": difference_max(recorded_nm, new_nm),
             "limit_shares": replayed.limit_shares,
+            "limit_shares_recorded": recorded_shares(columns.get(LIMITS)),
             "series": series(reader, columns, replayed_columns(replayed)),
         }
 
@@ -131,7 +134,7 @@ def read_columns(reader: RideReader) -> dict[str, Values]:
             f"needs one at least every {PERIOD_US_MAX // 1000} ms.",
             code="too_slow",
         )
-    names = [*NEEDED, torque, *OPTIONAL, FLAGS, *(channel.name for channel in COMPARED)]
+    names = [*NEEDED, torque, *OPTIONAL, FLAGS, LIMITS, *(channel.name for channel in COMPARED)]
     chosen = [name for name in names if name in offered]
     counts = reader.counts(chosen, 0, reader.row_count)
     return {
@@ -221,6 +224,16 @@ def largest(values: Values | None) -> float | None:
 def difference_max(recorded: Values | None, replayed: Values) -> float | None:
     """The largest difference of any one sample, None where nothing was recorded."""
     return None if recorded is None else largest(np.abs(replayed - recorded))
+
+
+def recorded_shares(flags: Values | None) -> dict[str, float] | None:
+    """Part of the recorded samples in which each limit was at work; None where none was recorded.
+
+    flags: (n,), missing as NaN.
+    """
+    if flags is None or not np.isfinite(flags).any():
+        return None
+    return control.limit_shares(flags[np.isfinite(flags)].astype(np.uint16))
 
 
 class ReplayedReader:

@@ -1,7 +1,16 @@
 // The address bar is the state: which page, which ride.
 
 export type PageName =
-  'bike' | 'live' | 'tune' | 'rides' | 'ride' | 'sensor' | 'service' | 'settings' | 'unknown'
+  | 'bike'
+  | 'live'
+  | 'tune'
+  | 'try'
+  | 'rides'
+  | 'ride'
+  | 'sensor'
+  | 'service'
+  | 'settings'
+  | 'unknown'
 
 export interface Route {
   page: PageName
@@ -23,6 +32,7 @@ export function readRoute(path: string): Route {
   if (first === 'rides' && second && rest.length === 0) {
     return { page: 'ride', id: decodeURIComponent(second) }
   }
+  if (first === 'tune' && second === 'try' && rest.length === 0) return { page: 'try', id: '' }
   return { page: second ? 'unknown' : (pages[first] ?? 'unknown'), id: '' }
 }
 

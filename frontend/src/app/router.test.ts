@@ -8,6 +8,9 @@ it.each([
   ['/rides', { page: 'rides', id: '' }],
   ['/rides/12', { page: 'ride', id: '12' }],
   ['/rides/12/more', { page: 'unknown', id: '' }],
+  ['/tune', { page: 'tune', id: '' }],
+  ['/tune/try', { page: 'try', id: '' }],
+  ['/tune/other', { page: 'unknown', id: '' }],
   ['/nonsense', { page: 'unknown', id: '' }],
 ])('%s', (path, route) => {
   expect(readRoute(path)).toEqual(route)

@@ -1968,6 +1968,7 @@ export interface components {
              */
             range_km: number | null;
             motor_work_wh: components["schemas"]["Compared"];
+            /** @description At the motor's shaft, as delivered; nothing is recorded where it is only `demanded`. */
             motor_torque_nm_max: components["schemas"]["Compared"];
             /** Motor Torque Nm Difference Max */
             motor_torque_nm_difference_max: number | null;
@@ -1975,6 +1976,13 @@ export interface components {
             limit_shares: {
                 [key: string]: number;
             };
+            /**
+             * Limit Shares Recorded
+             * @description The same as the unit told it on the ride; null where it did not.
+             */
+            limit_shares_recorded: {
+                [key: string]: number;
+            } | null;
             series: components["schemas"]["Series"];
         };
         /** ReplayRequest */

@@ -156,6 +156,38 @@ def test_the_answer_tells_every_limit_of_the_registry(store: Store) -> None:
     assert shares["fault"] == pytest.approx(0.2)  # 200 of 1000 rows
 
 
+def test_the_limits_the_unit_told_on_the_ride_stand_beside_those_of_the_replay(
+    store: Store,
+) -> None:
+    told = while_held(float(LimitFlags.BRAKE | LimitFlags.TEMPERATURE), 0.0)
+    told[:200] = np.nan
+
+    answer = replayed(store, pushing(limit_flags=told))
+
+    shares = answer["limit_shares_recorded"]
+    assert shares.keys() == answer["limit_shares"].keys()
+    # 200 of the 800 rows that tell it.
+    assert {name: share for name, share in shares.items() if share} == {
+        "brake": 0.25,
+        "temperature": 0.25,
+    }
+    assert answer["limit_shares"]["brake"] == 0.0
+
+
+def test_limits_that_the_ride_does_not_tell_are_missing(store: Store) -> None:
+    assert replayed(store, pushing())["limit_shares_recorded"] is None
+
+
+def test_what_was_only_asked_of_the_motor_is_not_compared_with_what_it_gives(store: Store) -> None:
+    asked = replayed(store, pushing(motor_torque_nm=np.full(ROWS, 0.5)))
+
+    assert asked["motor_torque_meaning"] == "demanded"
+    assert asked["motor_torque_nm_max"]["recorded"] is None
+    assert asked["motor_torque_nm_max"]["difference"] is None
+    assert asked["motor_torque_nm_difference_max"] is None
+    assert asked["motor_work_wh"]["recorded"] is None
+
+
 def test_heat_is_told_as_what_held_the_motor_back(store: Store) -> None:
     hot = replayed(store, pushing(controller_temperature_degc=np.full(ROWS, 100.0)))
 

@@ -1,5 +1,6 @@
 // Traces of a ride as the server sends them: least and greatest count per bin ("SPV1", described
 // in backend/views/trace.py).
+import type { components } from '$generated/api'
 
 export interface SeriesChannel {
   name: string
@@ -71,5 +72,49 @@ export function readSeries(bytes: ArrayBuffer): Series {
         max: same ? min : values(channel.max_offset),
       }
     }),
+  }
+}
+
+/** A series that came as JSON, within another answer. */
+export function seriesOf(told: components['schemas']['Series']): Series {
+  const values = (numbers: (number | null)[]) => Float64Array.from(numbers, (n) => n ?? NaN)
+  return {
+    from_s: told.from_s,
+    to_s: told.to_s,
+    rows: told.rows,
+    kind: told.kind,
+    t_first_s: Float64Array.from(told.t_first_s),
+    t_last_s: Float64Array.from(told.t_last_s),
+    channels: told.channels.map(({ name, unit, min, max }) => {
+      const least = values(min)
+      return { name, unit, min: least, max: told.kind === 'rows' ? least : values(max) }
+    }),
+  }
+}
+
+/** The same series in at most so many bins; each keeps its least and greatest value. */
+export function coarser(series: Series, bins: number): Series {
+  const each = Math.ceil(series.t_first_s.length / bins)
+  if (each <= 1) return series
+  const groups = Array.from(
+    { length: Math.ceil(series.t_first_s.length / each) },
+    (_, i) => [i * each, Math.min((i + 1) * each, series.t_first_s.length)] as const,
+  )
+  const extreme = (values: Float64Array, of: (...values: number[]) => number) =>
+    Float64Array.from(groups, ([from, to]) => {
+      const there = values.subarray(from, to).filter((value) => !Number.isNaN(value))
+      return there.length > 0 ? of(...there) : NaN
+    })
+  return {
+    ...series,
+    kind: 'minmax',
+    t_first_s: Float64Array.from(groups, ([from]) => series.t_first_s[from] ?? NaN),
+    t_last_s: Float64Array.from(groups, ([, to]) => series.t_last_s[to - 1] ?? NaN),
+    channels: series.channels.map(({ name, unit, min, max }) => ({
+      name,
+      unit,
+      min: extreme(min, Math.min),
+      max: extreme(max, Math.max),
+    })),
   }
 }

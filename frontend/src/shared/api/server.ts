@@ -16,6 +16,8 @@ import type {
   Parameter,
   ParameterValue,
   Port,
+  Replay,
+  ReplayRequest,
   Revision,
   Ride,
   Scenario,
@@ -187,6 +189,12 @@ export class Server {
 
   ride(id: number): Promise<Ride> {
     return body(this.http.GET('/api/v1/rides/{ride_id}', this.rideAt(id)))
+  }
+
+  /** What the motor would have done on a ride with other tables or modes, by the unit's law. */
+  replay(id: number, question: ReplayRequest, signal: AbortSignal): Promise<Replay> {
+    const request = { ...this.rideAt(id), body: question, signal }
+    return body(this.http.POST('/api/v1/rides/{ride_id}/replay', request))
   }
 
   changeRide(id: number, change: { name?: string; notes?: string }): Promise<Ride> {

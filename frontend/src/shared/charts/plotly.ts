@@ -21,6 +21,10 @@ export function loadLines() {
   return import('./plotly_lines')
 }
 
+export async function loadTraceChart() {
+  return (await loadLines()).TraceChart
+}
+
 export async function loadHeatmap() {
   return (await import('./plotly_heatmap')).default
 }

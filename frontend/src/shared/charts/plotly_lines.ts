@@ -6,6 +6,5 @@ import type { Plotly } from './plotly_types'
 const plotly = core as unknown as Plotly
 plotly.register(chinese)
 
-export { markData } from './event_marks'
-export { axisName, traceData, traceLayout, windowLayout } from './trace_figure'
+export { default as TraceChart } from './TraceChart.svelte'
 export { plotly }

@@ -9,6 +9,7 @@ import {
   MARKS_PX,
   moment,
   timeTicks,
+  type Span,
   type TraceLine,
   type TraceRow,
 } from './trace_line'
@@ -19,15 +20,9 @@ export interface FigureWords {
   channel: (name: string) => string
 }
 
-export interface Span {
-  from_s: number
-  to_s: number
-}
-
 export interface Frame {
   rows: TraceRow[]
   gaps: Span[]
-  /** Stretches that came from the unit's own log, coarser than the rest. */
   filled: Span[]
   events: MarkedEvent[]
   /** Size of the plot in pixels. */
@@ -167,7 +162,7 @@ function rowTitle(row: TraceRow, units: Units, words: FigureWords, theme: Theme)
     const swatch = `<span style="color:${theme.colour(line.token)}">${SWATCH[line.look ?? 'thin']}</span>`
     return `${swatch} ${words.channel(line.name ?? line.channel)}`
   })
-  return row.lines.length > 1
+  return row.lines.length > 1 || row.lines[0]?.look
     ? `<b>${words.row(row.key)}</b>${unit}  ${keys.join('  ')}`
     : `<b>${words.row(row.key)}</b>${unit}`
 }

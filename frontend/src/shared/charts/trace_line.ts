@@ -1,6 +1,8 @@
 // Traces of a ride: rows of channels, time marks, and bins as points of a line.
 import { clock } from '../i18n/locale.svelte'
+import type { MarkedEvent } from './event_marks'
 import { niceStep } from './strip_chart'
+import type { TraceWindow } from './trace_window.svelte'
 
 /** Room for the marks of events and their title above the first row, in pixels. */
 export const MARKS_PX = 40
@@ -18,6 +20,22 @@ export interface TraceRow {
   key: string
   unit: string
   lines: TraceLine[]
+}
+
+export interface Span {
+  from_s: number
+  to_s: number
+}
+
+/** What is drawn of a ride. */
+export interface Traced {
+  view: TraceWindow
+  rows: TraceRow[]
+  gaps?: Span[]
+  /** Stretches that came from the unit's own log, coarser than the rest. */
+  filled?: Span[]
+  events?: MarkedEvent[]
+  summary: string
 }
 
 /** Bins as a line that touches the least and the greatest value of each. NaN breaks the line. */

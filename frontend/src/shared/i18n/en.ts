@@ -19,6 +19,7 @@ export const en = {
   'page.bike': 'Bike',
   'page.live': 'Live',
   'page.tune': 'Tune',
+  'page.try': 'Try on a ride',
   'page.rides': 'Rides',
   'page.ride': 'Ride',
   'page.sensor': 'Sensor',

@@ -119,4 +119,68 @@ export const enRides = {
   'trace.cadence': 'Cadence',
   'trace.heart_rate': 'Heart rate',
   'trace.altitude': 'Altitude',
+
+  'try.this': 'Try a table on this ride',
+  'try.back': 'Back to the tables',
+  'try.candidate': 'Try',
+  'try.with_draft': 'Tables and modes as edited in Tune',
+  'try.with_unit': 'Tables and modes in the unit now',
+  'try.with_ride': 'Nothing changed: how well the replay matches the record',
+  'try.ride': 'On the ride',
+  'try.no_rides':
+    "None of these rides can be tried. It takes a ride recorded from a unit, with the rider's " +
+    'torque in it.',
+  'try.running': "The ride runs through the unit's law…",
+  'try.waits_unit':
+    'The tables of the unit are not known here. Connect a unit that has tables, or choose ' +
+    '“nothing changed”.',
+  'try.waits_values': 'An edited value is impossible. Mend it in Tune, then try again.',
+  'try.refused': 'This ride cannot be tried',
+  'try.refused_missing_channel':
+    'It has no {names}. A ride recorded from a unit has what the law needs; the file of a head ' +
+    'unit does not.',
+  'try.refused_too_slow':
+    'Its samples are too far apart: the law needs one at least every 0.1 s.',
+  'try.sentence': 'Motor work: {recorded} as ridden, {replayed} replayed, {change}.',
+  'try.sentence_alone': 'Motor work: {replayed} replayed; as ridden it is not known.',
+  'try.sentence_short': 'The ride went less than 10 m, so there is no work by distance.',
+  'try.more': '{difference} more',
+  'try.less': '{difference} less',
+  'try.same': 'no difference',
+  'try.open_loop':
+    'Open loop: speed and legs as recorded; it ranks tables and is no forecast',
+  'try.traces': 'As ridden and replayed',
+  'try.summary': 'Motor torque up to {recorded} as ridden, {replayed} replayed.',
+  'try.summary_asked': 'Motor torque asked, up to {recorded} as ridden, {replayed} replayed.',
+  'try.summary_apart': 'At no moment do they differ by more than {difference}.',
+  'try.changes': 'What changes',
+  'try.as_ridden': 'as ridden',
+  'try.replayed': 'open loop',
+  'try.wh_per_km': 'Motor work by distance',
+  'try.motor_work_wh': 'Motor work',
+  'try.torque_nm': 'Largest motor torque',
+  'try.asked_nm': 'Largest motor torque asked',
+  'try.at_shaft': "Work and torque are those at the motor's shaft.",
+  'try.limits': 'Share of the time held back by',
+  'try.why_demanded':
+    'As ridden only what was asked of the motor is known, not what it gave: no work is made of ' +
+    'that, and the two are not compared.',
+  'try.why_torque': 'The ride has no motor torque.',
+  'try.why_speed': 'The ride has no motor speed, so the work as ridden is not known.',
+  'try.why_limits': 'The ride does not tell its limits.',
+  'try.rests': 'What this rests on',
+  'try.rows': 'Samples',
+  'try.rows_over': '{rows} over {time}',
+  'try.settings': 'Other settings',
+  'try.settings_ride': "the unit's own, as on this ride",
+  'try.settings_defaults': "not known for this ride; the factory's stand in for them",
+  'try.inputs': 'Not recorded',
+  'try.inputs_none': 'nothing that the law needs',
+  'try.without_motor_speed_rpm': 'motor speed: taken from the crank',
+  'try.without_battery_voltage_v': 'battery voltage: taken as 36 V',
+  'try.without_battery_current_a': 'battery current: its limit is kept with a margin',
+  'try.without_motor_temperature_degc': "motor temperature: taken as hot at the battery's limit",
+  'try.without_controller_temperature_degc': 'controller temperature: taken as cool',
+  'try.without_torque_age_ms': 'age of the torque reading: taken as fresh',
+  'try.without_input_flags': 'brake, walk button, faults: taken as off',
 }

@@ -19,6 +19,7 @@ export const zh: Record<Key, string> = {
   'page.bike': '车辆',
   'page.live': '实时',
   'page.tune': '调校',
+  'page.try': '在骑行上试用',
   'page.rides': '骑行',
   'page.ride': '骑行详情',
   'page.sensor': '传感器',

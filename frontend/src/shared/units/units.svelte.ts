@@ -20,6 +20,7 @@ const metric: Record<string, Shown> = {
   rpm: plain('rpm', 0),
   W: plain('W', 0),
   Wh: plain('Wh', 1),
+  'Wh/km': plain('Wh/km', 2),
   V: plain('V', 1),
   A: plain('A', 2),
   '%': plain('%', 0),
@@ -44,6 +45,7 @@ const imperial: Record<string, Shown> = {
   'm/s²': { unit: 'ft/s²', factor: 3.28084, offset: 0, digits: 2 },
   'm of altitude': { unit: 'ft', factor: 3.28084, offset: 0, digits: 0 },
   km: { unit: 'mi', factor: 0.621371, offset: 0, digits: 2 },
+  'Wh/km': { unit: 'Wh/mi', factor: 1 / 0.621371, offset: 0, digits: 2 },
 }
 
 export class Units {

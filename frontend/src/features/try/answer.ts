@@ -1,0 +1,115 @@
+// A replay as the page tells it: its curves, its figures, and why one is missing.
+import { seriesOf, type Series } from '$shared/api/series'
+import type { Replay } from '$shared/api/types'
+import type { TraceLine, TraceRow } from '$shared/charts/trace_line'
+
+const TORQUE = 'motor_torque_nm'
+const ASKED = 'motor_torque_demanded_nm'
+const GAIN = 'fuzzy_gain'
+const REPLAYED = 'replayed_'
+
+/** Whether the record tells only what was asked of the motor. */
+const isAsked = (replay: Replay) => replay.motor_torque_meaning === 'demanded'
+
+/** The motor torque that is compared: what it gave, or what was asked where only that is known. */
+export const comparedTorque = (replay: Replay) => (isAsked(replay) ? ASKED : TORQUE)
+
+/** The curves that are drawn, recorded and replayed; a torque that was asked is called so. */
+export function drawnSeries(replay: Replay): Series {
+  const series = seriesOf(replay.series)
+  const has = (name: string) => series.channels.some((channel) => channel.name === name)
+  // Firmware of before knew one motor torque, and it was what it asked for.
+  const is_asked = (name: string) => name === TORQUE && isAsked(replay) && !has(ASKED)
+  const torque = comparedTorque(replay)
+  const shown = [torque, REPLAYED + torque, GAIN, REPLAYED + GAIN]
+  const channels = series.channels
+    .map((channel) => ({ ...channel, name: is_asked(channel.name) ? ASKED : channel.name }))
+    .filter(({ name }) => shown.includes(name))
+  return { ...series, channels }
+}
+
+/** Rows of the chart: as ridden broad and quiet, replayed over it. A curve that the series lacks is
+    not named either. */
+export function drawnRows(replay: Replay, series: Series): TraceRow[] {
+  const lines = (channel: string, token: string) =>
+    (
+      [
+        { channel, token: 'line-strong', name: 'as_ridden', look: 'broad' },
+        { channel: REPLAYED + channel, token, name: 'open_loop', look: 'dashed' },
+      ] satisfies TraceLine[]
+    ).filter((line) => largest(series, line.channel) !== null)
+  const key = isAsked(replay) ? 'motor_torque_asked' : 'motor_torque'
+  return [
+    { key, unit: 'Nm', lines: lines(comparedTorque(replay), 'motor') },
+    { key: 'gain', unit: '', lines: lines(GAIN, 'gain') },
+  ].filter((row) => row.lines.length > 0)
+}
+
+/** The largest value of a channel: the bins of a series keep every extreme. */
+export function largest(series: Series, name: string): number | null {
+  const channel = series.channels.find((c) => c.name === name)
+  const there = channel?.max.filter((value) => !Number.isNaN(value))
+  return there?.length ? there.reduce((a, b) => Math.max(a, b)) : null
+}
+
+/** Why the work as ridden is not known; null where it is. */
+export function whyNoWork(replay: Replay): 'demanded' | 'torque' | 'speed' | null {
+  if (replay.motor_work_wh.recorded !== null) return null
+  if (isAsked(replay)) return 'demanded'
+  return replay.motor_torque_meaning === null ? 'torque' : 'speed'
+}
+
+/** A figure as ridden and in each loop that was run, and what it changes. */
+export interface FigureRow {
+  key: 'wh_per_km' | 'motor_work_wh' | 'torque_nm' | 'asked_nm'
+  unit: string
+  digits: number
+  recorded: number | null
+  replayed: number | null
+  difference: number | null
+}
+
+/** The figures of a replay, the one to compare by first. */
+export function figureRows(replay: Replay, series: Series): FigureRow[] {
+  const none = { recorded: null, replayed: null, difference: null }
+  const torque = comparedTorque(replay)
+  const most = { recorded: largest(series, torque), replayed: largest(series, REPLAYED + torque) }
+  const known = most.recorded !== null && most.replayed !== null
+  return [
+    { key: 'wh_per_km', unit: 'Wh/km', digits: 2, ...(replay.wh_per_km ?? none) },
+    { key: 'motor_work_wh', unit: 'Wh', digits: 2, ...replay.motor_work_wh },
+    {
+      key: isAsked(replay) ? 'asked_nm' : 'torque_nm',
+      unit: 'Nm',
+      digits: 2,
+      ...most,
+      difference: known ? Number(most.replayed) - Number(most.recorded) : null,
+    },
+  ]
+}
+
+/** A limit that held the motor back, as shares of the time, 0 to 1. */
+export interface LimitRow {
+  name: string
+  recorded: number | null
+  replayed: number
+}
+
+/** The limits at work as ridden or replayed, the longest first. */
+export function limitRows(replay: Replay): LimitRow[] {
+  const { limit_shares, limit_shares_recorded } = replay
+  return Object.entries(limit_shares)
+    .map(([name, replayed]) => ({
+      name,
+      recorded: limit_shares_recorded?.[name] ?? null,
+      replayed,
+    }))
+    .filter(({ recorded, replayed }) => replayed > 0 || (recorded ?? 0) > 0)
+    .sort((a, b) => b.replayed - a.replayed)
+}
+
+/** How a difference reads once both are rounded as they are shown. */
+export function direction(difference: number, digits: number): 'more' | 'less' | 'same' {
+  const rounded = Number(difference.toFixed(digits))
+  return rounded > 0 ? 'more' : rounded < 0 ? 'less' : 'same'
+}

@@ -1,0 +1,198 @@
+"""Goal: a tuner sees what other tables would have made of a ride he knows, and is told what the
+answer is worth.
+
+Method: a simulated unit rides for half a minute of its time, five times as fast as real, and its
+ride records itself. Rules that say the largest gain everywhere must give more work for every
+kilometre; nothing changed must give what was recorded.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.conftest import OpenDesk
+from tests.browser.desk import Desk
+from tests.browser.test_pages_for_everyone import JUDGE
+from tests.browser.test_rides_page import drop_file, steady_ride
+from tests.fakes.server import SpindleServer, eventually
+
+SENTENCE = "[data-testid=try-sentence]"
+SHIFTS = """
+    window.shifted = 0
+    new PerformanceObserver((list) => {
+        for (const e of list.getEntries()) if (!e.hadRecentInput) window.shifted += e.value
+    }).observe({ type: 'layout-shift', buffered: true })
+"""
+SHIFT_MAX = 0.02
+
+
+@pytest.fixture(scope="module")
+def workshop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
+    running = SpindleServer(tmp_path_factory.mktemp("try"), ["sim:try?seed=5&speed=5"]).start()
+    yield running
+    running.stop()
+
+
+@pytest.fixture(scope="module")
+def ride(workshop: SpindleServer) -> int:
+    """The id of a recorded ride, in the mode that the first table rules."""
+    device = workshop.ready_device()
+    legs = {"kind": "legs", "torque_nm": 20.0, "cadence_rpm_max": 90.0}
+    workshop.simulate(device, brake=False, assist_mode=3, rider=legs)
+    eventually(
+        lambda: workshop.get("/rides")["items"],
+        lambda rides: rides and rides[0]["row_count"] > 3000,
+    )
+    workshop.stand_still(device)
+    rides = eventually(
+        lambda: workshop.get("/rides")["items"], lambda rides: rides[0]["state"] == "done"
+    )
+    return int(rides[0]["id"])
+
+
+@pytest.fixture
+def tuner(open_desk: OpenDesk, workshop: SpindleServer, ride: int) -> Desk:
+    return open_desk(width=1440, height=900, address=workshop.url)
+
+
+def answered(page: Page) -> None:
+    page.wait_for_selector("[data-testid=traces][data-draws]")
+
+
+def figure(page: Page, name: str) -> tuple[float, float]:
+    """A figure as ridden and replayed."""
+    cells = page.locator(f"[data-figure={name}] td")
+    recorded, replayed = (
+        float(re.split(r"[\s+−±]", cells.nth(i).inner_text())[0]) for i in (0, 1)
+    )
+    return recorded, replayed
+
+
+def test_a_bigger_gain_is_tried_from_tune_and_takes_more_work(tuner: Desk, ride: int) -> None:
+    page = tuner.open("/tune")
+    page.wait_for_selector("[data-cell='0,0']")
+    page.focus("[data-cell='0,0']")
+    page.keyboard.press("Control+a")
+    page.keyboard.press("5")
+    page.get_by_role("link", name="Try on a ride").click()
+
+    expect(page.locator(SENTENCE)).to_contain_text("more")
+    answered(page)
+    assert page.url.endswith(f"/tune/try?with=draft&ride={ride}")
+    expect(page.get_by_test_id("try-answer")).to_contain_text(
+        "Open loop: speed and legs as recorded; it ranks tables and is no forecast"
+    )
+    expect(page.get_by_test_id("try-tables")).to_contain_text("changed, not yet in the unit")
+    for name in ("wh_per_km", "motor_work_wh", "torque_nm"):
+        recorded, replayed = figure(page, name)
+        assert replayed > recorded > 0.0, name
+    expect(page.locator("[data-source=ride]")).to_be_visible()
+    tuner.picture("try", full=True)
+
+    page.get_by_label("Try").select_option("unit")
+
+    # The unit's own tables, on its own ride: what the motor did.
+    eventually(lambda: figure(page, "wh_per_km"), lambda f: f[1] == pytest.approx(f[0], rel=0.02))
+    assert f"with=unit&ride={ride}" in page.url
+
+
+def test_nothing_changed_gives_what_was_recorded(tuner: Desk, ride: int) -> None:
+    page = tuner.open(f"/tune/try?ride={ride}&with=ride")
+    answered(page)
+
+    recorded, replayed = figure(page, "wh_per_km")
+    assert replayed == pytest.approx(recorded, rel=0.02)
+    expect(page.get_by_label("Try")).to_have_value("ride")
+    names = tuner.plot("gd.data.map((line) => line.name)")
+    assert names[:2] == ["Motor torque at the shaft", "Motor torque, replayed"]
+
+
+def test_the_picture_is_also_told_in_words_and_numbers(tuner: Desk, ride: int) -> None:
+    page = tuner.open(f"/tune/try?ride={ride}&with=unit")
+    answered(page)
+
+    expect(page.get_by_test_id("try-summary")).to_contain_text("Motor torque up to")
+    page.get_by_role("button", name="Data table").press("Enter")
+
+    table = page.get_by_role("group", name="Data table").locator("table")
+    expect(table).to_contain_text("Motor torque, replayed (Nm)")
+    assert 20 <= table.locator("tbody tr").count() <= 40
+
+
+def test_a_ride_without_torque_is_refused_with_the_reason(tuner: Desk, ride: int) -> None:
+    page = tuner.open("/rides")
+    drop_file(page, "club ride.fit", steady_ride(5))
+    page.click("text=Open the ride")
+
+    page.get_by_role("link", name="Try a table on this ride").click()
+
+    refused = page.get_by_test_id("try-refused")
+    expect(refused).to_contain_text("It has no")
+    for missing in ("Assist mode", "Rider torque"):
+        expect(refused).to_contain_text(missing)
+    expect(page.locator(SENTENCE)).to_have_count(0)
+    tuner.picture("try-refused")
+    # The list offers the one that can be tried.
+    page.get_by_label("On the ride").select_option(str(ride))
+    answered(page)
+
+
+def test_a_motor_torque_that_was_only_asked_is_called_so(tuner: Desk, ride: int) -> None:
+    def of_before(answer: dict[str, Any]) -> dict[str, Any]:
+        """What the server says of a ride whose unit did not measure what the motor gave."""
+        channels = answer["series"]["channels"]
+        answer["series"]["channels"] = [
+            c for c in channels if c["name"] != "motor_torque_demanded_nm"
+        ]
+        for name in ("wh_per_km", "motor_work_wh", "motor_torque_nm_max"):
+            answer[name] |= {"recorded": None, "difference": None}
+        nothing = {"motor_torque_nm_difference_max": None, "limit_shares_recorded": None}
+        return answer | nothing | {"motor_torque_meaning": "demanded", "config_source": "defaults"}
+
+    tuner.page.route(
+        "**/replay", lambda route: route.fulfill(json=of_before(route.fetch().json()))
+    )
+    page = tuner.open(f"/tune/try?ride={ride}&with=ride")
+    answered(page)
+
+    expect(page.locator(SENTENCE)).to_contain_text("as ridden it is not known")
+    expect(page.locator("[data-figure=asked_nm]")).to_be_visible()
+    expect(page.locator("[data-figure=wh_per_km] td").first).to_have_text("—")
+    expect(page.get_by_test_id("try-answer")).to_contain_text("the two are not compared")
+    expect(page.locator("[data-source=defaults]")).to_contain_text("not known")
+    names = tuner.plot("gd.data.map((line) => line.name)")
+    assert names[:2] == ["Motor torque asked, at the shaft", "Motor torque asked, replayed"]
+    page.unroute_all(behavior="ignoreErrors")
+
+
+@pytest.mark.parametrize(
+    ("width", "theme", "language"),
+    [(1440, "light", "en-GB"), (1024, "dark", "en-GB"), (390, "dark", "zh-CN")],
+)
+def test_the_page_works_for_everyone(
+    open_desk: OpenDesk,
+    workshop: SpindleServer,
+    ride: int,
+    axe: str,
+    width: int,
+    theme: str,
+    language: str,
+) -> None:
+    desk = open_desk(
+        width=width, height=900, theme=theme, language=language, address=workshop.url
+    )
+    desk.page.add_init_script(SHIFTS)
+    page = desk.open(f"/tune/try?ride={ride}&with=unit")
+    answered(page)
+
+    assert page.evaluate("window.shifted") < SHIFT_MAX
+    assert page.evaluate("document.documentElement.scrollWidth") == width
+    page.evaluate(axe)
+    assert page.evaluate(JUDGE) == []
+    assert re.findall(r"\b[a-z]+\.[a-z_]+\b", page.inner_text("main")) == []
+    desk.picture(f"try-{width}-{theme}", full=True)
