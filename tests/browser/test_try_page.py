@@ -67,9 +67,7 @@ def answered(page: Page) -> None:
 def figure(page: Page, name: str) -> tuple[float, float]:
     """A figure as ridden and replayed."""
     cells = page.locator(f"[data-figure={name}] td")
-    recorded, replayed = (
-        float(re.split(r"[\s+−±]", cells.nth(i).inner_text())[0]) for i in (0, 1)
-    )
+    recorded, replayed = (float(re.split(r"[\s+−±]", cells.nth(i).inner_text())[0]) for i in (0, 1))
     return recorded, replayed
 
 
@@ -154,9 +152,7 @@ def test_a_motor_torque_that_was_only_asked_is_called_so(tuner: Desk, ride: int)
         nothing = {"motor_torque_nm_difference_max": None, "limit_shares_recorded": None}
         return answer | nothing | {"motor_torque_meaning": "demanded", "config_source": "defaults"}
 
-    tuner.page.route(
-        "**/replay", lambda route: route.fulfill(json=of_before(route.fetch().json()))
-    )
+    tuner.page.route("**/replay", lambda route: route.fulfill(json=of_before(route.fetch().json())))
     page = tuner.open(f"/tune/try?ride={ride}&with=ride")
     answered(page)
 
@@ -183,9 +179,7 @@ def test_the_page_works_for_everyone(
     theme: str,
     language: str,
 ) -> None:
-    desk = open_desk(
-        width=width, height=900, theme=theme, language=language, address=workshop.url
-    )
+    desk = open_desk(width=width, height=900, theme=theme, language=language, address=workshop.url)
     desk.page.add_init_script(SHIFTS)
     page = desk.open(f"/tune/try?ride={ride}&with=unit")
     answered(page)
