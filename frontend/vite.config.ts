@@ -5,8 +5,8 @@ import { defineConfig } from 'vitest/config'
 const folder = (path: string) => fileURLToPath(new URL(path, import.meta.url))
 const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
 
-// What most pages need in one file, and the pages about rides in another: dozens of tiny ones compress
-// worse than they save.
+// What most pages need in one file, and the pages about rides in another: dozens of tiny ones
+// compress worse than they save.
 const MOST = [
   'api|context|device|ui|units',
   'i18n/(?!zh)',

@@ -159,7 +159,8 @@ function title(text: string, y: number): object {
 function rowTitle(row: TraceRow, units: Units, words: FigureWords, theme: Theme): string {
   const unit = row.unit ? ` ${units.label(row.unit)}` : ''
   const keys = row.lines.map((line) => {
-    const swatch = `<span style="color:${theme.colour(line.token)}">${SWATCH[line.look ?? 'thin']}</span>`
+    const mark = SWATCH[line.look ?? 'thin']
+    const swatch = `<span style="color:${theme.colour(line.token)}">${mark}</span>`
     return `${swatch} ${words.channel(line.name ?? line.channel)}`
   })
   return row.lines.length > 1 || row.lines[0]?.look

@@ -1,5 +1,5 @@
-// The unit's two fuzzy tables: between its parameters and what the server's law takes, the modes that
-// use them, and what else the linter is told so that it judges a table as the bike runs it.
+// The unit's two fuzzy tables: between its parameters and what the server's law takes, the modes
+// that use them, and what else the linter is told so that it judges a table as the bike runs it.
 import type { AssistModes, FuzzyTable, Limits, LintRequest } from '../api/types'
 import type { ConfigDraft, Edits } from './config_draft.svelte'
 import { faultsOf } from './limits'
