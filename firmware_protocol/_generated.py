@@ -26,8 +26,8 @@ MOVING_RPM = 5.0
 STANDING_S = 20
 RESTING_KMH = 0.5
 RESTING_MOTOR_RPM = 30.0
-IMAGE_LENGTH = 426
-SCHEMA_HASH = bytes.fromhex("aef085ab6ae7f863")
+IMAGE_LENGTH = 427
+SCHEMA_HASH = bytes.fromhex("98723465fd9eea78")
 
 
 class Status(IntEnum):
@@ -207,6 +207,13 @@ class FallingTorque(IntEnum):
 
     HOLD_ZERO_RATE = 0
     NO_GAIN = 1
+
+
+class TorqueFilter(IntEnum):
+    """What evens out the two strokes of a crank turn."""
+
+    TIME_CONSTANT = 0
+    HALF_TURN = 1
 
 
 class Event(IntEnum):
@@ -1985,6 +1992,7 @@ ENUM_BY_NAME: dict[str, type[IntEnum]] = {
     "inference": Inference,
     "label": Label,
     "falling_torque": FallingTorque,
+    "torque_filter": TorqueFilter,
     "event": Event,
     "log_event": LogEvent,
 }
@@ -2389,6 +2397,14 @@ PARAMETERS: tuple[Parameter, ...] = (
         increasing=False, access=2, image_offset=422, record="FACTORY",
         default=0.0,
         doc="Reading of this unit's torque sensor without load as the factory measured it: the middle of what a dealer may set.",
+    ),
+    Parameter(
+        id=0x0640, name="torque_filter", group="sensor",
+        type="u8", unit="", shape=(),
+        length=1, min=None, max=None, enum="torque_filter",
+        increasing=False, access=1, image_offset=426,
+        default="TIME_CONSTANT",
+        doc="How the rider's torque is averaged over the pedal stroke: with the time constant torque_filter_s, or over the last half turn of the crank, at any cadence.",
     ),
 )
 PARAMETER_BY_NAME = {parameter.name: parameter for parameter in PARAMETERS}

@@ -168,6 +168,8 @@ const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT] = {
      offsetof(ebl_config, sensor_gain_nm_per_count_factory), 0.001f, 0.1f, 0.0f},
     {0x0633, 422, EBL_TYPE_F32, 1, 4, EBL_ACCESS_FACTORY, EBL_RECORD_FACTORY, 0,
      offsetof(ebl_config, sensor_offset_counts_factory), -30000.0f, 30000.0f, 0.0f},
+    {0x0640, 426, EBL_TYPE_U8, 1, 1, EBL_ACCESS_DEALER, EBL_RECORD_TUNABLE, 2,
+     offsetof(ebl_config, torque_filter), 0.0f, 1.0f, 0.0f},
 };
 
 const ebl_order ebl_orders[EBL_ORDER_COUNT] = {
@@ -319,6 +321,7 @@ void ebl_config_default(ebl_config *config)
         .wheel_circumference_m_factory = 2.073451f,
         .sensor_gain_nm_per_count_factory = 0.01f,
         .sensor_offset_counts_factory = 0.0f,
+        .torque_filter = EBL_TORQUE_FILTER_TIME_CONSTANT,
     };
     *config = factory;
 }

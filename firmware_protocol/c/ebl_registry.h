@@ -11,11 +11,11 @@
 #define EBL_MTU 544
 #define EBL_MAX_OUTSTANDING 4
 #define EBL_CONTROL_PERIOD_US 10000
-#define EBL_IMAGE_LENGTH 426
+#define EBL_IMAGE_LENGTH 427
 #define EBL_MESSAGE_COUNT 47
 #define EBL_EVENT_COUNT 13
 #define EBL_EVENT_HEAD_LENGTH 5
-#define EBL_PARAMETER_COUNT 50
+#define EBL_PARAMETER_COUNT 51
 #define EBL_ORDER_COUNT 1
 #define EBL_BAND_COUNT 3
 #define EBL_RETIRED_COUNT 1
@@ -24,7 +24,7 @@
 #define EBL_FAULTS_ASSIST_OFF 491519
 #define EBL_FAULTS_LATCHED 488443
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 5016
+#define EBL_SCHEMA_LENGTH 5059
 #define EBL_MOVING_KMH 1.0f
 #define EBL_MOVING_RPM 5.0f
 #define EBL_STANDING_S 20u
@@ -194,6 +194,12 @@ typedef enum {
     EBL_FALLING_TORQUE_HOLD_ZERO_RATE = 0,
     EBL_FALLING_TORQUE_NO_GAIN = 1,
 } ebl_falling_torque;
+
+/* What evens out the two strokes of a crank turn. */
+typedef enum {
+    EBL_TORQUE_FILTER_TIME_CONSTANT = 0,
+    EBL_TORQUE_FILTER_HALF_TURN = 1,
+} ebl_torque_filter;
 
 /* What an EVENT frame tells. */
 typedef enum {
@@ -390,6 +396,7 @@ enum {
     EBL_PARAMETER_WHEEL_CIRCUMFERENCE_M_FACTORY = 0x0631,
     EBL_PARAMETER_SENSOR_GAIN_NM_PER_COUNT_FACTORY = 0x0632,
     EBL_PARAMETER_SENSOR_OFFSET_COUNTS_FACTORY = 0x0633,
+    EBL_PARAMETER_TORQUE_FILTER = 0x0640,
 };
 
 enum {
@@ -542,6 +549,7 @@ typedef struct {
     float wheel_circumference_m_factory;
     float sensor_gain_nm_per_count_factory;
     float sensor_offset_counts_factory;
+    uint8_t torque_filter;
 } ebl_config;
 
 extern const ebl_message ebl_messages[EBL_MESSAGE_COUNT];

@@ -26,6 +26,7 @@ local EBL = {
         ["inference"] = { [0] = "MAMDANI_CENTROID", [1] = "WEIGHTED_AVERAGE" },
         ["label"] = { [0] = "NB", [1] = "NS", [2] = "ZO", [3] = "PS", [4] = "PB" },
         ["falling_torque"] = { [0] = "HOLD_ZERO_RATE", [1] = "NO_GAIN" },
+        ["torque_filter"] = { [0] = "TIME_CONSTANT", [1] = "HALF_TURN" },
         ["event"] = { [1] = "BOOT", [2] = "FAULT_SET", [3] = "FAULT_CLEARED", [4] = "CONFIG_COMMITTED", [5] = "CONFIG_ROLLED_BACK", [6] = "CONFIG_DEFAULTED", [7] = "STREAM_STATS", [8] = "AUTH_CHANGED", [16] = "CONFIG_PROVISIONAL", [17] = "STREAM_COUNTS", [18] = "CONFIG_CONVERTED", [20] = "LOG_CLOSED", [21] = "LOG_OVERWRITTEN" },
         ["log_event"] = { [2] = "FAULT_SET", [3] = "FAULT_CLEARED", [128] = "ASSIST_MODE" },
     },
@@ -171,8 +172,9 @@ local EBL = {
         [1585] = { ["name"] = "wheel_circumference_m_factory", ["type"] = "f32", ["unit"] = "m", ["count"] = 1, ["length"] = 4, ["offset"] = 414 },
         [1586] = { ["name"] = "sensor_gain_nm_per_count_factory", ["type"] = "f32", ["unit"] = "Nm/count", ["count"] = 1, ["length"] = 4, ["offset"] = 418 },
         [1587] = { ["name"] = "sensor_offset_counts_factory", ["type"] = "f32", ["unit"] = "counts", ["count"] = 1, ["length"] = 4, ["offset"] = 422 },
+        [1600] = { ["name"] = "torque_filter", ["type"] = "u8", ["unit"] = "", ["count"] = 1, ["length"] = 1, ["offset"] = 426, ["enum"] = "torque_filter" },
     },
-    image_order = { 256, 257, 258, 259, 260, 512, 513, 514, 515, 516, 517, 518, 519, 520, 768, 769, 770, 771, 772, 773, 774, 1024, 1025, 1026, 1027, 1028, 1029, 1030, 1280, 1281, 1282, 1284, 1296, 1297, 1536, 1537, 1538, 1539, 1540, 1541, 1552, 1553, 1554, 1555, 1568, 1569, 1584, 1585, 1586, 1587 },
+    image_order = { 256, 257, 258, 259, 260, 512, 513, 514, 515, 516, 517, 518, 519, 520, 768, 769, 770, 771, 772, 773, 774, 1024, 1025, 1026, 1027, 1028, 1029, 1030, 1280, 1281, 1282, 1284, 1296, 1297, 1536, 1537, 1538, 1539, 1540, 1541, 1552, 1553, 1554, 1555, 1568, 1569, 1584, 1585, 1586, 1587, 1600 },
     channels = {
         [1] = { ["name"] = "speed_kmh", ["unit"] = "km/h", ["scale"] = 0.01 },
         [2] = { ["name"] = "cadence_rpm", ["unit"] = "rpm", ["scale"] = 0.01 },

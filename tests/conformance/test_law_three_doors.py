@@ -61,6 +61,7 @@ def config_of(inference: str, falling: str) -> dict[str, Any]:
         "mode_laws": ["off", "fixed", "fixed", "fuzzy", "fuzzy"],
         "fuzzy_inference": inference,
         "fuzzy_falling_torque": falling,
+        "torque_filter": "half_turn" if falling == "no_gain" else "time_constant",
         "fuzzy_gain_points": [0.05, 0.11, 0.27, 0.33, 0.48],
         "assist_cutoff_band_kmh": 2.0,
         "sensor_offset_counts": 12.5,

@@ -23,6 +23,7 @@ Taper = Annotated[Literal["taper_speeds", "none", "japan_1_to_1", "japan_2_to_1"
 Market = Annotated[
     Literal["eu_epac", "uk", "us_class_1", "us_class_2", "us_class_3", "japan", "china"], AnyCase
 ]
+TorqueFilter = Annotated[Literal["time_constant", "half_turn"], AnyCase]
 Five = Field(min_length=5, max_length=5)
 FivePoints = Annotated[list[float], Five]
 RuleRow = Annotated[list[Label], Five]
@@ -68,10 +69,17 @@ class AssistModes(LawModel):
 
 
 class Calibration(LawModel):
-    """How raw counts become newton metres, and how they are filtered."""
+    """How raw counts become newton metres, and how they are filtered.
+
+    `torque_filter` may be missing in what is written.
+    """
 
     sensor_offset_counts: float
     sensor_gain_nm_per_count: float
+    torque_filter: TorqueFilter | None = Field(
+        default=None,
+        description="Averages with `torque_filter_s`, or over the last half turn of the crank.",
+    )
     torque_filter_s: float
     torque_rate_interval_ms: int
     torque_rate_floor_nm: float

@@ -1011,12 +1011,19 @@ export interface components {
         /**
          * Calibration
          * @description How raw counts become newton metres, and how they are filtered.
+         *
+         *     `torque_filter` may be missing in what is written.
          */
         Calibration: {
             /** Sensor Offset Counts */
             sensor_offset_counts: number;
             /** Sensor Gain Nm Per Count */
             sensor_gain_nm_per_count: number;
+            /**
+             * Torque Filter
+             * @description Averages with `torque_filter_s`, or over the last half turn of the crank.
+             */
+            torque_filter?: ("time_constant" | "half_turn") | null;
             /** Torque Filter S */
             torque_filter_s: number;
             /** Torque Rate Interval Ms */

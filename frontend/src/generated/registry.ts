@@ -326,6 +326,11 @@ export const PARAMETERS = {
     least_step: 0.0,
     ratchet: false,
   },
+  torque_filter: {
+    length: 1,
+    least_step: 0.0,
+    ratchet: false,
+  },
 } as const satisfies Record<string, ParameterRow>;
 
 export type ParameterName = keyof typeof PARAMETERS;

@@ -75,10 +75,9 @@ static float apply_sensor(const assist_config *config, assist_state *state,
 
     if (torque_is_fresh(input)) {
         output->rider_torque_nm = sensor_torque_nm(config, input->torque_raw_counts);
-        state->torque_filtered_nm =
-            stroke_average_nm(config, state->torque_filtered_nm, output->rider_torque_nm);
         push_nm = output->rider_torque_nm;
-        (void)half_turn_mean_nm(config, &state->turn, input->cadence_rpm, push_nm);
+        half_turn_note(&state->turn, config->step_s, input->cadence_rpm, push_nm);
+        state->torque_filtered_nm = stroke_average_nm(config, state, push_nm);
     }
     push_note(config, state, push_nm);
     output->rider_torque_filtered_nm = state->torque_filtered_nm;

@@ -17,6 +17,7 @@ static int sensor_accepted(const assist_config *config)
 
     return config->sensor_offset_counts >= -LARGEST && config->sensor_offset_counts <= LARGEST &&
            positive(config->sensor_gain_nm_per_count) && not_negative(config->torque_filter_s) &&
+           config->torque_filter <= ASSIST_FILTER_HALF_TURN &&
            positive(config->torque_rate_floor_nm) && interval_steps >= 0.5f &&
            interval_steps <= (float)ASSIST_RATE_HISTORY && pedal_stop_steps >= 0.0f &&
            pedal_stop_steps <= 65000.0f; /* counted in 16 bits */

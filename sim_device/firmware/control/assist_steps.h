@@ -10,12 +10,11 @@
 /* sensor.c */
 float sensor_torque_nm(const assist_config *config, float torque_raw_counts);
 
-/* stroke_average.c: first-order low-pass over the two strokes of a crank turn. */
-float stroke_average_nm(const assist_config *config, float averaged_nm, float torque_nm);
+/* half_turn.c: keeps the mean over the last half turn, told the torque of every step. */
+void half_turn_note(half_turn *turn, float step_s, float cadence_rpm, float torque_nm);
 
-/* half_turn.c: mean over half a turn, told the torque of every step. */
-float half_turn_mean_nm(const assist_config *config, half_turn *turn, float cadence_rpm,
-                        float torque_nm);
+/* stroke_average.c: the torque that the law acts on, after half_turn_note. */
+float stroke_average_nm(const assist_config *config, const assist_state *state, float torque_nm);
 
 /* torque_rate.c: filtered torque one interval ago; stores the present one in its place. */
 float torque_history_swap(const assist_config *config, assist_state *state);

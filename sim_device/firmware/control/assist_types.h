@@ -31,6 +31,9 @@
 
 typedef enum { ASSIST_LAW_OFF = 0, ASSIST_LAW_FIXED = 1, ASSIST_LAW_FUZZY = 2 } assist_law;
 
+/* What evens out the two strokes of a crank turn. */
+typedef enum { ASSIST_FILTER_TIME_CONSTANT = 0, ASSIST_FILTER_HALF_TURN = 1 } assist_filter;
+
 /* How the fixed law's ratio falls with speed. The two Japanese ones are ceilings, in market.h. */
 typedef enum {
     ASSIST_TAPER_SPEEDS = 0,
@@ -43,7 +46,8 @@ typedef struct {
     float step_s; /* control period, 0.01 s */
     float sensor_offset_counts;
     float sensor_gain_nm_per_count;
-    float torque_filter_s;
+    uint8_t torque_filter; /* assist_filter */
+    float torque_filter_s; /* of ASSIST_FILTER_TIME_CONSTANT */
     float torque_rate_interval_s;
     float torque_rate_floor_nm;
     uint8_t mode_laws[ASSIST_MODE_SLOTS]; /* assist_law */

@@ -1,6 +1,6 @@
 /* The rider's mean torque over the last half turn of the crank: one stroke of one leg, at whatever
  * cadence. A mean over time holds a changing share of a stroke and swings with it. */
-#include "assist_steps.h" // half_turn_mean_nm
+#include "assist_steps.h" // half_turn_note
 #include "float32.h"      // float32_clamp
 
 #define RING_MASK (HALF_TURN_PARTS - 1u) /* the length is a power of two */
@@ -46,10 +46,9 @@ static float mean_of_parts_nm(const half_turn *turn)
     return sum_nm / (float)turn->known;
 }
 
-float half_turn_mean_nm(const assist_config *config, half_turn *turn, float cadence_rpm,
-                        float torque_nm)
+void half_turn_note(half_turn *turn, float step_s, float cadence_rpm, float torque_nm)
 {
-    float turned = cadence_rpm * (config->step_s * HALF_TURNS_PER_S_PER_RPM);
+    float turned = cadence_rpm * (step_s * HALF_TURNS_PER_S_PER_RPM);
 
     if (turned <= 0.0f || turn->part_steps == PART_STEPS_MAX) begin(turn);
     turn->part_sum_nm += torque_nm;
@@ -60,5 +59,4 @@ float half_turn_mean_nm(const assist_config *config, half_turn *turn, float cade
         turn->mean_nm = mean_of_parts_nm(turn);
     }
     if (turn->known == 0) turn->mean_nm = turn->part_sum_nm / (float)turn->part_steps;
-    return turn->mean_nm;
 }

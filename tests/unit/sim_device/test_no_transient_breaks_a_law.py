@@ -55,6 +55,7 @@ def drawn_config(wishes: random.Random, market: str) -> dict[str, Any]:
     config["mode_ratios"] = [wishes.uniform(0.5, 3.0) for _ in range(5)]
     config["mode_laws"] = [wishes.choice(["fixed", "fuzzy"]) for _ in range(5)]
     config["mode_tapers"] = [wishes.choice(["none", "taper_speeds", "japan_2_to_1"])] * 5
+    config["torque_filter"] = wishes.choice(["time_constant", "half_turn"])
     config["torque_filter_s"] = wishes.choice([0.02, 0.1, 0.5, 2.0])
     config["pedal_torque_nm_min"] = wishes.choice([0.0, 1.0])
     config["fixed_taper_start_kmh"], config["fixed_taper_end_kmh"] = 15.0, 24.0

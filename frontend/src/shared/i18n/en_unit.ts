@@ -11,6 +11,7 @@ type OfTheRegistry =
 export const enUnit = {
   'parameter.sensor_offset_counts': 'Sensor offset',
   'parameter.sensor_gain_nm_per_count': 'Sensor gain',
+  'parameter.torque_filter': 'Torque averaging',
   'parameter.torque_filter_s': 'Torque averaging time',
   'parameter.torque_rate_interval_ms': 'Torque rate interval',
   'parameter.torque_rate_floor_nm': 'Torque rate floor',
@@ -71,6 +72,8 @@ export const enUnit = {
   'choice.weighted_average': 'Weighted average',
   'choice.hold_zero_rate': 'hold the rate at zero',
   'choice.no_gain': 'no gain',
+  'choice.time_constant': 'over the averaging time',
+  'choice.half_turn': 'over half a crank turn',
   'choice.taper_speeds': 'between the taper speeds',
   'choice.none': 'none',
   'choice.japan_1_to_1': 'Japan until 2008 (1:1)',

@@ -4,6 +4,7 @@ import type { enUnit } from './en_unit'
 export const zhUnit: Record<keyof typeof enUnit, string> = {
   'parameter.sensor_offset_counts': '传感器零点',
   'parameter.sensor_gain_nm_per_count': '传感器增益',
+  'parameter.torque_filter': '扭矩平均方式',
   'parameter.torque_filter_s': '扭矩平均时间',
   'parameter.torque_rate_interval_ms': '扭矩变化率间隔',
   'parameter.torque_rate_floor_nm': '扭矩变化率下限',
@@ -64,6 +65,8 @@ export const zhUnit: Record<keyof typeof enUnit, string> = {
   'choice.weighted_average': '加权平均',
   'choice.hold_zero_rate': '变化率保持为零',
   'choice.no_gain': '无增益',
+  'choice.time_constant': '按平均时间',
+  'choice.half_turn': '按半圈曲柄',
   'choice.taper_speeds': '按衰减速度',
   'choice.none': '无',
   'choice.japan_1_to_1': '日本 2008 年前（1:1）',
