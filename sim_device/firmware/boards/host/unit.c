@@ -395,6 +395,7 @@ void unit_observe(const unit *self, unit_observation *seen)
         .battery_current_a = state->battery.current_a,
         .battery_soc_pct = state->battery.soc_pct,
         .assist_ratio = (double)law->assist_ratio,
+        .torque_rate = (double)law->torque_rate,
         .fuzzy_gain = (double)law->fuzzy_gain,
         .rider_work_j = state->ledger.rider_work_j,
         .motor_electric_j = state->ledger.motor_electric_j,

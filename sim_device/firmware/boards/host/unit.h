@@ -70,6 +70,7 @@ typedef struct {
     double battery_current_a;
     double battery_soc_pct;
     double assist_ratio;
+    double torque_rate;
     double fuzzy_gain; /* NaN where the mode does not use it */
     double rider_work_j;
     double motor_electric_j;
