@@ -327,8 +327,8 @@ class LockstepUnit:
         script = self._script
         if script is None:
             return self.unit.advance_us(left_us)
-        before_m = self._distance_m
         if not self._running:
+            before_m = self._distance_m
             passed_us = self.unit.advance_us(left_us)
             script.put_back(before_m, self._distance_m)
             return passed_us
