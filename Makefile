@@ -104,9 +104,10 @@ bench: setup $(STAMP)/rivals ## ratios against named rivals in one run, into doc
 	$(BIN)/python -m tests.bench
 
 .PHONY: reproduction
-reproduction: $(STAMP)/native ## the thesis beside what the simulator does, and the tables measured, into docs/
+reproduction: $(STAMP)/native ## the thesis beside what the simulator does, tables and filters measured, into docs/
 	$(BIN)/python -m tests.reproduction
 	$(BIN)/python -m tests.reproduction.tables
+	$(BIN)/python -m tests.reproduction.filters
 
 .PHONY: release-data
 release-data: setup ## what a version leaves on a disk, kept for every later one to open: VERSION=0.3.0

@@ -4,7 +4,8 @@ Everything is ridden in virtual time by a unit for the EU as it leaves the facto
 its first, and looked at in every control step; the same call gives the same numbers.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,8 @@ from sim_device.scenario_file import load as load_scenario
 
 Numbers = npt.NDArray[np.float64]
 Ride = dict[str, Numbers]
+Changes = Mapping[str, Any]
+FACTORY: Changes = MappingProxyType({})
 
 STEP_S = 0.01
 SPORT = 3
@@ -49,10 +52,13 @@ LIMIT_SEED, LIMIT_FROM_KMH, LIMIT_NM, LIMIT_CADENCE_RPM = 5, 24.0, 16.0, 140.0
 LIMIT_SETTLED_S, LIMIT_LOOKED_S = 40.0, 30.0
 
 
-def ridden(table: str, scenario: str) -> Ride:
-    """One round of the scenario with this table preset: what is seen, (n,) each."""
+def ridden(table: str, scenario: str, changes: Changes = FACTORY) -> Ride:
+    """One round of the scenario with this table preset: what is seen, (n,) each.
+
+    changes: parameters that differ from those of the factory.
+    """
     road = load_scenario(scenario)
-    unit = preset_unit(table, road.seed, {}, name=scenario)
+    unit = preset_unit(table, road.seed, dict(changes), name=scenario)
     unit.simulation_set({"scenario": scenario})
     return _columns(unit.ride_once(STEP_S))
 
@@ -129,12 +135,12 @@ def mean_gain(ride: Ride) -> float:
     return float(np.average(ride["fuzzy_gain"][when], weights=_seconds(ride)[when]))
 
 
-def start_s(table: str, rider: str) -> float:
+def start_s(table: str, rider: str, changes: Changes = FACTORY) -> float:
     """From rest on the level to 15 km/h: the bike, mass and push of the scenario `start`.
 
-    rider: `constant` is a servo, `legs` push in two strokes a turn.
+    rider: `constant` is a servo, `legs` push in two strokes a turn. changes: as for `ridden`.
     """
-    unit = preset_unit(table, START_SEED, {}, bike={"road.mass_kg": START_KG})
+    unit = preset_unit(table, START_SEED, dict(changes), bike={"road.mass_kg": START_KG})
     unit.select_mode(SPORT)
     unit.rider(rider, START_NM, CADENCE_RPM_UNLIMITED)
     for step in range(1, round(START_S_MAX / STEP_S) + 1):
