@@ -9,6 +9,7 @@ from typing import Any
 
 from backend.cli.client import Server, default_server, print_json, print_table, text_of
 from backend.control import presets
+from backend.domain.fuzzy_table import PARAMETER_NAMES, SHARED_FIELDS
 from backend.errors import InvalidRequest, RequestRefused
 from backend.ingest.backup import Backup, backup_json, backup_of, read_backup
 
@@ -117,7 +118,8 @@ def restore(options: Namespace) -> int:
     require_same_kind(backup, options.file.name, family, items)
     saved = backup.parameters
     if not options.json:
-        for note in [*backup.notes, *unknown_here(saved, items)]:
+        notes = [*backup.notes, *unknown_here(saved, items)]
+        for note in [*notes, *second_table_moves(backup, items)]:
             print(note)
     differing = [p for p in items if p["name"] in saved and saved[p["name"]] != p["value"]]
     kept = [p["name"] for p in differing if p["access"] == "factory"]
@@ -190,6 +192,18 @@ def unknown_here(saved: dict[str, Any], items: list[dict[str, Any]]) -> list[str
     known = {item["name"] for item in items}
     unknown = [name for name in saved if name not in known]
     return [f"This unit does not have {', '.join(unknown)}."] if unknown else []
+
+
+def second_table_moves(backup: Backup, items: list[dict[str, Any]]) -> list[str]:
+    """Says that a table's points are the second one's too, if a mode uses that and they change."""
+    now = {item["name"]: item["value"] for item in items}
+    shared = [PARAMETER_NAMES[field] for field in SHARED_FIELDS]
+    changes = any(backup.parameters.get(name) != now.get(name) for name in shared)
+    if not (backup.is_table and changes and any(now.get("mode_tables") or ())):
+        return []
+    return [
+        "The second table, which a mode uses, shares its points with the first and changes too."
+    ]
 
 
 def write(server: Server, unit: str, changes: dict[str, Any], options: Namespace) -> int:

@@ -40,9 +40,10 @@ def main() -> None:
     page = [
         "# Which table for what",
         "",
-        "Four fuzzy tables come with Spindle. `spindle device presets` lists them, `spindle",
-        "device restore NAME` puts one into a unit and leaves everything else as it is, `spindle",
-        "device diff NAME` shows what it would change; `GET /api/v1/library/NAME` is its file.",
+        "Four fuzzy tables come with Spindle. `spindle device presets` lists them,",
+        "`spindle device diff NAME` shows what one would change in a unit, and",
+        "`spindle device restore NAME` puts it there: as the first table, with the points that the",
+        "second one shares. `GET /api/v1/library/NAME` is its file.",
         "",
         "Written by `python -m tests.reproduction.tables`: every number is measured by the",
         "simulated bike in virtual time, with a unit for the EU as it leaves the factory (stroke",

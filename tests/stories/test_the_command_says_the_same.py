@@ -85,6 +85,23 @@ def test_a_preset_is_a_backup_that_comes_with_spindle(
     assert json.loads(band.stdout)["parameters"]["assist_cutoff_band_kmh"] == 0.0
 
 
+def test_a_table_says_that_it_moves_the_second_one_s_points(
+    server: SpindleServer, device: str
+) -> None:
+    server.stand_still(device)
+    before = server.get(f"/devices/{device}/config")["parameters"]
+    spindle(server, "device", "set", "mode_tables=[0,0,0,0,1]")
+
+    taken = spindle(server, "device", "restore", "even")
+    again = spindle(server, "device", "restore", "even")
+    spindle(server, "device", "restore", "thesis-table")
+    spindle(server, "device", "set", f"mode_tables={json.dumps(before['mode_tables'])}")
+
+    assert "The second table, which a mode uses, shares its points" in taken.stdout
+    assert again.stdout == "Nothing to restore.\n"
+    assert server.get(f"/devices/{device}/config")["parameters"] == before
+
+
 def test_a_table_that_comes_with_spindle_changes_the_table_alone(
     server: SpindleServer, device: str
 ) -> None:
@@ -105,6 +122,7 @@ def test_a_table_that_comes_with_spindle_changes_the_table_alone(
     assert told == {name for name in before if before[name] != now[name]}
     assert "fuzzy_rules" in told
     assert all(name.startswith("fuzzy_") for name in told)
+    assert "second table" not in taken.stdout
     assert json.loads(none_left.stdout)["changed"] == []
     assert server.get(f"/devices/{device}/config")["parameters"] == before
 
