@@ -20,7 +20,7 @@ from tests.reproduction.table_rides import (
     switched_hz,
     wh_per_km,
 )
-from tests.reproduction.tables import TABLES
+from tests.reproduction.tables import HALF_TURN, TABLES
 
 pytestmark = pytest.mark.slow
 
@@ -104,3 +104,12 @@ def test_legs_reach_every_column_of_the_rescaled_table_and_two_of_the_thesis_s(
 def test_no_table_switches_the_motor_at_the_limit_of_a_unit_for_the_road(table: str) -> None:
     assert switched_hz(table) == 0.0
     assert switched_hz(table, hard_cut=True) > 2.0
+
+
+def test_a_filter_without_the_stroke_leaves_the_columns_to_changes_of_the_push(
+    commute: dict[str, Ride],
+) -> None:
+    half_turn = ridden("thesis-rescaled", "commute", HALF_TURN)
+
+    assert column_shares(half_turn, "thesis-rescaled")[0] > 0.8
+    assert ripple_pct(half_turn) < ripple_pct(commute["thesis-rescaled"]) - 3.0
