@@ -9,10 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from firmware_protocol.parameters import default_config
-from sim_device.firmware.python.law import assist_run
+from tests.fakes.filtered_torque import filtered_nm
 from tests.reproduction.table_rides import (
     Ride,
     column_shares,
@@ -38,29 +37,14 @@ FILTERS: dict[str, dict[str, Any]] = {
     "half a turn": {"torque_filter": "half_turn"},
 }
 
-Numbers = npt.NDArray[np.float64]
-
-
-def filtered_nm(torque_nm: Numbers, cadence_rpm: float, changes: dict[str, Any]) -> Numbers:
-    """What the law acts on, (n,). torque_nm: at the crank, (n,)."""
-    config = {**default_config(), **changes}
-    ride = {
-        "torque_raw_counts": torque_nm / config["sensor_gain_nm_per_count"],
-        "speed_kmh": 12.0,
-        "cadence_rpm": cadence_rpm,
-        "motor_speed_rpm": 0.0,
-        "battery_voltage_v": 36.0,
-        "mode": 3,
-        "brake": 0,
-    }
-    return np.asarray(assist_run(config, ride)["rider_torque_filtered_nm"], np.float64)
-
 
 def stroke(cadence_rpm: float, changes: dict[str, Any]) -> str:
     """What is left of the legs' swing, in percent of it, and how late in degrees of the crank."""
     steps = np.arange(2 * SETTLED_STEPS)
     strokes_rad = 2.0 * steps * STEP_S * cadence_rpm / 60.0 * 2.0 * math.pi
-    out = filtered_nm(MEAN_NM * (1.0 - SWING * np.cos(strokes_rad)), cadence_rpm, changes)
+    out = filtered_nm(
+        MEAN_NM * (1.0 - SWING * np.cos(strokes_rad)), cadence_rpm, {**default_config(), **changes}
+    )
     settled, phase_rad = out[SETTLED_STEPS:], strokes_rad[SETTLED_STEPS:]
     left_pct = 100.0 * np.ptp(settled) / (2.0 * SWING * MEAN_NM)
     if left_pct < 1.0:
@@ -73,7 +57,7 @@ def stroke(cadence_rpm: float, changes: dict[str, Any]) -> str:
 def new_push_s(cadence_rpm: float, changes: dict[str, Any]) -> float:
     """Until nine tenths of twice the push are there."""
     torque_nm = np.repeat([MEAN_NM / 2.0, MEAN_NM], SETTLED_STEPS)
-    out = filtered_nm(torque_nm, cadence_rpm, changes)[SETTLED_STEPS:]
+    out = filtered_nm(torque_nm, cadence_rpm, {**default_config(), **changes})[SETTLED_STEPS:]
     return float(np.argmax(out >= MEAN_NM * 0.95) + 1) * STEP_S
 
 

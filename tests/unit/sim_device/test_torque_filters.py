@@ -6,50 +6,28 @@ a swing of w rad/s and delays it by atan(w t); a mean over half a turn leaves no
 """
 
 import math
-from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 
 from firmware_protocol.parameters import default_config
-from sim_device.firmware.python.law import assist_run
+from tests.fakes.filtered_torque import Numbers, filtered_nm
 
 STEP_S = 0.01
 MEAN_NM = 40.0
 SWING = 0.9
-HALF_TURN = {"torque_filter": "half_turn"}
-TIME_CONSTANT = {"torque_filter": "time_constant", "torque_filter_s": 0.5}
+HALF_TURN = {**default_config(), "torque_filter": "half_turn"}
+TIME_CONSTANT = {**default_config(), "torque_filter": "time_constant", "torque_filter_s": 0.5}
 CADENCES_RPM = [30.0, 47.0, 60.0, 75.0, 90.0, 115.0]
 
-Series = npt.NDArray[np.float64]
 
-
-def filtered_nm(torque_nm: Series, cadence_rpm: Any, changes: dict[str, Any]) -> Series:
-    """What the law acts on, (n,)."""
-    return law_of({**default_config(), **changes}, torque_nm, cadence_rpm)
-
-
-def law_of(config: dict[str, Any], torque_nm: Series, cadence_rpm: Any) -> Series:
-    ride = {
-        "torque_raw_counts": torque_nm / config["sensor_gain_nm_per_count"],
-        "speed_kmh": 12.0,
-        "cadence_rpm": cadence_rpm,
-        "motor_speed_rpm": 0.0,
-        "battery_voltage_v": 36.0,
-        "mode": 3,
-        "brake": 0,
-    }
-    return np.asarray(assist_run(config, ride)["rider_torque_filtered_nm"], np.float64)
-
-
-def strokes_nm(cadence_rpm: float, seconds: float) -> Series:
+def strokes_nm(cadence_rpm: float, seconds: float) -> Numbers:
     times_s = np.arange(round(seconds / STEP_S)) * STEP_S
     angle_rad = times_s * cadence_rpm / 60.0 * 2.0 * math.pi
     return MEAN_NM * (1.0 - SWING * np.cos(2.0 * angle_rad))
 
 
-def swing_of(settled_nm: Series) -> float:
+def swing_of(settled_nm: Numbers) -> float:
     """Half of what a series swings by, as a share of the legs' mean."""
     return float(np.ptp(settled_nm)) / 2.0 / MEAN_NM
 
@@ -108,6 +86,6 @@ def test_a_unit_of_before_averages_with_its_time_constant() -> None:
     older = {name: value for name, value in default_config().items() if name != "torque_filter"}
     torque_nm = strokes_nm(60.0, 3.0)
 
-    out = law_of(older, torque_nm, 60.0)
+    out = filtered_nm(torque_nm, 60.0, older)
 
     assert np.array_equal(out, filtered_nm(torque_nm, 60.0, TIME_CONSTANT))
