@@ -26,6 +26,8 @@ RIDES_MAX = 20
 PIECE_ROWS = 1 << 18
 """Rows at once: 44 min at 100 Hz, 20 MB."""
 
+HOLD_ZERO_RATE = "hold_zero_rate"
+
 Points = Mapping[str, Sequence[float]]
 
 
@@ -120,13 +122,13 @@ class UseOfTable:
     ) -> TableUse:
         """One ride's use of the table, read piece by piece."""
         reader = self._store.rides.reader(ride.id)
-        needs_gain = config.get("fuzzy_falling_torque", "hold_zero_rate") != "hold_zero_rate"
+        falling = str(config.get("fuzzy_falling_torque", HOLD_ZERO_RATE)).lower()
         seconds = row_seconds(reader)
         use = TableUse.none()
         for start in range(0, reader.row_count, PIECE_ROWS):
             stop = min(start + PIECE_ROWS, reader.row_count)
             columns = read_columns(reader, start, stop)
-            acts = acting(columns, slots, needs_gain)
+            acts = acting(columns, slots, needs_gain=falling != HOLD_ZERO_RATE)
             use += table_use(
                 {name: values[acts] for name, values in columns.items()},
                 seconds[start:stop][acts],
@@ -154,14 +156,17 @@ def channels_missing(ride: Ride) -> list[str]:
 
 
 def slots_by(config: Mapping[str, Any], table: str) -> list[int]:
-    """The mode slots that run by a table. Units of the first version had one table only."""
+    """The mode slots that run by a table.
+
+    Units of the first version had one table only; up to 0.2 choices were kept in upper case.
+    """
     laws = config.get("mode_laws", ())
     numbers = config.get("mode_tables", [0] * len(laws))
     wanted = tuple(PARAMETERS_OF).index(table)
     return [
         slot
         for slot, (law, number) in enumerate(zip(laws, numbers, strict=True))
-        if law == "fuzzy" and number == wanted
+        if str(law).lower() == "fuzzy" and number == wanted
     ]
 
 
