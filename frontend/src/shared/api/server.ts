@@ -24,6 +24,8 @@ import type {
   Simulation,
   SimulationChange,
   Surface,
+  TableUse,
+  TableUseRequest,
   UnitLogs,
 } from './types'
 
@@ -174,6 +176,11 @@ export class Server {
 
   lint(question: LintRequest, signal: AbortSignal): Promise<LintReport> {
     return body(this.http.POST('/api/v1/lint', { body: question, signal }))
+  }
+
+  /** Where in a table a unit's latest rides were. */
+  tableUse(question: TableUseRequest, signal: AbortSignal): Promise<TableUse> {
+    return body(this.http.POST('/api/v1/rides/table-use', { body: question, signal }))
   }
 
   async rides(cursor?: string): Promise<{ items: Ride[]; next: string | null }> {

@@ -2,12 +2,14 @@
 // rides are in en_rides.ts, how things stand (faults) in en_state.ts.
 import { enRides } from './en_rides'
 import { enState } from './en_state'
+import { enTune } from './en_tune'
 import { enUnit } from './en_unit'
 
 export const en = {
   ...enUnit,
   ...enRides,
   ...enState,
+  ...enTune,
   'app.choose_unit': 'Choose a unit',
   'app.dismiss': 'Dismiss',
   'app.loading': 'Loading…',
@@ -156,50 +158,6 @@ export const en = {
   'rider_row.range_km': 'Range',
   'rider_row.range_later': 'known once some road and battery are used',
 
-  'tune.tables': 'Which of the two tables',
-  'tune.table_first': 'First table',
-  'tune.table_second': 'Second table',
-  'tune.used_by': 'Used by {modes}',
-  'tune.used_by_none': 'No mode uses it',
-  'tune.tab_changed': 'changed, not yet in the unit',
-  'tune.shared': 'Both tables share the speed and torque rate peaks.',
-  'tune.live_elsewhere': 'the bike runs the other table now',
-  'tune.assist_ends': 'In the unit, assist ends at {speed}, as set.',
-  'tune.assist_ends_market':
-    'In the unit, assist ends at {speed}: the market, {market}, allows no more, whatever is set.',
-  'tune.rules': 'Rules',
-  'tune.surface': 'Gain surface',
-  'tune.sets': 'Peaks of the sets',
-  'tune.law': 'Table',
-  'tune.heatmap': 'Map',
-  'tune.view': 'View of the surface',
-  'tune.no_webgl': 'This browser cannot draw in three dimensions; the map shows the same.',
-  'tune.changed': 'Changed, not yet in the unit',
-  'tune.factory': "the factory's; changes only with the maker's token",
-  'tune.now': 'now {value}',
-  'tune.peaks': 'Peaks of {name}',
-  'tune.live_gain': 'gain now {gain}',
-  'tune.preview_waits': 'The surface waits until every value is possible.',
-  'tune.surface_summary': "Gain {least} to {most}, from the unit's own law",
-  'tune.grid_label': 'Gain label for each speed (rows) and torque rate (columns)',
-  'tune.cell': '{label} {gain}, gain at speed {speed} and torque rate {rate}',
-  'tune.cell_changed':
-    '{label} {gain}, gain at speed {speed} and torque rate {rate}; changed from {old}',
-  'tune.keys':
-    'Arrows move · 1–5 set NB–PB · + and − nudge · Shift selects · Ctrl+C/V as text · ' +
-    'Delete restores · Ctrl+Z undoes',
-  'tune.strip': 'Set the chosen rules',
-  'tune.step_down': 'One label down',
-  'tune.step_up': 'One label up',
-  'tune.restore': 'As in the unit',
-  'tune.chosen': 'Chosen: {speed}, torque rate {rate}, {label}. Tap another cell to choose it.',
-  'tune.chosen_changed': 'Chosen: {speed}, torque rate {rate}, {label}; in the unit {old}.',
-  'tune.chosen_many': 'Chosen: {count} rules.',
-  'tune.paste_not_labels':
-    'Nothing pasted: only the labels NB, NS, ZO, PS, PB or the numbers 1 to 5 go into ' +
-    'the rules.',
-  'tune.paste_too_large':
-    'Nothing pasted: the text has more rows or columns than there are from this cell on.',
   'group.assist': 'Assist modes and ramps',
   'group.limits': 'Limits',
   'group.market': 'Market',
