@@ -133,6 +133,32 @@ def test_a_point_that_is_moved_moves_the_shares(open_desk: OpenDesk, shop: Spind
     expect(page.locator(SHARES).nth(2)).to_have_text("1.7 %")
 
 
+def test_no_table_is_asked_about_twice(open_desk: OpenDesk, shop: SpindleServer) -> None:
+    desk = open_desk(address=shop.url)
+    asked: list[Any] = []
+    desk.page.on(
+        "request",
+        lambda request: (
+            asked.append(request.post_data_json) if request.url.endswith("/table-use") else None
+        ),
+    )
+    page = open_tune(desk)
+    expect(page.locator(SHARES).first).to_have_text("96 %")
+    page.locator("[role=slider][aria-label='Torque rate 2']").focus()
+
+    for _ in range(5):
+        page.keyboard.press("ArrowLeft")
+    expect(page.locator(SHARES).nth(1)).not_to_have_text("3.0 %")
+    page.get_by_role("tab", name="Second table").click()
+    expect(page.locator(USE)).to_contain_text("Nothing in your last 2 rides")
+
+    points = [(one["table"], one["torque_rate_points"][1]) for one in asked]
+    # On the way a slow machine may ask about points between; never about the same again.
+    assert points[0] == ("first", 0.225)
+    assert points[-2:] == [("first", 0.2), ("second", 0.2)]
+    assert len(set(points)) == len(points)
+
+
 def test_a_table_that_nobody_rode_says_so(open_desk: OpenDesk, shop: SpindleServer) -> None:
     page = open_tune(open_desk(address=shop.url), "/tune?table=second")
 

@@ -10,6 +10,8 @@ export class UseQuestion {
   /** Of the points asked for last, or while those are looked up of the ones before. */
   found = $state.raw<TableUse | null>(null)
   trouble = $state.raw<Refusal | null>(null)
+  // Not read from `found`: whoever asks in an effect would ask again at every answer.
+  private answered = false
   private device: string | null | undefined
   private asked = new AbortController()
 
@@ -20,13 +22,19 @@ export class UseQuestion {
     this.asked = new AbortController()
     const { signal } = this.asked
     // What another unit's rides say is not kept on show.
-    if (this.device !== question.device) this.found = null
+    if (this.device !== question.device) {
+      this.found = null
+      this.answered = false
+    }
     this.device = question.device
-    if (this.found) await new Promise((rested) => setTimeout(rested, REST_MS))
+    if (this.answered) await new Promise((rested) => setTimeout(rested, REST_MS))
     if (signal.aborted) return
     try {
       const found = await this.server.tableUse(question, signal)
-      if (!signal.aborted) [this.found, this.trouble] = [found, null]
+      if (signal.aborted) return
+      this.found = found
+      this.trouble = null
+      this.answered = true
     } catch (error) {
       if (signal.aborted) return
       if (!(error instanceof Refusal)) throw error
