@@ -5,18 +5,19 @@ import { defineConfig } from 'vitest/config'
 const folder = (path: string) => fileURLToPath(new URL(path, import.meta.url))
 const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
 
-// What most pages need in one file, what edits a configuration in another and the pages about rides
-// in a third: dozens of tiny ones compress worse than they save.
+// What most pages need in one file, and pages of a kind in another: dozens of tiny ones compress
+// worse than they save.
 const MOST = [
-  'api|context|device|ui|units',
-  'i18n/(?!zh)',
-  'stream/flags',
+  'api|context|device|stream|ui|units',
+  'charts/(plotly|strip_chart)\\.ts',
   'config/(config_draft|drafts|limits|page_draft|parameter_text|ratchet|trial|two_tables)',
+  'i18n/(?!zh)',
 ]
 const GROUPS = [
   { name: 'unit', test: new RegExp(`src/shared/(${MOST.join('|')})`) },
-  { name: 'tune', test: /src\/(features\/tune|shared\/config)/ },
   { name: 'rides', test: /src\/features\/(rides|try)/ },
+  { name: 'settings', test: /src\/features\/(service|settings)/ },
+  { name: 'tune', test: /src\/(features\/tune|shared\/config)/ },
 ]
 
 export default defineConfig({

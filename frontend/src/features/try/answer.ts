@@ -38,7 +38,7 @@ export function drawnRows(replay: Replay, series: Series): TraceRow[] {
         { channel: REPLAYED + channel, token, name: 'open_loop', look: 'dashed' },
       ] satisfies TraceLine[]
     ).filter((line) => largest(series, line.channel) !== null)
-  const key = isAsked(replay) ? 'motor_torque_asked' : 'motor_torque'
+  const key = isAsked(replay) ? 'torque_asked' : 'torque_given'
   return [
     { key, unit: 'Nm', lines: lines(comparedTorque(replay), 'motor') },
     { key: 'gain', unit: '', lines: lines(GAIN, 'gain') },

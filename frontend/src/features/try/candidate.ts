@@ -1,5 +1,5 @@
 // What can be tried on a ride, and what the server is asked for it.
-import type { ReplayRequest } from '$shared/api/types'
+import type { FuzzyTable, ReplayRequest } from '$shared/api/types'
 import type { ConfigDraft } from '$shared/config/config_draft.svelte'
 import {
   modesFrom,
@@ -11,12 +11,25 @@ import {
 } from '$shared/config/two_tables'
 
 /** What is edited in Tune, what the unit has, or the ride's own configuration once more. */
-export const CANDIDATES = ['draft', 'unit', 'ride'] as const
-export type Candidate = (typeof CANDIDATES)[number]
+export const OWN = ['draft', 'unit', 'ride'] as const
+const LIBRARY = 'library:'
+/** One of those, or a table of the library by its id. */
+export type Candidate = (typeof OWN)[number] | `${typeof LIBRARY}${string}`
+
+export function ofLibrary(id: string): Candidate {
+  return `${LIBRARY}${id}`
+}
+
+/** The id of a table of the library; null for another candidate. */
+export function libraryId(candidate: Candidate): string | null {
+  return candidate.startsWith(LIBRARY) ? candidate.slice(LIBRARY.length) : null
+}
 
 /** The candidate that an address names; what is edited where it names none. */
 export function candidateIn(query: URLSearchParams): Candidate {
-  return CANDIDATES.find((name) => name === query.get('with')) ?? 'draft'
+  const named = query.get('with') ?? ''
+  if (named.startsWith(LIBRARY)) return named as Candidate
+  return OWN.find((name) => name === named) ?? 'draft'
 }
 
 /** Whether a unit's tables are known, so that its candidates can be tried. */
@@ -24,10 +37,21 @@ export function hasTables(draft: ConfigDraft | null): draft is ConfigDraft {
   return draft !== null && draft.loaded && draft.parameter('fuzzy_rules') !== undefined
 }
 
-/** The question for a candidate; null while a value of it is unknown or impossible. */
-export function questionOf(candidate: Candidate, draft: ConfigDraft | null): ReplayRequest | null {
-  const nothing = { fuzzy_table: null, second_table: null, assist_modes: null }
-  if (candidate === 'ride') return { mode: 'open_loop', ...nothing }
+/** The question for a candidate; null while a value of it is unknown or impossible. A table of the
+    library stands in for the first one; the ride's own second one and modes stay. */
+export function questionOf(
+  candidate: Candidate,
+  draft: ConfigDraft | null,
+  in_library: FuzzyTable | null,
+): ReplayRequest | null {
+  const unchanged: ReplayRequest = {
+    mode: 'open_loop',
+    fuzzy_table: null,
+    second_table: null,
+    assist_modes: null,
+  }
+  if (candidate === 'ride') return unchanged
+  if (libraryId(candidate) !== null) return in_library && { ...unchanged, fuzzy_table: in_library }
   if (!hasTables(draft)) return null
   const base: Read = (name) => draft.base(name)
   const edited = candidate === 'draft'

@@ -1,7 +1,7 @@
 /* Goal: the binary series is read as backend/views/trace.py describes it. The bytes are laid out
    here by hand from that description. */
 import { expect, it } from 'vitest'
-import { readSeries } from './series'
+import { coarser, readSeries, seriesOf } from './series'
 
 function block(header: object, body: ArrayBuffer): ArrayBuffer {
   let text = JSON.stringify(header)
@@ -50,4 +50,32 @@ it('gives physical values, missing as NaN', () => {
 
 it('refuses bytes that are something else', () => {
   expect(() => readSeries(new TextEncoder().encode('{"detail": 1}').buffer)).toThrow('not a series')
+})
+
+const told = {
+  from_s: 0,
+  to_s: 5,
+  rows: 5,
+  bins: 5,
+  kind: 'rows' as const,
+  t_first_s: [0, 1, 2, 3, 4],
+  t_last_s: [0, 1, 2, 3, 4],
+  channels: [{ name: 'a', unit: 'Nm', min: [1, 9, null, null, 4], max: [1, 9, null, null, 4] }],
+}
+
+it('reads a series within another answer, missing as NaN', () => {
+  const [channel] = seriesOf(told).channels
+
+  expect([...(channel?.min ?? [])]).toEqual([1, 9, NaN, NaN, 4])
+  expect(channel?.max).toBe(channel?.min)
+})
+
+it('keeps the extremes of every bin where bins are taken together', () => {
+  const coarse = coarser(seriesOf(told), 3)
+
+  expect([...coarse.t_first_s]).toEqual([0, 2, 4])
+  expect([...coarse.t_last_s]).toEqual([1, 3, 4])
+  expect([...(coarse.channels[0]?.min ?? [])]).toEqual([1, NaN, 4])
+  expect([...(coarse.channels[0]?.max ?? [])]).toEqual([9, NaN, 4])
+  expect(coarser(seriesOf(told), 5).kind).toBe('rows')
 })

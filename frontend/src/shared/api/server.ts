@@ -9,6 +9,8 @@ import type {
   Fault,
   FuzzyTable,
   Health,
+  LibraryEntry,
+  LibraryRow,
   Limits,
   LintReport,
   LintRequest,
@@ -181,6 +183,15 @@ export class Server {
   /** Where in a table a unit's latest rides were. */
   tableUse(question: TableUseRequest, signal: AbortSignal): Promise<TableUse> {
     return body(this.http.POST('/api/v1/rides/table-use', { body: question, signal }))
+  }
+
+  /** The named tables and configurations, without their values. */
+  async library(): Promise<LibraryRow[]> {
+    return (await body(this.http.GET('/api/v1/library'))).items
+  }
+
+  libraryEntry(entry_id: string): Promise<LibraryEntry> {
+    return body(this.http.GET('/api/v1/library/{entry_id}', { params: { path: { entry_id } } }))
   }
 
   async rides(cursor?: string): Promise<{ items: Ride[]; next: string | null }> {

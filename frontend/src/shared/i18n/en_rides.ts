@@ -114,6 +114,8 @@ export const enRides = {
   'trace.motor_torque_crank_asked': 'Motor torque asked, at the crank',
   'trace.motor_torque': "Motor torque at the motor's shaft",
   'trace.motor_torque_asked': "Motor torque asked, at the motor's shaft",
+  'trace.torque_given': 'Motor torque',
+  'trace.torque_asked': 'Motor torque asked',
   'trace.power': 'Power',
   'trace.gain': 'Gain',
   'trace.cadence': 'Cadence',
@@ -126,6 +128,9 @@ export const enRides = {
   'try.with_draft': 'Tables and modes as edited in Tune',
   'try.with_unit': 'Tables and modes in the unit now',
   'try.with_ride': 'Nothing changed: how well the replay matches the record',
+  'try.library': 'Tables that come with Spindle',
+  'try.as_first':
+    'It stands in for the first table; the second one and the modes are those of the ride.',
   'try.ride': 'On the ride',
   'try.no_rides':
     "None of these rides can be tried. It takes a ride recorded from a unit, with the rider's " +
@@ -137,7 +142,7 @@ export const enRides = {
   'try.waits_values': 'An edited value is impossible. Mend it in Tune, then try again.',
   'try.refused': 'This ride cannot be tried',
   'try.refused_missing_channel':
-    'It has no {names}. A ride recorded from a unit has what the law needs; the file of a head ' +
+    'Missing in it: {names}. A ride recorded from a unit has what the law needs; the file of a head ' +
     'unit does not.',
   'try.refused_too_slow':
     'Its samples are too far apart: the law needs one at least every 0.1 s.',

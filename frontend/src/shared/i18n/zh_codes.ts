@@ -243,5 +243,15 @@ const reason = {
   simulator_failed: '模拟单元无法启动，或已意外停止。',
 }
 
-export const zhCodes = { lint, violation, refusal, fault, mechanic, scenario, reason }
+// Spindle 自带的规则表各有何用。
+const preset = {
+  'thesis-table': '论文的表 4-2，供比较；腿力很少触及其右侧三列。检查会提示：匀速蹬踏时已有增益。',
+  'thesis-rescaled':
+    '表 4-2 的规则，用于 0.5 s 平均之后腿力能达到的扭矩变化率：每一列都起作用，蹬踏更灵敏但不够均匀。检查会提示：匀速蹬踏时已有增益。',
+  'strong-start':
+    '适合车流中或载重起步：速度越低助力越多，8 km/h 以下为模式助力比的一半，24 km/h 起为零，与蹬踏是否均匀无关。检查会提示的正是这一点。',
+  even: '适合城市与续航：匀速蹬踏几乎只有模式的助力比，低速突然用力时最多再增一半。四个表中能耗最低，起步最慢。',
+}
+
+export const zhCodes = { lint, violation, refusal, fault, mechanic, scenario, reason, preset }
 export type Saying = keyof typeof zhCodes
