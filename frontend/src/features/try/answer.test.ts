@@ -1,8 +1,16 @@
-/* Goal: a replay's figures are told truthfully: what is missing is missing, what was only asked of a
-   motor is called so, and only limits that were at work are named. */
+/* Goal: a replay's figures are told truthfully: what is missing is missing, what was only asked of
+   a motor is called so, and only limits that were at work are named. */
 import type { Replay } from '$shared/api/types'
 import { expect, it } from 'vitest'
-import { direction, drawnRows, drawnSeries, figureRows, limitRows, whyNoWork } from './answer'
+import {
+  direction,
+  drawnRows,
+  drawnSeries,
+  figureRows,
+  limitRows,
+  shownDifference,
+  whyNoWork,
+} from './answer'
 
 const bins = (name: string, ...max: (number | null)[]) => ({ name, unit: 'Nm', min: max, max })
 const both = { recorded: 5, replayed: 6, difference: 1 }
@@ -92,7 +100,6 @@ it('finds the largest torque in the bins, which keep every extreme', () => {
     key: 'torque_nm',
     recorded: 1.5,
     replayed: 1.75,
-    difference: 0.25,
   })
 })
 
@@ -103,12 +110,11 @@ it('leaves missing what was not recorded', () => {
     series: { ...series, channels: [bins('replayed_motor_torque_nm', 1, 2)] },
   })
 
-  expect(torque(none)).toMatchObject({ recorded: null, replayed: 2, difference: null })
+  expect(torque(none)).toMatchObject({ recorded: null, replayed: 2 })
   expect(figureRows(replay({ wh_per_km: null }), drawnSeries(replay()))[0]).toMatchObject({
     key: 'wh_per_km',
     recorded: null,
     replayed: null,
-    difference: null,
   })
 })
 
@@ -133,11 +139,9 @@ it('names limits that were at work as ridden or replayed, the longest first', ()
   ])
 })
 
-it('calls no difference what rounds to none', () => {
-  expect([0.004, -0.004, 0.005, -0.02].map((d) => direction(d, 2))).toEqual([
-    'same',
-    'same',
-    'more',
-    'less',
-  ])
+it('shows the difference that a reader finds between the figures as they are shown', () => {
+  expect(shownDifference(2.974, 2.995, 2)).toBe(0.03) // 2.97 and 3.00
+  expect(shownDifference(2.971, 2.974, 2)).toBe(0)
+  expect(shownDifference(null, 2, 2)).toBeNull()
+  expect([0.03, -0.01, 0].map(direction)).toEqual(['more', 'less', 'same'])
 })

@@ -59,32 +59,28 @@ export function whyNoWork(replay: Replay): 'demanded' | 'torque' | 'speed' | nul
   return replay.motor_torque_meaning === null ? 'torque' : 'speed'
 }
 
-/** A figure as ridden and in each loop that was run, and what it changes. */
+/** A figure as ridden and in each loop that was run. */
 export interface FigureRow {
   key: 'wh_per_km' | 'motor_work_wh' | 'torque_nm' | 'asked_nm'
   unit: string
   digits: number
   recorded: number | null
   replayed: number | null
-  difference: number | null
 }
 
 /** The figures of a replay, the one to compare by first. */
 export function figureRows(replay: Replay, series: Series): FigureRow[] {
-  const none = { recorded: null, replayed: null, difference: null }
   const torque = comparedTorque(replay)
   const most = { recorded: largest(series, torque), replayed: largest(series, REPLAYED + torque) }
-  const known = most.recorded !== null && most.replayed !== null
+  const row = (
+    key: FigureRow['key'],
+    unit: string,
+    { recorded, replayed }: Pick<FigureRow, 'recorded' | 'replayed'>,
+  ): FigureRow => ({ key, unit, digits: 2, recorded, replayed })
   return [
-    { key: 'wh_per_km', unit: 'Wh/km', digits: 2, ...(replay.wh_per_km ?? none) },
-    { key: 'motor_work_wh', unit: 'Wh', digits: 2, ...replay.motor_work_wh },
-    {
-      key: isAsked(replay) ? 'asked_nm' : 'torque_nm',
-      unit: 'Nm',
-      digits: 2,
-      ...most,
-      difference: known ? Number(most.replayed) - Number(most.recorded) : null,
-    },
+    row('wh_per_km', 'Wh/km', replay.wh_per_km ?? { recorded: null, replayed: null }),
+    row('motor_work_wh', 'Wh', replay.motor_work_wh),
+    row(isAsked(replay) ? 'asked_nm' : 'torque_nm', 'Nm', most),
   ]
 }
 
@@ -108,8 +104,19 @@ export function limitRows(replay: Replay): LimitRow[] {
     .sort((a, b) => b.replayed - a.replayed)
 }
 
-/** How a difference reads once both are rounded as they are shown. */
-export function direction(difference: number, digits: number): 'more' | 'less' | 'same' {
-  const rounded = Number(difference.toFixed(digits))
-  return rounded > 0 ? 'more' : rounded < 0 ? 'less' : 'same'
+/** The difference of two figures as they are shown, so that a reader who subtracts finds the same;
+    null where one is missing. */
+export function shownDifference(
+  recorded: number | null,
+  replayed: number | null,
+  digits: number,
+): number | null {
+  if (recorded === null || replayed === null) return null
+  const shown = (value: number) => Number(value.toFixed(digits))
+  return Number((shown(replayed) - shown(recorded)).toFixed(digits))
+}
+
+/** Which of the words for a difference fits it. */
+export function direction(difference: number): 'more' | 'less' | 'same' {
+  return difference > 0 ? 'more' : difference < 0 ? 'less' : 'same'
 }

@@ -1,4 +1,4 @@
-/* Goal: what is tried is exactly the tables and modes that were chosen, and an address names them. */
+/* Goal: what is tried is the tables and modes that were chosen, and an address names them. */
 import { PARAMETERS } from '$generated/registry'
 import type { Server } from '$shared/api/server'
 import type { FuzzyTable, Parameter, ParameterValue } from '$shared/api/types'

@@ -142,8 +142,8 @@ export const enRides = {
   'try.waits_values': 'An edited value is impossible. Mend it in Tune, then try again.',
   'try.refused': 'This ride cannot be tried',
   'try.refused_missing_channel':
-    'Missing in it: {names}. A ride recorded from a unit has what the law needs; the file of a head ' +
-    'unit does not.',
+    'Missing in it: {names}. A ride recorded from a unit has what the law needs; the file of a ' +
+    'head unit does not.',
   'try.refused_too_slow':
     'Its samples are too far apart: the law needs one at least every 0.1 s.',
   'try.sentence': 'Motor work: {recorded} as ridden, {replayed} replayed, {change}.',
