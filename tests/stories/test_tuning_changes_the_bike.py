@@ -163,6 +163,20 @@ def test_raw_counts_become_newton_metres_by_the_calibration_that_was_written(
     assert now["rider_torque_nm"] == pytest.approx(expected_nm, abs=gain + 0.01)
 
 
+@pytest.mark.parametrize(
+    ("part", "newer"), [("calibration", "torque_filter"), ("limits", "assist_cutoff_extra_kmh")]
+)
+def test_a_program_of_before_writes_a_part_without_what_came_since(
+    server: SpindleServer, device: str, part: str, newer: str
+) -> None:
+    before = server.get(f"/devices/{device}/{part}")
+    known_then = {name: value for name, value in before.items() if name != newer}
+
+    server.ask("PUT", f"/devices/{device}/{part}", json=known_then)
+
+    assert server.get(f"/devices/{device}/{part}") == before
+
+
 def test_every_change_is_remembered_with_its_reason(server: SpindleServer, device: str) -> None:
     body = {"parameters": {"torque_filter_s": 0.45}, "reason": "smoother on the climb"}
     server.ask("PATCH", f"/devices/{device}/config", json=body)

@@ -198,8 +198,9 @@ def put_calibration(
     token: Token = None,
 ) -> Any:
     """Writes offset, gain and filters in one transaction."""
+    written = body.model_dump(exclude_none=True)
     change = services.tuning.write_part(
-        device_id, "calibration", body.model_dump(), reason, if_match, confirm_s, token
+        device_id, "calibration", written, reason, if_match, confirm_s, token
     )
     return _stamped(change, response)
 
@@ -222,8 +223,9 @@ def put_limits(
     token: Token = None,
 ) -> Any:
     """Writes the limits in one transaction; the unit refuses what its market forbids."""
+    written = body.model_dump(exclude_none=True)
     change = services.tuning.write_part(
-        device_id, "limits", body.model_dump(exclude_none=True), reason, if_match, confirm_s, token
+        device_id, "limits", written, reason, if_match, confirm_s, token
     )
     return _stamped(change, response)
 
