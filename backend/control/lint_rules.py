@@ -130,8 +130,8 @@ def _steady_warnings(table: FuzzyTable) -> Iterator[Finding]:
     lowest, highest = gain_range(table, first_rate_only=True)
     if highest > RIPPLE_SHOWN:
         message = (
-            f"steady pedalling already gains {lowest:.2f} to {highest:.2f}:"
-            " the mode's ratio is never reached alone"
+            f"steady pedalling already gains {lowest:.2f} to {highest:.2f}, by the speed:"
+            " that much more than the mode's ratio"
         )
         yield Finding("gain_at_steady_torque", message, "torque rate 0")
 

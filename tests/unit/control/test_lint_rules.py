@@ -38,6 +38,8 @@ def test_the_thesis_table_has_no_errors_and_only_its_permanent_gain_to_explain()
 
     assert report.errors == ()
     assert codes(report.warnings) == ["gain_at_steady_torque"]
+    # The first column of table 4-2 goes from ZO to NB: 0.3 at 5 km/h, 0.1 at 25.
+    assert "0.10 to 0.30, by the speed" in report.warnings[0].message
     assert codes(report.notes) == ["centroid_ripple"]
 
 

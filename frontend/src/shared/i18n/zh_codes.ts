@@ -8,7 +8,7 @@ const lint = {
   gain_falls_with_torque_rate: '骑手用力加快时增益反而下降，最多 {at_most}',
   label_step: '相邻两格相差超过一级',
   steep_gain: '增益在 1 km/h 之内变化可达 {at_most}，骑手会感到顿挫',
-  gain_at_steady_torque: '匀速蹬踏时已有增益：该模式的助力比永远不会单独生效',
+  gain_at_steady_torque: '匀速蹬踏时已有增益（随车速变化）：助力高于该模式的助力比',
   demand_beyond_motor: '强力骑手的需求超出电机上限：此时由上限决定，模式不起作用',
   centroid_ripple: '各点之间曲面起伏最多 {at_most}，这是最小、最大与重心法的特性；加权平均没有此现象',
   equal_neighbours: '相邻两行或两列完全相同',
