@@ -6,6 +6,7 @@ then the units, which begin to talk at once. Closing goes the other way round.
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import logging
 import signal
@@ -207,7 +208,14 @@ def listening_socket(host: str, port: int) -> socket.socket:
 
 
 class AnnouncingServer(uvicorn.Server):
-    """Prints one line with the address, and only once requests are really answered."""
+    """Prints one line with the address, and only once requests are really answered.
+
+    end_waiting: lets go of requests that would wait for longer than the server takes to end.
+    """
+
+    def __init__(self, config: uvicorn.Config, end_waiting: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._end_waiting = end_waiting
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Starts to listen, then says where."""
@@ -217,6 +225,12 @@ class AnnouncingServer(uvicorn.Server):
             shown = f"[{host}]" if ":" in host else host
             sys.stdout.write(f"Spindle is ready at http://{shown}:{port} (Ctrl-C stops it)\n")
             sys.stdout.flush()
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """Stops to listen, answers who waits, ends."""
+        ending = asyncio.create_task(asyncio.to_thread(self._end_waiting))
+        await super().shutdown(sockets)
+        await ending
 
 
 def serve(settings: Settings) -> int:
@@ -236,7 +250,9 @@ def serve_on(listening: socket.socket, settings: Settings) -> int:
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         with open_services(settings) as services:
-            server = AnnouncingServer(server_config(build_app(settings, services)))
+            config = server_config(build_app(settings, services))
+            # Files that are being read are read at the next start.
+            server = AnnouncingServer(config, services.uploads.close)
             server.run(sockets=[listening])
             return 0 if server.started else 1
     except KeyboardInterrupt:

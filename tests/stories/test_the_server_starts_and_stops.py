@@ -5,6 +5,7 @@ Each story has a server of its own, because each ends one.
 
 from __future__ import annotations
 
+import os
 import signal
 import socket
 import subprocess
@@ -160,6 +161,24 @@ def test_a_unit_that_is_not_there_keeps_nobody_waiting(tmp_path: Path) -> None:
     assert "/dev/no-such-port" in unit["reason"]
     assert answer.status_code in (503, 504)
     assert answer.json()["detail"]
+
+
+@pytest.mark.slow
+def test_a_server_that_ends_waits_for_no_file_that_is_read(tmp_path: Path) -> None:
+    """A reader that stands still, as on a machine with too much to do."""
+    server = SpindleServer(tmp_path, []).start()
+    with ThreadPoolExecutor(1) as browser:
+        sending = browser.submit(
+            server.client.post, "/rides/import?name=a.fit", content=fit_file(commute(60))
+        )
+        (reader,) = eventually(lambda: children_of(server.pid, b"backend.ingest.worker"))
+        os.kill(reader, signal.SIGSTOP)
+
+        said = server.stop(signal.SIGTERM)
+
+        assert sending.result().json()["state"] == "queued"
+    assert said == ""
+    assert server.exit_code == 0
 
 
 @pytest.mark.slow
