@@ -1,12 +1,15 @@
-"""Goal: docs/thesis-reproduction.md says what a run of this very state says, to the last figure."""
+"""Goal: the pages that tell what the simulated bike does say what a run of this very state says, to
+the last figure: docs/thesis-reproduction.md, docs/tables.md, docs/torque-filter.md."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
 from tests.reproduction import __main__ as reproduction
+from tests.reproduction import filters, tables
 
 
 @pytest.mark.slow
@@ -26,6 +29,21 @@ def test_the_page_is_what_make_reproduction_writes_now(
     drawn = sorted((tmp_path / "pictures").iterdir())
     assert drawn
     assert all((pictures / picture.name).is_file() for picture in drawn)
+
+
+@pytest.mark.slow
+@pytest.mark.long
+@pytest.mark.parametrize("measured", [tables, filters], ids=["tables", "filters"])
+def test_what_is_measured_of_tables_and_filters_is_so_now(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, measured: ModuleType
+) -> None:
+    kept = measured.PAGE
+    monkeypatch.setattr(measured, "PAGE", tmp_path / kept.name)
+
+    measured.main()
+
+    written = (tmp_path / kept.name).read_text(encoding="utf-8")
+    assert written == kept.read_text(encoding="utf-8"), "run `make reproduction`"
 
 
 def test_the_page_tells_what_is_fitted_and_what_counts_as_arrived() -> None:
