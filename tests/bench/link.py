@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from backend.device.ebl.session.stream_receiver import StreamPlan
 from firmware_protocol import framing
-from firmware_protocol._generated import CHANNELS
+from firmware_protocol._generated import CHANNELS, MTU
 from firmware_protocol.codec import Stream, decode, decode_stream, encode
 from firmware_protocol.framing import encode_frame
 from sim_device.firmware.python import wire
@@ -35,7 +35,8 @@ RIVAL_FRAMES = 4_000
 LINE_BYTES_PER_S = 100_000
 BLOCK_S = 0.020
 SECONDS = 30
-ROWS = 12
+# As many as a frame holds; 24 bytes are its head and check.
+ROWS = (MTU - 24) // (2 * len(CHANNELS))
 
 Bytes = npt.NDArray[np.uint8]
 
