@@ -89,8 +89,7 @@ class RideReplay:
         # What was only asked of a motor is not compared with what it gives.
         delivered = ride.motor_torque_meaning == DELIVERED
         recorded_nm = columns.get("motor_torque_nm") if delivered else None
-        speed_rpm = columns.get("motor_speed_rpm") if delivered else None
-        recorded_wh = work_wh(recorded_nm, speed_rpm, step_s)
+        recorded_wh = work_wh(recorded_nm, columns.get("motor_speed_rpm"), step_s)
         distance_km = float(np.nansum(columns["speed_kmh"])) * step_s / SECONDS_PER_HOUR
         return {
             "ride_id": ride.id,
