@@ -37,6 +37,7 @@ from backend.services.rides.record import Recorder
 from backend.services.rides.replay import RideReplay
 from backend.services.rides.review import Rides
 from backend.services.rides.use_of_table import UseOfTable
+from backend.services.tuning.library import Library
 from backend.services.tuning.preview import Preview
 from backend.services.tuning.try_live import LiveTuning
 from backend.services.tuning.tune import Tuning
@@ -116,6 +117,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             tuning=tuning,
             live=LiveTuning(devices),
             preview=preview,
+            library=Library(store.library),
             rides=Rides(store, RideReplay(preview, memory.ride_config), devices.unit_at),
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
             uploads=uploads,
@@ -190,6 +192,7 @@ def build_app(settings: Settings, services: Services) -> FastAPI:
         hosts=hosts,
         frontend=next((folder for folder in FRONTENDS if folder.is_dir()), None),
         upload_bytes_max=settings.upload_bytes_max,
+        author=settings.author,
     )
     return create_app(api, services)
 

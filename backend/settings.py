@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import getpass
 import os
 import sys
 import tomllib
@@ -15,6 +16,7 @@ from ipaddress import ip_address
 from pathlib import Path
 from typing import Any
 
+from backend.domain.author import tidy_author
 from backend.errors import FieldError, InvalidRequest
 
 PREFIX = "SPINDLE_"
@@ -34,6 +36,7 @@ class Settings:
     bus, jobs: how events and work travel. auth: `auto` refuses to listen beyond loopback, because
     there are no accounts yet; `off` says somebody else guards the door. allowed_hosts: names by
     which browsers may call the server besides localhost. upload_bytes_max: largest file taken.
+    author: whose changes those are whose request names nobody; the system's user unless set.
     """
 
     host: str
@@ -47,6 +50,7 @@ class Settings:
     auth: str
     allowed_hosts: tuple[str, ...]
     upload_bytes_max: int
+    author: str
 
     @property
     def is_loopback(self) -> bool:
@@ -108,6 +112,7 @@ def combine(
             8 * 1024**3,
             errors,
         ),
+        "author": tidy_author(str(chosen.get("author") or system_user())),
     }
     if errors:
         raise InvalidRequest("; ".join(error.message for error in errors), fields=errors)
@@ -145,6 +150,14 @@ def default_data_folder(environment: Mapping[str, str]) -> Path:
     if sys.platform == "darwin":
         return home / "Library" / "Application Support" / "Spindle"
     return Path(environment.get("XDG_DATA_HOME") or home / ".local" / "share") / "spindle"
+
+
+def system_user() -> str:
+    """The name this process runs under; empty where the system has none for it."""
+    try:
+        return getpass.getuser()
+    except (OSError, KeyError, ImportError):
+        return ""
 
 
 def _units(value: Any, errors: list[FieldError]) -> tuple[str, ...]:

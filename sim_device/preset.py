@@ -4,11 +4,9 @@ import json
 from functools import cache
 from importlib.resources import files
 
-from firmware_protocol._generated import PARAMETER_BY_NAME
+from firmware_protocol.configuration_check import faults_of
 from firmware_protocol.configuration_file import BadConfigurationFile, ConfigurationFile, read
 from firmware_protocol.parameters import default_config, violations
-
-FAMILY = "ebl"
 
 
 def names() -> tuple[str, ...]:
@@ -27,14 +25,8 @@ def load(name: str) -> ConfigurationFile:
     preset = read(json.loads(source.read_text(encoding="utf-8")))
     if preset.name != name:
         raise BadConfigurationFile(f"preset {name}: it calls itself {preset.name}")
-    for parameter, entry in preset.parameters.items():
-        if parameter not in PARAMETER_BY_NAME:
-            raise BadConfigurationFile(f"preset {name}: there is no parameter {parameter}")
-        unit = PARAMETER_BY_NAME[parameter].unit
-        if entry.unit != unit:
-            raise BadConfigurationFile(f"preset {name}: {parameter} is in {unit}, not {entry.unit}")
-    wrong = violations(default_config() | preset.values)
-    if wrong or preset.family != FAMILY:
-        reason = wrong[0].message if wrong else f"it is for the family {preset.family}"
-        raise BadConfigurationFile(f"preset {name}: {reason}")
+    wrong = [fault.message for fault in faults_of(preset)]
+    wrong += [fault.message for fault in violations(default_config() | preset.values)]
+    if wrong:
+        raise BadConfigurationFile(f"preset {name}: {wrong[0]}")
     return preset

@@ -29,13 +29,15 @@ NOT_JSON = refusals(400)[400] | {"description": "The body is not JSON"}
 class ApiSettings:
     """What the API needs to know about its surroundings.
 
-    frontend: folder of the built pages, None where there is none.
+    frontend: folder of the built pages, None where there is none. author: of changes whose request
+    names nobody.
     """
 
     version: str
     hosts: AllowedHosts = field(default_factory=AllowedHosts)
     frontend: Path | None = None
     upload_bytes_max: int = 256 * 1024 * 1024
+    author: str = ""
 
 
 def create_app(settings: ApiSettings, services: Services | None = None) -> FastAPI:
@@ -50,6 +52,7 @@ def create_app(settings: ApiSettings, services: Services | None = None) -> FastA
     )
     app.state.services = services
     app.state.upload_bytes_max = settings.upload_bytes_max
+    app.state.author = settings.author
     api = APIRouter(prefix=PREFIX)
     for module in (health, devices, logs, config, law, library, rides, uploads, live):
         api.include_router(module.router)

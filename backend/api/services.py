@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from backend.services.imports.upload import Uploads
     from backend.services.rides.review import Rides
     from backend.services.rides.use_of_table import UseOfTable
+    from backend.services.tuning.library import Library
     from backend.services.tuning.preview import Preview
     from backend.services.tuning.try_live import LiveTuning
     from backend.services.tuning.tune import Tuning
@@ -35,6 +36,7 @@ class Services:
     tuning: Tuning
     live: LiveTuning
     preview: Preview
+    library: Library
     rides: Rides
     use_of_table: UseOfTable
     uploads: Uploads

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Mapping
 from http import HTTPStatus
 from typing import Any
+from urllib.parse import quote
 
 import httpx
 
@@ -34,12 +35,22 @@ def default_server(environment: Mapping[str, str] | None = None) -> str:
 
 
 class Server:
-    """One server's API. transport: stands in for the network in tests."""
+    """One server's API.
 
-    def __init__(self, url: str, transport: httpx.BaseTransport | None = None) -> None:
+    transport: stands in for the network in tests. author: whose changes these are; the server's own
+    word for it if empty.
+    """
+
+    def __init__(
+        self, url: str, transport: httpx.BaseTransport | None = None, author: str = ""
+    ) -> None:
         self.url = url.rstrip("/")
         self._client = httpx.Client(
-            base_url=f"{self.url}/api/v1", timeout=TIMEOUT, transport=transport, trust_env=False
+            base_url=f"{self.url}/api/v1",
+            timeout=TIMEOUT,
+            transport=transport,
+            trust_env=False,
+            headers={"spindle-author": quote(author)} if author else None,
         )
 
     def ask(self, method: str, path: str, **request: Any) -> Any:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import os
 from argparse import Namespace
 from pathlib import Path
 from typing import Any
 
 from backend.cli.client import Server, default_server, print_json, print_table, text_of
 from backend.control import presets
+from backend.domain.author import tidy_author
 from backend.domain.fuzzy_table import PARAMETER_NAMES, SHARED_FIELDS
 from backend.errors import InvalidRequest, RequestRefused
 from backend.ingest.backup import Backup, backup_json, backup_of, read_backup
@@ -16,7 +18,8 @@ from backend.ingest.backup import Backup, backup_json, backup_of, read_backup
 
 def server_of(options: Namespace) -> Server:
     """The server the command line names."""
-    return Server(options.server or default_server())
+    author = tidy_author(options.author or os.environ.get("SPINDLE_AUTHOR") or "")
+    return Server(options.server or default_server(), author=author)
 
 
 def list_devices(options: Namespace) -> int:

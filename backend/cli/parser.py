@@ -9,6 +9,8 @@ from typing import Any
 from backend import __version__
 from backend.cli import device, device_live, device_log, law, ride, serve, store, unlock
 
+AUTHOR = "whose changes these are; default: the server's setting, else its system's user"
+
 
 def build_parser() -> argparse.ArgumentParser:
     """The whole command line of `spindle`."""
@@ -17,6 +19,7 @@ def build_parser() -> argparse.ArgumentParser:
         description="Configure, calibrate, watch and understand mid-drive e-bikes.",
     )
     parser.add_argument("--version", action="version", version=f"spindle {__version__}")
+    parser.add_argument("--author", metavar="NAME", help=AUTHOR)
     verbs = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_serve(verbs)
     # These two go to the simulator before this parser sees them; they are here to be listed.
@@ -41,6 +44,7 @@ def _add_serve(verbs: Any) -> None:
         metavar="URL",
         help="sim, /dev/ttyUSB0, COM3 or socket://host:port; repeat for several, `none` for none",
     )
+    _add_author(command)
     command.set_defaults(run=serve.run_server)
 
 
@@ -49,8 +53,14 @@ def _asking(verbs: Any, name: str, run: Any, **words: Any) -> argparse.ArgumentP
     command: argparse.ArgumentParser = verbs.add_parser(name, **words)
     command.add_argument("--server", metavar="URL", help="default: this machine's, port 8750")
     command.add_argument("--json", action="store_true", help="the server's answer as it is")
+    _add_author(command)
     command.set_defaults(run=run)
     return command
+
+
+def _add_author(command: argparse.ArgumentParser) -> None:
+    """After the verb, too; absent it leaves what stands before the verb."""
+    command.add_argument("--author", metavar="NAME", default=argparse.SUPPRESS, help=AUTHOR)
 
 
 def _group(verbs: Any, name: str, words: str) -> Any:

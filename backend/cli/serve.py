@@ -19,5 +19,6 @@ def run_server(options: Namespace) -> int:
         "port": options.port,
         "data": options.data,
         "device": devices,
+        "author": options.author,
     }
     return serve(load(flags))

@@ -16,7 +16,8 @@ class Revision:
 
     seq: counts the unit's configurations from 1. created_us: Unix time. state: `verified`,
     `provisional` or `found`. changed: [{name, old, new}] against the one before. parameters: the
-    whole configuration by registry name, as plain JSON. unit_key: whose it is.
+    whole configuration by registry name, as plain JSON. unit_key: whose it is. author_proof: how
+    the author is known, as of domain.author.
     """
 
     seq: int
@@ -29,6 +30,7 @@ class Revision:
     changed: Sequence[Mapping[str, Any]]
     parameters: Parameters
     unit_key: str
+    author_proof: str | None = None
 
     def respelled(self, respell: Callable[[Parameters], Parameters]) -> Revision:
         """The same revision with its choices as they are spelled today."""

@@ -1,7 +1,8 @@
-"""SQL and objects: rides, revisions, units, uploads. The only door to SQLAlchemy and pyarrow."""
+"""SQL and objects: rides, revisions, the library, units, uploads; the only door to SQLAlchemy and
+pyarrow."""
 
+from backend.store.configurations import LibraryStore, RevisionLog
 from backend.store.reader import RideReader
-from backend.store.revisions import RevisionLog
 from backend.store.rides import RidePage, RideStore
 from backend.store.soundness import expected_of
 from backend.store.store import Store, open_store
@@ -10,6 +11,7 @@ from backend.store.units import SeenUnit, UnitStore
 from backend.store.uploads import Upload, UploadStore, Verdict
 
 __all__ = [
+    "LibraryStore",
     "RevisionLog",
     "RidePage",
     "RideReader",

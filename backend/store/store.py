@@ -15,6 +15,7 @@ from types import TracebackType
 from backend.domain.ride import Ride, iso_utc
 from backend.errors import StoreError
 from backend.store.advisory import fence
+from backend.store.configurations import LibraryStore, RevisionLog
 from backend.store.database import Database, is_postgresql, shown
 from backend.store.database_url import check_url
 from backend.store.deletion import Deletions
@@ -23,7 +24,6 @@ from backend.store.identity import belonging, new_id, require, write_identity
 from backend.store.locks import hold
 from backend.store.look import look_at
 from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
-from backend.store.revisions import RevisionLog
 from backend.store.rides import Orphan, RideStore
 from backend.store.soundness import Soundness
 from backend.store.trouble import DISK_FULL, WORDS, code_of
@@ -38,7 +38,7 @@ NAMED_MAX = 10
 
 
 class Store:
-    """Everything that is kept: `rides`, `revisions`, `units`, `uploads`.
+    """Everything that is kept: `rides`, `revisions`, `library`, `units`, `uploads`.
 
     closing: lets go of the locks.
     """
@@ -54,6 +54,7 @@ class Store:
         self.soundness = Soundness(objects.root)
         self.rides = RideStore(database, objects, self.deletions, self.soundness, server_id)
         self.revisions = RevisionLog(database)
+        self.library = LibraryStore(database)
         self.units = UnitStore(database)
         self.uploads = UploadStore(database, objects, objects.root / SPOOL, self.deletions)
         # Rides that the start could not finish.

@@ -1,4 +1,4 @@
-"""The tables: rides with their tails, pyramids and figures, uploads, units, bikes, configurations.
+"""The tables: rides with tails, pyramids and figures, uploads, units, bikes, configurations.
 
 Times are microseconds since 1970 UTC in BIGINT, because SQLite drops time zones. Primary keys are
 BIGINT on PostgreSQL and the rowid on SQLite: a blob table without one doubles in size, since
@@ -106,10 +106,37 @@ revision = Table(
     Column("crc32", BigInteger),
     Column("changed", JSON, nullable=False),
     Column("author", String(128), nullable=False),
+    Column("author_proof", String(16)),
     Column("reason", Text, nullable=False),
     Column("state", String(16), nullable=False),
     Column("created_us", BigInteger, nullable=False),
     UniqueConstraint("unit_key", "seq"),
+)
+
+# An item of the library that its user made. name: nobody else's; null once it is deleted.
+library_item = Table(
+    "library_item",
+    metadata,
+    key(),
+    Column("name", Text, unique=True),
+    Column("created_us", BigInteger, nullable=False),
+)
+
+# Every state an item was in, appended and never changed. body: the whole document. deleted: from
+# here on nobody sees it, and what it held last is still here.
+library_version = Table(
+    "library_version",
+    metadata,
+    key(),
+    Column("item_id", KEY, ForeignKey("library_item.id"), nullable=False),
+    Column("seq", Integer, nullable=False),
+    Column("deleted", Boolean, nullable=False),
+    Column("body", JSON, nullable=False),
+    Column("sha256", String(64), nullable=False),
+    Column("author", String(128), nullable=False),
+    Column("author_proof", String(16)),
+    Column("created_us", BigInteger, nullable=False),
+    UniqueConstraint("item_id", "seq"),
 )
 
 upload = Table(

@@ -7,6 +7,7 @@ Expected gains are the thesis' table 4-2 at its own points, where the centroid i
 from __future__ import annotations
 
 from collections.abc import Iterator
+from urllib.parse import quote
 
 import pytest
 
@@ -177,12 +178,16 @@ def test_a_program_of_before_writes_a_part_without_what_came_since(
     assert server.get(f"/devices/{device}/{part}") == before
 
 
-def test_every_change_is_remembered_with_its_reason(server: SpindleServer, device: str) -> None:
+def test_every_change_is_remembered_with_reason_and_author(
+    server: SpindleServer, device: str
+) -> None:
     body = {"parameters": {"torque_filter_s": 0.45}, "reason": "smoother on the climb"}
-    server.ask("PATCH", f"/devices/{device}/config", json=body)
+    named = {"spindle-author": quote("王工")}
+    server.ask("PATCH", f"/devices/{device}/config", json=body, headers=named)
 
     newest = server.get(f"/devices/{device}/config/revisions")["items"][0]
 
     assert newest["reason"] == "smoother on the climb"
+    assert (newest["author"], newest["author_proof"]) == ("王工", "stated")
     assert [change["name"] for change in newest["changed"]] == ["torque_filter_s"]
     assert newest["changed"][0]["new"] == pytest.approx(0.45)

@@ -122,7 +122,10 @@ class Revision(Answer):
 
     seq: int = Field(description="Counts the configurations of one unit from 1.")
     created_at: datetime
-    author: str
+    author: str = Field(description="Empty where nobody knows.")
+    author_proof: Literal["stated"] | None = Field(
+        description="How the author is known: `stated` is by their own word."
+    )
     reason: str
     state: str
     generation: int | None

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from datetime import datetime
+from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.api.models.base import Answer
+from backend.api.models.base import Answer, Question
 from backend.api.models.config import ParameterValue
+
+PARAMETERS_MAX = 400
 
 
 class LibraryRow(Answer):
@@ -18,7 +21,18 @@ class LibraryRow(Answer):
     kind: Literal["table", "configuration"]
     comment: str = Field(description="What it is good for.")
     family: str = Field(description="Of the units it is for.")
-    source: Literal["preset"] = Field(description="`preset`: it comes with Spindle, read only.")
+    source: Literal["preset", "own"] = Field(
+        description="`preset`: it comes with Spindle, read only. `own`: a user keeps it here."
+    )
+    etag: str = Field(description="Of what it is; `If-Match` of a change.")
+    deleted: bool
+    version: int | None = Field(description="Counts the states of an own item from 1.")
+    created_at: datetime | None
+    changed_at: datetime | None
+    author: str | None = Field(description="Who gave it this state.")
+    author_proof: Literal["stated"] | None = Field(
+        description="How the author is known: `stated` is by their own word."
+    )
 
 
 class LibraryList(Answer):
@@ -41,3 +55,26 @@ class LibraryEntry(Answer):
     comment: str
     family: str
     parameters: dict[str, LibraryParameter]
+
+
+class DocumentParameter(Question):
+    value: ParameterValue
+    unit: str = Field(max_length=16)
+    comment: str = ""
+
+
+class LibraryDocument(Question):
+    """A document that is to be kept: what `GET /library/{id}` and `spindle device backup` give.
+
+    What it says of a unit, `identity`, `generation` and `crc32`, is not kept.
+    """
+
+    format: Literal["spindle-table", "spindle-configuration"]
+    version: int = Field(description="1; what a newer Spindle wrote is refused.")
+    name: str
+    comment: str
+    family: str
+    parameters: dict[str, DocumentParameter] = Field(max_length=PARAMETERS_MAX)
+    identity: dict[str, Any] | None = None
+    generation: int | None = None
+    crc32: int | None = None

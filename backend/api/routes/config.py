@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal, cast
 
 from fastapi import APIRouter, Header, Query, Response
 
+from backend.api.author import Author
 from backend.api.models.config import (
     CONFIRM_S,
     CONFIRM_S_MAX,
@@ -75,6 +76,7 @@ def patch_config(
     body: ConfigPatch,
     services: Provided,
     response: Response,
+    author: Author,
     if_match: IfMatch = None,
 ) -> Any:
     """Writes all the named parameters or none, reads them back and compares field by field."""
@@ -84,22 +86,23 @@ def patch_config(
         body.reason,
         if_match,
         body.confirm_s,
-        token=body.token,
+        author,
+        body.token,
     )
     response.headers["etag"] = etag(change.generation, change.crc32)
     return change
 
 
 @router.post("/config/confirm", operation_id="confirm_config", response_model=ConfigChange)
-def confirm_config(device_id: str, services: Provided, response: Response) -> Any:
+def confirm_config(device_id: str, services: Provided, response: Response, author: Author) -> Any:
     """Keeps the change on trial, once it was read back and compared field by field."""
-    return _stamped(services.tuning.confirm_config(device_id), response)
+    return _stamped(services.tuning.confirm_config(device_id, author), response)
 
 
 @router.post("/config/rollback", operation_id="rollback_config", response_model=ConfigChange)
-def rollback_config(device_id: str, services: Provided, response: Response) -> Any:
+def rollback_config(device_id: str, services: Provided, response: Response, author: Author) -> Any:
     """Gives up the change on trial: the unit has what it had before."""
-    return _stamped(services.tuning.rollback_config(device_id), response)
+    return _stamped(services.tuning.rollback_config(device_id, author), response)
 
 
 @router.get("/config/revisions", operation_id="list_revisions", response_model=RevisionList)
@@ -140,6 +143,7 @@ def put_fuzzy_table(
     body: FuzzyTable,
     services: Provided,
     response: Response,
+    author: Author,
     if_match: IfMatch = None,
     reason: Reason = "",
     confirm_s: ConfirmS = 0,
@@ -151,7 +155,7 @@ def put_fuzzy_table(
     Both tables share the points of speed and torque rate: those of the second are not changed here.
     """
     change = services.tuning.write_part(
-        device_id, TABLES[table], body.model_dump(), reason, if_match, confirm_s, token
+        device_id, TABLES[table], body.model_dump(), reason, if_match, confirm_s, token, author
     )
     return _stamped(change, response)
 
@@ -168,6 +172,7 @@ def put_assist_modes(
     body: AssistModes,
     services: Provided,
     response: Response,
+    author: Author,
     if_match: IfMatch = None,
     reason: Reason = "",
     confirm_s: ConfirmS = 0,
@@ -175,7 +180,7 @@ def put_assist_modes(
 ) -> Any:
     """Writes all five slots in one transaction."""
     change = services.tuning.write_part(
-        device_id, "assist_modes", body.model_dump(), reason, if_match, confirm_s, token
+        device_id, "assist_modes", body.model_dump(), reason, if_match, confirm_s, token, author
     )
     return _stamped(change, response)
 
@@ -192,6 +197,7 @@ def put_calibration(
     body: Calibration,
     services: Provided,
     response: Response,
+    author: Author,
     if_match: IfMatch = None,
     reason: Reason = "",
     confirm_s: ConfirmS = 0,
@@ -200,7 +206,7 @@ def put_calibration(
     """Writes offset, gain and filters in one transaction."""
     written = body.model_dump(exclude_none=True)
     change = services.tuning.write_part(
-        device_id, "calibration", written, reason, if_match, confirm_s, token
+        device_id, "calibration", written, reason, if_match, confirm_s, token, author
     )
     return _stamped(change, response)
 
@@ -217,6 +223,7 @@ def put_limits(
     body: Limits,
     services: Provided,
     response: Response,
+    author: Author,
     if_match: IfMatch = None,
     reason: Reason = "",
     confirm_s: ConfirmS = 0,
@@ -225,7 +232,7 @@ def put_limits(
     """Writes the limits in one transaction; the unit refuses what its market forbids."""
     written = body.model_dump(exclude_none=True)
     change = services.tuning.write_part(
-        device_id, "limits", written, reason, if_match, confirm_s, token
+        device_id, "limits", written, reason, if_match, confirm_s, token, author
     )
     return _stamped(change, response)
 

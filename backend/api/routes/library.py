@@ -2,21 +2,49 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter, Response
+from fastapi import APIRouter, Header, Path, Query, Response
 
-from backend.api.models.library import LibraryEntry, LibraryList
+from backend.api.author import Author
+from backend.api.models.library import LibraryDocument, LibraryEntry, LibraryList, LibraryRow
 from backend.api.problem import refusals
-from backend.services.tuning.library import library_entry, library_etag, library_rows
+from backend.api.services import Provided
 
 router = APIRouter(prefix="/library", tags=["library"], responses=refusals())
+EntryId = Annotated[str, Path(max_length=80)]
+Version = Annotated[
+    int | None, Query(ge=1, le=2**31 - 1, description="Of an own item: as it was in this version.")
+]
+IfMatch = Annotated[
+    str | None,
+    Header(description="The ETag of what the change was made for, or `*`.", max_length=400),
+]
 
 
 @router.get("", operation_id="list_library", response_model=LibraryList)
-def list_library() -> dict[str, Any]:
+def list_library(
+    services: Provided,
+    deleted: Annotated[bool, Query(description="Deleted own items, too.")] = False,
+) -> dict[str, Any]:
     """Every table and configuration there is under a name, without its values."""
-    return {"items": library_rows()}
+    return {"items": services.library.rows(deleted)}
+
+
+@router.post(
+    "",
+    operation_id="add_library_item",
+    response_model=LibraryRow,
+    status_code=201,
+    responses=refusals(409),
+)
+def add_library_item(
+    body: LibraryDocument, services: Provided, response: Response, author: Author
+) -> Any:
+    """Keeps a document under its name. It is checked as a unit would; nothing goes to a unit."""
+    row = services.library.add(body.model_dump(exclude_unset=True), author)
+    response.headers["location"] = f"/api/v1/library/{row.id}"
+    return _stamped(row, response)
 
 
 @router.get(
@@ -25,8 +53,63 @@ def list_library() -> dict[str, Any]:
     response_model=LibraryEntry,
     responses=refusals(404),
 )
-def get_library_entry(entry_id: str, response: Response) -> Any:
+def get_library_entry(
+    entry_id: EntryId, services: Provided, response: Response, version: Version = None
+) -> Any:
     """One of them whole, as the file that `spindle device restore` takes."""
-    entry = library_entry(entry_id)
-    response.headers["etag"] = library_etag(entry)
-    return entry
+    entry = services.library.entry(entry_id, version)
+    response.headers["etag"] = entry.etag
+    return entry.document
+
+
+@router.put(
+    "/{entry_id}",
+    operation_id="change_library_item",
+    response_model=LibraryRow,
+    responses=refusals(403, 404, 409, 412),
+)
+def change_library_item(
+    entry_id: EntryId,
+    body: LibraryDocument,
+    services: Provided,
+    response: Response,
+    author: Author,
+    if_match: IfMatch = None,
+) -> Any:
+    """Gives an own item another content or name; brings a deleted one back. What it was stays among
+    its versions."""
+    document = body.model_dump(exclude_unset=True)
+    return _stamped(services.library.change(entry_id, document, if_match, author), response)
+
+
+@router.delete(
+    "/{entry_id}",
+    operation_id="remove_library_item",
+    response_model=LibraryRow,
+    responses=refusals(403, 404, 409, 412),
+)
+def remove_library_item(
+    entry_id: EntryId,
+    services: Provided,
+    response: Response,
+    author: Author,
+    if_match: IfMatch = None,
+) -> Any:
+    """Takes an own item out of the library. Its versions stay, and a PUT brings it back."""
+    return _stamped(services.library.remove(entry_id, if_match, author), response)
+
+
+@router.get(
+    "/{entry_id}/versions",
+    operation_id="list_library_versions",
+    response_model=LibraryList,
+    responses=refusals(404),
+)
+def list_library_versions(entry_id: EntryId, services: Provided) -> dict[str, Any]:
+    """Every state an own item was in, newest first: who made it, and when."""
+    return {"items": services.library.versions(entry_id)}
+
+
+def _stamped(row: Any, response: Response) -> Any:
+    response.headers["etag"] = row.etag
+    return row

@@ -117,14 +117,22 @@ def check_base(config: ConfigImage, if_match: str | None) -> None:
     if_match: an ETag or several as HTTP writes them, `*` or None for any. One that is marked weak
     never matches, as for every method that changes something (RFC 9110, 13.1.1).
     """
-    if if_match is None or if_match.strip() == "*":
-        return
     found = etag(config.generation, config.crc32)
-    if found not in ENTITY_TAGS.findall(if_match) and if_match.strip() != found.strip('"'):
+    if not is_match(found, if_match):
         raise ConfigConflict(
             f"The change was made for configuration {if_match}, but the unit has {found} now: "
             "somebody else changed it. Read it again, look at the difference, and write once more."
         )
+
+
+def is_match(found: str, if_match: str | None) -> bool:
+    """Whether a request that is meant for `if_match` is meant for what is there.
+
+    found: its ETag. if_match: as of `check_base`.
+    """
+    if if_match is None or if_match.strip() == "*":
+        return True
+    return found in ENTITY_TAGS.findall(if_match) or if_match.strip() == found.strip('"')
 
 
 def differences(old: Mapping[str, Value], new: Mapping[str, Value]) -> tuple[Change, ...]:

@@ -1,24 +1,38 @@
 """The library: tables and configurations under a name, to look at and to put into a unit.
 
-What comes with Spindle is in it, read only.
+What comes with Spindle is in it, read only, beside what its users keep there. Nothing here touches
+a unit. Whatever is changed or deleted stays among the versions of its item.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
+import re
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from datetime import datetime
+from typing import Any, Literal, Protocol
 
 from backend.control import presets
-from backend.errors import NotFound
+from backend.domain.library_item import LibraryVersion
+from backend.errors import AccessDenied, ConfigConflict, Conflict, NotFound
+from backend.ingest.library_document import library_document
+from backend.services.tuning.config_view import is_match
+
+FORMAT_START = "spindle-"
+# Own items are told from presets by their id alone.
+OWN = re.compile(r"own-([1-9][0-9]{0,17})")
+
+Document = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
 class LibraryRow:
     """One entry without its values. id: what it is asked for by. family: of the unit it is for.
 
-    kind: `table` or `configuration`. source: who put it there.
+    kind: `table` or `configuration`. source: `preset` or `own`. The rest is of own ones: which
+    version this is, when it became that and by whom; author_proof as of domain.author.
     """
 
     id: str
@@ -26,23 +40,172 @@ class LibraryRow:
     kind: str
     comment: str
     family: str
-    source: Literal["preset"] = "preset"
+    source: Literal["preset", "own"]
+    etag: str
+    deleted: bool = False
+    version: int | None = None
+    created_at: datetime | None = None
+    changed_at: datetime | None = None
+    author: str | None = None
+    author_proof: str | None = None
 
 
-def library_rows() -> list[LibraryRow]:
-    """Every entry, by name."""
-    found = [(name, presets.load(name)) for name in presets.names()]
-    return [LibraryRow(name, one.name, one.kind, one.comment, one.family) for name, one in found]
+@dataclass(frozen=True, slots=True)
+class LibraryEntry:
+    """A document, and the ETag of what it is."""
+
+    document: Document
+    etag: str
 
 
-def library_entry(entry_id: str) -> dict[str, Any]:
-    """The entry as a file that `spindle device restore` takes. Raises NotFound."""
-    if entry_id not in presets.names():
+class LibraryItems(Protocol):
+    """Where own items are kept; backend.store has one, and says what each method does."""
+
+    def newest(self) -> tuple[LibraryVersion, ...]: ...
+
+    def versions(self, item_id: int) -> tuple[LibraryVersion, ...]: ...
+
+    def add(self, body: Mapping[str, Any], author: str) -> LibraryVersion: ...
+
+    def change(
+        self, item_id: int, check: Any, author: str, body: Mapping[str, Any] | None
+    ) -> LibraryVersion | None: ...
+
+
+class Library:
+    """Looks at and changes the library; from any thread, with or without a unit."""
+
+    def __init__(self, items: LibraryItems) -> None:
+        self._items = items
+
+    def rows(self, deleted: bool = False) -> list[LibraryRow]:
+        """Every preset by name, then every own item by age; deleted ones only if asked for."""
+        found = [preset_row(name) for name in presets.names()]
+        own = [row_of(item) for item in self._items.newest()]
+        return found + [row for row in own if deleted or not row.deleted]
+
+    def entry(self, entry_id: str, version: int | None = None) -> LibraryEntry:
+        """An entry as a file that `spindle device restore` takes, as it is or as it once was.
+
+        A deleted item is found by its version alone. Raises NotFound.
+        """
+        if entry_id in presets.names() and version is None:
+            document = presets.load(entry_id).to_json()
+            return LibraryEntry(document, preset_etag(document))
+        for item in self._versions(entry_id):
+            if item.seq == version or (version is None and not item.deleted):
+                return LibraryEntry(dict(item.body), item_etag(item))
+            if version is None:
+                break
+        which = entry_id if version is None else f"{entry_id} in version {version}"
+        raise NotFound(f"The library has no {which!r}. GET /library lists what it has.")
+
+    def versions(self, entry_id: str) -> list[LibraryRow]:
+        """Every state an own item was in, newest first. Raises NotFound."""
+        found = [row_of(item) for item in self._versions(entry_id)]
+        if not found:
+            raise NotFound(f"The library has no own {entry_id!r}, only those have versions.")
+        return found
+
+    def add(self, document: object, author: str) -> LibraryRow:
+        """Keep a document as a new item. Raises InvalidRequest with every fault named, Conflict
+        where its name is taken, StoreError."""
+        body = library_document(document)
+        require_no_preset(body["name"])
+        return row_of(self._items.add(body, author))
+
+    def change(
+        self, entry_id: str, document: object, if_match: str | None, author: str
+    ) -> LibraryRow:
+        """Give an item another content; a deleted one is back with it.
+
+        if_match: ETag of what the change was made for, None for whatever it is. Raises AccessDenied
+        for a preset, NotFound, InvalidRequest, ConfigConflict if somebody else changed it, Conflict
+        where its name is taken, StoreError; after each of them the item is unchanged.
+        """
+        item_id = own_id(entry_id)
+        body = library_document(document)
+        require_no_preset(body["name"])
+        return self._change(entry_id, item_id, body, if_match, author)
+
+    def remove(self, entry_id: str, if_match: str | None, author: str) -> LibraryRow:
+        """Take an item out of the library; its versions stay. Raises as `change`."""
+        return self._change(entry_id, own_id(entry_id), None, if_match, author)
+
+    def _change(
+        self, entry_id: str, item_id: int, body: Document | None, if_match: str | None, author: str
+    ) -> LibraryRow:
+        def check(now: LibraryVersion) -> None:
+            if not is_match(item_etag(now), if_match):
+                raise ConfigConflict(
+                    f"The change was made for {entry_id} as {if_match}, but it is {item_etag(now)} "
+                    "now: somebody else changed it. Read it again and change that.",
+                    "item_changed",
+                )
+            if body is None and now.deleted:
+                raise NotFound(f"The library has no {entry_id!r}: it is deleted already.")
+
+        kept = self._items.change(item_id, check, author, body)
+        if kept is None:
+            raise NotFound(f"The library has no {entry_id!r}. GET /library lists what it has.")
+        return row_of(kept)
+
+    def _versions(self, entry_id: str) -> tuple[LibraryVersion, ...]:
+        own = OWN.fullmatch(entry_id)
+        return () if own is None else self._items.versions(int(own[1]))
+
+
+def own_id(entry_id: str) -> int:
+    """The number of an own item. Raises AccessDenied for a preset, NotFound."""
+    if entry_id in presets.names():
+        raise AccessDenied(
+            f"{entry_id} comes with Spindle and stays as it is: save it under another name.",
+            "read_only",
+        )
+    own = OWN.fullmatch(entry_id)
+    if own is None:
         raise NotFound(f"The library has no {entry_id!r}. GET /library lists what it has.")
-    return presets.load(entry_id).to_json()
+    return int(own[1])
 
 
-def library_etag(entry: dict[str, Any]) -> str:
-    """Names what an entry holds: it changes with the content and with nothing else."""
-    content = json.dumps(entry, sort_keys=True, separators=(",", ":"))
+def require_no_preset(name: str) -> None:
+    """Raises Conflict for the name of something that comes with Spindle."""
+    if name in presets.names():
+        raise Conflict(f"{name!r} comes with Spindle: choose another name.", "name_taken")
+
+
+def preset_row(name: str) -> LibraryRow:
+    """The row of what comes with Spindle."""
+    one = presets.load(name)
+    tag = preset_etag(one.to_json())
+    return LibraryRow(name, one.name, one.kind, one.comment, one.family, "preset", tag)
+
+
+def row_of(item: LibraryVersion) -> LibraryRow:
+    """The row of a state of an own item."""
+    return LibraryRow(
+        id=f"own-{item.item_id}",
+        name=item.name,
+        kind=item.body["format"].removeprefix(FORMAT_START),
+        comment=item.body["comment"],
+        family=item.body["family"],
+        source="own",
+        etag=item_etag(item),
+        deleted=item.deleted,
+        version=item.seq,
+        created_at=item.made_at,
+        changed_at=item.created_at,
+        author=item.author or None,
+        author_proof=item.author_proof,
+    )
+
+
+def preset_etag(document: Document) -> str:
+    """Names what a preset holds: it changes with the content and with nothing else."""
+    content = json.dumps(document, sort_keys=True, separators=(",", ":"))
     return f'"{hashlib.sha256(content.encode()).hexdigest()[:16]}"'
+
+
+def item_etag(item: LibraryVersion) -> str:
+    """Names one state of an item: it changes with every change."""
+    return f'"{item.seq}-{item.sha256[:8]}"'

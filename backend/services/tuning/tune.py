@@ -118,6 +118,7 @@ class Tuning:
         if_match: str | None = None,
         confirm_s: int = 0,
         token: str | None = None,
+        author: str = "",
     ) -> ConfigChange:
         """Write a whole part in one transaction; as `write_config`, with the part's own names.
 
@@ -128,7 +129,7 @@ class Tuning:
         changes = part.changes(value)
         try:
             return self.write_config(
-                device_id, changes, reason, if_match, confirm_s, token=token, kept=part.kept
+                device_id, changes, reason, if_match, confirm_s, author, token, part.kept
             )
         except LimitViolation as error:
             fields = [part.renamed(fault) for fault in error.fields]

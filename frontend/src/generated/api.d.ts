@@ -644,7 +644,11 @@ export interface paths {
          */
         get: operations["list_library"];
         put?: never;
-        post?: never;
+        /**
+         * Add Library Item
+         * @description Keeps a document under its name. It is checked as a unit would; nothing goes to a unit.
+         */
+        post: operations["add_library_item"];
         delete?: never;
         options?: never;
         head?: never;
@@ -663,6 +667,35 @@ export interface paths {
          * @description One of them whole, as the file that `spindle device restore` takes.
          */
         get: operations["get_library_entry"];
+        /**
+         * Change Library Item
+         * @description Gives an own item another content or name; brings a deleted one back. What it was stays among
+         *     its versions.
+         */
+        put: operations["change_library_item"];
+        post?: never;
+        /**
+         * Remove Library Item
+         * @description Takes an own item out of the library. Its versions stay, and a PUT brings it back.
+         */
+        delete: operations["remove_library_item"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/library/{entry_id}/versions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Library Versions
+         * @description Every state an own item was in, newest first: who made it, and when.
+         */
+        get: operations["list_library_versions"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1326,6 +1359,18 @@ export interface components {
              */
             name?: string | null;
         };
+        /** DocumentParameter */
+        DocumentParameter: {
+            /** Value */
+            value: number | string | (number | string)[] | (number | string)[][];
+            /** Unit */
+            unit: string;
+            /**
+             * Comment
+             * @default
+             */
+            comment: string;
+        };
         /** ErasedLog */
         ErasedLog: {
             /** Log Id */
@@ -1572,6 +1617,42 @@ export interface components {
             reset_cause: string | null;
         };
         /**
+         * LibraryDocument
+         * @description A document that is to be kept: what `GET /library/{id}` and `spindle device backup` give.
+         *
+         *     What it says of a unit, `identity`, `generation` and `crc32`, is not kept.
+         */
+        LibraryDocument: {
+            /**
+             * Format
+             * @enum {string}
+             */
+            format: "spindle-table" | "spindle-configuration";
+            /**
+             * Version
+             * @description 1; what a newer Spindle wrote is refused.
+             */
+            version: number;
+            /** Name */
+            name: string;
+            /** Comment */
+            comment: string;
+            /** Family */
+            family: string;
+            /** Parameters */
+            parameters: {
+                [key: string]: components["schemas"]["DocumentParameter"];
+            };
+            /** Identity */
+            identity?: {
+                [key: string]: unknown;
+            } | null;
+            /** Generation */
+            generation?: number | null;
+            /** Crc32 */
+            crc32?: number | null;
+        };
+        /**
          * LibraryEntry
          * @description A file as `spindle device restore` takes it; a table holds the parameters of one table.
          */
@@ -1645,10 +1726,36 @@ export interface components {
             family: string;
             /**
              * Source
-             * @description `preset`: it comes with Spindle, read only.
-             * @constant
+             * @description `preset`: it comes with Spindle, read only. `own`: a user keeps it here.
+             * @enum {string}
              */
-            source: "preset";
+            source: "preset" | "own";
+            /**
+             * Etag
+             * @description Of what it is; `If-Match` of a change.
+             */
+            etag: string;
+            /** Deleted */
+            deleted: boolean;
+            /**
+             * Version
+             * @description Counts the states of an own item from 1.
+             */
+            version: number | null;
+            /** Created At */
+            created_at: string | null;
+            /** Changed At */
+            changed_at: string | null;
+            /**
+             * Author
+             * @description Who gave it this state.
+             */
+            author: string | null;
+            /**
+             * Author Proof
+             * @description How the author is known: `stated` is by their own word.
+             */
+            author_proof: "stated" | null;
         };
         /**
          * Limits
@@ -2021,8 +2128,16 @@ export interface components {
              * Format: date-time
              */
             created_at: string;
-            /** Author */
+            /**
+             * Author
+             * @description Empty where nobody knows.
+             */
             author: string;
+            /**
+             * Author Proof
+             * @description How the author is known: `stated` is by their own word.
+             */
+            author_proof: "stated" | null;
             /** Reason */
             reason: string;
             /** State */
@@ -4318,6 +4433,8 @@ export interface operations {
             header?: {
                 /** @description The ETag of the configuration the change was made for, several, or `*`. */
                 "if-match"?: string | null;
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
             };
             path: {
                 device_id: string;
@@ -4416,7 +4533,10 @@ export interface operations {
     confirm_config: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -4501,7 +4621,10 @@ export interface operations {
     rollback_config: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -5039,6 +5162,8 @@ export interface operations {
             header?: {
                 /** @description The ETag of the configuration the change was made for, several, or `*`. */
                 "if-match"?: string | null;
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
             };
             path: {
                 device_id: string;
@@ -5232,6 +5357,8 @@ export interface operations {
             header?: {
                 /** @description The ETag of the configuration the change was made for, several, or `*`. */
                 "if-match"?: string | null;
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
             };
             path: {
                 device_id: string;
@@ -5425,6 +5552,8 @@ export interface operations {
             header?: {
                 /** @description The ETag of the configuration the change was made for, several, or `*`. */
                 "if-match"?: string | null;
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
             };
             path: {
                 device_id: string;
@@ -5618,6 +5747,8 @@ export interface operations {
             header?: {
                 /** @description The ETag of the configuration the change was made for, several, or `*`. */
                 "if-match"?: string | null;
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
             };
             path: {
                 device_id: string;
@@ -5883,7 +6014,10 @@ export interface operations {
     };
     list_library: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description Deleted own items, too. */
+                deleted?: boolean;
+            };
             header?: never;
             path?: never;
             cookie?: never;
@@ -5910,7 +6044,261 @@ export interface operations {
             };
         };
     };
+    add_library_item: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LibraryDocument"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LibraryRow"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     get_library_entry: {
+        parameters: {
+            query?: {
+                /** @description Of an own item: as it was in this version. */
+                version?: number | null;
+            };
+            header?: never;
+            path: {
+                entry_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LibraryEntry"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    change_library_item: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The ETag of what the change was made for, or `*`. */
+                "if-match"?: string | null;
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
+            };
+            path: {
+                entry_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LibraryDocument"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LibraryRow"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Precondition Failed */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_library_item: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The ETag of what the change was made for, or `*`. */
+                "if-match"?: string | null;
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
+            };
+            path: {
+                entry_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LibraryRow"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Precondition Failed */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_library_versions: {
         parameters: {
             query?: never;
             header?: never;
@@ -5927,7 +6315,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["LibraryEntry"];
+                    "application/json": components["schemas"]["LibraryList"];
                 };
             };
             /** @description Not Found */

@@ -75,3 +75,14 @@ def test_a_file_that_is_no_toml_says_which_and_where(tmp_path: Path) -> None:
 def test_one_unit_named_twice_is_refused_with_the_way_to_two() -> None:
     with pytest.raises(InvalidRequest, match=r"sim:one and sim:two"):
         combine({"device": ["sim", "sim"]}, {}, {})
+
+
+def test_the_author_is_who_was_named_and_else_who_runs_this(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("LOGNAME", "wang")
+
+    assert combine({}, {}, {}).author == "wang"
+    assert combine({}, {"SPINDLE_AUTHOR": "王工"}, {"author": "of the file"}).author == "王工"
+    assert combine({"author": " a\n b\u202e "}, {}, {}).author == "a b"
+    assert len(combine({"author": "x" * 999}, {}, {}).author) == 128

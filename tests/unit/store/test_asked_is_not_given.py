@@ -81,7 +81,7 @@ def test_a_database_of_before_loses_the_energy_that_was_only_asked(
     engine = create_engine(f"sqlite:///{tmp_path}/spindle.db")
     with engine.begin() as connection:
         config.attributes["connection"] = connection
-        command.stamp(config, "0006")
+        command.downgrade(config, "0006")
         connection.exec_driver_sql(
             "UPDATE ride_summary SET motor_wh = 9, motor_excluded_s = 0, motor_power_w_mean = 9, "
             f"motor_power_w_max = 9 WHERE ride_id IN ({rides[0].id}, {rides[1].id})"

@@ -90,7 +90,7 @@ def test_every_table_can_be_made_on_postgresql() -> None:
     texts = [str(CreateTable(table).compile(dialect=dialect)) for table in metadata.sorted_tables]
 
     keyed = [text for text in texts if "\tid " in text]
-    assert len(texts) == 13
+    assert len(texts) == 15
     assert all("BIGSERIAL" in text for text in keyed)
 
 
@@ -119,5 +119,6 @@ def test_configurations_are_numbered_for_each_unit_and_newest_first(store: Store
 
     assert (second.seq, second.author, second.reason) == (2, "workshop", "counted the teeth")
     assert [revision.seq for revision in log.list("ebl:SP-1")] == [2, 1]
+    assert [revision.author_proof for revision in log.list("ebl:SP-1")] == ["stated", None]
     assert log.list("ebl:SP-1")[1].crc32 == 0xFFFFFFFF
     assert log.list("ebl:SP-3") == ()

@@ -10,6 +10,7 @@ from typing import Any
 
 from sqlalchemy import Connection, insert, select
 
+from backend.domain.author import proof_of
 from backend.domain.revision import Revision
 from backend.store import tables as t
 from backend.store.database import Database
@@ -47,6 +48,7 @@ class RevisionLog:
             "crc32": crc32,
             "changed": [dict(change) for change in changed],
             "author": author,
+            "author_proof": proof_of(author),
             "reason": reason,
             "state": state,
             "created_us": time.time_ns() // 1000,
@@ -84,6 +86,7 @@ class RevisionLog:
                 seq=row.seq,
                 created_us=row.created_us,
                 author=row.author,
+                author_proof=row.author_proof,
                 reason=row.reason,
                 state=row.state,
                 generation=row.generation,
