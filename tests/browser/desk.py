@@ -16,6 +16,16 @@ PICTURES = ROOT / "test-results"
 # A refused request is also written to the console by the browser itself, not by our code.
 REFUSED = re.compile(r"Failed to load resource: the server responded with a status of 4\d\d")
 
+# The page scrolls in `main`; what is wider than the window would be hidden there, too.
+BELOW = "(({ scrollHeight, clientHeight }) => scrollHeight - clientHeight)(main)"
+SIDEWAYS = """() => Math.max(...[document.documentElement, document.getElementById('main')]
+    .map(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth))"""
+
+
+def sideways(page: Page) -> int:
+    """By how many pixels a page is wider than its window."""
+    return int(page.evaluate(SIDEWAYS))
+
 
 class Desk:
     """One page. `complaints` collects errors of scripts and requests that leave the machine."""
@@ -38,7 +48,13 @@ class Desk:
     def picture(self, name: str, full: bool = False) -> None:
         """Keeps a picture for people to look at."""
         PICTURES.mkdir(exist_ok=True)
-        self.page.screenshot(path=str(PICTURES / f"{name}.png"), full_page=full)
+        window = self.page.viewport_size
+        if full and window:
+            below = int(self.page.evaluate(BELOW))
+            self.page.set_viewport_size({**window, "height": window["height"] + below})
+        self.page.screenshot(path=str(PICTURES / f"{name}.png"))
+        if full and window:
+            self.page.set_viewport_size(window)
 
     def allow(self, pattern: str) -> None:
         """Complaints like this are what the test provokes."""

@@ -15,7 +15,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import OpenDesk
-from tests.browser.desk import Desk
+from tests.browser.desk import Desk, sideways
 from tests.browser.test_pages_for_everyone import JUDGE
 from tests.fakes.server import SpindleServer, eventually
 
@@ -106,7 +106,7 @@ def test_a_fault_is_seen_on_every_page_with_word_and_icon(
     expect(page.locator("[data-fault=torque_sensor]")).to_be_visible()
     page.evaluate(axe)
     assert page.evaluate(JUDGE) == []
-    assert page.evaluate("document.documentElement.scrollWidth") == width
+    assert sideways(page) == 0
 
 
 def test_live_says_why_nothing_helps_and_what_ends_it(

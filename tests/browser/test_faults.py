@@ -11,7 +11,7 @@ import pytest
 from playwright.sync_api import Route, expect
 
 from tests.browser.conftest import OpenDesk
-from tests.browser.desk import Desk
+from tests.browser.desk import Desk, sideways
 from tests.fakes.server import SpindleServer
 
 FROZEN = {"t_us": 61_000_000, "channels": {"speed_kmh": 12.5, "battery_voltage_v": 36.1}}
@@ -72,7 +72,7 @@ def test_faults_in_chinese_on_a_phone(open_desk: OpenDesk, standing: str) -> Non
     page = desk.open("/service")
 
     expect(page.locator("[data-fault=torque_sensor]")).to_contain_text("检查传感器插头与电桥")
-    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    assert sideways(page) == 0
     desk.picture("faults-phone-zh")
 
 

@@ -15,7 +15,7 @@ import pytest
 from playwright.sync_api import Route, expect
 
 from tests.browser.conftest import OpenDesk
-from tests.browser.desk import Desk
+from tests.browser.desk import Desk, sideways
 
 HEALTH = "[data-testid=link-health]"
 
@@ -77,6 +77,6 @@ def test_a_poor_line_in_chinese_on_a_phone(open_desk: OpenDesk, standing: str) -
     page = desk.open("/service")
 
     expect(page.locator(HEALTH)).to_contain_text("7 帧在链路上丢失")
-    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    assert sideways(page) == 0
     page.locator(HEALTH).scroll_into_view_if_needed()
     desk.picture("link-health-phone-zh")

@@ -15,7 +15,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.browser.conftest import OpenDesk
-from tests.browser.desk import Desk
+from tests.browser.desk import Desk, sideways
 from tests.fakes.server import SpindleServer, eventually
 
 OwnUnit = tuple[subprocess.Popen[str], str]
@@ -69,7 +69,7 @@ def test_the_riders_row_keeps_the_powers_apart_on_a_phone(open_desk: OpenDesk, r
     expect(row.locator("[data-value=rider_power_w]")).to_contain_text("W")
     expect(row.locator("[data-value=motor_power_w]")).to_contain_text("W")
     expect(row.locator("[data-value=battery_soc_pct]")).to_contain_text("%")
-    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    assert sideways(page) == 0
     desk.picture("live-rider-row-390")
 
 

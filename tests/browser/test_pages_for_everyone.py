@@ -11,7 +11,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.browser.conftest import OpenDesk
-from tests.browser.desk import Desk
+from tests.browser.desk import Desk, sideways
 from tests.browser.test_rides_page import long_ride
 from tests.fakes.server import SpindleServer
 
@@ -31,6 +31,21 @@ JUDGE = """async () => {
     return found.violations.map((v) => v.id + ': ' + v.nodes.map((n) =>
         n.target.join(' ') + ' ' + n.any.map((a) => a.message).join('; ')).join(' | '))
 }"""
+# The rows of the window that lie over another one.
+COVERED = """() => {
+    const rows = [...document.querySelectorAll('.shell > *')].map((row) =>
+        [row.className || row.tagName, row.getBoundingClientRect()])
+    return rows.flatMap(([name, a], i) => rows.slice(i + 1).flatMap(([other, b]) =>
+        Math.min(a.right, b.right) - Math.max(a.left, b.left) > 0.5 &&
+        Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 0.5 ? [[name, other]] : []))
+}"""
+# What is pressed and is smaller than a finger: WCAG 2.2, 2.5.5. A link in a sentence may be, and
+# what belongs to a label is as large as that.
+SMALL_TARGETS = """() => [...document.querySelectorAll('button, select, summary, .button, nav a')]
+    .filter((node) => node.checkVisibility())
+    .map((node) => [node.innerText || node.ariaLabel, node.getBoundingClientRect()])
+    .filter(([, box]) => box.width && Math.min(box.width, box.height) < 43.5)
+    .map(([name, box]) => [name, box.width, box.height])"""
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
@@ -58,12 +73,37 @@ def test_axe_finds_no_fault_in_a_ride(desk: Desk, server: SpindleServer, axe: st
 
 
 @pytest.mark.parametrize("path", PAGES)
-def test_a_small_phone_never_scrolls_sideways(open_desk: OpenDesk, riding: str, path: str) -> None:
-    desk = open_desk(width=360, height=740)
+def test_a_small_phone_scrolls_the_page_alone_and_never_sideways(
+    open_desk: OpenDesk, riding: str, path: str
+) -> None:
+    desk = open_desk(width=360, height=740, touch=True)
     page = desk.open(path)
     page.wait_for_selector(READY[path].replace("[data-testid=link-health]", "text=Serial number"))
 
-    assert page.evaluate("document.documentElement.scrollWidth") == 360
+    assert sideways(page) == 0
+    assert page.evaluate("document.documentElement.scrollHeight") == 740
+    assert page.evaluate(COVERED) == []
+    assert page.evaluate(SMALL_TARGETS) == []
+
+
+@pytest.mark.parametrize("width", [1440, 1024])
+def test_the_pages_of_tune_are_tabs_and_the_places_are_in_groups(
+    open_desk: OpenDesk, standing: str, width: int
+) -> None:
+    page = open_desk(width=width, height=800).open("/tune")
+    places = page.get_by_role("navigation", name="Pages")
+    expect(places.get_by_role("list", name="This bike").get_by_role("link")).to_have_text(
+        ["Bike", "Live", "Tune", "Calibrate", "Service"]
+    )
+    assert (places.bounding_box() or {})["width"] == (165 if width > 1180 else 75)
+
+    tabs = page.get_by_role("navigation", name="Tune")
+    tabs.get_by_role("link", name="Try on a ride").click()
+
+    expect(page.locator("h1")).to_have_text("Tune")
+    expect(tabs.get_by_role("link", name="Try on a ride")).to_have_attribute("aria-current", "page")
+    expect(places.get_by_role("link", name="Tune")).to_have_attribute("aria-current", "page")
+    assert page.evaluate(COVERED) == []
 
 
 def test_a_ride_fits_a_small_phone(open_desk: OpenDesk, server: SpindleServer) -> None:
@@ -71,7 +111,7 @@ def test_a_ride_fits_a_small_phone(open_desk: OpenDesk, server: SpindleServer) -
     page = desk.open(f"/rides/{long_ride(server)}")
     page.wait_for_selector("[data-testid=traces][data-draws]")
 
-    assert page.evaluate("document.documentElement.scrollWidth") == 360
+    assert sideways(page) == 0
     desk.picture("ride-phone", full=True)
 
 
@@ -82,7 +122,7 @@ def test_a_phone_in_the_dark_reads_chinese(open_desk: OpenDesk, riding: str, pat
     page.wait_for_selector(READY[path])
 
     assert page.get_attribute("html", "lang") == "zh-CN"
-    expect(page.locator("nav")).to_contain_text("实时")
+    expect(page.locator("nav").first).to_contain_text("实时")
     words = page.inner_text("main")
     leftover = re.findall(r"\b[a-z]+\.[a-z_]+\b", words)
     assert leftover == []

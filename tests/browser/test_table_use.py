@@ -21,7 +21,7 @@ from backend.domain.ride import RideContext
 from backend.store import open_store
 from firmware_protocol._generated import CHANNELS
 from tests.browser.conftest import OpenDesk
-from tests.browser.desk import Desk
+from tests.browser.desk import Desk, sideways
 from tests.browser.test_pages_for_everyone import JUDGE
 from tests.fakes.server import SpindleServer
 
@@ -190,7 +190,7 @@ def test_nothing_moves_when_the_rides_are_looked_through(
 
     expect(page.locator(SHARES).first).to_have_text("96 %")
     assert [place.bounding_box() for place in places] == before
-    assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
+    assert sideways(page) == 0
 
 
 def test_that_the_rides_cannot_be_looked_through_is_told(

@@ -13,7 +13,7 @@ from typing import Any
 from playwright.sync_api import Page, Route, expect
 
 from tests.browser.conftest import OpenDesk
-from tests.browser.desk import Desk
+from tests.browser.desk import Desk, sideways
 from tests.fakes.server import SpindleServer, eventually
 
 CELL = "[data-cell='0,0']"
@@ -118,5 +118,5 @@ def test_a_slower_market_is_told_beside_the_setting_and_in_the_checks(
     page.locator("summary", has_text="限制").click()
     expect(page.get_by_test_id("assist-ends")).to_contain_text("24 km/h")
     desk.picture("tune-two-tables-phone", full=True)
-    assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
+    assert sideways(page) == 0
     page.unroute_all(behavior="ignoreErrors")

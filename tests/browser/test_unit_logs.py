@@ -9,7 +9,7 @@ import json
 from playwright.sync_api import Route, expect
 
 from tests.browser.conftest import OpenDesk
-from tests.browser.desk import Desk
+from tests.browser.desk import Desk, sideways
 from tests.browser.test_pages_for_everyone import JUDGE
 from tests.fakes.server import SpindleServer, eventually
 
@@ -66,7 +66,7 @@ def test_a_ride_in_the_unit_is_fetched_freed_there_and_opened(
     phone = open_desk(width=360, height=740, language="zh-CN")
     expect(phone.open("/rides").locator(LOGS)).to_contain_text("单元中的骑行")
     phone.picture("unit-logs-phone-zh")
-    assert phone.page.evaluate("document.documentElement.scrollWidth") <= 360
+    assert sideways(phone.page) == 0
     ride = str(log.locator("a").get_attribute("href"))
     page.once("dialog", lambda question: question.accept())
     log.get_by_role("button", name="Delete from the unit").click()

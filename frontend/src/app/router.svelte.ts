@@ -1,10 +1,13 @@
 // The address bar is the state: which page, which ride.
 
+/** The pages of Tune in the order of their tabs. The first is at /tune, another at /tune/NAME. */
+export const TUNE_PAGES = ['tune', 'try'] as const
+export type TunePage = (typeof TUNE_PAGES)[number]
+
 export type PageName =
+  | TunePage
   | 'bike'
   | 'live'
-  | 'tune'
-  | 'try'
   | 'rides'
   | 'ride'
   | 'sensor'
@@ -20,11 +23,18 @@ export interface Route {
 const pages: Record<string, PageName> = {
   '': 'bike',
   live: 'live',
-  tune: 'tune',
   rides: 'rides',
   sensor: 'sensor',
   service: 'service',
   settings: 'settings',
+}
+
+export function isOfTune(page: PageName): page is TunePage {
+  return (TUNE_PAGES as readonly PageName[]).includes(page)
+}
+
+export function tunePath(page: TunePage): string {
+  return page === TUNE_PAGES[0] ? `/${page}` : `/${TUNE_PAGES[0]}/${page}`
 }
 
 export function readRoute(path: string): Route {
@@ -32,7 +42,8 @@ export function readRoute(path: string): Route {
   if (first === 'rides' && second && rest.length === 0) {
     return { page: 'ride', id: decodeURIComponent(second) }
   }
-  if (first === 'tune' && second === 'try' && rest.length === 0) return { page: 'try', id: '' }
+  const tune = TUNE_PAGES.find((page) => tunePath(page) === path.replace(/\/$/, ''))
+  if (tune) return { page: tune, id: '' }
   return { page: second ? 'unknown' : (pages[first] ?? 'unknown'), id: '' }
 }
 
@@ -47,7 +58,7 @@ export class Router {
   readonly go = (path: string): void => {
     history.pushState(null, '', path)
     this.read()
-    window.scrollTo(0, 0)
+    document.getElementById('main')?.scrollTo(0, 0)
   }
 
   private read(): void {

@@ -36,10 +36,15 @@ export class DeviceWatch {
     return this.current?.state === 'ready' && !this.unreachable
   }
 
-  /** Seconds since the current unit last answered; null if it never did. */
+  /** When the current unit last answered, as a time in ms; null if it never did. */
+  get seen_at_ms(): number | null {
+    return (this.current && this.seen_ms[this.current.id]) ?? null
+  }
+
+  /** Seconds since then; null if it never answered. */
   get age_s(): number | null {
-    const seen = this.current ? this.seen_ms[this.current.id] : undefined
-    return seen === undefined ? null : Math.max(0, (this.now_ms - seen) / 1000)
+    const seen = this.seen_at_ms
+    return seen === null ? null : Math.max(0, (this.now_ms - seen) / 1000)
   }
 
   /** Asks now; also after something was connected or removed. */

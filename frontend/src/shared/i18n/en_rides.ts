@@ -123,7 +123,6 @@ export const enRides = {
   'trace.altitude': 'Altitude',
 
   'try.this': 'Try a table on this ride',
-  'try.back': 'Back to the tables',
   'try.candidate': 'Try',
   'try.with_draft': 'Tables and modes as edited in Tune',
   'try.with_unit': 'Tables and modes in the unit now',

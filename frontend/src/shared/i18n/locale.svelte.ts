@@ -64,6 +64,15 @@ export class Locale {
     return new Intl.DateTimeFormat(tags[this.language], format).format(Date.parse(iso))
   }
 
+  /** Time of day of a time in ms; with its day where that is not today. */
+  timeOfDay(at_ms: number): string {
+    const tag = tags[this.language]
+    const day = new Intl.DateTimeFormat(tag, { day: 'numeric', month: 'short' })
+    const time = new Intl.DateTimeFormat(tag, { hour: '2-digit', minute: '2-digit' }).format(at_ms)
+    const [then, today] = [day.format(at_ms), day.format(Date.now())]
+    return then === today ? time : `${then}, ${time}`
+  }
+
   /** A duration as h:mm:ss. */
   duration(seconds: number | null | undefined): string {
     if (seconds == null || !Number.isFinite(seconds)) return '—'

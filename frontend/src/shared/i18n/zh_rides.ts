@@ -117,7 +117,6 @@ export const zhRides: Record<keyof typeof enRides, string> = {
   'trace.altitude': '海拔',
 
   'try.this': '在此骑行上试用规则表',
-  'try.back': '返回规则表',
   'try.candidate': '试用',
   'try.with_draft': '调校页中编辑的规则表和模式',
   'try.with_unit': '单元现有的规则表和模式',
