@@ -1,4 +1,4 @@
-/* The pipeline. Read assist_step from top to bottom: the way from the spindle to the motor. */
+/* The pipeline. Read run_step from top to bottom: the way from the spindle to the motor. */
 #include "assist.h"
 
 #include "assist_steps.h" // apply_law to apply_limits
@@ -100,8 +100,8 @@ static float apply_mode(const assist_config *config, assist_state *state, const 
     return 0.0f;
 }
 
-int assist_step(const assist_config *config, assist_state *state, const assist_input *input,
-                assist_output *output)
+static int run_step(const assist_config *config, assist_state *state, const assist_input *input,
+                    assist_output *output, assist_trace *trace)
 {
     float earlier_torque_nm;
     float demand_nm;
@@ -111,21 +111,39 @@ int assist_step(const assist_config *config, assist_state *state, const assist_i
 
     earlier_torque_nm = apply_sensor(config, state, input, output);
     demand_nm = apply_mode(config, state, input, earlier_torque_nm, output);
+    trace_note(trace, ASSIST_TRACE_FRESH, demand_nm);
     if (!float32_is_finite(demand_nm + output->assist_ratio)) return lose(state, output);
     demand_nm = apply_cutoff_band(config, input, demand_nm, output);
     if (!float32_is_finite(demand_nm)) return lose(state, output);
+    trace_note(trace, ASSIST_TRACE_BAND, demand_nm);
     output->motor_torque_demanded_nm = demand_nm / config->gear_ratio;
     demand_nm = apply_ramps(config, input, state->assist_torque_nm, demand_nm, output);
     if (!float32_is_finite(demand_nm)) return lose(state, output);
-    demand_nm = apply_cutoffs(config, state, input, demand_nm, output);
+    trace_note(trace, ASSIST_TRACE_RAMPS, demand_nm);
+    demand_nm = apply_cutoffs(config, state, input, demand_nm, output, trace);
     if (!float32_is_finite(demand_nm)) return lose(state, output);
     if (demand_nm == 0.0f) output->motor_torque_demanded_nm = 0.0f;
-    demand_nm = apply_limits(config, state, input, demand_nm, output);
+    demand_nm = apply_limits(config, state, input, demand_nm, output, trace);
     if (!float32_is_finite(demand_nm)) return lose(state, output);
     output->motor_torque_nm = apply_market(config, state, input, demand_nm, output);
     state->assist_torque_nm = output->motor_torque_nm * config->gear_ratio;
     if (!remembers_numbers(state)) return lose(state, output);
     return ASSIST_OK;
+}
+
+int assist_step(const assist_config *config, assist_state *state, const assist_input *input,
+                assist_output *output)
+{
+    return run_step(config, state, input, output, NULL);
+}
+
+int assist_step_traced(const assist_config *config, assist_state *state, const assist_input *input,
+                       assist_output *output, assist_trace *trace)
+{
+    int result = run_step(config, state, input, output, trace);
+
+    trace_complete(trace, config, state, input, output, result);
+    return result;
 }
 
 size_t assist_run(const assist_config *config, assist_state *state, const assist_input *inputs,

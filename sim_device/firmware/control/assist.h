@@ -8,6 +8,7 @@
 
 #include <stddef.h>
 
+#include "assist_trace.h" // assist_trace
 #include "assist_types.h" // assist_config, assist_state, assist_input, assist_output
 
 enum {
@@ -28,6 +29,10 @@ enum {
  * that the next step computes again. The output is valid in any case. */
 int assist_step(const assist_config *config, assist_state *state, const assist_input *input,
                 assist_output *output);
+
+/* The same step, to the bit; `trace` learns what each part of it left of the torque. */
+int assist_step_traced(const assist_config *config, assist_state *state, const assist_input *input,
+                       assist_output *output, assist_trace *trace);
 
 /* The steps since the one before were not run and the motor was let go: nobody saw whether the
  * rider still pedals, and the ramps begin at nothing. What was averaged and learned stays. */

@@ -4,8 +4,15 @@
 #ifndef SPINDLE_ASSIST_STEPS_H
 #define SPINDLE_ASSIST_STEPS_H
 
+#include "assist_trace.h" // assist_trace
 #include "assist_types.h" // assist_config, assist_state, assist_input, assist_output
 #include "float32.h"      // float32_missing
+
+/* `trace` is NULL wherever nobody asks why. The limits note the torque at the motor's shaft. */
+static inline void trace_note(assist_trace *trace, unsigned step, float torque_nm)
+{
+    if (trace) trace->torque_nm[step] = torque_nm;
+}
 
 /* sensor.c */
 float sensor_torque_nm(const assist_config *config, float torque_raw_counts);
@@ -19,6 +26,12 @@ float stroke_average_nm(const assist_config *config, const assist_state *state, 
 /* torque_rate.c: filtered torque one interval ago; stores the present one in its place. */
 float torque_history_swap(const assist_config *config, assist_state *state);
 float torque_rate_of(const assist_config *config, float torque_nm, float earlier_torque_nm);
+
+/* Less torque than this is no push: legs that rest on the pedals, and the sensor's noise. */
+static inline int push_counts(const assist_config *config, float torque_nm)
+{
+    return torque_nm > 0.0f && torque_nm >= config->pedal_torque_nm_min;
+}
 
 /* law.c: torque at the crank the mode asks for, before any ramp or limit. */
 float apply_law(const assist_config *config, const assist_input *input, float earlier_torque_nm,
@@ -48,11 +61,11 @@ void push_note(const assist_config *config, assist_state *state, float torque_nm
 
 /* cutoffs.c: whatever takes the torque away at once. */
 float apply_cutoffs(const assist_config *config, assist_state *state, const assist_input *input,
-                    float demand_nm, assist_output *output);
+                    float demand_nm, assist_output *output, assist_trace *trace);
 
 /* limits.c: what motor, battery and heat allow; crank torque in, motor torque out. */
 float apply_limits(const assist_config *config, assist_state *state, const assist_input *input,
-                   float demand_nm, assist_output *output);
+                   float demand_nm, assist_output *output, assist_trace *trace);
 
 /* battery_power.c: the motor's resistance with its winding as warm as it is; whether the battery
  * is near its least voltage; and the torque at which it gives all it may, asked once a step. */
@@ -64,6 +77,10 @@ int battery_sags(const assist_config *config, const assist_input *input);
 /* market_limit.c: the last word. */
 float apply_market(const assist_config *config, assist_state *state, const assist_input *input,
                    float motor_nm, assist_output *output);
+
+/* trace.c: what follows from the step's outcome, and the limits' torque at the crank. */
+void trace_complete(assist_trace *trace, const assist_config *config, const assist_state *state,
+                    const assist_input *input, const assist_output *output, int result);
 
 /* Lowers the demand to the limit and says so. Whatever lowers it after the ramps decides in their
  * place, so their bits go. Where demand or limit is no number, nothing is left to give: NaN. */

@@ -62,22 +62,39 @@ float apply_cutoff_band(const assist_config *config, const assist_input *input, 
                    output);
 }
 
-float apply_cutoffs(const assist_config *config, assist_state *state, const assist_input *input,
-                    float demand_nm, assist_output *output)
+/* By bit of what cuts off, in the order of the trace. */
+enum { CUT_OFFS = 5 };
+static const uint16_t CUT_OFF_FLAGS[CUT_OFFS] = {ASSIST_LIMIT_PEDAL_STOP, ASSIST_LIMIT_BRAKE,
+                                                 ASSIST_LIMIT_SPEED_CUTOFF,
+                                                 ASSIST_LIMIT_BATTERY_VOLTAGE, ASSIST_LIMIT_FAULT};
+
+static unsigned cut_offs_now(const assist_config *config, assist_state *state,
+                             const assist_input *input)
 {
-    float left_nm = demand_nm;
+    unsigned cuts = 0;
 
     if (!walk_is_on(state) &&
         !(turning(config, state, input->cadence_rpm) && pushing(config, state))) {
-        left_nm = held_at(0.0f, demand_nm, ASSIST_LIMIT_PEDAL_STOP, output);
+        cuts |= 1u << 0;
     }
-    if (input->brake) left_nm = held_at(0.0f, demand_nm, ASSIST_LIMIT_BRAKE, output);
-    if (input->speed_kmh >= market_cutoff_kmh(config)) {
-        left_nm = held_at(0.0f, demand_nm, ASSIST_LIMIT_SPEED_CUTOFF, output);
+    if (input->brake) cuts |= 1u << 1;
+    if (input->speed_kmh >= market_cutoff_kmh(config)) cuts |= 1u << 2;
+    if (input->battery_voltage_v < config->battery_voltage_v_min) cuts |= 1u << 3;
+    if (input->inhibit) cuts |= 1u << 4;
+    return cuts;
+}
+
+float apply_cutoffs(const assist_config *config, assist_state *state, const assist_input *input,
+                    float demand_nm, assist_output *output, assist_trace *trace)
+{
+    unsigned cuts = cut_offs_now(config, state, input);
+    float left_nm = demand_nm;
+    unsigned index;
+
+    if (trace) trace->cut_offs = (uint8_t)cuts;
+    for (index = 0; cuts >> index != 0; ++index) {
+        if (!(cuts >> index & 1u)) continue;
+        left_nm = held_at(0.0f, demand_nm, CUT_OFF_FLAGS[index], output);
     }
-    if (input->battery_voltage_v < config->battery_voltage_v_min) {
-        left_nm = held_at(0.0f, demand_nm, ASSIST_LIMIT_BATTERY_VOLTAGE, output);
-    }
-    if (input->inhibit) left_nm = held_at(0.0f, demand_nm, ASSIST_LIMIT_FAULT, output);
     return left_nm;
 }

@@ -260,6 +260,31 @@ int fuzzy_gain(const fuzzy_table *table, float speed_kmh, float torque_rate, flo
     return FUZZY_OK;
 }
 
+size_t fuzzy_rules_fired(const fuzzy_table *table, float speed_kmh, float torque_rate,
+                         fuzzy_rule fired[FUZZY_RULES_FIRED_MAX])
+{
+    membership speed;
+    membership rate;
+    size_t count = 0;
+    unsigned corner;
+
+    if (!float32_is_finite(speed_kmh) || !float32_is_finite(torque_rate)) return 0;
+    speed = locate(table->speed_points_kmh, speed_kmh);
+    rate = locate(table->torque_rate_points, torque_rate);
+    for (corner = 0; corner < FUZZY_RULES_FIRED_MAX; ++corner) {
+        unsigned row = speed.lower + corner / 2u;
+        unsigned column = rate.lower + corner % 2u;
+        float by_speed = corner / 2u ? speed.share : 1.0f - speed.share;
+        float by_rate = corner % 2u ? rate.share : 1.0f - rate.share;
+        float weight = table->inference == FUZZY_WEIGHTED_AVERAGE ? by_speed * by_rate
+                                                                  : float32_min(by_speed, by_rate);
+        fuzzy_rule rule = {(uint8_t)row, (uint8_t)column, table->rules[row][column], weight};
+
+        if (weight > 0.0f) fired[count++] = rule;
+    }
+    return count;
+}
+
 size_t fuzzy_gain_run(const fuzzy_table *table, const float *speeds_kmh, const float *torque_rates,
                       float *gains, size_t count)
 {

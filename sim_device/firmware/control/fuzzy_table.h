@@ -26,6 +26,17 @@ typedef struct {
     uint8_t inference;                     /* fuzzy_inference */
 } fuzzy_table;
 
+#define FUZZY_RULES_FIRED_MAX 4
+
+/* A rule that has a say, and how much: the lesser of its two memberships under the centroid, their
+ * product under the weighted average. */
+typedef struct {
+    uint8_t row; /* speed */
+    uint8_t column;
+    uint8_t label;
+    float weight; /* above 0, to 1 */
+} fuzzy_rule;
+
 enum { FUZZY_OK = 0, FUZZY_INPUT_REFUSED = -1, FUZZY_TABLE_REFUSED = -2 };
 
 /* FUZZY_OK, or FUZZY_TABLE_REFUSED if points are not finite, not increasing or nearer than their
@@ -36,6 +47,11 @@ int fuzzy_table_check(const fuzzy_table *table);
  * Centroid of triangles clipped by min and joined by max over [0, 0.5], exact; or the weighted mean
  * of the peaks. The table must have passed fuzzy_table_check. */
 int fuzzy_gain(const fuzzy_table *table, float speed_kmh, float torque_rate, float *gain);
+
+/* The rules behind fuzzy_gain at one point, by row and column. Returns how many; none for a
+ * non-finite input. */
+size_t fuzzy_rules_fired(const fuzzy_table *table, float speed_kmh, float torque_rate,
+                         fuzzy_rule fired[FUZZY_RULES_FIRED_MAX]);
 
 /* `count` points; a refused point gives NaN. Returns how many were refused. */
 size_t fuzzy_gain_run(const fuzzy_table *table, const float *speeds_kmh, const float *torque_rates,

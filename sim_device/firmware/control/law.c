@@ -60,7 +60,7 @@ float apply_law(const assist_config *config, const assist_input *input, float ea
         break;
     default: output->limit_flags |= ASSIST_LIMIT_MODE_OFF; break;
     }
-    if (torque_nm <= 0.0f || torque_nm < config->pedal_torque_nm_min) return 0.0f;
+    if (!push_counts(config, torque_nm)) return 0.0f;
     if (tapered) output->limit_flags |= ASSIST_LIMIT_TAPER;
     return output->assist_ratio * torque_nm;
 }

@@ -59,7 +59,7 @@ static float held_available(float limit_nm, float motor_nm, unsigned flag, assis
 }
 
 float apply_limits(const assist_config *config, assist_state *state, const assist_input *input,
-                   float demand_nm, assist_output *output)
+                   float demand_nm, assist_output *output, assist_trace *trace)
 {
     float highest_nm = config->motor_torque_nm_max * config->mode_torque_share[input->mode];
     float resistance_ohm = winding_resistance_ohm(config, input);
@@ -71,12 +71,16 @@ float apply_limits(const assist_config *config, assist_state *state, const assis
 
     output->motor_torque_available_nm = highest_nm;
     motor_nm = held_at(highest_nm, motor_nm, ASSIST_LIMIT_MOTOR_TORQUE, output);
+    trace_note(trace, ASSIST_TRACE_MOTOR, motor_nm);
     motor_nm =
         held_available(heat_torque_nm(config, input), motor_nm, ASSIST_LIMIT_TEMPERATURE, output);
+    trace_note(trace, ASSIST_TRACE_HEAT, motor_nm);
     motor_nm = held_available(battery_torque_nm(config, state, input, resistance_ohm, back_emf_v),
                               motor_nm, battery_flag, output);
+    trace_note(trace, ASSIST_TRACE_BATTERY, motor_nm);
     motor_nm = held_available(back_emf_torque_nm(config, input, resistance_ohm), motor_nm,
                               ASSIST_LIMIT_MOTOR_SPEED, output);
+    trace_note(trace, ASSIST_TRACE_BACK_EMF, motor_nm);
     return float32_max(motor_nm, 0.0f);
 }
 

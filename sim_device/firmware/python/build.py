@@ -32,6 +32,7 @@ HEADERS: tuple[str, ...] = (
     "firmware_protocol/c/ebl_values.h",
     "sim_device/firmware/control/fuzzy_table.h",
     "sim_device/firmware/control/assist_types.h",
+    "sim_device/firmware/control/assist_trace.h",
     "sim_device/firmware/control/assist.h",
     "sim_device/firmware/control/market.h",
     "sim_device/firmware/control/rotor_receiver.h",

@@ -6,6 +6,7 @@ in the unit; results are the unit's, to the bit. Each call releases the interpre
 """
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -78,6 +79,17 @@ OTHER_SOURCES = "The compiled extension is of other sources than law.py: run `ma
 assert INPUT_DTYPE.itemsize == ffi.sizeof("assist_input"), OTHER_SOURCES
 assert OUTPUT_DTYPE.itemsize == ffi.sizeof("assist_output"), OTHER_SOURCES
 
+TRACE_STEPS = tuple(
+    name.removeprefix("ASSIST_TRACE_").lower()
+    for name in sorted(
+        (name for name in dir(lib) if name.startswith("ASSIST_TRACE_")),
+        key=lambda name: int(getattr(lib, name)),
+    )[: lib.ASSIST_TRACE_STEPS]
+)
+"""The steps of the pipeline in their order: the names of assist_trace.h in lower case."""
+STEADY_SHARE = 1.0 - 5e-7
+"""Rounding of a steady torque must not count as a falling one."""
+
 VIOLATIONS_TOLD = 5
 """Of a configuration that is refused: enough to mend it by."""
 FIRST_LATER_ID = 0x0600
@@ -136,6 +148,40 @@ class FuzzyGain:
         return gains
 
 
+@dataclass(frozen=True, slots=True)
+class FiredRule:
+    """A rule of a table that has a say: its cell, its label's index, and how much, above 0 to 1."""
+
+    row: int
+    column: int
+    label: int
+    weight: float
+
+
+@dataclass(frozen=True, slots=True)
+class Traced:
+    """One step of the law and why.
+
+    output: a value for each name of OUTPUT_DTYPE. result: `ok`, `input_refused` or `result_lost`.
+    left_nm: torque at the crank that each of TRACE_STEPS left, zeros unless `ok`. walk: walk assist
+    asked for it. rules: those behind the gain, none where the mode has none or the table was not
+    asked because the torque falls.
+    """
+
+    output: dict[str, float]
+    result: str
+    left_nm: dict[str, float]
+    walk: bool
+    rules: tuple[FiredRule, ...]
+
+
+RESULTS = {
+    lib.ASSIST_OK: "ok",
+    lib.ASSIST_INPUT_REFUSED: "input_refused",
+    lib.ASSIST_RESULT_LOST: "result_lost",
+}
+
+
 class AssistLaw:
     """One instance of the law with its own memory, at rest until the first step."""
 
@@ -171,6 +217,56 @@ class AssistLaw:
         """One control step. readings: a value for each name of INPUT_DTYPE -> OUTPUT_DTYPE's."""
         row = self.run(pack_inputs({name: [value] for name, value in readings.items()}))[0]
         return {name: row[name].item() for name in OUTPUT_DTYPE.names or ()}
+
+    def trace(self, inputs: npt.NDArray[np.void]) -> Traced:
+        """The next step and why. inputs: INPUT_DTYPE (1,), contiguous."""
+        output = np.empty(1, OUTPUT_DTYPE)
+        trace = ffi.new("assist_trace *")
+        result = lib.assist_step_traced(
+            self._config,
+            self._state,
+            ffi.cast("assist_input *", ffi.from_buffer(inputs)),
+            ffi.cast("assist_output *", ffi.from_buffer(output, require_writable=True)),
+            trace,
+        )
+        told = {name: output[0][name].item() for name in OUTPUT_DTYPE.names or ()}
+        return Traced(
+            output=told,
+            result=RESULTS[result],
+            left_nm=dict(zip(TRACE_STEPS, trace.torque_nm, strict=True)),
+            walk=bool(trace.walk),
+            rules=self._rules(inputs[0], told) if result == lib.ASSIST_OK else (),
+        )
+
+    def hold(self, inputs: npt.NDArray[np.void], torque_rate: float, steps: int) -> None:
+        """Steps in which nothing changes but that the torque keeps rising at a rate.
+
+        No torque can do that for long; it is a question about a point of the table. inputs:
+        INPUT_DTYPE (1,), contiguous. torque_rate: above -1. Below 0 the torque falls.
+        """
+        history = np.frombuffer(
+            ffi.buffer(ffi.addressof(self._state, "torque_history_nm")), np.float32
+        )
+        given = ffi.cast("assist_input *", ffi.from_buffer(inputs))
+        output = ffi.new("assist_output *")
+        for _ in range(steps):
+            lib.assist_step(self._config, self._state, given, output)
+            history[:] = self._state.torque_filtered_nm / (1.0 + torque_rate) * STEADY_SHARE
+
+    def _rules(self, row: np.void, output: Mapping[str, float]) -> tuple[FiredRule, ...]:
+        """The rules that made this gain, by the table of the row's mode."""
+        second = self._config.mode_tables[row["mode"]]
+        table = ffi.addressof(self._config, "second_table" if second else "table")
+        point = (float(row["speed_kmh"]), output["torque_rate"])
+        gain = ffi.new("float *")
+        lib.fuzzy_gain(table, *point, gain)
+        if gain[0] != output["fuzzy_gain"]:
+            return ()
+        fired = ffi.new("fuzzy_rule[]", lib.FUZZY_RULES_FIRED_MAX)
+        count = lib.fuzzy_rules_fired(table, *point, fired)
+        return tuple(
+            FiredRule(one.row, one.column, one.label, one.weight) for one in fired[0:count]
+        )
 
 
 def assist_run(
