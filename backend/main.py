@@ -37,10 +37,12 @@ from backend.services.rides.record import Recorder
 from backend.services.rides.replay import RideReplay
 from backend.services.rides.review import Rides
 from backend.services.rides.use_of_table import UseOfTable
+from backend.services.rides.why_ride import WhyRide
 from backend.services.tuning.library import Library
 from backend.services.tuning.preview import Preview
 from backend.services.tuning.try_live import LiveTuning
 from backend.services.tuning.tune import Tuning
+from backend.services.tuning.why import WhySteady
 from backend.services.units.connect import Devices
 from backend.services.units.dashboard import Dashboards
 from backend.services.units.inspection import Inspection
@@ -120,6 +122,8 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             library=Library(store.library),
             rides=Rides(store, RideReplay(preview, memory.ride_config), devices.unit_at),
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
+            why_steady=WhySteady(devices.writable),
+            why_ride=WhyRide(store, memory.ride_config),
             uploads=uploads,
             collect=collect,
         )

@@ -14,10 +14,12 @@ if TYPE_CHECKING:
     from backend.services.imports.upload import Uploads
     from backend.services.rides.review import Rides
     from backend.services.rides.use_of_table import UseOfTable
+    from backend.services.rides.why_ride import WhyRide
     from backend.services.tuning.library import Library
     from backend.services.tuning.preview import Preview
     from backend.services.tuning.try_live import LiveTuning
     from backend.services.tuning.tune import Tuning
+    from backend.services.tuning.why import WhySteady
     from backend.services.units.connect import Devices
     from backend.services.units.dashboard import Dashboards
     from backend.services.units.inspection import Inspection
@@ -39,6 +41,8 @@ class Services:
     library: Library
     rides: Rides
     use_of_table: UseOfTable
+    why_steady: WhySteady
+    why_ride: WhyRide
     uploads: Uploads
     collect: Collect
 

@@ -1,18 +1,21 @@
-"""The only door from the backend to the unit's C law: surface, points, lint, replay."""
+"""The only door from the backend to the unit's C law: surface, points, lint, replay, why."""
 
 from backend.control.finding import Finding, LintReport
 from backend.control.gain import ENGINE, points, surface
 from backend.control.lint_rules import lint
 from backend.control.market import Cutoff, cutoff_of
 from backend.control.ride_replay import Replay, limit_shares, raw_counts_of, replay
-from sim_device.firmware.python.law import law_defaults
+from backend.control.why import Why, why, why_steady
+from sim_device.firmware.python.law import LIMITS, law_defaults
 
 __all__ = [
     "ENGINE",
+    "LIMITS",
     "Cutoff",
     "Finding",
     "LintReport",
     "Replay",
+    "Why",
     "cutoff_of",
     "law_defaults",
     "limit_shares",
@@ -21,4 +24,6 @@ __all__ = [
     "raw_counts_of",
     "replay",
     "surface",
+    "why",
+    "why_steady",
 ]

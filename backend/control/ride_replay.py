@@ -74,15 +74,10 @@ def replay(
     if np.size(speed_kmh) > STEPS_MAX:
         raise InvalidRequest(f"a replay takes at most {STEPS_MAX} samples", "too_many_samples")
     try:
-        cadence = np.asarray(cadence_rpm, np.float32)
-        if motor_speed_rpm is None:
-            motor_speed_rpm = np.maximum(cadence, 0.0) * np.float32(config["gear_ratio"])
-        motor_speed = np.asarray(motor_speed_rpm, np.float32)
-        inputs = {
+        given: dict[str, npt.ArrayLike] = {
             "torque_raw_counts": torque_raw_counts,
             "speed_kmh": speed_kmh,
-            "cadence_rpm": cadence,
-            "motor_speed_rpm": motor_speed,
+            "cadence_rpm": cadence_rpm,
             "battery_voltage_v": battery_voltage_v,
             "battery_current_a": battery_current_a,
             "motor_temperature_degc": motor_temperature_degc,
@@ -93,10 +88,31 @@ def replay(
             "walk_button": walk_button,
             "inhibit": inhibit,
         }
+        if motor_speed_rpm is not None:
+            given["motor_speed_rpm"] = motor_speed_rpm
+        inputs = law_readings(config, given)
+        motor_speed = np.asarray(inputs["motor_speed_rpm"], np.float32)
         outputs = law.assist_run(config, inputs, step_s)
     except (law.LawRefused, KeyError, TypeError, ValueError) as refused:
         raise InvalidRequest(f"replay: {refused}", "replay_refused") from refused
     return _summed(outputs, motor_speed, step_s)
+
+
+def law_readings(
+    config: Mapping[str, Any], readings: Mapping[str, npt.ArrayLike]
+) -> dict[str, npt.ArrayLike]:
+    """The law's inputs of what is known, (n,) each or one value.
+
+    readings: speed_kmh, cadence_rpm, mode, and torque_raw_counts or rider_torque_nm; what else is
+    known by the names of `replay`, whose defaults stand for what is not.
+    """
+    whole = {"battery_voltage_v": BATTERY_VOLTAGE_V, "brake": 0, **readings}
+    torque_nm = whole.pop("rider_torque_nm", None)
+    if torque_nm is not None:
+        whole.setdefault("torque_raw_counts", raw_counts_of(config, torque_nm))
+    cadence = np.asarray(whole["cadence_rpm"], np.float32)
+    follows = np.maximum(cadence, 0.0) * np.float32(config["gear_ratio"])
+    return {**whole, "motor_speed_rpm": whole.get("motor_speed_rpm", follows)}
 
 
 def raw_counts_of(config: Mapping[str, Any], torque_nm: npt.ArrayLike) -> Floats:

@@ -128,6 +128,35 @@ def test_the_summary_is_what_physics_makes_of_the_samples(
     assert 0.0 < summary["motor_wh"] != summary["rider_wh"] > 0.0
 
 
+def test_a_moment_of_the_ride_is_explained_down_to_what_the_motor_gave(
+    workshop: SpindleServer, ride: dict[str, Any]
+) -> None:
+    device = workshop.ready_device(0)
+    rows = whole_series(workshop, ride, "motor_torque_nm", "fuzzy_gain")
+    config = workshop.get(f"/devices/{device}/config")["parameters"]
+
+    why = workshop.get(f"/rides/{ride['id']}/why", params={"t_s": 15.0})
+    steady = {
+        name: why["readings"][name]
+        for name in ("speed_kmh", "cadence_rpm", "battery_voltage_v", "motor_temperature_degc")
+    }
+    steady |= {"mode": why["mode"], "torque_rate": why["torque_rate"]}
+    steady |= {"rider_torque_nm": why["rider_torque_nm"]}
+    held = workshop.ask("POST", f"/devices/{device}/why", json=steady)
+    unconnected = workshop.ask("POST", "/why", json=steady)
+
+    given_nm = float(rows["motor_torque_nm"][1500]) * config["gear_ratio"]
+    assert why["delivered_nm"] == pytest.approx(given_nm, abs=0.01)
+    assert sum(step["torque_nm"] for step in why["steps"]) == pytest.approx(given_nm, abs=0.01)
+    assert why["gain"] == pytest.approx(float(rows["fuzzy_gain"][1500]), abs=0.01)
+    assert 1 <= len(why["rules"]) <= 4
+    assert (held["config_source"], unconnected["config_source"]) == ("unit", "given")
+    assert held["gain"] == unconnected["gain"] == pytest.approx(why["gain"], abs=1e-3)
+    assert held["moment"]["kind"] == "steady"
+    cuts = workshop.get(f"/rides/{ride['id']}/cuts")["items"]
+    assert all(cut["to_s"] > cut["from_s"] for cut in cuts)
+
+
 def test_every_extreme_is_in_the_coarsest_view(
     workshop: SpindleServer, ride: dict[str, Any]
 ) -> None:

@@ -21,6 +21,7 @@ from backend.api.models.config import (
     RevisionList,
 )
 from backend.api.models.law import AssistModes, Calibration, FuzzyTable, Limits, Table
+from backend.api.models.why import Why, WhyRequest
 from backend.api.problem import refusals
 from backend.api.services import Provided
 from backend.services.tuning.config_view import etag
@@ -109,6 +110,12 @@ def rollback_config(device_id: str, services: Provided, response: Response, auth
 def list_revisions(device_id: str, services: Provided) -> dict[str, Any]:
     """Who changed what, when and why, newest first."""
     return {"items": services.tuning.revisions(device_id)}
+
+
+@router.post("/why", operation_id="why_of_device", response_model=Why)
+def why_of_device(device_id: str, body: WhyRequest, services: Provided) -> Any:
+    """Why this unit would give what it gives in a steady state, with what it is set to now."""
+    return services.why_steady(*body.parts(), device_id)
 
 
 @router.get("/live", operation_id="get_live", response_model=Live)

@@ -16,6 +16,7 @@ from backend.api.models.law import (
     Surface,
     SurfaceRequest,
 )
+from backend.api.models.why import Why, WhyRequest
 from backend.api.problem import refusals
 from backend.api.services import Provided
 
@@ -48,6 +49,12 @@ def lint_table(body: LintRequest, services: Provided) -> Any:
         question["taper_speeds_kmh"],
         question["gear_ratio"],
     )
+
+
+@router.post("/why", operation_id="why_steady", response_model=Why)
+def why_steady(body: WhyRequest, services: Provided) -> Any:
+    """Why the law gives what it gives in a steady state, on the law's defaults and these."""
+    return services.why_steady(*body.parts())
 
 
 @router.post(

@@ -21,6 +21,7 @@ from backend.api.models.ride import (
     TableUse,
     TableUseRequest,
 )
+from backend.api.models.why import Cuts, Why
 from backend.api.problem import refusals
 from backend.api.services import Provided
 
@@ -153,6 +154,20 @@ def replay_ride(ride_id: RideId, body: ReplayRequest, services: Provided) -> Any
         ride_id, question["fuzzy_table"], question["assist_modes"], question["second_table"]
     )
     return whole(Replay, answer)
+
+
+@router.get("/{ride_id}/why", operation_id="why_of_ride", response_model=Why, responses=DAMAGED)
+def why_of_ride(
+    ride_id: RideId, services: Provided, t_s: Annotated[float, Query(ge=0.0, le=1e7)]
+) -> Any:
+    """Why the motor gave what it gave then; 409 `no_table` without the ride's configuration."""
+    return services.why_ride(ride_id, t_s)
+
+
+@router.get("/{ride_id}/cuts", operation_id="cuts_of_ride", response_model=Cuts, responses=DAMAGED)
+def cuts_of_ride(ride_id: RideId, services: Provided) -> Any:
+    """Where a limit held the motor back, in order of time, as the unit told it."""
+    return {"items": services.why_ride.cuts(ride_id)}
 
 
 @router.post("/table-use", operation_id="table_use", response_model=TableUse)

@@ -20,7 +20,6 @@ from backend import control
 from backend.domain._generated import INPUT_FLAGS
 from backend.domain.channels import ChannelSpec, Values
 from backend.domain.energy import DELIVERED, RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
-from backend.domain.filled import Filled
 from backend.domain.ride import Ride
 from backend.errors import InvalidRequest
 from backend.services.tuning.preview import Preview
@@ -113,10 +112,11 @@ class RideReplay:
         }
 
 
-def read_columns(reader: RideReader) -> dict[str, Values]:
+def read_columns(reader: RideReader, start: int = 0, stop: int | None = None) -> dict[str, Values]:
     """The channels the law needs and the ones it is compared on, (n,) each, missing as NaN.
 
-    Raises InvalidRequest if the ride lacks one, or is sampled too slowly.
+    Rows [start, stop), the whole ride without them. Raises InvalidRequest if the ride lacks one, or
+    is sampled too slowly.
     """
     offered = {channel.name: channel for channel in reader.ride.channels}
     torque = next((name for name in TORQUES if name in offered), TORQUES[0])
@@ -135,20 +135,21 @@ def read_columns(reader: RideReader) -> dict[str, Values]:
         )
     names = [*NEEDED, torque, *OPTIONAL, FLAGS, LIMITS, *(channel.name for channel in COMPARED)]
     chosen = [name for name in names if name in offered]
-    counts = reader.counts(chosen, 0, reader.row_count)
-    return {
-        name: held(offered[name].to_values(counts[name]), reader.ride.filled, reader.period_us)
-        for name in chosen
-    }
+    counts = reader.counts(chosen, start, reader.row_count if stop is None else stop)
+    spans = [span.rows(reader.period_us) for span in reader.ride.filled]
+    return {name: held(offered[name].to_values(counts[name]), spans, start) for name in chosen}
 
 
-def held(values: Values, filled: Sequence[Filled], period_us: int) -> Values:
-    """Values (n,) in which a log's sample holds until the next, as in a ride of the log alone."""
-    for span in filled:
-        start, stop = span.rows(period_us)
+def held(values: Values, spans: Sequence[tuple[int, int]], first: int) -> Values:
+    """Values (n,) in which a log's sample holds until the next, as in a ride of the log alone.
+
+    spans: the log's rows of the ride. first: the ride's row that values[0] is of.
+    """
+    for begin, end in spans:
+        start, stop = max(begin - first, 0), max(end - first, 0)
         there = np.flatnonzero(np.isfinite(values[start:stop]))
         if len(there):
-            latest = np.searchsorted(there, np.arange(stop - start), side="right") - 1
+            latest = np.searchsorted(there, np.arange(len(values[start:stop])), side="right") - 1
             values[start:stop] = values[start + there[np.maximum(latest, 0)]]
     return values
 

@@ -88,15 +88,7 @@ class Preview:
         control.replay. second_table: takes the place of the second, and has the points of the
         first. Raises InvalidRequest.
         """
-        changed = dict(config)
-        if fuzzy_table is not None:
-            changed |= FuzzyTable.from_json(fuzzy_table).to_parameters()
-        if second_table is not None:
-            second = FuzzyTable.from_json(second_table)
-            _refuse_points_of_its_own(second, changed)
-            changed |= second.to_parameters("second")
-        if assist_modes is not None:
-            changed |= AssistModes.from_json(assist_modes).to_parameters()
+        changed = changed_config(config, fuzzy_table, assist_modes, second_table)
         readings = dict(arrays)
         torque_nm = readings.pop("rider_torque_nm", None)
         if torque_nm is not None:
@@ -108,6 +100,32 @@ class Preview:
         return control.replay(changed, step_s=step_s, **readings)
 
     evaluate_calibration = staticmethod(evaluate_calibration)
+
+
+def changed_config(
+    config: Mapping[str, Any],
+    fuzzy_table: Mapping[str, Any] | None = None,
+    assist_modes: Mapping[str, Any] | None = None,
+    second_table: Mapping[str, Any] | None = None,
+    limits: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
+    """A configuration with other tables, modes or limits, by registry name.
+
+    second_table: has the points of the first. limits: parameters by name, None where one stays.
+    Raises InvalidRequest.
+    """
+    changed = dict(config)
+    if fuzzy_table is not None:
+        changed |= FuzzyTable.from_json(fuzzy_table).to_parameters()
+    if second_table is not None:
+        second = FuzzyTable.from_json(second_table)
+        _refuse_points_of_its_own(second, changed)
+        changed |= second.to_parameters("second")
+    if assist_modes is not None:
+        changed |= AssistModes.from_json(assist_modes).to_parameters()
+    if limits is not None:
+        changed |= {name: limits[name] for name in limits if limits[name] is not None}
+    return changed
 
 
 def _refuse_points_of_its_own(second: FuzzyTable, config: Mapping[str, Any]) -> None:

@@ -425,6 +425,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/devices/{device_id}/why": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Why Of Device
+         * @description Why this unit would give what it gives in a steady state, with what it is set to now.
+         */
+        post: operations["why_of_device"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/devices/{device_id}/live": {
         parameters: {
             query?: never;
@@ -605,6 +625,26 @@ export interface paths {
          * @description What is wrong, doubtful or notable about a table before a rider finds out.
          */
         post: operations["lint_table"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/why": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Why Steady
+         * @description Why the law gives what it gives in a steady state, on the law's defaults and these.
+         */
+        post: operations["why_steady"];
         delete?: never;
         options?: never;
         head?: never;
@@ -826,6 +866,46 @@ export interface paths {
          * @description Runs the ride's inputs through the unit's own law with other tables or other modes.
          */
         post: operations["replay_ride"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/rides/{ride_id}/why": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Why Of Ride
+         * @description Why the motor gave what it gave then; 409 `no_table` without the ride's configuration.
+         */
+        get: operations["why_of_ride"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/rides/{ride_id}/cuts": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Cuts Of Ride
+         * @description Where a limit held the motor back, in order of time, as the unit told it.
+         */
+        get: operations["cuts_of_ride"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -1217,6 +1297,23 @@ export interface components {
             rollback_cause: ("asked" | "time_out" | "restart" | "unknown") | null;
         };
         /**
+         * Cut
+         * @description A stretch in which limits held the motor back, seconds since the ride's start.
+         */
+        Cut: {
+            /** From S */
+            from_s: number;
+            /** To S */
+            to_s: number;
+            /** Limits */
+            limits: string[];
+        };
+        /** Cuts */
+        Cuts: {
+            /** Items */
+            items: components["schemas"]["Cut"][];
+        };
+        /**
          * Dashboard
          * @description What the rider sees. Rider power and motor power are two things; missing is null.
          */
@@ -1504,6 +1601,26 @@ export interface components {
             values: {
                 [key: string]: number | string;
             };
+        };
+        /**
+         * FiredRule
+         * @description Its cell, `[row][column]` of the table's rules, and how much it had to say.
+         */
+        FiredRule: {
+            /** Row */
+            row: number;
+            /** Column */
+            column: number;
+            /**
+             * Label
+             * @enum {string}
+             */
+            label: "NB" | "NS" | "ZO" | "PS" | "PB";
+            /**
+             * Weight
+             * @description Above 0, to 1: the lesser of the two memberships under `mamdani_centroid`, their product under `weighted_average`.
+             */
+            weight: number;
         };
         /** Fit */
         Fit: {
@@ -2904,6 +3021,232 @@ export interface components {
              * @description Neither slot is good: the factory's values apply.
              */
             runs_on_default: boolean;
+        };
+        /**
+         * Why
+         * @description A control step in the unit's own order. Torques are at the crank, missing is null.
+         *
+         *     The torques of `steps` add up to `delivered_nm`, by a last step `current_control`: what the
+         *     motor gave less what it was told. Where nothing was measured there is no such step, and they
+         *     add up to `commanded_nm`. Where the input was refused the one step says so.
+         */
+        Why: {
+            moment: components["schemas"]["WhyMoment"];
+            /**
+             * Config Source
+             * @enum {string}
+             */
+            config_source: "ride" | "unit" | "given";
+            /** Engine */
+            engine: string;
+            /**
+             * Warmed Up S
+             * @description Of the ride before the moment, from which the law remembers.
+             */
+            warmed_up_s: number | null;
+            /**
+             * Result
+             * @enum {string}
+             */
+            result: "ok" | "input_refused" | "result_lost";
+            /**
+             * Law
+             * @enum {string}
+             */
+            law: "off" | "fixed" | "fuzzy" | "walk";
+            /** Mode */
+            mode: number;
+            /** Mode Name */
+            mode_name: string;
+            /** @description The mode's; null where its law has none. */
+            table: components["schemas"]["FuzzyTable"] | null;
+            /** Speed Kmh */
+            speed_kmh: number | null;
+            /** Cadence Rpm */
+            cadence_rpm: number | null;
+            /**
+             * Rider Torque Nm
+             * @description As the law averages it over the stroke.
+             */
+            rider_torque_nm: number | null;
+            /** Torque Rate */
+            torque_rate: number | null;
+            /** Rules */
+            rules: components["schemas"]["FiredRule"][];
+            /**
+             * Gain
+             * @description Null where the mode has none.
+             */
+            gain: number | null;
+            /** Assist Ratio */
+            assist_ratio: number | null;
+            /** Crank Rad Per S */
+            crank_rad_per_s: number | null;
+            /** Steps */
+            steps: components["schemas"]["WhyStep"][];
+            /** Commanded Nm */
+            commanded_nm: number;
+            /**
+             * Available Nm
+             * @description What motor, heat, battery and back-EMF allow; null for a refused input.
+             */
+            available_nm: number | null;
+            /** Delivered Nm */
+            delivered_nm: number | null;
+            /** Limit Flags */
+            limit_flags: string[];
+            /**
+             * Readings
+             * @description The inputs of the law that are known.
+             */
+            readings: {
+                [key: string]: number | null;
+            };
+            settings: components["schemas"]["WhySettings"];
+            recorded: components["schemas"]["WhyRecorded"] | null;
+        };
+        /**
+         * WhyMoment
+         * @description `steady`: held for `held_s`, nobody rode it. `ride`: `t_s` after its start.
+         */
+        WhyMoment: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "steady" | "ride";
+            /** Ride Id */
+            ride_id: number | null;
+            /** T S */
+            t_s: number | null;
+            /** Held S */
+            held_s: number | null;
+        };
+        /**
+         * WhyRecorded
+         * @description What the unit itself told at that moment; the motor's torque at its shaft.
+         */
+        WhyRecorded: {
+            /** Fuzzy Gain */
+            fuzzy_gain: number | null;
+            /** Assist Ratio */
+            assist_ratio: number | null;
+            /** Motor Torque Demanded Nm */
+            motor_torque_demanded_nm: number | null;
+        };
+        /**
+         * WhyRequest
+         * @description A steady state: nothing changes but that the torque keeps rising at `torque_rate`.
+         *
+         *     Tables, modes and limits take the place of the unit's, or of the law's defaults.
+         */
+        WhyRequest: {
+            /** Speed Kmh */
+            speed_kmh: number;
+            /**
+             * Torque Rate
+             * @description Below 0 the torque falls.
+             * @default 0
+             */
+            torque_rate: number;
+            /**
+             * Rider Torque Nm
+             * @default 30
+             */
+            rider_torque_nm: number;
+            /**
+             * Cadence Rpm
+             * @default 60
+             */
+            cadence_rpm: number;
+            /**
+             * Mode
+             * @description Slot; without it the one at start.
+             */
+            mode?: number | null;
+            /**
+             * Motor Speed Rpm
+             * @description Without it the motor follows the crank.
+             */
+            motor_speed_rpm?: number | null;
+            /** Battery Voltage V */
+            battery_voltage_v?: number | null;
+            /** Battery Current A */
+            battery_current_a?: number | null;
+            /** Motor Temperature Degc */
+            motor_temperature_degc?: number | null;
+            /** Controller Temperature Degc */
+            controller_temperature_degc?: number | null;
+            /**
+             * Brake
+             * @default false
+             */
+            brake: boolean;
+            /**
+             * Walk Button
+             * @default false
+             */
+            walk_button: boolean;
+            /**
+             * Held S
+             * @description For how long, from rest, at 100 steps a second
+             * @default 10
+             */
+            held_s: number;
+            fuzzy_table?: components["schemas"]["FuzzyTable"] | null;
+            /** @description Shares speed and torque-rate points with the first. */
+            second_table?: components["schemas"]["FuzzyTable"] | null;
+            assist_modes?: components["schemas"]["AssistModes"] | null;
+            limits?: components["schemas"]["Limits"] | null;
+        };
+        /**
+         * WhySettings
+         * @description What the steps after the law go by in this mode.
+         */
+        WhySettings: {
+            /** Gear Ratio */
+            gear_ratio: number;
+            /** Mode Ratio */
+            mode_ratio: number;
+            /** Pedal Torque Nm Min */
+            pedal_torque_nm_min: number;
+            /** Cutoff Kmh */
+            cutoff_kmh: number;
+            /** Ramp Up Nm Per S */
+            ramp_up_nm_per_s: number;
+            /** Ramp Down Nm Per S */
+            ramp_down_nm_per_s: number;
+            /**
+             * Motor Torque Nm Max
+             * @description The mode's share of it, at the motor's shaft.
+             */
+            motor_torque_nm_max: number;
+            /** Battery Current A Max */
+            battery_current_a_max: number;
+            /** Battery Voltage V Min */
+            battery_voltage_v_min: number;
+            /** Motor Speed Rpm Max */
+            motor_speed_rpm_max: number;
+        };
+        /**
+         * WhyStep
+         * @description What one step of the pipeline added to the torque at the crank, or took from it.
+         */
+        WhyStep: {
+            /** Name */
+            name: string;
+            /** Torque Nm */
+            torque_nm: number;
+            /**
+             * Power W
+             * @description At the crank's speed; null where it is not known.
+             */
+            power_w: number | null;
+            /**
+             * Limit
+             * @description The limit it is, where it took or gave something.
+             */
+            limit: string | null;
         };
         /**
          * Problem
@@ -4791,6 +5134,104 @@ export interface operations {
             };
         };
     };
+    why_of_device: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["WhyRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Why"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Precondition Failed */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     get_live: {
         parameters: {
             query?: never;
@@ -5970,6 +6411,48 @@ export interface operations {
             };
         };
     };
+    why_steady: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["WhyRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Why"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     evaluate_calibration: {
         parameters: {
             query?: never;
@@ -6832,6 +7315,142 @@ export interface operations {
                 };
                 content: {
                     "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unsupported Media Type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    why_of_ride: {
+        parameters: {
+            query: {
+                t_s: number;
+            };
+            header?: never;
+            path: {
+                ride_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Why"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unsupported Media Type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    cuts_of_ride: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                ride_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Cuts"];
                 };
             };
             /** @description Not Found */

@@ -8,7 +8,7 @@
 #include "assist_types.h" // assist_config, assist_state, assist_input, assist_output
 #include "float32.h"      // float32_missing
 
-/* `trace` is NULL wherever nobody asks why. The limits note the torque at the motor's shaft. */
+/* `trace` is NULL wherever nobody asks why. The limits note what they allow, at the shaft. */
 static inline void trace_note(assist_trace *trace, unsigned step, float torque_nm)
 {
     if (trace) trace->torque_nm[step] = torque_nm;
@@ -78,7 +78,7 @@ int battery_sags(const assist_config *config, const assist_input *input);
 float apply_market(const assist_config *config, assist_state *state, const assist_input *input,
                    float motor_nm, assist_output *output);
 
-/* trace.c: what follows from the step's outcome, and the limits' torque at the crank. */
+/* trace.c: what follows from the notes and the step's outcome. */
 void trace_complete(assist_trace *trace, const assist_config *config, const assist_state *state,
                     const assist_input *input, const assist_output *output, int result);
 

@@ -16,7 +16,7 @@ enum {
     ASSIST_TRACE_THRESHOLD,  /* 0 below the least pedal torque */
     ASSIST_TRACE_FRESH,      /* 0 where the torque reading is too old */
     ASSIST_TRACE_BAND,       /* soft ramp below the cut-off speed */
-    ASSIST_TRACE_RAMPS,      /* on a ramp down it is more than what the step before left */
+    ASSIST_TRACE_RAMPS,      /* a ramp down gives; a ramp up counts only where no limit does */
     ASSIST_TRACE_PEDAL_STOP, /* from here on no step leaves more than the one before */
     ASSIST_TRACE_BRAKE,
     ASSIST_TRACE_SPEED,
@@ -29,9 +29,8 @@ enum {
     ASSIST_TRACE_MARKET /* what the motor is told */
 };
 
-/* At the crank. The motor's limits are worked out at its shaft: what is not held there differs from
- * the step before by the rounding of a division, 1e-7 of it. A refused input and a lost result
- * leave zeros only. */
+/* At the crank. The last differs from what the motor is told, times the gear ratio, by no more than
+ * the rounding of a division. A refused input and a lost result leave zeros only. */
 typedef struct {
     float torque_nm[ASSIST_TRACE_STEPS];
     uint8_t cut_offs; /* bit n: ASSIST_TRACE_PEDAL_STOP + n is at work, taken anything or not */

@@ -52,8 +52,10 @@ static float back_emf_torque_nm(const assist_config *config, const assist_input 
 }
 
 /* Lowers what is available too, whatever is asked. */
-static float held_available(float limit_nm, float motor_nm, unsigned flag, assist_output *output)
+static float held_available(float limit_nm, float motor_nm, unsigned flag, assist_output *output,
+                            assist_trace *trace, unsigned step)
 {
+    trace_note(trace, step, limit_nm);
     output->motor_torque_available_nm = float32_min(output->motor_torque_available_nm, limit_nm);
     return held_at(limit_nm, motor_nm, flag, output);
 }
@@ -69,18 +71,15 @@ float apply_limits(const assist_config *config, assist_state *state, const assis
         battery_sags(config, input) ? ASSIST_LIMIT_BATTERY_VOLTAGE : ASSIST_LIMIT_BATTERY_CURRENT;
     float motor_nm = demand_nm / config->gear_ratio;
 
+    trace_note(trace, ASSIST_TRACE_MOTOR, highest_nm);
     output->motor_torque_available_nm = highest_nm;
     motor_nm = held_at(highest_nm, motor_nm, ASSIST_LIMIT_MOTOR_TORQUE, output);
-    trace_note(trace, ASSIST_TRACE_MOTOR, motor_nm);
-    motor_nm =
-        held_available(heat_torque_nm(config, input), motor_nm, ASSIST_LIMIT_TEMPERATURE, output);
-    trace_note(trace, ASSIST_TRACE_HEAT, motor_nm);
+    motor_nm = held_available(heat_torque_nm(config, input), motor_nm, ASSIST_LIMIT_TEMPERATURE,
+                              output, trace, ASSIST_TRACE_HEAT);
     motor_nm = held_available(battery_torque_nm(config, state, input, resistance_ohm, back_emf_v),
-                              motor_nm, battery_flag, output);
-    trace_note(trace, ASSIST_TRACE_BATTERY, motor_nm);
+                              motor_nm, battery_flag, output, trace, ASSIST_TRACE_BATTERY);
     motor_nm = held_available(back_emf_torque_nm(config, input, resistance_ohm), motor_nm,
-                              ASSIST_LIMIT_MOTOR_SPEED, output);
-    trace_note(trace, ASSIST_TRACE_BACK_EMF, motor_nm);
+                              ASSIST_LIMIT_MOTOR_SPEED, output, trace, ASSIST_TRACE_BACK_EMF);
     return float32_max(motor_nm, 0.0f);
 }
 

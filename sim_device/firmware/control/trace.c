@@ -41,7 +41,20 @@ static void trace_cut_offs(assist_trace *trace)
     }
 }
 
-/* What was not held is what it was, without the rounding of the division by the gear ratio. */
+/* A ramp up goes on from the torque that was given: while a limit holds, it is never more than a
+ * step above that, whatever is asked. What holds then is the limit, as the limit flags say. */
+static void trace_ramps(assist_trace *trace, const assist_config *config, float given_nm)
+{
+    float ramped_nm = trace->torque_nm[ASSIST_TRACE_RAMPS];
+    float asked_nm = trace->torque_nm[ASSIST_TRACE_BAND];
+
+    if (ramped_nm < asked_nm && given_nm < ramped_nm / config->gear_ratio) {
+        trace->torque_nm[ASSIST_TRACE_RAMPS] = asked_nm;
+    }
+}
+
+/* From the limits to what they leave. What is not held stays as it was, without the rounding of the
+ * division by the gear ratio. */
 static void trace_limits(assist_trace *trace, const assist_config *config, float given_nm)
 {
     float shaft_nm = trace->torque_nm[ASSIST_TRACE_INHIBIT] / config->gear_ratio;
@@ -49,11 +62,12 @@ static void trace_limits(assist_trace *trace, const assist_config *config, float
 
     trace->torque_nm[ASSIST_TRACE_MARKET] = given_nm;
     for (step = ASSIST_TRACE_MOTOR; step <= ASSIST_TRACE_MARKET; ++step) {
-        float left_nm = trace->torque_nm[step];
+        float limit_nm = trace->torque_nm[step];
 
-        trace->torque_nm[step] =
-            left_nm < shaft_nm ? left_nm * config->gear_ratio : trace->torque_nm[step - 1];
-        shaft_nm = left_nm;
+        trace->torque_nm[step] = trace->torque_nm[step - 1];
+        if (limit_nm >= shaft_nm) continue;
+        trace->torque_nm[step] = limit_nm * config->gear_ratio;
+        shaft_nm = limit_nm;
     }
 }
 
@@ -71,6 +85,7 @@ void trace_complete(assist_trace *trace, const assist_config *config, const assi
     } else {
         trace_law(trace, config, input->mode, output);
     }
+    trace_ramps(trace, config, output->motor_torque_nm);
     trace_cut_offs(trace);
     trace_limits(trace, config, output->motor_torque_nm);
 }
