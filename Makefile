@@ -9,7 +9,7 @@ STAMP := .make
 # Most tests wait more than they compute: twice the two cores of a small machine.
 # A browser computes: two at once.
 WORKERS ?= 4
-PARALLEL := --dist loadgroup --no-loadscope-reorder -n
+PARALLEL := --dist loadfile --no-loadscope-reorder -n
 
 # What runs against the emulated board; `make test-board-all` adds what takes minutes there.
 BOARD_TESTS := tests/board tests/conformance tests/unit/sim_device_app tests/stories

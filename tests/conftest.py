@@ -10,17 +10,15 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
 from sim_device import emulator
-from tests import counts
+from tests import counts, parts
 from tests.fakes import board_rig
 from tests.fakes.server import SpindleServer
 
-# When a room's turn comes; what is slow elsewhere has turn 1, what is quick comes last.
-TURNS = {"stories": 1, "browser": 2}
+pytest_xdist_make_scheduler = parts.pytest_xdist_make_scheduler
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -43,29 +41,12 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """What only the host build can show is left out on the board; who works beside whom."""
-    share_out(items)
+    """What only the host build can show is left out on the board."""
+    items[:] = parts.long_ones_first(items)
     if config.getoption("--unit") == "qemu":
         for item in items:
             for mark in item.iter_markers("host_build"):
                 item.add_marker(pytest.mark.skip(reason=mark.args[0]))
-
-
-def share_out(items: list[pytest.Item]) -> None:
-    """Parts for `--dist loadgroup`, the long ones first so that no worker is left with one.
-
-    A file is one part, because its tests share what it builds; tests marked `spread` are parts of
-    their own. What needs a Chromium and a server of each worker comes late: idle ones cost, too.
-    """
-    turns: dict[Path, int] = {}
-    for item in items:
-        spread = item.get_closest_marker("spread") is not None
-        slow = item.get_closest_marker("slow") is not None
-        if not spread:
-            item.add_marker(pytest.mark.xdist_group(f"{item.path.parent.name}/{item.path.stem}"))
-        turn = 0 if spread else TURNS.get(item.path.parent.name, 1 if slow else 3)
-        turns[item.path] = min(turn, turns.get(item.path, turn))
-    items.sort(key=lambda item: turns[item.path])
 
 
 def pytest_collection_finish(session: pytest.Session) -> None:

@@ -17,7 +17,7 @@ from tests import counts
 from tests.fakes.built_once import built_once
 from tests.fuzz import harness
 
-pytestmark = [pytest.mark.slow, pytest.mark.large_count, pytest.mark.spread]
+pytestmark = [pytest.mark.slow, pytest.mark.large_count]
 
 SECONDS = counts.of(20)
 

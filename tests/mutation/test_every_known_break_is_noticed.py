@@ -17,7 +17,7 @@ from tests import counts
 from tests.fakes.built_once import built_once
 from tests.mutation.workshop import FAILED, PASSED, Break, Workshop, breaks
 
-pytestmark = [pytest.mark.slow, pytest.mark.spread]
+pytestmark = [pytest.mark.slow]
 
 ROOT = Path(__file__).resolve().parents[2]
 PLANTED = [one for one in breaks() if one.always or counts.proving()]

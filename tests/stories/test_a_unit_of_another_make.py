@@ -26,7 +26,7 @@ from tests.fakes.tiny.motor import SETTINGS, TinyMotor, listening
 from tests.fakes.tiny.unit import TinyUnit
 
 # A server and a unit for every test: left out of `make test-fast`.
-pytestmark = [pytest.mark.slow, pytest.mark.spread]
+pytestmark = [pytest.mark.slow]
 
 NAME = "the cargo bike"
 CANNOT = [

@@ -23,7 +23,7 @@ from sim_device.firmware.python.law import assist_run
 from tests import counts
 from tests.unit.sim_device.test_markets import CUTOFF_KMH, GEAR_RATIO, PEAK_W, STEP_S, japan_ratio
 
-pytestmark = [pytest.mark.large_count, pytest.mark.spread]
+pytestmark = [pytest.mark.large_count]
 
 CONFIGURATIONS = counts.of(1000)
 STEPS = 1200
