@@ -12,10 +12,12 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
+from backend.domain.fuzzy_table import FuzzyTable
 from backend.errors import FieldError, InvalidRequest
 from firmware_protocol._generated import PARAMETER_BY_NAME
 from firmware_protocol.configuration_check import FAMILY, faults_of
 from firmware_protocol.configuration_file import (
+    TABLE,
     BadConfigurationFile,
     ConfigurationFile,
     Entry,
@@ -48,6 +50,15 @@ def library_document(saved: object) -> dict[str, Any]:
         message = f"The document cannot be kept: {listed}{more}"
         raise InvalidRequest(message, "bad_document", faults)
     return file.to_json()
+
+
+def table_document(name: str, comment: str, table: FuzzyTable) -> dict[str, Any]:
+    """A table as the document that is kept. Raises InvalidRequest for a name that cannot be."""
+    entries = {
+        parameter: Entry(value, PARAMETER_BY_NAME[parameter].unit)
+        for parameter, value in table.to_parameters().items()
+    }
+    return library_document(ConfigurationFile(TABLE, name, comment, FAMILY, entries).to_json())
 
 
 def tidy_name(name: str) -> str:

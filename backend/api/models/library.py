@@ -9,6 +9,7 @@ from pydantic import Field
 
 from backend.api.models.base import Answer, Question
 from backend.api.models.config import ParameterValue
+from backend.api.models.law import FuzzyTable
 
 PARAMETERS_MAX = 400
 
@@ -78,3 +79,33 @@ class LibraryDocument(Question):
     identity: dict[str, Any] | None = None
     generation: int | None = None
     crc32: int | None = None
+
+
+class FisText(Question):
+    """A `.fis` file as text."""
+
+    text: str = Field(max_length=64 * 1024)
+    name: str = Field(default="", max_length=80, description="The file's own word if empty.")
+
+
+class Deviation(Answer):
+    """The largest difference between the file and the unit over a grid, and where it is."""
+
+    gain: float
+    speed_kmh: float
+    torque_rate: float
+    gain_of_file: float
+    gain_of_unit: float
+    samples: int | None = Field(
+        description="Of the output, ends included, with which the file was evaluated, as MATLAB "
+        "does; the unit's centroid is exact. Null for a Sugeno system, which has none."
+    )
+    points: int = Field(description="So many were compared.")
+
+
+class ReadFis(Answer):
+    """What a file holds; nothing of it is kept until it is posted to `/library`."""
+
+    document: LibraryEntry
+    fuzzy_table: FuzzyTable
+    deviation: Deviation

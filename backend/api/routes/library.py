@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Header, Path, Query, Response
 
 from backend.api.author import Author
-from backend.api.models.library import LibraryDocument, LibraryEntry, LibraryList, LibraryRow
+from backend.api.models.law import Table
+from backend.api.models.library import (
+    FisText,
+    LibraryDocument,
+    LibraryEntry,
+    LibraryList,
+    LibraryRow,
+    ReadFis,
+)
 from backend.api.problem import refusals
 from backend.api.services import Provided
+from backend.services.tuning.library_files import library_file, read_fis_file
 
 router = APIRouter(prefix="/library", tags=["library"], responses=refusals())
 EntryId = Annotated[str, Path(max_length=80)]
@@ -45,6 +54,13 @@ def add_library_item(
     row = services.library.add(body.model_dump(exclude_unset=True), author)
     response.headers["location"] = f"/api/v1/library/{row.id}"
     return _stamped(row, response)
+
+
+@router.post("/fis", operation_id="read_fis", response_model=ReadFis)
+def read_fis(body: FisText) -> Any:
+    """The table in a `.fis` file, with the largest difference between the file and the unit. What
+    the unit cannot do is refused with its line. Nothing is kept."""
+    return read_fis_file(body.text, body.name)
 
 
 @router.get(
@@ -97,6 +113,28 @@ def remove_library_item(
 ) -> Any:
     """Takes an own item out of the library. Its versions stay, and a PUT brings it back."""
     return _stamped(services.library.remove(entry_id, if_match, author), response)
+
+
+@router.get(
+    "/{entry_id}/export",
+    operation_id="export_library_entry",
+    response_class=Response,
+    responses={**refusals(404, 409), 200: {"content": {"application/octet-stream": {}}}},
+)
+def export_library_entry(
+    entry_id: EntryId,
+    services: Provided,
+    file_format: Annotated[Literal["json", "fis", "csv"], Query(alias="format")] = "json",
+    table: Annotated[
+        Table, Query(description="Of a configuration, for `fis` and `csv`.")
+    ] = "first",
+    version: Version = None,
+) -> Response:
+    """A file: the document as JSON, or one table for MATLAB and others, or for a spreadsheet."""
+    document = services.library.entry(entry_id, version).document
+    file = library_file(entry_id, document, file_format, table)
+    headers = {"content-disposition": f'attachment; filename="{file.file_name}"'}
+    return Response(file.text, media_type=file.media_type, headers=headers)
 
 
 @router.get(

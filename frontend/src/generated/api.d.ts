@@ -695,6 +695,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/library/fis": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Read Fis
+         * @description The table in a `.fis` file, with the largest difference between the file and the unit. What
+         *     the unit cannot do is refused with its line. Nothing is kept.
+         */
+        post: operations["read_fis"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/library/{entry_id}": {
         parameters: {
             query?: never;
@@ -719,6 +740,26 @@ export interface paths {
          * @description Takes an own item out of the library. Its versions stay, and a PUT brings it back.
          */
         delete: operations["remove_library_item"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/library/{entry_id}/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Library Entry
+         * @description A file: the document as JSON, or one table for MATLAB and others, or for a spreadsheet.
+         */
+        get: operations["export_library_entry"];
+        put?: never;
+        post?: never;
+        delete?: never;
         options?: never;
         head?: never;
         patch?: never;
@@ -1358,6 +1399,32 @@ export interface components {
             range_km: number | null;
         };
         /**
+         * Deviation
+         * @description The largest difference between the file and the unit over a grid, and where it is.
+         */
+        Deviation: {
+            /** Gain */
+            gain: number;
+            /** Speed Kmh */
+            speed_kmh: number;
+            /** Torque Rate */
+            torque_rate: number;
+            /** Gain Of File */
+            gain_of_file: number;
+            /** Gain Of Unit */
+            gain_of_unit: number;
+            /**
+             * Samples
+             * @description Of the output, ends included, with which the file was evaluated, as MATLAB does; the unit's centroid is exact. Null for a Sugeno system, which has none.
+             */
+            samples: number | null;
+            /**
+             * Points
+             * @description So many were compared.
+             */
+            points: number;
+        };
+        /**
          * Device
          * @description A connection and the unit at its other end.
          *
@@ -1621,6 +1688,20 @@ export interface components {
              * @description Above 0, to 1: the lesser of the two memberships under `mamdani_centroid`, their product under `weighted_average`.
              */
             weight: number;
+        };
+        /**
+         * FisText
+         * @description A `.fis` file as text.
+         */
+        FisText: {
+            /** Text */
+            text: string;
+            /**
+             * Name
+             * @description The file's own word if empty.
+             * @default
+             */
+            name: string;
         };
         /** Fit */
         Fit: {
@@ -2118,6 +2199,15 @@ export interface components {
             items: components["schemas"]["Port"][];
             /** Next */
             next: string | null;
+        };
+        /**
+         * ReadFis
+         * @description What a file holds; nothing of it is kept until it is posted to `/library`.
+         */
+        ReadFis: {
+            document: components["schemas"]["LibraryEntry"];
+            fuzzy_table: components["schemas"]["FuzzyTable"];
+            deviation: components["schemas"]["Deviation"];
         };
         /**
          * RecorderHealth
@@ -6581,6 +6671,48 @@ export interface operations {
             };
         };
     };
+    read_fis: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["FisText"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReadFis"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     get_library_entry: {
         parameters: {
             query?: {
@@ -6763,6 +6895,61 @@ export interface operations {
             };
             /** @description Precondition Failed */
             412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    export_library_entry: {
+        parameters: {
+            query?: {
+                format?: "json" | "fis" | "csv";
+                /** @description Of a configuration, for `fis` and `csv`. */
+                table?: "first" | "second";
+                /** @description Of an own item: as it was in this version. */
+                version?: number | null;
+            };
+            header?: never;
+            path: {
+                entry_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/octet-stream": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };

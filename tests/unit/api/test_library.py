@@ -258,3 +258,29 @@ def test_a_document_of_an_older_unit_is_kept_in_today_s_words(client: TestClient
 
     kept = client.get(f"{LIBRARY}/{row['id']}").json()["parameters"]
     assert kept["mode_laws"]["value"] == ["off", "fixed", "fixed", "fuzzy", "fuzzy"]
+
+
+def test_a_table_goes_out_to_other_programs_and_comes_back(client: TestClient) -> None:
+    fis = client.get(f"{LIBRARY}/even/export", params={"format": "fis"})
+    csv = client.get(f"{LIBRARY}/even/export", params={"format": "csv"}).text
+    json_file = client.get(f"{LIBRARY}/even/export").json()
+    before = kept_in(client)
+    read_again = client.post(f"{LIBRARY}/fis", json={"text": fis.text, "name": "from MATLAB"})
+    spoilt = fis.text.replace("1 1, 1 (1) : 1", "1 1, 1 (1) : 2")
+    refused = client.post(f"{LIBRARY}/fis", json={"text": spoilt})
+    none = client.get(f"{LIBRARY}/even/export", params={"format": "fis", "table": "second"})
+
+    assert 'filename="even.fis"' in fis.headers["content-disposition"]
+    assert read(json_file) == read(saved("even"))
+    rules = saved("even")["parameters"]["fuzzy_rules"]["value"]
+    assert [line.split(",")[1:] for line in csv.splitlines()[1:6]] == rules
+    assert kept_in(client) == before
+    answer = read_again.json()
+    assert answer["deviation"]["gain"] < 1e-6
+    for name, entry in answer["document"]["parameters"].items():
+        assert entry["value"] == saved("even")["parameters"][name]["value"]
+    assert client.post(LIBRARY, json=answer["document"]).json()["name"] == "from MATLAB"
+    line = fis.text.splitlines().index("1 1, 1 (1) : 1") + 1
+    assert (refused.status_code, refused.json()["code"]) == (422, "bad_fis")
+    assert refused.json()["errors"][0]["field"] == f"line {line}"
+    assert (none.status_code, none.json()["code"]) == (409, "no_table")
