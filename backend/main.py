@@ -38,6 +38,7 @@ from backend.services.rides.replay import RideReplay
 from backend.services.rides.review import Rides
 from backend.services.rides.use_of_table import UseOfTable
 from backend.services.rides.why_ride import WhyRide
+from backend.services.tuning.compare import Compare
 from backend.services.tuning.library import Library
 from backend.services.tuning.preview import Preview
 from backend.services.tuning.try_live import LiveTuning
@@ -108,6 +109,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
         for url in settings.device:
             in_background(url, partial(devices.add, url))
         preview = Preview()
+        library = Library(store.library)
         yield Services(
             health=Health(
                 __version__, devices, recorder, store.watch, store.database.ask, store.soundness
@@ -119,7 +121,8 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             tuning=tuning,
             live=LiveTuning(devices),
             preview=preview,
-            library=Library(store.library),
+            library=library,
+            compare=Compare(library, tuning),
             rides=Rides(store, RideReplay(preview, memory.ride_config), devices.unit_at),
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
             why_steady=WhySteady(devices.writable),

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from backend.services.rides.review import Rides
     from backend.services.rides.use_of_table import UseOfTable
     from backend.services.rides.why_ride import WhyRide
+    from backend.services.tuning.compare import Compare
     from backend.services.tuning.library import Library
     from backend.services.tuning.preview import Preview
     from backend.services.tuning.try_live import LiveTuning
@@ -39,6 +40,7 @@ class Services:
     live: LiveTuning
     preview: Preview
     library: Library
+    compare: Compare
     rides: Rides
     use_of_table: UseOfTable
     why_steady: WhySteady

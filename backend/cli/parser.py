@@ -7,7 +7,17 @@ from pathlib import Path
 from typing import Any
 
 from backend import __version__
-from backend.cli import device, device_live, device_log, law, ride, serve, store, unlock
+from backend.cli import (
+    device,
+    device_live,
+    device_log,
+    law,
+    library,
+    ride,
+    serve,
+    store,
+    unlock,
+)
 
 AUTHOR = "whose changes these are; default: the server's setting, else its system's user"
 
@@ -26,6 +36,7 @@ def build_parser() -> argparse.ArgumentParser:
     verbs.add_parser("sim", help="a simulated unit on its own", add_help=False)
     verbs.add_parser("scenario", help="list or run scenarios in virtual time", add_help=False)
     _add_device(verbs)
+    _add_library(verbs)
     _add_ride(verbs)
     _add_store(verbs)
     _add_law(verbs)
@@ -124,6 +135,45 @@ def _add_device(verbs: Any) -> None:
     command = _asking(group, "erase", device_log.erase, help="free a fetched log in the unit")
     command.add_argument("log", type=int, help="its number in `device logs`")
     command.add_argument("unit", nargs="?", help=unit)
+
+
+def _add_library(verbs: Any) -> None:
+    words = "tables and configurations: list, show, add, import, remove, export, compare"
+    group = _group(verbs, "library", words)
+    entry = "id or name; @N for version N"
+    command = _asking(group, "list", library.list_entries, help="what there is under a name")
+    command.add_argument("--deleted", action="store_true", help="deleted ones, too")
+    _asking(group, "show", library.show, help="one of them").add_argument("entry", help=entry)
+    command = _asking(group, "add", library.add, help="keep a document, or what a unit has")
+    command.add_argument("file", nargs="?", type=Path, help="of `export` or `device backup`")
+    command.add_argument("--unit", nargs="?", const="", help="of this unit, or the only one")
+    _add_keeping(command)
+    command = _asking(group, "import", library.import_fis, help="keep the table of a .fis file")
+    command.add_argument("file", type=Path, help="of MATLAB's Fuzzy Logic Toolbox")
+    _add_keeping(command)
+    command = _asking(group, "remove", library.remove, help="take an own one out")
+    command.add_argument("entry", help=entry)
+    command = _asking(group, "export", library.export, help="as a file")
+    command.add_argument("entry", help=entry)
+    command.add_argument("--format", choices=["json", "fis", "csv"], default="json")
+    _add_which(command)
+    command.add_argument("--output", "-o", type=Path, help="a file; standard output if absent")
+    command = _asking(group, "compare", library.compare, help="two side by side")
+    for end in ("left", "right"):
+        command.add_argument(end, help=f"{entry}; a unit, or `unit`; @N for its revision N")
+    _add_which(command)
+    command.add_argument("--feel", action="store_true", help="ride both on the simulated bike")
+
+
+def _add_keeping(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--name", help="the document's own if absent")
+    command.add_argument("--comment", help="the document's own if absent")
+    command.add_argument("--replace", metavar="ENTRY", help="in place of this one, deleted or not")
+
+
+def _add_which(command: argparse.ArgumentParser) -> None:
+    words = "which table of a configuration"
+    command.add_argument("--table", choices=["first", "second"], default="first", help=words)
 
 
 def _add_ride(verbs: Any) -> None:

@@ -8,8 +8,8 @@ from typing import Any, Literal
 from pydantic import Field
 
 from backend.api.models.base import Answer, Question
-from backend.api.models.config import ParameterValue
-from backend.api.models.law import FuzzyTable
+from backend.api.models.config import Change, ParameterValue
+from backend.api.models.law import FuzzyTable, Label, Table
 
 PARAMETERS_MAX = 400
 
@@ -109,3 +109,88 @@ class ReadFis(Answer):
     document: LibraryEntry
     fuzzy_table: FuzzyTable
     deviation: Deviation
+
+
+class Side(Question):
+    """What is compared: just one of `library`, `device` and `fuzzy_table`."""
+
+    library: str | None = Field(default=None, max_length=80, description="Id of an entry.")
+    version: int | None = Field(default=None, ge=1, le=2**31 - 1, description="Of an own item.")
+    device: str | None = Field(default=None, max_length=200, description="What this unit has.")
+    revision: int | None = Field(
+        default=None, ge=1, le=2**31 - 1, description="Of the device; what it has now if absent."
+    )
+    fuzzy_table: FuzzyTable | None = Field(default=None, description="A draft.")
+    table: Table = Field(default="first", description="Of a configuration.")
+
+
+class CompareRequest(Question):
+    left: Side
+    right: Side
+    feel: bool = Field(
+        default=False,
+        description="Measure both on the simulated bike; a fraction of a second each.",
+    )
+
+
+class Feel(Answer):
+    """Measured on the simulated bike, 100 kg on the level; null where it never came to that."""
+
+    start_s: float | None = Field(description="From rest to 15 km/h under legs.")
+    rise_nm_per_s: float = Field(description="Steepest rise of the motor's torque on the way.")
+    ripple_pct: float | None = Field(
+        description="Rms of the motor's torque about its mean over half a turn of the crank, as a "
+        "share of it, under even legs."
+    )
+    lag_ms: float | None = Field(description="To 63 % of what a sudden push changes.")
+    toggles_hz: float = Field(description="On and off a second under legs that hold 25 km/h.")
+    market: str = Field(description="That the simulated unit was made for.")
+    seconds: float = Field(description="What measuring took.")
+
+
+class LookedAt(Answer):
+    name: str
+    kind: Literal["table", "configuration"]
+    fuzzy_table: FuzzyTable | None = Field(
+        description="Null for a partial configuration that has none."
+    )
+    feel: Feel | None
+    not_felt: str | None = Field(description="Why nothing could be measured.")
+
+
+class CellChange(Answer):
+    row: int = Field(description="Of the speed, from 0.")
+    column: int = Field(description="Of the torque rate, from 0.")
+    left: Label
+    right: Label
+
+
+class LargestDifference(Answer):
+    gain: float = Field(description="Right less left.")
+    speed_kmh: float
+    torque_rate: float
+    left: float
+    right: float
+
+
+class TableComparison(Answer):
+    cells: list[CellChange]
+    points_changed: list[Literal["speed_points_kmh", "torque_rate_points", "gain_points"]]
+    inference_changed: bool
+    speeds_kmh: list[float]
+    torque_rates: list[float]
+    left: list[list[float]] = Field(description="Gain, `[speed][torque rate]`.")
+    right: list[list[float]]
+    largest: LargestDifference = Field(
+        description="Looked for over a finer grid and at every point of both."
+    )
+
+
+class Comparison(Answer):
+    left: LookedAt
+    right: LookedAt
+    parameters: list[Change] = Field(
+        description="What differs; of a table beside a configuration what the table has. Null "
+        "where a side says nothing of it."
+    )
+    tables: TableComparison | None = Field(description="Null where a side has no table.")

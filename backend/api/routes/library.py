@@ -9,6 +9,8 @@ from fastapi import APIRouter, Header, Path, Query, Response
 from backend.api.author import Author
 from backend.api.models.law import Table
 from backend.api.models.library import (
+    CompareRequest,
+    Comparison,
     FisText,
     LibraryDocument,
     LibraryEntry,
@@ -18,6 +20,7 @@ from backend.api.models.library import (
 )
 from backend.api.problem import refusals
 from backend.api.services import Provided
+from backend.services.tuning.compare import Side
 from backend.services.tuning.library_files import library_file, read_fis_file
 
 router = APIRouter(prefix="/library", tags=["library"], responses=refusals())
@@ -54,6 +57,22 @@ def add_library_item(
     row = services.library.add(body.model_dump(exclude_unset=True), author)
     response.headers["location"] = f"/api/v1/library/{row.id}"
     return _stamped(row, response)
+
+
+@router.post(
+    "/compare",
+    operation_id="compare",
+    response_model=Comparison,
+    responses=refusals(404, 409, 503, 504),
+)
+def compare(body: CompareRequest, services: Provided) -> Any:
+    """Any two side by side: presets, own items, what a unit has or had, a draft. Changes nothing.
+
+    The cells and parameters that differ, the surfaces with their largest difference and its place,
+    and how both feel.
+    """
+    left, right = (Side(**side.model_dump()) for side in (body.left, body.right))
+    return services.compare.compare(left, right, body.feel)
 
 
 @router.post("/fis", operation_id="read_fis", response_model=ReadFis)

@@ -695,6 +695,29 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/library/compare": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Compare
+         * @description Any two side by side: presets, own items, what a unit has or had, a draft. Changes nothing.
+         *
+         *     The cells and parameters that differ, the surfaces with their largest difference and its place,
+         *     and how both feel.
+         */
+        post: operations["compare"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/library/fis": {
         parameters: {
             query?: never;
@@ -1206,6 +1229,29 @@ export interface components {
          * @enum {string}
          */
         Capability: "read_config" | "write_config" | "unit_trial" | "stream" | "rider_torque" | "calibrate" | "live_set" | "logs" | "unlock" | "unit_limits" | "unique_id" | "restart_to_apply" | "fuzzy_table" | "assist_modes" | "limits" | "simulation";
+        /** CellChange */
+        CellChange: {
+            /**
+             * Row
+             * @description Of the speed, from 0.
+             */
+            row: number;
+            /**
+             * Column
+             * @description Of the torque rate, from 0.
+             */
+            column: number;
+            /**
+             * Left
+             * @enum {string}
+             */
+            left: "NB" | "NS" | "ZO" | "PS" | "PB";
+            /**
+             * Right
+             * @enum {string}
+             */
+            right: "NB" | "NS" | "ZO" | "PS" | "PB";
+        };
         /** Change */
         Change: {
             /** Name */
@@ -1215,6 +1261,17 @@ export interface components {
             /** New */
             new: number | string | (number | string)[] | (number | string)[][] | null;
         };
+        /** CompareRequest */
+        CompareRequest: {
+            left: components["schemas"]["Side"];
+            right: components["schemas"]["Side"];
+            /**
+             * Feel
+             * @description Measure both on the simulated bike; a fraction of a second each.
+             * @default false
+             */
+            feel: boolean;
+        };
         /** Compared */
         Compared: {
             /** Recorded */
@@ -1223,6 +1280,18 @@ export interface components {
             replayed: number;
             /** Difference */
             difference: number | null;
+        };
+        /** Comparison */
+        Comparison: {
+            left: components["schemas"]["LookedAt"];
+            right: components["schemas"]["LookedAt"];
+            /**
+             * Parameters
+             * @description What differs; of a table beside a configuration what the table has. Null where a side says nothing of it.
+             */
+            parameters: components["schemas"]["Change"][];
+            /** @description Null where a side has no table. */
+            tables: components["schemas"]["TableComparison"] | null;
         };
         /** Config */
         Config: {
@@ -1614,6 +1683,47 @@ export interface components {
             next: string | null;
         };
         /**
+         * Feel
+         * @description Measured on the simulated bike, 100 kg on the level; null where it never came to that.
+         */
+        Feel: {
+            /**
+             * Start S
+             * @description From rest to 15 km/h under legs.
+             */
+            start_s: number | null;
+            /**
+             * Rise Nm Per S
+             * @description Steepest rise of the motor's torque on the way.
+             */
+            rise_nm_per_s: number;
+            /**
+             * Ripple Pct
+             * @description Rms of the motor's torque about its mean over half a turn of the crank, as a share of it, under even legs.
+             */
+            ripple_pct: number | null;
+            /**
+             * Lag Ms
+             * @description To 63 % of what a sudden push changes.
+             */
+            lag_ms: number | null;
+            /**
+             * Toggles Hz
+             * @description On and off a second under legs that hold 25 km/h.
+             */
+            toggles_hz: number;
+            /**
+             * Market
+             * @description That the simulated unit was made for.
+             */
+            market: string;
+            /**
+             * Seconds
+             * @description What measuring took.
+             */
+            seconds: number;
+        };
+        /**
          * Figure
          * @description A Plotly figure, for `Plotly.newPlot`.
          */
@@ -1813,6 +1923,22 @@ export interface components {
              * @description Why the unit started: `power_on`, `brown_out`, `watchdog`, `fault_handler`, `deadline` or `software`; null where its firmware cannot tell.
              */
             reset_cause: string | null;
+        };
+        /** LargestDifference */
+        LargestDifference: {
+            /**
+             * Gain
+             * @description Right less left.
+             */
+            gain: number;
+            /** Speed Kmh */
+            speed_kmh: number;
+            /** Torque Rate */
+            torque_rate: number;
+            /** Left */
+            left: number;
+            /** Right */
+            right: number;
         };
         /**
          * LibraryDocument
@@ -2097,6 +2223,24 @@ export interface components {
              * @description Whether the unit knows that the log is safe.
              */
             confirmed: boolean;
+        };
+        /** LookedAt */
+        LookedAt: {
+            /** Name */
+            name: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "table" | "configuration";
+            /** @description Null for a partial configuration that has none. */
+            fuzzy_table: components["schemas"]["FuzzyTable"] | null;
+            feel: components["schemas"]["Feel"] | null;
+            /**
+             * Not Felt
+             * @description Why nothing could be measured.
+             */
+            not_felt: string | null;
         };
         /**
          * Parameter
@@ -2644,6 +2788,41 @@ export interface components {
             max: (number | null)[];
         };
         /**
+         * Side
+         * @description What is compared: just one of `library`, `device` and `fuzzy_table`.
+         */
+        Side: {
+            /**
+             * Library
+             * @description Id of an entry.
+             */
+            library?: string | null;
+            /**
+             * Version
+             * @description Of an own item.
+             */
+            version?: number | null;
+            /**
+             * Device
+             * @description What this unit has.
+             */
+            device?: string | null;
+            /**
+             * Revision
+             * @description Of the device; what it has now if absent.
+             */
+            revision?: number | null;
+            /** @description A draft. */
+            fuzzy_table?: components["schemas"]["FuzzyTable"] | null;
+            /**
+             * Table
+             * @description Of a configuration.
+             * @default first
+             * @enum {string}
+             */
+            table: "first" | "second";
+        };
+        /**
          * Simulation
          * @description What rider, road and clock of a simulated unit do now. A unit may tell more than this.
          */
@@ -2887,6 +3066,28 @@ export interface components {
             speeds_kmh: number[];
             /** Torque Rates */
             torque_rates: number[];
+        };
+        /** TableComparison */
+        TableComparison: {
+            /** Cells */
+            cells: components["schemas"]["CellChange"][];
+            /** Points Changed */
+            points_changed: ("speed_points_kmh" | "torque_rate_points" | "gain_points")[];
+            /** Inference Changed */
+            inference_changed: boolean;
+            /** Speeds Kmh */
+            speeds_kmh: number[];
+            /** Torque Rates */
+            torque_rates: number[];
+            /**
+             * Left
+             * @description Gain, `[speed][torque rate]`.
+             */
+            left: number[][];
+            /** Right */
+            right: number[][];
+            /** @description Looked for over a finer grid and at every point of both. */
+            largest: components["schemas"]["LargestDifference"];
         };
         /**
          * TableUse
@@ -6662,6 +6863,84 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    compare: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CompareRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Comparison"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -12,20 +12,26 @@ import math
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from importlib.resources import files
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
 from urllib.parse import quote
 
+import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
 from backend.api.app import ApiSettings, create_app
 from backend.api.services import Services
+from backend.domain.fuzzy_table import FuzzyTable
+from backend.services.tuning.compare import Compare
 from backend.services.tuning.library import Library, preset_etag
+from backend.services.tuning.tune import Tuning
 from backend.store import open_store
 from firmware_protocol.configuration_file import read
 
 LIBRARY = "/api/v1/library"
+ROOT = Path(__file__).resolve().parents[3]
 CHANGES = 8
 
 Document = dict[str, Any]
@@ -35,7 +41,9 @@ Document = dict[str, Any]
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     tmp_path = tmp_path_factory.mktemp("library")
     with open_store(f"sqlite:///{tmp_path}/spindle.db", f"file://{tmp_path}/objects") as store:
-        services = cast(Services, SimpleNamespace(library=Library(store.library)))
+        library = Library(store.library)
+        compare = Compare(library, cast(Tuning, None))
+        services = cast(Services, SimpleNamespace(library=library, compare=compare))
         app = create_app(ApiSettings("test", author="workshop"), services)
         yield TestClient(app, base_url="http://127.0.0.1")
 
@@ -284,3 +292,87 @@ def test_a_table_goes_out_to_other_programs_and_comes_back(client: TestClient) -
     assert (refused.status_code, refused.json()["code"]) == (422, "bad_fis")
     assert refused.json()["errors"][0]["field"] == f"line {line}"
     assert (none.status_code, none.json()["code"]) == (409, "no_table")
+
+
+def test_two_tables_differ_where_they_were_made_to_differ(client: TestClient) -> None:
+    even = FuzzyTable.from_parameters(
+        {name: entry["value"] for name, entry in saved("even")["parameters"].items()}
+    )
+    rules = [list(row) for row in even.rules]
+    assert rules[1][3] == "PS"
+    rules[1][3] = "NB"
+    draft = even.to_json() | {"rules": rules}
+
+    answer = client.post(
+        f"{LIBRARY}/compare", json={"left": {"library": "even"}, "right": {"fuzzy_table": draft}}
+    ).json()
+
+    assert [change["name"] for change in answer["parameters"]] == ["fuzzy_rules"]
+    tables = answer["tables"]
+    assert tables["cells"] == [{"row": 1, "column": 3, "left": "PS", "right": "NB"}]
+    assert (tables["points_changed"], tables["inference_changed"]) == ([], False)
+    # A weighted average is bilinear: it differs most at the changed node, by the two labels' gains.
+    assert tables["largest"] == {
+        "gain": pytest.approx(0.0 - 0.375),
+        "speed_kmh": 10.0,
+        "torque_rate": pytest.approx(0.3),
+        "left": pytest.approx(0.375),
+        "right": pytest.approx(0.0),
+    }
+    assert np.shape(tables["left"]) == (len(tables["speeds_kmh"]), len(tables["torque_rates"]))
+    assert answer["left"]["feel"] is None
+
+
+@pytest.mark.slow
+def test_how_two_feel_is_what_the_page_of_tables_says(client: TestClient) -> None:
+    sides = {"left": {"library": "strong-start"}, "right": {"library": "even"}}
+    answer = client.post(f"{LIBRARY}/compare", json=sides | {"feel": True}).json()
+    page = (ROOT / "docs" / "tables.md").read_text(encoding="utf-8")
+
+    felt = [answer[end]["feel"] for end in ("left", "right")]
+    for name, feel in zip(("strong-start", "even"), felt, strict=True):
+        row = next(
+            line
+            for line in page.splitlines()
+            if line.startswith(f"| `{name}` |") and " s |" in line
+        )
+        start_s, toggles_hz = row.split("|")[3], row.split("|")[4]
+        assert feel["start_s"] == pytest.approx(float(start_s.removesuffix(" s ")), abs=0.051)
+        assert feel["toggles_hz"] == pytest.approx(float(toggles_hz), abs=0.051)
+        assert feel["market"] == "eu_epac"
+        # The factory's filter of 0.5 s passes 63 % of a sudden push in that time.
+        assert 250.0 < feel["lag_ms"] < 600.0
+        assert 0.0 < feel["ripple_pct"] < 30.0
+
+
+@pytest.mark.parametrize(
+    ("side", "status"),
+    [
+        ({}, 422),
+        ({"library": "even", "device": "unit"}, 422),
+        ({"library": "nobody"}, 404),
+        ({"library": "even", "version": 2}, 404),
+    ],
+)
+def test_a_side_is_just_one_thing_that_is_there(
+    client: TestClient, side: Document, status: int
+) -> None:
+    asked = {"left": {"library": "even"}, "right": side}
+
+    assert client.post(f"{LIBRARY}/compare", json=asked).status_code == status
+
+
+def test_a_configuration_no_unit_takes_together_is_compared_but_not_felt(
+    client: TestClient,
+) -> None:
+    parts = {"parameters": {"fixed_taper_start_kmh": {"value": 24.5, "unit": "km/h"}}}
+    row = client.post(LIBRARY, json=own("part", "thesis") | parts).json()
+
+    asked = {"left": {"library": row["id"]}, "right": {"library": "thesis"}, "feel": True}
+    answer = client.post(f"{LIBRARY}/compare", json=asked).json()
+
+    assert answer["left"]["feel"] is None
+    assert "No simulated unit takes these values" in answer["left"]["not_felt"]
+    assert (answer["tables"], answer["left"]["fuzzy_table"]) == (None, None)
+    taper = next(each for each in answer["parameters"] if each["name"] == "fixed_taper_start_kmh")
+    assert (taper["old"], taper["new"]) == (24.5, 15.0)

@@ -1,0 +1,148 @@
+"""Any two tables or configurations side by side: presets, own items, a unit's, a revision, a draft.
+
+Reads only; a unit that is compared is asked for its configuration and not changed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from backend.control.comparison import TableComparison, compare_tables
+from backend.control.feel import Feel, feel_of
+from backend.domain.fuzzy_table import PARAMETERS_OF, FuzzyTable
+from backend.errors import Conflict, FieldError, InvalidRequest, NotFound
+from backend.services.tuning.library import Library
+from backend.services.tuning.tune import Tuning
+
+
+@dataclass(frozen=True)
+class Side:
+    """What is compared: exactly one of `library` (its id), `device` and `fuzzy_table`.
+
+    version: of an own item; revision: of the device, its newest configuration if None. table:
+    `first` or `second` of a configuration.
+    """
+
+    library: str | None = None
+    version: int | None = None
+    device: str | None = None
+    revision: int | None = None
+    fuzzy_table: Mapping[str, Any] | None = None
+    table: str = "first"
+
+
+@dataclass(frozen=True)
+class Looked:
+    """A side as it was found. values: parameters by registry name. table: None where a partial
+    configuration has none. feel: None where it was not asked for or cannot be measured, with the
+    reason in `not_felt`."""
+
+    name: str
+    kind: str
+    values: dict[str, Any]
+    table: FuzzyTable | None
+    feel: Feel | None
+    not_felt: str | None
+
+    @property
+    def fuzzy_table(self) -> dict[str, Any] | None:
+        """The table as the API tells it."""
+        return None if self.table is None else self.table.to_json()
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A parameter that differs; None where a side says nothing of it."""
+
+    name: str
+    old: Any
+    new: Any
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """parameters: what differs, right against left; of a table beside a configuration only what the
+    table has. tables: None where a side has none."""
+
+    left: Looked
+    right: Looked
+    parameters: tuple[Difference, ...]
+    tables: TableComparison | None
+
+
+class Compare:
+    """Compares; from any thread."""
+
+    def __init__(self, library: Library, tuning: Tuning) -> None:
+        self._library = library
+        self._tuning = tuning
+
+    def compare(self, left: Side, right: Side, feel: bool = False) -> Comparison:
+        """Two sides. feel: measure both on the simulated bike, a fraction of a second each.
+
+        Raises NotFound, InvalidRequest, and what reading a unit raises.
+        """
+        one, other = self._looked(left, "left", feel), self._looked(right, "right", feel)
+        old, new = one.values, other.values
+        if "table" in (one.kind, other.kind):
+            old, new = own_names(one, left), own_names(other, right)
+        names = [*old, *(name for name in new if name not in old)]
+        changed = tuple(
+            Difference(name, old.get(name), new.get(name))
+            for name in names
+            if old.get(name) != new.get(name)
+        )
+        tables = None
+        if one.table is not None and other.table is not None:
+            tables = compare_tables(one.table, other.table)
+        return Comparison(one, other, changed, tables)
+
+    def _looked(self, side: Side, where: str, feel: bool) -> Looked:
+        name, kind, values = self._values(side, where)
+        which = "first" if kind == "table" else side.table
+        names = PARAMETERS_OF[which].values()
+        has_table = all(parameter in values for parameter in names)
+        table = FuzzyTable.from_parameters(values, which) if has_table else None
+        felt, not_felt = None, None
+        if feel:
+            # A table is ridden as the first one, whichever of a configuration's it is.
+            is_first = kind == "configuration" and which == "first"
+            ridden = values if is_first or table is None else table.to_parameters()
+            try:
+                felt = feel_of(ridden)
+            except Conflict as error:
+                not_felt = error.message
+        return Looked(name, kind, values, table, felt, not_felt)
+
+    def _values(self, side: Side, where: str) -> tuple[str, str, dict[str, Any]]:
+        """Name, kind and values of a side. Raises InvalidRequest unless it says just one thing."""
+        chosen = [
+            value for value in (side.library, side.device, side.fuzzy_table) if value is not None
+        ]
+        if len(chosen) != 1:
+            message = f"{where} must be just one of library, device and fuzzy_table."
+            raise InvalidRequest(message, fields=[FieldError(where, "not_one", message)])
+        if side.library is not None:
+            document = self._library.entry(side.library, side.version).document
+            values = {name: entry["value"] for name, entry in document["parameters"].items()}
+            return document["name"], document["format"].removeprefix("spindle-"), values
+        if side.fuzzy_table is not None:
+            table = FuzzyTable.from_json(side.fuzzy_table)
+            return table.name, "table", table.to_parameters()
+        assert side.device is not None
+        if side.revision is None:
+            values = dict(self._tuning.read_config(side.device).parameters)
+            return side.device, "configuration", values
+        for revision in self._tuning.revisions(side.device):
+            if revision.seq == side.revision:
+                return f"{side.device} {revision.seq}", "configuration", dict(revision.parameters)
+        raise NotFound(f"{side.device} has no revision {side.revision}.")
+
+
+def own_names(looked: Looked, side: Side) -> dict[str, Any]:
+    """The table of a side under the names of a first one, so that two can be compared."""
+    if looked.table is None:
+        return {name: looked.values.get(name) for name in PARAMETERS_OF[side.table].values()}
+    return looked.table.to_parameters()
