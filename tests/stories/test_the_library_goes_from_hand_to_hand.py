@@ -66,7 +66,6 @@ def test_a_dealer_keeps_compares_and_hands_on(
     gone = spindle("library", "remove", "mine", "--json")
     unseen = spindle("library", "list")
     back = spindle(
-        server,
         "library",
         "add",
         document,
