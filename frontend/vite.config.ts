@@ -15,6 +15,7 @@ const MOST = [
 ]
 const GROUPS = [
   { name: 'unit', test: new RegExp(`src/shared/(${MOST.join('|')})`) },
+  { name: 'traces', test: /src\/shared\/charts\/(Traces|trace_line|trace_window|ride_view)/ },
   { name: 'rides', test: /src\/features\/(rides|try)/ },
   { name: 'settings', test: /src\/features\/(service|settings)/ },
   { name: 'tune', test: /src\/(features\/tune|shared\/config)/ },

@@ -1,5 +1,5 @@
 """Goal: a tuner sees what other tables would have made of a ride he knows, and is told what the
-answer is worth.
+answer is worth; and why the motor gave what it gave at a moment of it.
 
 Method: a simulated unit rides for half a minute of its time, five times as fast as real, and its
 ride records itself. Rules that say the largest gain everywhere must give more work for every
@@ -204,3 +204,39 @@ def test_the_page_works_for_everyone(
     assert page.evaluate(JUDGE) == []
     assert re.findall(r"\b[a-z]+\.[a-z_]+\b", page.inner_text("main")) == []
     desk.picture(f"try-{width}-{theme}", full=True)
+
+
+def shown_nm(page: Page, row: str) -> float:
+    """What a row of the waterfall says at its end."""
+    cell = page.locator(f"[data-testid=waterfall] tr.{row} td.number")
+    return float(cell.inner_text().split()[0].replace("\u2212", "-"))
+
+
+def test_a_moment_says_who_took_what_and_the_next_cut_is_a_key_away(
+    tuner: Desk, workshop: SpindleServer, ride: int, axe: str
+) -> None:
+    cuts = workshop.get(f"/rides/{ride}/cuts")["items"]
+    page = tuner.open(f"/rides/{ride}")
+    page.get_by_role("link", name="Why").click()
+    page.wait_for_selector("[data-testid=waterfall]")
+
+    # It opens at the first cut, which the law asked for more than arrived.
+    page.wait_for_function(f"() => location.search.includes('t_s={cuts[0]['at_s']:.2f}')")
+    expect(page.get_by_test_id("why-sentence")).to_contain_text(" took ")
+    expect(page.get_by_test_id("why-bar")).to_contain_text(f"cut 1 of {len(cuts)}")
+    why = workshop.get(f"/rides/{ride}/why", params={"t_s": cuts[0]["at_s"]})
+    assert shown_nm(page, "delivered") == pytest.approx(why["delivered_nm"], abs=0.06)
+    expect(page.locator("[data-testid=fired-rules] tbody tr")).to_have_count(len(why["rules"]))
+
+    page.keyboard.press("Shift+ArrowRight")
+    page.wait_for_function(f"() => location.search.includes('t_s={cuts[0]['at_s'] + 1:.2f}')")
+    page.keyboard.press("n")
+    page.wait_for_function(f"() => location.search.includes('t_s={cuts[1]['at_s']:.2f}')")
+    page.wait_for_selector("[data-testid=traces][data-draws]")
+    assert page.get_by_test_id("cursor").is_visible()
+    page.evaluate(axe)
+    assert page.evaluate(JUDGE) == []
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert sideways(page) == 0
+    page.get_by_role("button", name="What if").click()
+    answered(page)

@@ -151,6 +151,7 @@ class Cut(Answer):
 
     from_s: float
     to_s: float
+    at_s: float = Field(description="Near its middle, where a limit is at work.")
     limits: list[str]
 
 

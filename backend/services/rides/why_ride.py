@@ -115,7 +115,10 @@ def warm_up_row(ride: Ride, row: int) -> int:
 
 
 def cuts_of(flags: np.ndarray[Any, np.dtype[np.uint16]], step_s: float) -> list[dict[str, Any]]:
-    """`{from_s, to_s, limits}` of each stretch of flags (n,) that holds back; at most CUTS_MAX."""
+    """`{from_s, to_s, at_s, limits}` of each stretch of flags (n,) that holds back.
+
+    At most CUTS_MAX. at_s: a moment near its middle in which a limit is at work.
+    """
     held = np.flatnonzero(flags & sum(control.LIMITS[name] for name in HELD_BY))
     if not len(held):
         return []
@@ -124,11 +127,13 @@ def cuts_of(flags: np.ndarray[Any, np.dtype[np.uint16]], step_s: float) -> list[
     long_enough = (lasts - firsts + 1) * step_s >= CUT_S_MIN
     found = []
     for first, last in zip(firsts[long_enough], lasts[long_enough], strict=True):
+        middle = held[np.searchsorted(held, (first + last) // 2)]
         all_of = int(np.bitwise_or.reduce(flags[first : last + 1]))
         found.append(
             {
                 "from_s": float(first * step_s),
                 "to_s": float((last + 1) * step_s),
+                "at_s": float(middle * step_s),
                 "limits": [name for name in HELD_BY if control.LIMITS[name] & all_of],
             }
         )

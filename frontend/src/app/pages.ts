@@ -12,6 +12,7 @@ export const loaders: Record<PageName, Loader> = {
   live: screen(() => import('../features/live/LivePage.svelte')),
   tune: screen(() => import('../features/tune/TunePage.svelte')),
   try: screen(() => import('../features/try/TryPage.svelte')),
+  why: screen(() => import('../features/why/WhyPage.svelte')),
   rides: screen(() => import('../features/rides/RidesPage.svelte')),
   ride: screen(() => import('../features/rides/RidePage.svelte')),
   sensor: screen(() => import('../features/calibrate/SensorPage.svelte')),

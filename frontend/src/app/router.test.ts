@@ -10,6 +10,7 @@ it.each([
   ['/rides/12/more', { page: 'unknown', id: '' }],
   ['/tune', { page: 'tune', id: '' }],
   ['/tune/try', { page: 'try', id: '' }],
+  ['/tune/why', { page: 'why', id: '' }],
   ['/tune/tune', { page: 'unknown', id: '' }],
   ['/tune/other', { page: 'unknown', id: '' }],
   ['/nonsense', { page: 'unknown', id: '' }],

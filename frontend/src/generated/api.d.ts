@@ -1415,6 +1415,11 @@ export interface components {
             from_s: number;
             /** To S */
             to_s: number;
+            /**
+             * At S
+             * @description Near its middle, where a limit is at work.
+             */
+            at_s: number;
             /** Limits */
             limits: string[];
         };

@@ -155,8 +155,8 @@ def test_a_cut_outlives_the_holes_of_a_stroke(store: Store) -> None:
     found = cuts_of(flags, 0.01)
 
     assert found == [
-        {"from_s": 1.0, "to_s": 2.5, "limits": ["motor_torque", "battery_current"]},
-        {"from_s": 8.0, "to_s": 9.0, "limits": ["market"]},
+        {"from_s": 1.0, "to_s": 2.5, "at_s": 2.0, "limits": ["motor_torque", "battery_current"]},
+        {"from_s": 8.0, "to_s": 9.0, "at_s": 8.49, "limits": ["market"]},
     ]
     assert WhyRide(store, config_of).cuts(kept(store)) == []
 

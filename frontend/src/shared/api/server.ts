@@ -4,6 +4,7 @@ import { readSeries, type Series } from './series'
 import type {
   Config,
   ConfigChange,
+  Cut,
   Dashboard,
   Device,
   Fault,
@@ -29,6 +30,8 @@ import type {
   TableUse,
   TableUseRequest,
   UnitLogs,
+  Why,
+  WhyRequest,
 } from './types'
 
 export class Server {
@@ -213,6 +216,30 @@ export class Server {
   replay(id: number, question: ReplayRequest, signal: AbortSignal): Promise<Replay> {
     const request = { ...this.rideAt(id), body: question, signal }
     return body(this.http.POST('/api/v1/rides/{ride_id}/replay', request))
+  }
+
+  /** Why the motor gave what it gave at a moment of a ride, by the unit's own law. */
+  whyOfRide(id: number, t_s: number, signal: AbortSignal): Promise<Why> {
+    const params = { ...this.rideAt(id).params, query: { t_s } }
+    return body(this.http.GET('/api/v1/rides/{ride_id}/why', { params, signal }))
+  }
+
+  /** The same for a steady state, with a unit's configuration or the law's defaults. */
+  whySteady(device_id: string | null, state: WhyRequest, signal: AbortSignal): Promise<Why> {
+    const request = { body: state, signal }
+    return device_id === null
+      ? body(this.http.POST('/api/v1/why', request))
+      : body(
+          this.http.POST('/api/v1/devices/{device_id}/why', {
+            ...request,
+            ...this.unit(device_id),
+          }),
+        )
+  }
+
+  /** Where limits held the motor back on a ride, in order of time. */
+  async cuts(id: number): Promise<Cut[]> {
+    return (await body(this.http.GET('/api/v1/rides/{ride_id}/cuts', this.rideAt(id)))).items
   }
 
   changeRide(id: number, change: { name?: string; notes?: string }): Promise<Ride> {

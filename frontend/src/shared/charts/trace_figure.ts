@@ -25,11 +25,14 @@ export interface Frame {
   gaps: Span[]
   filled: Span[]
   events: MarkedEvent[]
+  cuts: Span[]
   /** Size of the plot in pixels. */
   width: number
   height: number
 }
 
+/** Beside the plot, in pixels. */
+export const MARGIN_PX = { l: 44, r: 10 }
 const ROW_GAP_PX = 26 // room for a row's title
 const SWATCH = { thin: '▬', broad: '▬', dashed: '╍' }
 
@@ -122,7 +125,7 @@ export function traceLayout(
     height: frame.height,
     ...Object.fromEntries(rows),
     ...(head > 0 ? { [layoutName(count)]: markAxis(frame.height) } : {}),
-    margin: { l: 44, r: 10, t: 18, b: 26 },
+    margin: { ...MARGIN_PX, t: 18, b: 26 },
     dragmode: 'zoom',
     hovermode: 'closest',
     hoverdistance: 30,
@@ -138,6 +141,7 @@ export function traceLayout(
     shapes: [
       ...frame.gaps.map((span) => spanShape(span, theme.colour('line'), 0.35)),
       ...frame.filled.map((span) => spanShape(span, theme.colour('accent-soft'), 0.6)),
+      ...frame.cuts.map((span) => spanShape(span, theme.colour('warn'), 0.16)),
       ...markLines(frame.events, 1 - head, theme),
     ],
     annotations: [

@@ -27,6 +27,11 @@ export interface Span {
   to_s: number
 }
 
+export interface Cursor {
+  t_s: number
+  move: (t_s: number) => void
+}
+
 /** What is drawn of a ride. */
 export interface Traced {
   view: TraceWindow
@@ -35,6 +40,10 @@ export interface Traced {
   /** Stretches that came from the unit's own log, coarser than the rest. */
   filled?: Span[]
   events?: MarkedEvent[]
+  /** Stretches in which something held the motor back. */
+  cuts?: Span[]
+  /** A moment that is looked at: keys and a press on the plot move it. */
+  cursor?: Cursor
   summary: string
 }
 

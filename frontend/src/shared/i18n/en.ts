@@ -24,6 +24,7 @@ export const en = {
   'page.live': 'Live',
   'page.tune': 'Tune',
   'page.try': 'Try on a ride',
+  'page.why': 'Why',
   'page.rides': 'Rides',
   'page.ride': 'Ride',
   'page.sensor': 'Calibrate',
@@ -37,6 +38,8 @@ export const en = {
   'tab.tune_short': 'Table',
   'tab.try': 'Try on a ride',
   'tab.try_short': 'Try',
+  'tab.why': 'Why',
+  'tab.why_short': 'Why',
 
   'state.connecting': 'Connecting',
   'state.ready': 'Connected',

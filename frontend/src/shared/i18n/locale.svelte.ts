@@ -94,6 +94,7 @@ export function clock(seconds: number): string {
   return h > 0 ? `${h}:${String(m).padStart(2, '0')}:${tail}` : `${m}:${tail}`
 }
 
-function fill(words: string, values: Values = {}): string {
+/** Words with their `{name}` replaced by `values.name`. */
+export function fill(words: string, values: Values = {}): string {
   return words.replace(/\{(\w+)\}/g, (whole, name: string) => String(values[name] ?? whole))
 }

@@ -24,6 +24,7 @@ export const zh: Record<Key, string> = {
   'page.live': '实时',
   'page.tune': '调校',
   'page.try': '在骑行上试用',
+  'page.why': '为什么',
   'page.rides': '骑行',
   'page.ride': '骑行详情',
   'page.sensor': '标定',
@@ -37,6 +38,8 @@ export const zh: Record<Key, string> = {
   'tab.tune_short': '控制表',
   'tab.try': '用一次骑行试算',
   'tab.try_short': '试算',
+  'tab.why': '为什么',
+  'tab.why_short': '为什么',
 
   'state.connecting': '连接中',
   'state.ready': '已连接',

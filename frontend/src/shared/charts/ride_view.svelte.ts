@@ -1,8 +1,8 @@
 // The window of a ride on screen and the series that fills it: the newest window wins, and the old
 // curve stays until the new one is there.
-import { Refusal } from '$shared/api/client'
-import type { Server } from '$shared/api/server'
-import { TraceWindow, type TimeWindow } from '$shared/charts/trace_window.svelte'
+import { Refusal } from '../api/client'
+import type { Server } from '../api/server'
+import { TraceWindow, type TimeWindow } from './trace_window.svelte'
 
 const PACE_MS = 60 // a drag asks this often at most
 

@@ -1,0 +1,92 @@
+// A moment of a ride and why the motor gave what it gave then: the newest question wins, and the
+// old answer stays until the new one is there.
+import { Refusal } from '$shared/api/client'
+import type { Server } from '$shared/api/server'
+import type { Cut, Ride, Why } from '$shared/api/types'
+
+const PACE_MS = 60 // a cursor that is moved asks this often at most
+
+export class RideMoment {
+  ride = $state.raw<Ride | null>(null)
+  cuts = $state.raw<Cut[]>([])
+  t_s = $state(0)
+  why = $state.raw<Why | null>(null)
+  refused = $state.raw<Refusal | null>(null)
+  private asked = new AbortController()
+  private asked_ms = -Infinity
+  private timer: ReturnType<typeof setTimeout> | null = null
+
+  constructor(private readonly server: Server) {}
+
+  /** Opens a ride at a moment; without one where it was held back first, else in its middle. */
+  async open(ride_id: number | null, t_s: number | null): Promise<void> {
+    try {
+      const id = ride_id ?? (await this.latest())
+      if (id === null) return
+      const [ride, cuts] = await Promise.all([this.server.ride(id), this.server.cuts(id)])
+      this.ride = ride
+      this.cuts = cuts
+      this.move(t_s ?? cuts[0]?.at_s ?? this.end_s / 2)
+    } catch (error) {
+      if (!(error instanceof Refusal)) throw error
+      this.refused = error
+    }
+  }
+
+  get end_s(): number {
+    return this.ride?.summary?.duration_s ?? 0
+  }
+
+  /** The cut that the moment lies in; null where nothing held back. */
+  get cut(): Cut | null {
+    return this.cuts.find(({ from_s, to_s }) => from_s <= this.t_s && this.t_s < to_s) ?? null
+  }
+
+  readonly move = (t_s: number): void => {
+    this.t_s = Math.max(0, Math.min(t_s, this.end_s))
+    if (this.timer) clearTimeout(this.timer)
+    const wait_ms = this.asked_ms + PACE_MS - performance.now()
+    this.timer = setTimeout(() => void this.ask(), Math.max(0, wait_ms))
+  }
+
+  /** To the next cut, or of the one before. False where there is none. */
+  toCut(forwards: boolean): boolean {
+    const here = this.cut
+    const others = this.cuts.filter((cut) => cut !== here)
+    const found = forwards
+      ? others.find(({ from_s }) => from_s > this.t_s)
+      : others.findLast(({ to_s }) => to_s <= this.t_s)
+    if (found) this.move(found.at_s)
+    return found !== undefined
+  }
+
+  stop(): void {
+    if (this.timer) clearTimeout(this.timer)
+    this.asked.abort()
+  }
+
+  private async latest(): Promise<number | null> {
+    const { items } = await this.server.rides()
+    const told = items.filter(({ state, device }) => state === 'done' && device.config_crc32)
+    return (told[0] ?? items[0])?.id ?? null
+  }
+
+  private async ask(): Promise<void> {
+    if (!this.ride) return
+    this.asked_ms = performance.now()
+    this.asked.abort()
+    this.asked = new AbortController()
+    const { signal } = this.asked
+    try {
+      const why = await this.server.whyOfRide(this.ride.id, this.t_s, signal)
+      if (signal.aborted) return
+      this.why = why
+      this.refused = null
+    } catch (error) {
+      if (signal.aborted) return
+      if (!(error instanceof Refusal)) throw error
+      this.refused = error
+      this.why = null
+    }
+  }
+}
