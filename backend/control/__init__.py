@@ -4,22 +4,27 @@ from backend.control.finding import Finding, LintReport
 from backend.control.gain import ENGINE, points, surface
 from backend.control.lint_rules import lint
 from backend.control.market import Cutoff, cutoff_of
+from backend.control.mode_curves import CADENCE_RPM, HARD_PUSH_NM, ModeCurve, mode_curves
 from backend.control.ride_replay import Replay, limit_shares, raw_counts_of, replay
 from backend.control.why import Why, why, why_steady
 from sim_device.firmware.python.law import LIMITS, law_defaults
 
 __all__ = [
+    "CADENCE_RPM",
     "ENGINE",
+    "HARD_PUSH_NM",
     "LIMITS",
     "Cutoff",
     "Finding",
     "LintReport",
+    "ModeCurve",
     "Replay",
     "Why",
     "cutoff_of",
     "law_defaults",
     "limit_shares",
     "lint",
+    "mode_curves",
     "points",
     "raw_counts_of",
     "replay",

@@ -129,7 +129,7 @@ def test_the_last_control_of_a_page_is_reached_under_a_message(
 ) -> None:
     page = open_tune(open_desk(width=390, height=844))
     fail_to_paste(page)
-    last = page.locator("main summary").last
+    last = page.locator("main :is(input, select)").last
 
     last.focus()
 

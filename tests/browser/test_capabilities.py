@@ -66,8 +66,7 @@ def test_a_unit_without_trials_is_written_for_good_only(
     desk: Desk, server: SpindleServer, standing: str
 ) -> None:
     lacking(desk, server, "stream", "unit_trial", "logs")
-    page = desk.open("/tune")
-    page.get_by_text("Limits", exact=True).click()
+    page = desk.open("/tune/modes")
     page.get_by_label("Cut-off speed", exact=True).fill("24")
 
     page.get_by_role("button", name="Review").click()

@@ -90,8 +90,7 @@ def test_what_the_unit_refuses_is_named_and_the_edit_stays(
     desk: Desk, server: SpindleServer, standing: str
 ) -> None:
     before = server.get(f"/devices/{standing}/config")
-    page = open_tune(desk)
-    page.click("summary >> text=Assist modes")
+    page = desk.open("/tune/modes")
 
     # Each value is allowed; that the taper would end before it starts only the unit knows.
     page.fill("input[aria-label='Fixed law: taper starts at']", "24")
@@ -154,7 +153,7 @@ def test_edits_survive_a_look_at_another_page(desk: Desk, standing: str) -> None
     page.focus("[data-cell='2,2']")
     page.keyboard.press("+")
 
-    page.click("nav >> text=Bike")
+    page.click("nav a >> text=Bike")
     page.wait_for_selector("text=Last ride")
     page.click("nav >> text=Tune")
 

@@ -115,7 +115,7 @@ def test_a_slower_market_is_told_beside_the_setting_and_in_the_checks(
     for code in ("cutoff_above_market", "ratio_above_market", "peak_above_market"):
         expect(lint.locator(f"[data-code={code}]").first).to_contain_text("日本")
     expect(lint.locator("[data-code=cutoff_above_market]")).to_contain_text("24 km/h")
-    page.locator("summary", has_text="限制").click()
+    page.get_by_role("link", name="模式").click()
     expect(page.get_by_test_id("assist-ends")).to_contain_text("24 km/h")
     desk.picture("tune-two-tables-phone", full=True)
     assert sideways(page) == 0

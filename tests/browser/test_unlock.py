@@ -64,8 +64,7 @@ def test_a_limit_is_lowered_freely_and_raised_with_a_token(
     open_desk: OpenDesk, shop: SpindleServer, key: Path, tmp_path: Path, axe: str
 ) -> None:
     desk = open_desk(address=shop.url)
-    page = desk.open("/tune")
-    page.click("summary >> text=Limits")
+    page = desk.open("/tune/modes")
     limit = page.locator("[data-parameter=assist_cutoff_kmh]")
     expect(limit).to_contain_text("up again only with the maker's token")
     page.fill(CUTOFF, "20")
@@ -107,8 +106,7 @@ def test_a_token_of_somebody_else_is_refused_and_another_challenge_can_be_asked_
     body = {"parameters": {"motor_speed_rpm_max": 2500.0}, "reason": "lower"}
     shop.ask("PATCH", f"/devices/{device}/config", json=body)
     desk = open_desk(width=360, height=740, language="zh-CN", theme="dark", address=shop.url)
-    page = desk.open("/tune")
-    page.click("summary >> text=限制")
+    page = desk.open("/tune/modes")
     field = "[data-parameter=motor_speed_rpm_max] input"
     page.fill(field, "2600")
     page.press(field, "Enter")
@@ -137,11 +135,9 @@ def test_without_a_key_in_the_unit_what_needs_a_token_is_no_dead_end(
 ) -> None:
     # The unit of the other tests carries no key. Two changes: one it takes, one it cannot take.
     desk = open_desk(width=width, height=844, theme=theme)
-    page = desk.open("/tune")
-    page.click("summary >> text=Limits")
+    page = desk.open("/tune/modes")
     stop = page.locator("[data-parameter=pedal_stop_ms] input")
     stop.fill("160" if width == 1440 else "170")
-    page.click("summary >> text=Drivetrain")
     wheel = page.locator("[data-parameter=wheel_circumference_m] input")
     beyond_m = round(float(wheel.input_value()) * 1.06, 3)
     wheel.fill(f"{beyond_m:g}")
@@ -182,8 +178,7 @@ def test_beyond_a_dealer_s_band_the_review_shows_the_way(desk: Desk, standing: s
 def test_a_parameter_of_the_factory_is_changed_on_purpose_and_with_a_token(
     desk: Desk, standing: str
 ) -> None:
-    page = desk.open("/tune")
-    page.click("summary >> text=Drivetrain")
+    page = desk.open("/tune/modes")
     row = page.locator("[data-parameter=gear_ratio]")
     expect(row).to_contain_text("only with the maker's token")
     row.get_by_role("button", name="Change Motor turns per crank turn").click()

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 from fastapi import APIRouter
 
+from backend.api.models.curves import ModeCurves, ModeCurvesRequest
 from backend.api.models.law import (
     Evaluation,
     EvaluationRequest,
@@ -35,6 +36,13 @@ def compute_surface(body: SurfaceRequest, services: Provided) -> Any:
 def compute_points(body: PointsRequest, services: Provided) -> Any:
     """The gain at single points, by the unit's own C law."""
     return services.preview.points(body.fuzzy_table.model_dump(), body.points)
+
+
+@router.post("/modes/curves", operation_id="compute_mode_curves", response_model=ModeCurves)
+def compute_mode_curves(body: ModeCurvesRequest, services: Provided) -> Any:
+    """What each of the five modes gives for a steady push, by the unit's own C law."""
+    parameters = cast("dict[str, Any]", body.parameters)
+    return services.preview.mode_curves(parameters, body.rider_torque_nm, body.speeds_kmh)
 
 
 @router.post("/lint", operation_id="lint_table", response_model=LintReport)

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from backend import control
 from backend.control import Finding, LintReport, Replay
 from backend.domain.assist_mode import AssistModes
+from backend.domain.energy import RADIANS_PER_S_PER_RPM
 from backend.domain.fuzzy_table import PARAMETER_NAMES, SHARED_FIELDS, FuzzyTable
 from backend.errors import FieldError, InvalidRequest
 from backend.services.tuning.calibrate import evaluate_calibration
@@ -43,6 +44,31 @@ class Preview:
         places = ("points[{}][0]", "points[{}][1]")
         gain = control.points(table, pairs[:, 0], pairs[:, 1], places)
         return {"gain": gain.tolist(), "engine": control.ENGINE}
+
+    def mode_curves(
+        self, parameters: Mapping[str, Any], rider_torque_nm: float, speeds_kmh: Sequence[float]
+    ) -> dict[str, Any]:
+        """What each mode gives for a steady push, as the API tells it.
+
+        parameters: by registry name; those that are missing have the law's defaults. Raises
+        InvalidRequest.
+        """
+        config = {**control.law_defaults(), **parameters}
+        curves = control.mode_curves(config, rider_torque_nm, speeds_kmh)
+        crank_rad_per_s = control.CADENCE_RPM * RADIANS_PER_S_PER_RPM
+        return {
+            "cadence_rpm": control.CADENCE_RPM,
+            "hard_push_nm": control.HARD_PUSH_NM,
+            "modes": [
+                {
+                    "torque_nm": curve.torque_nm.tolist(),
+                    "torque_nm_most": curve.torque_nm_most,
+                    "power_w_most": curve.torque_nm_most * crank_rad_per_s,
+                }
+                for curve in curves
+            ],
+            "engine": control.ENGINE,
+        }
 
     def lint(
         self,

@@ -11,6 +11,7 @@ export const loaders: Record<PageName, Loader> = {
   bike: screen(() => import('../features/bike/BikePage.svelte')),
   live: screen(() => import('../features/live/LivePage.svelte')),
   tune: screen(() => import('../features/tune/TunePage.svelte')),
+  modes: screen(() => import('../features/modes/ModesPage.svelte')),
   try: screen(() => import('../features/try/TryPage.svelte')),
   why: screen(() => import('../features/why/WhyPage.svelte')),
   rides: screen(() => import('../features/rides/RidesPage.svelte')),

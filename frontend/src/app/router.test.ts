@@ -9,6 +9,7 @@ it.each([
   ['/rides/12', { page: 'ride', id: '12' }],
   ['/rides/12/more', { page: 'unknown', id: '' }],
   ['/tune', { page: 'tune', id: '' }],
+  ['/tune/modes', { page: 'modes', id: '' }],
   ['/tune/try', { page: 'try', id: '' }],
   ['/tune/why', { page: 'why', id: '' }],
   ['/tune/tune', { page: 'unknown', id: '' }],

@@ -611,6 +611,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/modes/curves": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Compute Mode Curves
+         * @description What each of the five modes gives for a steady push, by the unit's own C law.
+         */
+        post: operations["compute_mode_curves"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/lint": {
         parameters: {
             query?: never;
@@ -2246,6 +2266,64 @@ export interface components {
              * @description Why nothing could be measured.
              */
             not_felt: string | null;
+        };
+        /**
+         * ModeCurve
+         * @description Of one mode, at the crank, after every limit.
+         */
+        ModeCurve: {
+            /**
+             * Torque Nm
+             * @description At each speed.
+             */
+            torque_nm: number[];
+            /**
+             * Torque Nm Most
+             * @description For a push of `hard_push_nm`, over the speeds.
+             */
+            torque_nm_most: number;
+            /**
+             * Power W Most
+             * @description That torque at `cadence_rpm`.
+             */
+            power_w_most: number;
+        };
+        /**
+         * ModeCurves
+         * @description With a battery at its nominal voltage, a cool motor, and the cranks at `cadence_rpm`.
+         */
+        ModeCurves: {
+            /** Cadence Rpm */
+            cadence_rpm: number;
+            /** Hard Push Nm */
+            hard_push_nm: number;
+            /**
+             * Modes
+             * @description By slot.
+             */
+            modes: components["schemas"]["ModeCurve"][];
+            /** Engine */
+            engine: string;
+        };
+        /**
+         * ModeCurvesRequest
+         * @description A configuration as it is edited; what is left out has the law's defaults.
+         */
+        ModeCurvesRequest: {
+            /** Parameters */
+            parameters: {
+                [key: string]: number | string | (number | string)[] | (number | string)[][];
+            };
+            /**
+             * Rider Torque Nm
+             * @default 30
+             */
+            rider_torque_nm: number;
+            /**
+             * Speeds Kmh
+             * @description Increasing; each is held for two seconds.
+             */
+            speeds_kmh: number[];
         };
         /**
          * Parameter
@@ -6643,6 +6721,48 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["PointGains"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    compute_mode_curves: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ModeCurvesRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ModeCurves"];
                 };
             };
             /** @description The body is not JSON */

@@ -16,6 +16,7 @@ import type {
   LintReport,
   LintRequest,
   LogDownload,
+  ModeCurves,
   Parameter,
   ParameterValue,
   Port,
@@ -177,6 +178,17 @@ export class Server {
   ): Promise<Surface> {
     const request = { body: { fuzzy_table, speeds_kmh, torque_rates }, signal }
     return body(this.http.POST('/api/v1/surface', request))
+  }
+
+  /** What each of the five modes gives for a steady push, by the unit's own law. */
+  modeCurves(
+    parameters: Record<string, ParameterValue>,
+    rider_torque_nm: number,
+    speeds_kmh: number[],
+    signal: AbortSignal,
+  ): Promise<ModeCurves> {
+    const request = { body: { parameters, rider_torque_nm, speeds_kmh }, signal }
+    return body(this.http.POST('/api/v1/modes/curves', request))
   }
 
   lint(question: LintRequest, signal: AbortSignal): Promise<LintReport> {

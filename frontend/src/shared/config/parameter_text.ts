@@ -55,8 +55,7 @@ export function shownTyped(value: number, unit: string, units: Units): string {
 
 /** The bounds of a parameter with its unit, such as "0 … 25 km/h". */
 export function rangeText(parameter: Parameter, units: Units): string {
-  const { min, max, unit, choices } = parameter
-  if (choices && choices.length > 3) return `${choices[0]} … ${choices[choices.length - 1]}`
+  const { min, max, unit } = parameter
   if (min == null || max == null) return ''
   const shown = `${shownTyped(min, unit, units)} … ${shownTyped(max, unit, units)}`
   return `${shown} ${units.label(unit)}`.trim()

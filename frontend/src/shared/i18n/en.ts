@@ -1,5 +1,6 @@
 // English: the words of the pages. What the unit speaks of (parameters, channels) is in en_unit.ts,
 // rides are in en_rides.ts, how things stand (faults) in en_state.ts.
+import { enModes } from './en_modes'
 import { enRides } from './en_rides'
 import { enState } from './en_state'
 import { enTune } from './en_tune'
@@ -10,6 +11,7 @@ export const en = {
   ...enRides,
   ...enState,
   ...enTune,
+  ...enModes,
   'app.choose_unit': 'Choose a unit',
   'app.dismiss': 'Dismiss',
   'app.loading': 'Loading…',
@@ -36,6 +38,9 @@ export const en = {
   'nav.group_workshop': 'Workshop',
   'tab.tune': 'Table',
   'tab.tune_short': 'Table',
+  'page.modes': 'Modes and limits',
+  'tab.modes': 'Modes and limits',
+  'tab.modes_short': 'Modes',
   'tab.try': 'Try on a ride',
   'tab.try_short': 'Try',
   'tab.why': 'Why',

@@ -1,5 +1,6 @@
 // 中文：页面用语。缺少任何一个词，类型检查都会失败。
 import type { Key } from './en'
+import { zhModes } from './zh_modes'
 import { zhRides } from './zh_rides'
 import { zhState } from './zh_state'
 import { zhTune } from './zh_tune'
@@ -10,6 +11,7 @@ export const zh: Record<Key, string> = {
   ...zhRides,
   ...zhState,
   ...zhTune,
+  ...zhModes,
   'app.choose_unit': '选择驱动单元',
   'app.dismiss': '关闭',
   'app.loading': '正在载入…',
@@ -36,6 +38,9 @@ export const zh: Record<Key, string> = {
   'nav.group_workshop': '车间',
   'tab.tune': '控制表',
   'tab.tune_short': '控制表',
+  'page.modes': '模式与限制',
+  'tab.modes': '模式与限制',
+  'tab.modes_short': '模式',
   'tab.try': '用一次骑行试算',
   'tab.try_short': '试算',
   'tab.why': '为什么',

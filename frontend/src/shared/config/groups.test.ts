@@ -1,6 +1,6 @@
 /* Goal: every parameter of a unit has its place on some page, also of a unit this Spindle has never
    seen. */
-import type { Device, Parameter } from '$shared/api/types'
+import type { Device, Parameter } from '../api/types'
 import { expect, it } from 'vitest'
 import { groupsOf } from './groups'
 

@@ -1,6 +1,6 @@
-// Which groups of parameters stand on this page as plain forms, in which order.
-import type { Device, Parameter } from '$shared/api/types'
-import { can, hasPage } from '$shared/device/capabilities'
+// Which groups of parameters stand as plain forms beside tables and modes, in which order.
+import type { Device, Parameter } from '../api/types'
+import { can, hasPage } from '../device/capabilities'
 
 const FIRST = ['assist', 'limits', 'market', 'drivetrain']
 const OF_TABLES = ['fuzzy', 'second_table']
