@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.conftest import OpenDesk
@@ -259,3 +260,30 @@ def test_without_webgl_the_map_says_so(
     expect(page.locator("button >> text=3D")).to_be_disabled()
     expect(page.locator("text=cannot draw in three dimensions")).to_be_visible()
     flat.close()
+
+
+def test_rules_and_surface_stand_side_by_side_and_stay_so_while_a_peak_is_dragged(
+    open_desk: OpenDesk, standing: str
+) -> None:
+    page = open_tune(open_desk(width=1440, height=900))
+    page.wait_for_selector("[data-testid=surface][data-draws]")
+    panels = [page.get_by_role("region", name=name) for name in ("Rules", "Gain surface")]
+    rules, surface = (panel.bounding_box() or {} for panel in panels)
+    sides = [surface[side] for side in ("y", "height")]
+    assert sides == pytest.approx([rules[side] for side in ("y", "height")], abs=1)
+    drawn = page.get_by_test_id("surface").bounding_box() or {}
+    assert (drawn["width"] >= 600, drawn["height"] >= 480) == (True, True)
+
+    page.get_by_role("slider", name="Gain PB").focus()
+    page.evaluate("main.scrollTo(0, 1e6)")
+
+    seen = panels[1].bounding_box() or {}
+    assert seen["y"] >= 0
+    assert seen["y"] + seen["height"] <= 900
+    page.focus(CELL)
+    page.keyboard.press("5")
+    shown = page.get_by_role("group", name="Colour the rules by")
+    shown.get_by_role("button", name="Change").click()
+    # From ZO, a gain of 0.3, to PB, 0.5; all others are as they were.
+    expect(page.locator(CELL)).to_contain_text("+0.2")
+    expect(page.locator("[data-cell='1,1']")).to_contain_text("=")
