@@ -47,9 +47,6 @@ LAG_NM_MIN = 0.02
 LIMIT_SEED, LIMIT_FROM_KMH, LIMIT_NM, LIMIT_CADENCE_RPM = 5, 24.0, 16.0, 140.0
 LIMIT_SETTLED_S, LIMIT_LOOKED_S = 40.0, 30.0
 
-# Of figures that are kept: another one when a figure is measured in another way.
-METHOD = 1
-
 
 @dataclass(frozen=True)
 class Feel:

@@ -11,6 +11,7 @@ from backend.api.models.law import Table
 from backend.api.models.library import (
     CompareRequest,
     Comparison,
+    Feel,
     FisText,
     LibraryDocument,
     LibraryEntry,
@@ -154,6 +155,17 @@ def export_library_entry(
     file = library_file(entry_id, document, file_format, table)
     headers = {"content-disposition": f'attachment; filename="{file.file_name}"'}
     return Response(file.text, media_type=file.media_type, headers=headers)
+
+
+@router.get(
+    "/{entry_id}/feel",
+    operation_id="get_library_feel",
+    response_model=Feel,
+    responses=refusals(404, 409),
+)
+def get_library_feel(entry_id: EntryId, services: Provided) -> Any:
+    """How an entry feels on the simulated bike: an eighth of a second, once for what it holds."""
+    return services.compare.feel(entry_id)
 
 
 @router.get(

@@ -14,6 +14,7 @@ export const loaders: Record<PageName, Loader> = {
   modes: screen(() => import('../features/modes/ModesPage.svelte')),
   try: screen(() => import('../features/try/TryPage.svelte')),
   why: screen(() => import('../features/why/WhyPage.svelte')),
+  library: screen(() => import('../features/library/LibraryPage.svelte')),
   rides: screen(() => import('../features/rides/RidesPage.svelte')),
   ride: screen(() => import('../features/rides/RidePage.svelte')),
   sensor: screen(() => import('../features/calibrate/SensorPage.svelte')),

@@ -1,7 +1,7 @@
 // The address bar is the state: which page, which ride.
 
 /** The pages of Tune in the order of their tabs. The first is at /tune, another at /tune/NAME. */
-export const TUNE_PAGES = ['tune', 'modes', 'try', 'why'] as const
+export const TUNE_PAGES = ['tune', 'modes', 'try', 'why', 'library'] as const
 export type TunePage = (typeof TUNE_PAGES)[number]
 
 export type PageName =

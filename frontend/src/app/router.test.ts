@@ -12,6 +12,7 @@ it.each([
   ['/tune/modes', { page: 'modes', id: '' }],
   ['/tune/try', { page: 'try', id: '' }],
   ['/tune/why', { page: 'why', id: '' }],
+  ['/tune/library', { page: 'library', id: '' }],
   ['/tune/tune', { page: 'unknown', id: '' }],
   ['/tune/other', { page: 'unknown', id: '' }],
   ['/nonsense', { page: 'unknown', id: '' }],

@@ -330,6 +330,8 @@ def test_how_two_feel_is_what_the_page_of_tables_says(client: TestClient) -> Non
     page = (ROOT / "docs" / "tables.md").read_text(encoding="utf-8")
 
     felt = [answer[end]["feel"] for end in ("left", "right")]
+    # Measured once for what an entry holds.
+    assert client.get(f"{LIBRARY}/even/feel").json() == felt[1]
     for name, feel in zip(("strong-start", "even"), felt, strict=True):
         row = next(
             line

@@ -3,13 +3,17 @@ import { body, bodyAndTag, type Http } from './client'
 import { readSeries, type Series } from './series'
 import type {
   Config,
+  ComparedSide,
+  Comparison,
   ConfigChange,
   Cut,
   Dashboard,
   Device,
   Fault,
+  Feel,
   FuzzyTable,
   Health,
+  LibraryDocument,
   LibraryEntry,
   LibraryRow,
   Limits,
@@ -20,6 +24,7 @@ import type {
   Parameter,
   ParameterValue,
   Port,
+  ReadFis,
   Replay,
   ReplayRequest,
   Revision,
@@ -205,8 +210,43 @@ export class Server {
     return (await body(this.http.GET('/api/v1/library'))).items
   }
 
-  libraryEntry(entry_id: string): Promise<LibraryEntry> {
-    return body(this.http.GET('/api/v1/library/{entry_id}', { params: { path: { entry_id } } }))
+  /** version: of an own one, as it once was. */
+  libraryEntry(entry_id: string, version?: number): Promise<LibraryEntry> {
+    const query = version === undefined ? {} : { version }
+    const request = { params: { path: { entry_id }, query } }
+    return body(this.http.GET('/api/v1/library/{entry_id}', request))
+  }
+
+  /** How an entry feels on the simulated bike. */
+  libraryFeel(entry_id: string): Promise<Feel> {
+    const request = { params: { path: { entry_id } } }
+    return body(this.http.GET('/api/v1/library/{entry_id}/feel', request))
+  }
+
+  addToLibrary(document: LibraryDocument): Promise<LibraryRow> {
+    return body(this.http.POST('/api/v1/library', { body: document }))
+  }
+
+  /** tag: the ETag of what the change is made for. */
+  changeInLibrary(entry_id: string, document: LibraryDocument, tag: string): Promise<LibraryRow> {
+    const params = { path: { entry_id }, header: { 'if-match': tag } }
+    return body(this.http.PUT('/api/v1/library/{entry_id}', { params, body: document }))
+  }
+
+  removeFromLibrary(entry_id: string, tag: string): Promise<LibraryRow> {
+    const params = { path: { entry_id }, header: { 'if-match': tag } }
+    return body(this.http.DELETE('/api/v1/library/{entry_id}', { params }))
+  }
+
+  /** The table in the text of a .fis file; nothing is kept. */
+  readFis(text: string, name: string): Promise<ReadFis> {
+    return body(this.http.POST('/api/v1/library/fis', { body: { text, name } }))
+  }
+
+  /** Two of anything side by side, with how they feel. */
+  compare(left: ComparedSide, right: ComparedSide, signal: AbortSignal): Promise<Comparison> {
+    const question = { left: side(left), right: side(right), feel: true }
+    return body(this.http.POST('/api/v1/library/compare', { body: question, signal }))
   }
 
   async rides(cursor?: string): Promise<{ items: Ride[]; next: string | null }> {
@@ -284,4 +324,8 @@ export class Server {
     })
     return readSeries((await body(request)) as ArrayBuffer)
   }
+}
+
+function side(told: ComparedSide) {
+  return { table: 'first' as const, ...told }
 }

@@ -27,6 +27,7 @@ export const en = {
   'page.tune': 'Tune',
   'page.try': 'Try on a ride',
   'page.why': 'Why',
+  'page.library': 'Library',
   'page.rides': 'Rides',
   'page.ride': 'Ride',
   'page.sensor': 'Calibrate',
@@ -45,6 +46,8 @@ export const en = {
   'tab.try_short': 'Try',
   'tab.why': 'Why',
   'tab.why_short': 'Why',
+  'tab.library': 'Library',
+  'tab.library_short': 'Library',
 
   'state.connecting': 'Connecting',
   'state.ready': 'Connected',

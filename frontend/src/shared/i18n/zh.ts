@@ -27,6 +27,7 @@ export const zh: Record<Key, string> = {
   'page.tune': '调校',
   'page.try': '在骑行上试用',
   'page.why': '为什么',
+  'page.library': '调校库',
   'page.rides': '骑行',
   'page.ride': '骑行详情',
   'page.sensor': '标定',
@@ -45,6 +46,8 @@ export const zh: Record<Key, string> = {
   'tab.try_short': '试算',
   'tab.why': '为什么',
   'tab.why_short': '为什么',
+  'tab.library': '调校库',
+  'tab.library_short': '调校库',
 
   'state.connecting': '连接中',
   'state.ready': '已连接',

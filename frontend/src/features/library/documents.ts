@@ -1,0 +1,52 @@
+// Between the draft of a unit and a document of the library: what is saved, and what is opened.
+import type { ComparedSide, LibraryDocument, LibraryEntry, Parameter } from '$shared/api/types'
+import type { ConfigDraft } from '$shared/config/config_draft.svelte'
+import { PARAMETERS_OF, tableOf } from '$shared/config/two_tables'
+
+export type Kind = 'table' | 'configuration'
+
+/** The draft as a document; only what its unit tells is in it. */
+export function documentOf(draft: ConfigDraft, name: string, kind: Kind): LibraryDocument {
+  const names: string[] = Object.values(PARAMETERS_OF.first)
+  const kept = (parameter: Parameter) => kind === 'configuration' || names.includes(parameter.name)
+  const parameters = draft.parameters.filter(kept).flatMap(({ name, unit }) => {
+    const value = draft.value(name)
+    return value === undefined ? [] : [[name, { value, unit, comment: '' }] as const]
+  })
+  return {
+    format: `spindle-${kind}`,
+    version: 1,
+    name,
+    comment: '',
+    family: 'ebl',
+    parameters: Object.fromEntries(parameters),
+  }
+}
+
+/** Puts an entry's values into the draft, taken back together; what only the factory may change
+    stays as it is. Nothing is written. */
+export function openIn(draft: ConfigDraft, values: LibraryEntry['parameters']): void {
+  for (const [name, { value }] of Object.entries(values)) {
+    const known = draft.parameter(name)
+    if (known && known.access !== 'factory') draft.set(name, value, 'library')
+  }
+}
+
+/** The sides of a comparison by the word that stands for them in the address. */
+export function sideOf(
+  word: string,
+  draft: ConfigDraft | null,
+  device_id: string | null,
+): ComparedSide | null {
+  if (word === '') return null
+  if (word === 'draft') {
+    const fuzzy_table = draft && tableOf(draft, 'first')
+    return fuzzy_table ? { fuzzy_table } : null
+  }
+  const revision = /^revision-(\d+)$/.exec(word)
+  if (word === 'unit' || revision) {
+    if (!device_id) return null
+    return revision ? { device: device_id, revision: Number(revision[1]) } : { device: device_id }
+  }
+  return { library: word }
+}

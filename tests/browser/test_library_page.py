@@ -1,0 +1,92 @@
+"""Goal: a dealer opens a table without writing, keeps what he has drawn, compares two, brings
+a file, deletes and takes it back; and looks and compares without a unit.
+
+Method: a server with one simulated unit; what the page says is held against the server's answer.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from playwright.sync_api import Page, expect
+
+from tests.browser.conftest import OpenDesk
+from tests.browser.desk import sideways
+from tests.browser.test_pages_for_everyone import JUDGE, SMALL_TARGETS
+from tests.fakes.server import SpindleServer
+
+
+def compared(page: Page) -> str:
+    page.wait_for_selector("[data-testid=difference-map][data-draws]")
+    return page.inner_text("[data-testid=compared]")
+
+
+def test_a_dealer_keeps_opens_compares_and_takes_back(
+    open_desk: OpenDesk, server: SpindleServer, device: str, tmp_path: Path, axe: str
+) -> None:
+    before = server.get(f"/devices/{device}/config")["parameters"]
+    desk = open_desk(width=1440, height=900)
+    # What Tune listens to may not be open yet when it is left.
+    desk.allow("WebSocket is closed before the connection is established")
+    page = desk.open("/tune/library?a=even&b=strong-start")
+
+    assert "17 rules differ" in compared(page)
+    felt = page.locator("tr[data-felt=start_s] td")
+    assert felt.all_inner_texts() == ["12.6 s", "10.2 s"]
+    expect(page.locator("[data-entry=even] [data-figure=start_s]")).to_contain_text("12.6 s")
+
+    # Open never writes: the entry is a draft.
+    page.locator("[data-entry=strong-start]").get_by_role("button", name="Open as a draft").click()
+    page.wait_for_selector("[data-testid=surface][data-draws]")
+    expect(page.get_by_test_id("draft-bar")).to_contain_text("not yet in the unit")
+    assert server.get(f"/devices/{device}/config")["parameters"] == before
+
+    page.get_by_role("link", name="Library").click()
+    page.get_by_label("Name", exact=True).fill("Zhang, city")
+    page.get_by_role("button", name="Save").click()
+    kept = page.locator("[data-entry^=own-]").filter(has_text="Zhang, city")
+    expect(kept).to_be_visible()
+    entry_id = kept.get_attribute("data-entry")
+    values, preset = (
+        {name: entry["value"] for name, entry in server.get(path)["parameters"].items()}
+        for path in (f"/library/{entry_id}", "/library/strong-start")
+    )
+    assert values == preset
+
+    page.get_by_label("A", exact=True).last.select_option("draft")
+    page.get_by_label("B", exact=True).last.select_option(entry_id)
+    expect(page.get_by_test_id("compared")).to_have_text("The two are the same.")
+
+    file = tmp_path / "mine.fis"
+    file.write_bytes(server.client.get("/library/even/export?format=fis").content)
+    page.locator("input[type=file]").set_input_files(file)
+    mine = page.locator("[data-entry^=own-]").filter(has_text="mine")
+    expect(mine).to_be_visible()
+    expect(page.get_by_text("differs from the file by at most 0.0000")).to_be_visible()
+    mine.get_by_role("button", name="Delete").click()
+    expect(mine).to_have_count(0)
+    page.get_by_role("button", name="Undo").click()
+    expect(mine).to_be_visible()
+    page.evaluate(axe)
+    assert page.evaluate(JUDGE) == []
+    assert sideways(page) <= 0
+    desk.picture("library-1440", full=True)
+    assert server.get(f"/devices/{device}/config")["parameters"] == before
+
+
+def test_without_a_unit_a_phone_still_looks_and_compares(
+    open_desk: OpenDesk, server: SpindleServer, axe: str
+) -> None:
+    desk = open_desk(width=390, height=844, touch=True, theme="dark", language="zh-CN")
+    nobody = {"json": {"items": [], "next": None}}
+    desk.page.route("**/api/v1/devices", lambda route: route.fulfill(**nobody))
+    page = desk.open("/tune/library?a=even&b=thesis-table")
+
+    assert "条规则不同" in compared(page)
+    expect(page.locator("[data-entry=even] [data-figure=start_s]")).to_contain_text("12.6")
+    expect(page.locator("[data-entry=even]").get_by_role("button")).to_be_disabled()
+    assert page.evaluate(SMALL_TARGETS) == []
+    assert sideways(page) <= 0
+    page.evaluate(axe)
+    assert page.evaluate(JUDGE) == []
+    desk.picture("library-390-dark", full=True)
