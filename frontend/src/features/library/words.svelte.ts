@@ -22,7 +22,8 @@ export const en = {
   lag_unit: '{value} ms',
   toggles_unit: '{value} a second',
   feel_how:
-    'Simulated: 100 kg on the level, legs of 24 Nm. Rise at the motor shaft; ripple about the mean of half a turn; lag to 63 % of a sudden push.',
+    'Simulated: 100 kg on the level, legs of 24 Nm. Rise at the motor shaft; ripple about the ' +
+    'mean of half a turn; lag to 63 % of a sudden push.',
   open: 'Open as a draft',
   open_unit: 'needs a connected unit',
   opened: '{name} is a draft now. Nothing is in the unit yet.',
@@ -46,7 +47,8 @@ export const en = {
   same: 'The two are the same.',
   differ: '{cells} rules differ.',
   largest:
-    'The gain differs by at most {gain}, from {left} to {right}, at {speed} and a torque rate of {rate}.',
+    'The gain differs by at most {gain}, from {left} to {right}, at {speed} and a torque rate ' +
+    'of {rate}.',
   no_table: 'One of them has no table: only its settings are compared.',
   not_felt: '{name}: {why}',
   rules: 'Rules of A, and of B where they differ',
@@ -64,7 +66,8 @@ export const en = {
   import_note: 'A JSON file of the library or a backup, or a .fis file of MATLAB.',
   imported: '{name} is in the library.',
   imported_fis:
-    '{name} is in the library. The unit differs from the file by at most {gain}, at {speed} and a torque rate of {rate}.',
+    '{name} is in the library. The unit differs from the file by at most {gain}, at {speed} and ' +
+    'a torque rate of {rate}.',
   not_json: '{name} is neither JSON nor a .fis file.',
   waits: 'Choose two to compare.',
 }
