@@ -108,6 +108,7 @@ reproduction: $(STAMP)/native ## the thesis beside what the simulator does, tabl
 	$(BIN)/python -m tests.reproduction
 	$(BIN)/python -m tests.reproduction.tables
 	$(BIN)/python -m tests.reproduction.filters
+	$(BIN)/python -m tests.reproduction.current_control
 
 .PHONY: release-data
 release-data: setup ## what a version leaves on a disk, kept for every later one to open: VERSION=0.3.0

@@ -5,7 +5,13 @@ from backend.control.gain import ENGINE, points, surface
 from backend.control.lint_rules import lint
 from backend.control.market import Cutoff, cutoff_of
 from backend.control.mode_curves import CADENCE_RPM, HARD_PUSH_NM, ModeCurve, mode_curves
-from backend.control.ride_replay import Replay, limit_shares, raw_counts_of, replay
+from backend.control.ride_replay import (
+    Replay,
+    law_readings,
+    limit_shares,
+    raw_counts_of,
+    replay,
+)
 from backend.control.why import Why, why, why_steady
 from sim_device.firmware.python.law import LIMITS, law_defaults
 
@@ -22,6 +28,7 @@ __all__ = [
     "Why",
     "cutoff_of",
     "law_defaults",
+    "law_readings",
     "limit_shares",
     "lint",
     "mode_curves",

@@ -236,7 +236,13 @@ def test_a_moment_says_who_took_what_and_the_next_cut_is_a_key_away(
     assert page.get_by_test_id("cursor").is_visible()
     page.evaluate(axe)
     assert page.evaluate(JUDGE) == []
-    page.set_viewport_size({"width": 390, "height": 844})
-    assert sideways(page) == 0
     page.get_by_role("button", name="What if").click()
     answered(page)
+    page.get_by_role("link", name="Why").last.click()
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.wait_for_selector("[data-testid=waterfall]")
+    assert sideways(page) == 0
+    page.get_by_role("button", name="A steady state").click()
+    expect(page.get_by_test_id("why-bar")).to_contain_text("With what the unit is set to now")
+    assert shown_nm(page, "rider") == 30.0
+    expect(page.locator("[data-testid=waterfall] tr.commanded")).to_be_visible()

@@ -75,7 +75,8 @@ export function sentence(why: Why, say: Say, units: Units): string {
   const given = units.text(given_nm, 'Nm', 0)
   const taken = takers(why)
   if (taken.length === 0) {
-    return say(given === asked ? 'uncut' : 'uncut_short', { mode, asked, given })
+    const told = why.delivered_nm === null ? 'uncut_told' : 'uncut'
+    return say(given === asked ? told : 'uncut_short', { mode, asked, given })
   }
   const told = say(why.delivered_nm === null ? 'asked_commanded' : 'asked_arrived', {
     mode,

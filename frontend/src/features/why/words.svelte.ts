@@ -9,6 +9,7 @@ export const en = {
   took_one: '{first} took {watts}.',
   took_two: '{first} took {watts}, {second} {more}.',
   uncut: 'You got all that {mode} asked for: {asked}.',
+  uncut_told: 'Nothing holds back what {mode} asks for: {asked}.',
   uncut_short: '{mode} asked for {asked} and nothing held it back; {given} arrived.',
   asked_nothing: '{mode} asked for nothing: no push that counts.',
   off: '{mode} gives no assist: its law is off.',
@@ -49,7 +50,7 @@ export const en = {
   effect: 'Adds or takes',
   others: '{count} other clamps took nothing: {names}',
   watts_are:
-    'Watts are torque × {speed} rad/s. Your {rider} and the motor’s {motor} are two sources and ' +
+    "Watts are torque × {speed} rad/s. Your {rider} and the motor's {motor} are two sources and " +
     'are not added.',
   not_delivered: 'What the motor delivered was not measured: the list ends at what it was told.',
   position: 'of {end}',

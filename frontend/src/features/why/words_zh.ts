@@ -9,6 +9,7 @@ export const zh: Record<WhyKey, string> = {
   took_one: '{first}减去 {watts}。',
   took_two: '{first}减去 {watts}，{second}减去 {more}。',
   uncut: '{mode} 要求的 {asked} 全部得到。',
+  uncut_told: '{mode} 要求的 {asked} 没有受到任何限制。',
   uncut_short: '{mode} 要求 {asked}，没有任何限制，实际得到 {given}。',
   asked_nothing: '{mode} 没有要求助力：没有有效的踩踏。',
   off: '{mode} 不提供助力：此模式已关闭。',
