@@ -21,6 +21,7 @@ export const en = {
   steady: 'A steady state, held for {seconds}; nobody rode it.',
   table_no_matter: 'It went on for {seconds}. A stronger table would change nothing here.',
   lasted: 'It went on for {seconds}.',
+  show_limit: 'Show the limits',
   show_rules: 'Show the rules',
   the_moment: 'The moment',
   held_back: 'shaded: held back',

@@ -21,6 +21,7 @@ export const zh: Record<WhyKey, string> = {
   steady: '稳定状态，保持了 {seconds}；没有人这样骑过。',
   table_no_matter: '持续了 {seconds}。更强的控制表在此不会有任何改变。',
   lasted: '持续了 {seconds}。',
+  show_limit: '查看限制',
   show_rules: '查看规则',
   the_moment: '此刻',
   held_back: '阴影：受到限制',
