@@ -33,6 +33,7 @@ from backend.link import kind_of
 from backend.services.health import Health
 from backend.services.imports.collect import Collect
 from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
+from backend.services.rides.ledger import EnergyLedger
 from backend.services.rides.record import Recorder
 from backend.services.rides.replay import RideReplay
 from backend.services.rides.review import Rides
@@ -127,6 +128,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
             why_steady=WhySteady(devices.writable),
             why_ride=WhyRide(store, memory.ride_config),
+            ledger=EnergyLedger(store, memory.ride_config),
             uploads=uploads,
             collect=collect,
         )

@@ -1,4 +1,4 @@
-"""Why the motor gives what it gives: a control step as the unit's own C explains it."""
+"""Why the motor gives what it gives: a control step explained, cuts, and who carried the energy."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any, Literal
 from pydantic import Field
 
 from backend.api.models.base import Answer, Question
-from backend.api.models.law import AssistModes, FuzzyTable, Label, Limits
+from backend.api.models.law import AssistModes, FuzzyTable, Label, Law, Limits, Table
 
 CHANGES = {"fuzzy_table", "second_table", "assist_modes", "limits"}
 
@@ -157,3 +157,45 @@ class Cut(Answer):
 
 class Cuts(Answer):
     items: list[Cut]
+
+
+class ModeShare(Answer):
+    mode: int
+    name: str | None = Field(description="Null where nobody kept the ride's configuration.")
+    law: Law | None
+    seconds: float
+    motor_wh: float | None
+    share: float | None = Field(description="Of the ride's motor energy, 0 to 1.")
+
+
+class RuleShare(Answer):
+    """A rule of the table the ride was ridden with: its cell is `rules[row][column]`."""
+
+    table: Table
+    row: int
+    column: int
+    label: Label
+    seconds: float
+    motor_wh: float
+    share: float | None = Field(description="Of the ride's motor energy, 0 to 1.")
+
+
+class Ledger(Answer):
+    """Who carried the motor's energy, delivered at its shaft. Missing is null.
+
+    The modes' energies add up to `motor_wh`, and so do those of the rules and `without_rule_wh`:
+    what fixed modes, walk assist and a motor that runs out gave.
+    """
+
+    ride_id: int
+    config_source: Literal["ride", "defaults"]
+    motor_wh: float | None = Field(
+        description="Null for a ride that tells only what was asked of its motor."
+    )
+    motor_excluded_s: float = Field(description="Time in which the motor's power is not known.")
+    modes: list[ModeShare]
+    rules: list[RuleShare] | None = Field(
+        description="The most first; null where the ride's configuration or its motor's energy is "
+        "not known."
+    )
+    without_rule_wh: float | None

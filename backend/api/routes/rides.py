@@ -21,7 +21,7 @@ from backend.api.models.ride import (
     TableUse,
     TableUseRequest,
 )
-from backend.api.models.why import Cuts, Why
+from backend.api.models.why import Cuts, Ledger, Why
 from backend.api.problem import refusals
 from backend.api.services import Provided
 
@@ -168,6 +168,14 @@ def why_of_ride(
 def cuts_of_ride(ride_id: RideId, services: Provided) -> Any:
     """Where a limit held the motor back, in order of time, as the unit told it."""
     return {"items": services.why_ride.cuts(ride_id)}
+
+
+@router.get(
+    "/{ride_id}/ledger", operation_id="ledger_of_ride", response_model=Ledger, responses=DAMAGED
+)
+def ledger_of_ride(ride_id: RideId, services: Provided) -> Any:
+    """Which mode and which rule carried which share of the ride's motor energy."""
+    return services.ledger(ride_id)
 
 
 @router.post("/table-use", operation_id="table_use", response_model=TableUse)

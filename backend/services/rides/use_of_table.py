@@ -122,13 +122,12 @@ class UseOfTable:
     ) -> TableUse:
         """One ride's use of the table, read piece by piece."""
         reader = self._store.rides.reader(ride.id)
-        falling = str(config.get("fuzzy_falling_torque", HOLD_ZERO_RATE)).lower()
         seconds = row_seconds(reader)
         use = TableUse.none()
         for start in range(0, reader.row_count, PIECE_ROWS):
             stop = min(start + PIECE_ROWS, reader.row_count)
             columns = read_columns(reader, start, stop)
-            acts = acting(columns, slots, needs_gain=falling != HOLD_ZERO_RATE)
+            acts = acting(columns, slots, needs_gain(config))
             use += table_use(
                 {name: values[acts] for name, values in columns.items()},
                 seconds[start:stop][acts],
@@ -168,6 +167,11 @@ def slots_by(config: Mapping[str, Any], table: str) -> list[int]:
         for slot, (law, number) in enumerate(zip(laws, numbers, strict=True))
         if str(law).lower() == "fuzzy" and number == wanted
     ]
+
+
+def needs_gain(config: Mapping[str, Any]) -> bool:
+    """Whether a gain of nothing was not the table's: the unit has none while the torque falls."""
+    return str(config.get("fuzzy_falling_torque", HOLD_ZERO_RATE)).lower() != HOLD_ZERO_RATE
 
 
 def read_columns(reader: RideReader, start: int, stop: int) -> dict[str, Values]:

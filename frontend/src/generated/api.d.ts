@@ -1016,6 +1016,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/rides/{ride_id}/ledger": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Ledger Of Ride
+         * @description Which mode and which rule carried which share of the ride's motor energy.
+         */
+        get: operations["ledger_of_ride"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/rides/table-use": {
         parameters: {
             query?: never;
@@ -1986,6 +2006,41 @@ export interface components {
             right: number;
         };
         /**
+         * Ledger
+         * @description Who carried the motor's energy, delivered at its shaft. Missing is null.
+         *
+         *     The modes' energies add up to `motor_wh`, and so do those of the rules and `without_rule_wh`:
+         *     what fixed modes, walk assist and a motor that runs out gave.
+         */
+        Ledger: {
+            /** Ride Id */
+            ride_id: number;
+            /**
+             * Config Source
+             * @enum {string}
+             */
+            config_source: "ride" | "defaults";
+            /**
+             * Motor Wh
+             * @description Null for a ride that tells only what was asked of its motor.
+             */
+            motor_wh: number | null;
+            /**
+             * Motor Excluded S
+             * @description Time in which the motor's power is not known.
+             */
+            motor_excluded_s: number;
+            /** Modes */
+            modes: components["schemas"]["ModeShare"][];
+            /**
+             * Rules
+             * @description The most first; null where the ride's configuration or its motor's energy is not known.
+             */
+            rules: components["schemas"]["RuleShare"][] | null;
+            /** Without Rule Wh */
+            without_rule_wh: number | null;
+        };
+        /**
          * LibraryDocument
          * @description A document that is to be kept: what `GET /library/{id}` and `spindle device backup` give.
          *
@@ -2344,6 +2399,27 @@ export interface components {
              * @description Increasing; each is held for two seconds.
              */
             speeds_kmh: number[];
+        };
+        /** ModeShare */
+        ModeShare: {
+            /** Mode */
+            mode: number;
+            /**
+             * Name
+             * @description Null where nobody kept the ride's configuration.
+             */
+            name: string | null;
+            /** Law */
+            law: ("off" | "fixed" | "fuzzy") | null;
+            /** Seconds */
+            seconds: number;
+            /** Motor Wh */
+            motor_wh: number | null;
+            /**
+             * Share
+             * @description Of the ride's motor energy, 0 to 1.
+             */
+            share: number | null;
         };
         /**
          * Parameter
@@ -2827,6 +2903,35 @@ export interface components {
             code: "missing_channel" | "not_assisted" | "object_damaged";
             /** Message */
             message: string;
+        };
+        /**
+         * RuleShare
+         * @description A rule of the table the ride was ridden with: its cell is `rules[row][column]`.
+         */
+        RuleShare: {
+            /**
+             * Table
+             * @enum {string}
+             */
+            table: "first" | "second";
+            /** Row */
+            row: number;
+            /** Column */
+            column: number;
+            /**
+             * Label
+             * @enum {string}
+             */
+            label: "NB" | "NS" | "ZO" | "PS" | "PB";
+            /** Seconds */
+            seconds: number;
+            /** Motor Wh */
+            motor_wh: number;
+            /**
+             * Share
+             * @description Of the ride's motor energy, 0 to 1.
+             */
+            share: number | null;
         };
         /**
          * Scenario
@@ -8111,6 +8216,73 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Cuts"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unsupported Media Type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    ledger_of_ride: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                ride_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Ledger"];
                 };
             };
             /** @description Not Found */

@@ -66,7 +66,7 @@ def kept(store: Store, **changes: Values | None) -> int:
     rows = RideRows(specs, np.arange(ROWS, dtype=np.int64) * PERIOD_US, counts)
     outcome = Outcome("complete", (ImportedRide(1_700_000_000_000_000, PERIOD_US, rows),))
     uploads = Uploads(store, reader=lambda path, name: outcome)
-    (ride_id,) = uploads.receive_file("a.csv", b"as it came").ride_ids
+    (ride_id,) = uploads.receive_file("a.csv", repr(columns).encode()).ride_ids
     uploads.close()
     return ride_id
 

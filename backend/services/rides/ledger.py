@@ -1,0 +1,156 @@
+"""Which mode and which rule carried which share of a ride's motor energy.
+
+Energy is what the motor delivered at its shaft; a ride that tells only what was asked of its motor
+has none. A moment belongs to the mode that was selected and, where a table said what the motor is
+asked for, to the at most four rules that fired, in the shares of the law's sets. What no table
+carried (fixed modes, walk assist, a motor that runs out) is told by itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from backend.domain.channels import Values
+from backend.domain.energy import MOTOR_POWER, SECONDS_PER_HOUR
+from backend.domain.fuzzy_table import PARAMETERS_OF, stored_json
+from backend.errors import InvalidRequest
+from backend.services.rides.replay import ConfigOf
+from backend.services.rides.use_of_table import (
+    PIECE_ROWS,
+    channels_missing,
+    needs_gain,
+    read_columns,
+    row_seconds,
+    slots_by,
+)
+from backend.store import Store
+from backend.views.table_use import TableUse, acting, table_use
+
+SLOTS = 5
+
+
+class EnergyLedger:
+    """Adds up rides. Holds nothing of them; safe from any thread."""
+
+    def __init__(self, store: Store, config_of: ConfigOf) -> None:
+        self._store = store
+        self._config_of = config_of
+
+    def __call__(self, ride_id: int) -> dict[str, Any]:
+        """The answer as the API tells it. Raises NotFound; InvalidRequest without the channels."""
+        reader = self._store.rides.reader(ride_id)
+        missing = channels_missing(reader.ride)
+        if missing:
+            raise InvalidRequest(
+                f"Ride {ride_id} has no {', '.join(missing)}: who carried its motor energy is not "
+                "known.",
+                code="missing_channel",
+            )
+        config, source = self._config_of(reader.ride)
+        known = source == "ride"
+        uses = {table: TableUse.none() for table in PARAMETERS_OF}
+        seconds, motor_ws, excluded_s = np.zeros(SLOTS), np.zeros(SLOTS), 0.0
+        measured = False
+        row_s = row_seconds(reader)
+        for start in range(0, reader.row_count, PIECE_ROWS):
+            stop = min(start + PIECE_ROWS, reader.row_count)
+            columns, spent_s = read_columns(reader, start, stop), row_s[start:stop]
+            power_w = columns.get(MOTOR_POWER.name, np.full(stop - start, np.nan))
+            there = np.isfinite(power_w)
+            measured |= bool(there.any())
+            seconds += by_slot(columns, spent_s)
+            motor_ws += by_slot(columns, np.where(there, power_w, 0.0) * spent_s)
+            excluded_s += float(np.sum(spent_s[~there]))
+            for table in uses if known else ():
+                uses[table] += use_of(columns, spent_s, config, table)
+        total_wh = float(motor_ws.sum()) / SECONDS_PER_HOUR if measured else None
+        rules = told_rules(uses, config, total_wh) if known else None
+        return {
+            "ride_id": ride_id,
+            "config_source": source,
+            "motor_wh": total_wh,
+            "motor_excluded_s": excluded_s,
+            "modes": told_modes(seconds, motor_ws / SECONDS_PER_HOUR, config, known, total_wh),
+            "rules": rules,
+            "without_rule_wh": None
+            if rules is None or total_wh is None
+            else total_wh - sum(rule["motor_wh"] for rule in rules),
+        }
+
+
+def by_slot(columns: Mapping[str, Values], amounts: Values) -> Values:
+    """Amounts (n,) added up by the selected mode, (SLOTS,); nobody's are left out."""
+    mode = columns["assist_mode"]
+    told = np.isfinite(mode) & (mode >= 0) & (mode < SLOTS)
+    added = np.bincount(mode[told].astype(np.intp), amounts[told], minlength=SLOTS)
+    return added.astype(np.float64)
+
+
+def use_of(
+    columns: Mapping[str, Values], spent_s: Values, config: Mapping[str, Any], table: str
+) -> TableUse:
+    """What these samples add to the rules of one of the ride's own tables."""
+    acts = acting(columns, slots_by(config, table), needs_gain(config))
+    return table_use(
+        {name: values[acts] for name, values in columns.items()},
+        spent_s[acts],
+        config["fuzzy_speed_points_kmh"],
+        config["fuzzy_torque_rate_points"],
+    )
+
+
+def told_modes(
+    seconds: Values,
+    motor_wh: Values,
+    config: Mapping[str, Any],
+    known: bool,
+    total_wh: float | None,
+) -> list[dict[str, Any]]:
+    """The modes that were selected, by slot; names and laws only of a known configuration."""
+    return [
+        {
+            "mode": slot,
+            "name": config["mode_names"][slot] if known else None,
+            "law": str(config["mode_laws"][slot]).lower() if known else None,
+            "seconds": float(seconds[slot]),
+            "motor_wh": None if total_wh is None else float(motor_wh[slot]),
+            "share": share(float(motor_wh[slot]), total_wh),
+        }
+        for slot in range(SLOTS)
+        if seconds[slot] > 0.0
+    ]
+
+
+def told_rules(
+    uses: Mapping[str, TableUse], config: Mapping[str, Any], total_wh: float | None
+) -> list[dict[str, Any]] | None:
+    """The rules that carried any energy, the most first; None where no energy is known."""
+    if total_wh is None:
+        return None
+    found: list[dict[str, Any]] = []
+    for table, use in uses.items():
+        if use.motor_wh is None:
+            continue
+        labels: Sequence[Sequence[str]] = stored_json(config, table)["rules"]
+        for row, column in np.argwhere(use.motor_wh > 0.0).tolist():
+            carried_wh = float(use.motor_wh[row, column])
+            found.append(
+                {
+                    "table": table,
+                    "row": row,
+                    "column": column,
+                    "label": labels[row][column],
+                    "seconds": float(use.seconds[row, column]),
+                    "motor_wh": carried_wh,
+                    "share": share(carried_wh, total_wh),
+                }
+            )
+    return sorted(found, key=lambda rule: -rule["motor_wh"])
+
+
+def share(part_wh: float, total_wh: float | None) -> float | None:
+    """Of all motor energy, 0 to 1; None where there is none."""
+    return part_wh / total_wh if total_wh else None
