@@ -21,6 +21,21 @@ def compared(page: Page) -> str:
     return page.inner_text("[data-testid=compared]")
 
 
+def restored(page: Page, server: SpindleServer, device: str) -> float:
+    """What the draft of a revision makes of a value that was changed since."""
+    server.stand_still(device)
+    body = {"parameters": {"torque_filter_s": 0.6}, "reason": "longer"}
+    server.ask("PATCH", f"/devices/{device}/config", json=body)
+    before = server.get(f"/devices/{device}/config/revisions")["items"][1]
+    page.get_by_label("A", exact=True).last.select_option(f"revision-{before['seq']}")
+    page.get_by_role("button", name="A: Open as a draft").click()
+    expect(page.get_by_test_id("draft-bar")).to_contain_text("1 changed, not yet in the unit")
+    page.get_by_role("button", name="Review").click()
+    page.get_by_role("dialog").get_by_role("button", name="Write").click()
+    expect(page.get_by_test_id("draft-bar")).to_contain_text("Same as in the unit")
+    return float(server.get(f"/devices/{device}/config")["parameters"]["torque_filter_s"])
+
+
 def test_a_dealer_keeps_opens_compares_and_takes_back(
     open_desk: OpenDesk, server: SpindleServer, device: str, tmp_path: Path, axe: str
 ) -> None:
@@ -28,6 +43,8 @@ def test_a_dealer_keeps_opens_compares_and_takes_back(
     desk = open_desk(width=1440, height=900)
     # What Tune listens to may not be open yet when it is left.
     desk.allow("WebSocket is closed before the connection is established")
+    page = desk.open("/settings")
+    page.get_by_label("Your name").fill("张工")
     page = desk.open("/tune/library?a=even&b=strong-start")
 
     assert "17 rules differ" in compared(page)
@@ -45,7 +62,7 @@ def test_a_dealer_keeps_opens_compares_and_takes_back(
     page.get_by_label("Name", exact=True).fill("Zhang, city")
     page.get_by_role("button", name="Save").click()
     kept = page.locator("[data-entry^=own-]").filter(has_text="Zhang, city")
-    expect(kept).to_be_visible()
+    expect(kept).to_contain_text("张工")
     entry_id = kept.get_attribute("data-entry")
     values, preset = (
         {name: entry["value"] for name, entry in server.get(path)["parameters"].items()}
@@ -67,6 +84,10 @@ def test_a_dealer_keeps_opens_compares_and_takes_back(
     expect(mine).to_have_count(0)
     page.get_by_role("button", name="Undo").click()
     expect(mine).to_be_visible()
+    was = restored(page, server, device)
+    assert was == 0.5
+    page.get_by_role("link", name="Library").click()
+    compared(page)
     page.evaluate(axe)
     assert page.evaluate(JUDGE) == []
     assert sideways(page) <= 0

@@ -1,4 +1,5 @@
 // Composition root: builds everything once and mounts the application.
+import { Author } from '$shared/api/author.svelte'
 import { openHttp } from '$shared/api/client'
 import { Server } from '$shared/api/server'
 import { Drafts } from '$shared/config/drafts'
@@ -19,7 +20,8 @@ import { Router } from './router.svelte'
 const chosen = readPreferences()
 const theme = new Theme(chosen.theme)
 theme.apply()
-const server = new Server(openHttp())
+const author = new Author(chosen.author)
+const server = new Server(openHttp(author))
 const locale = new Locale()
 // Words that cannot be fetched leave the pages in English: that is better than none.
 await locale.speak(chosen.language).catch(() => undefined)
@@ -28,6 +30,7 @@ const devices = new DeviceWatch(server, chosen.device_id)
 const health = new HealthWatch(server)
 const context: AppContext = {
   server,
+  author,
   devices,
   health,
   locale,

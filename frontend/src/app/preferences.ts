@@ -8,6 +8,7 @@ export interface Preferences {
   theme: ThemeChoice
   units: System
   device_id: string | null
+  author: string
 }
 
 const KEY = 'spindle'
@@ -23,6 +24,7 @@ export function readPreferences(): Preferences {
     theme: oneOf(themes, kept.theme) ?? 'system',
     units: oneOf(systems, kept.units) ?? 'metric',
     device_id: typeof kept.device_id === 'string' ? kept.device_id : null,
+    author: typeof kept.author === 'string' ? kept.author : '',
   }
 }
 

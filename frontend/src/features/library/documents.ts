@@ -1,5 +1,5 @@
 // Between the draft of a unit and a document of the library: what is saved, and what is opened.
-import type { ComparedSide, LibraryDocument, LibraryEntry, Parameter } from '$shared/api/types'
+import type { ComparedSide, LibraryDocument, Parameter, ParameterValue } from '$shared/api/types'
 import type { ConfigDraft } from '$shared/config/config_draft.svelte'
 import { PARAMETERS_OF, tableOf } from '$shared/config/two_tables'
 
@@ -23,10 +23,10 @@ export function documentOf(draft: ConfigDraft, name: string, kind: Kind): Librar
   }
 }
 
-/** Puts an entry's values into the draft, taken back together; what only the factory may change
+/** Puts values into the draft, taken back together; what only the factory may change
     stays as it is. Nothing is written. */
-export function openIn(draft: ConfigDraft, values: LibraryEntry['parameters']): void {
-  for (const [name, { value }] of Object.entries(values)) {
+export function openIn(draft: ConfigDraft, values: Record<string, ParameterValue>): void {
+  for (const [name, value] of Object.entries(values)) {
     const known = draft.parameter(name)
     if (known && known.access !== 'factory') draft.set(name, value, 'library')
   }

@@ -1,6 +1,7 @@
 // The only door to HTTP. Every refusal becomes a Refusal, with the fields at fault.
 import type { paths } from '$generated/api'
 import createClient, { type Client } from 'openapi-fetch'
+import type { Author } from './author.svelte'
 import type { FieldProblem, Problem, TokenChallenge } from './types'
 
 /** Why a request did not succeed. status 0: the server did not answer at all. */
@@ -21,9 +22,19 @@ export class Refusal extends Error {
 
 export type Http = Client<paths>
 
-/** A client of the server this page came from. */
-export function openHttp(base = location.origin): Http {
-  return createClient<paths>({ baseUrl: base })
+/** A client of the server this page came from, whose changes carry the author's name. */
+export function openHttp(author: Author, base = location.origin): Http {
+  const client = createClient<paths>({ baseUrl: base })
+  client.use({
+    onRequest({ request }) {
+      const name = author.name.trim()
+      if (name && request.method !== 'GET') {
+        request.headers.set('spindle-author', encodeURIComponent(name))
+      }
+      return request
+    },
+  })
+  return client
 }
 
 interface Answer<T> {

@@ -1,5 +1,6 @@
 // What every page may use, made once by app/main.ts and handed down through Svelte's context.
 import { createContext } from 'svelte'
+import type { Author } from '../api/author.svelte'
 import type { Server } from '../api/server'
 import type { Locale } from '../i18n/locale.svelte'
 import type { Foot } from '../ui/foot.svelte'
@@ -11,6 +12,7 @@ import type { HealthWatch } from './health_watch.svelte'
 
 export interface AppContext {
   server: Server
+  author: Author
   devices: DeviceWatch
   health: HealthWatch
   locale: Locale

@@ -335,6 +335,10 @@ export const en = {
     'The words of that language could not be fetched. Is the server running?',
   'settings.theme': 'Appearance',
   'settings.units': 'Units',
+  'settings.author': 'Your name',
+  'settings.author_note':
+    'Kept with your changes, as stated: nobody signs in yet. ' +
+    'Empty: the name the server runs under.',
   'settings.units_note': 'Only what is shown changes; the unit and the files keep SI units.',
   'settings.api': 'Description of the API',
   'theme.system': 'As the system',

@@ -304,6 +304,8 @@ export const zh: Record<Key, string> = {
   'settings.language_not_fetched': '无法获取该语言的文字。服务器在运行吗？',
   'settings.theme': '外观',
   'settings.units': '单位',
+  'settings.author': '您的姓名',
+  'settings.author_note': '随您的更改保存，仅为自述：目前无需登录。留空则用服务器的用户名。',
   'settings.units_note': '只改变显示；单元和文件始终使用国际单位。',
   'settings.api': 'API 说明',
   'theme.system': '跟随系统',
