@@ -15,7 +15,7 @@ PARALLEL := --dist loadfile --no-loadscope-reorder -n
 BOARD_TESTS := tests/board tests/conformance tests/unit/sim_device_app tests/stories
 
 C_SOURCES := $(wildcard firmware_protocol/c/*.[ch] sim_device/firmware/*/*.[ch] \
-	sim_device/firmware/app/*/*.[ch] sim_device/firmware/boards/host/*.[ch] sim_device/physics/*.[ch] third_party/*/*.[ch])
+	sim_device/firmware/app/*/*.[ch] sim_device/firmware/boards/host/*.[ch] sim_device/physics/*.[ch] sim_device/twin/*.[ch] third_party/*/*.[ch])
 WEB_SOURCES := $(shell find frontend -type f -not -path '*/node_modules/*' -not -path '*/dist/*')
 
 # Tests start hundreds of processes, which would otherwise compile our Python anew each time.

@@ -115,10 +115,15 @@ def replay(options: Namespace) -> int:
         )
         if file is not None
     }
+    body["mode"] = "closed_loop" if options.closed_loop else "open_loop"
+    body |= {"mass_kg": options.mass_kg, "drag_area_m2": options.drag_area_m2}
     answer = server_of(options).ask("POST", f"/rides/{options.ride}/replay", json=body)
     if options.json:
         print_json(answer)
         return 0
+    estimate = answer.pop("closed_loop")
+    if estimate is not None:
+        print_estimate(estimate)
     print(answer.pop("meaning"))
     for name, value in answer.items():
         if not isinstance(value, dict | list):
@@ -137,6 +142,21 @@ def replay(options: Namespace) -> int:
     ]
     print_table(held, ["share of time held back by", "recorded", "replayed"])
     return 0
+
+
+def print_estimate(estimate: dict[str, Any]) -> None:
+    """The same road again: figures with their bands, and how far the twin can be trusted."""
+    print(estimate["meaning"])
+    parts = ("recorded", "replayed", "difference", "low", "high")
+    figures = [
+        [name, *(text_of(value[part]) for part in parts)]
+        for name, value in estimate.items()
+        if isinstance(value, dict) and "replayed" in value
+    ]
+    print_table(figures, ["", *parts])
+    for name, value in estimate["trust"].items():
+        print(f"{name:32} {text_of(value)}")
+    print()
 
 
 def list_files(options: Namespace) -> int:

@@ -1,10 +1,11 @@
-"""The only door from the backend to the unit's C law: surface, points, lint, replay, why."""
+"""The only door from the backend to the unit's C law: surface, points, lint, replay, twin, why."""
 
 from backend.control.finding import Finding, LintReport
 from backend.control.gain import ENGINE, points, surface
 from backend.control.lint_rules import lint
 from backend.control.market import Cutoff, cutoff_of
 from backend.control.mode_curves import CADENCE_RPM, HARD_PUSH_NM, ModeCurve, mode_curves
+from backend.control.recorded_ride import recorded as recorded_ride
 from backend.control.ride_replay import (
     Replay,
     law_readings,
@@ -12,6 +13,7 @@ from backend.control.ride_replay import (
     raw_counts_of,
     replay,
 )
+from backend.control.twin import HOLDS_POWER, RoadTwin
 from backend.control.why import Why, why, why_steady
 from sim_device.firmware.python.law import LIMITS, law_defaults
 
@@ -19,12 +21,14 @@ __all__ = [
     "CADENCE_RPM",
     "ENGINE",
     "HARD_PUSH_NM",
+    "HOLDS_POWER",
     "LIMITS",
     "Cutoff",
     "Finding",
     "LintReport",
     "ModeCurve",
     "Replay",
+    "RoadTwin",
     "Why",
     "cutoff_of",
     "law_defaults",
@@ -34,6 +38,7 @@ __all__ = [
     "mode_curves",
     "points",
     "raw_counts_of",
+    "recorded_ride",
     "replay",
     "surface",
     "why",

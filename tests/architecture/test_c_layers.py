@@ -24,6 +24,7 @@ ROOMS = {
     "host": FIRMWARE / "boards" / "host",
     "mps2_an386": FIRMWARE / "boards" / "mps2_an386",
     "physics": ROOT / "sim_device" / "physics",
+    "twin": ROOT / "sim_device" / "twin",
     "monocypher": ROOT / "third_party" / "monocypher",
 }
 
@@ -33,6 +34,7 @@ ALLOWED: dict[str, set[str]] = {
     "hal": set(),
     "protocol": set(),
     "physics": set(),
+    "twin": {"control"},
     "monocypher": set(),
     "app": {"control", "hal", "protocol", "monocypher"},
     "host": {"app", "control", "hal", "physics", "protocol"},

@@ -9,6 +9,7 @@ from pydantic import Field
 
 from backend.api.models.base import Answer, Question
 from backend.api.models.law import AssistModes, FivePoints, FuzzyTable, Table
+from backend.domain.rider_and_bike import RiderAndBike
 
 
 class RideSummary(Answer):
@@ -177,20 +178,74 @@ class Figure(Answer):
 
 
 class ReplayRequest(Question):
-    mode: Literal["open_loop"] = Field(
-        default="open_loop", description="Speed and legs as recorded: the bike does not answer."
+    mode: Literal["open_loop", "closed_loop"] = Field(
+        default="open_loop",
+        description="Open: speed and legs as recorded, the bike does not answer. Closed: beside it "
+        "an estimate by a twin of the bike; takes a second for some minutes of road.",
     )
     fuzzy_table: FuzzyTable | None = None
     second_table: FuzzyTable | None = Field(
         default=None, description="Shares speed and torque-rate points with the first."
     )
     assist_modes: AssistModes | None = None
+    mass_kg: float | None = Field(
+        default=None,
+        ge=30.0,
+        le=400.0,
+        description="Closed loop: rider, bike and load. Without it 92 kg, and a wider band.",
+    )
+    drag_area_m2: float | None = Field(
+        default=None,
+        ge=0.1,
+        le=2.0,
+        description="Closed loop: drag coefficient times frontal area; 0.4 bent low to 0.6 upright."
+        " Without it 0.5, and a wider band.",
+    )
+
+    def told(self) -> RiderAndBike | None:
+        """Of rider and bike, for a closed loop; None in open loop."""
+        if self.mode == "open_loop":
+            return None
+        return RiderAndBike(self.mass_kg, self.drag_area_m2)
 
 
 class Compared(Answer):
     recorded: float | None
     replayed: float
     difference: float | None
+
+
+class Estimate(Answer):
+    """recorded: as ridden. replayed: with the change. difference: what the change makes, in the
+    twin. low, high: the band, in which nine of ten simulated rides lay."""
+
+    recorded: float
+    replayed: float
+    difference: float
+    low: float
+    high: float
+
+
+class Trust(Answer):
+    """How far the twin is off without any change, and what it rests on."""
+
+    no_change_error_pct: float = Field(description="Of the motor's work.")
+    no_change_time_error_pct: float
+    mass_kg: float = Field(description="As told, or as assumed.")
+    drag_area_m2: float = Field(description="As told, or as assumed.")
+    one_gear: bool = Field(
+        description="False where the rider shifted: the gear then belongs to the place as well."
+    )
+
+
+class ClosedLoop(Answer):
+    """The same road again with this table: an estimate with its band."""
+
+    meaning: str = Field(description="What it is and what it leaves out, in English.")
+    wh_per_km: Estimate = Field(description="Work at the motor's shaft for a kilometre.")
+    motor_work_wh: Estimate
+    duration_s: Estimate
+    trust: Trust
 
 
 class Replay(Answer):
@@ -202,8 +257,8 @@ class Replay(Answer):
     """
 
     ride_id: int
-    mode: Literal["open_loop"]
-    meaning: str = Field(description="What the mode leaves out, in English.")
+    mode: Literal["open_loop", "closed_loop"]
+    meaning: str = Field(description="What the open loop leaves out, in English.")
     config_source: Literal["ride", "defaults"] = Field(
         description="Whose parameters the rest of the law ran with."
     )
@@ -240,6 +295,7 @@ class Replay(Answer):
         description="The same as the unit told it on the ride; null where it did not."
     )
     series: Series
+    closed_loop: ClosedLoop | None = Field(description="Null where only open loop was asked.")
 
 
 class TableUseRequest(Question):

@@ -148,10 +148,15 @@ def export_ride(
     responses=DAMAGED,
 )
 def replay_ride(ride_id: RideId, body: ReplayRequest, services: Provided) -> Any:
-    """Runs the ride's inputs through the unit's own law with other tables or other modes."""
+    """Runs the ride's inputs through the unit's own law with other tables or other modes; in closed
+    loop the bike answers, and 422 says why where that cannot be trusted."""
     question = body.model_dump()
     answer = services.rides.replay(
-        ride_id, question["fuzzy_table"], question["assist_modes"], question["second_table"]
+        ride_id,
+        question["fuzzy_table"],
+        question["assist_modes"],
+        question["second_table"],
+        body.told(),
     )
     return whole(Replay, answer)
 

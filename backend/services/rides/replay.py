@@ -21,8 +21,10 @@ from backend.domain._generated import INPUT_FLAGS
 from backend.domain.channels import ChannelSpec, Values
 from backend.domain.energy import DELIVERED, RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
 from backend.domain.ride import Ride
+from backend.domain.rider_and_bike import RiderAndBike
 from backend.errors import InvalidRequest
-from backend.services.tuning.preview import Preview
+from backend.services.rides.ride_again import ridden_again
+from backend.services.tuning.preview import Preview, changed_config
 from backend.store import RideReader
 from backend.views.trace import trace
 
@@ -47,6 +49,7 @@ COMPARED = (
     ChannelSpec("fuzzy_gain", "", 0.00005),
 )
 REPLAYED = "replayed_"
+OPEN, CLOSED = "open_loop", "closed_loop"
 OPEN_LOOP = (
     "Open loop: speed and legs as recorded. With more help the bike would have been faster and the"
     " ride shorter; this tells what the motor would have given at the speeds that were ridden."
@@ -72,10 +75,13 @@ class RideReplay:
         fuzzy_table: Mapping[str, Any] | None,
         assist_modes: Mapping[str, Any] | None,
         second_table: Mapping[str, Any] | None = None,
+        told: RiderAndBike | None = None,
     ) -> dict[str, Any]:
-        """The comparison as the API tells it.
+        """The comparison as the API tells it; with the estimate of a closed loop beside it where
+        `told` says what is known for that.
 
-        Raises InvalidRequest for a ride that lacks what the law needs, or a table it refuses.
+        Raises InvalidRequest for a ride that lacks what the law needs or cannot be trusted for an
+        estimate, or a table the law refuses.
         """
         ride = reader.ride
         columns = read_columns(reader)
@@ -92,7 +98,7 @@ class RideReplay:
         distance_km = float(np.nansum(columns["speed_kmh"])) * step_s / SECONDS_PER_HOUR
         return {
             "ride_id": ride.id,
-            "mode": "open_loop",
+            "mode": OPEN if told is None else CLOSED,
             "meaning": OPEN_LOOP,
             "config_source": config_source,
             "engine": control.ENGINE,
@@ -109,6 +115,16 @@ class RideReplay:
             "limit_shares": replayed.limit_shares,
             "limit_shares_recorded": recorded_shares(columns.get(LIMITS)),
             "series": series(reader, columns, replayed_columns(replayed)),
+            "closed_loop": None
+            if told is None
+            else ridden_again(
+                reader,
+                columns,
+                config,
+                changed_config(config, fuzzy_table, assist_modes, second_table),
+                step_s,
+                told,
+            ),
         }
 
 

@@ -967,7 +967,8 @@ export interface paths {
         put?: never;
         /**
          * Replay Ride
-         * @description Runs the ride's inputs through the unit's own law with other tables or other modes.
+         * @description Runs the ride's inputs through the unit's own law with other tables or other modes; in closed
+         *     loop the bike answers, and 422 says why where that cannot be trusted.
          */
         post: operations["replay_ride"];
         delete?: never;
@@ -1320,6 +1321,22 @@ export interface components {
             old: number | string | (number | string)[] | (number | string)[][] | null;
             /** New */
             new: number | string | (number | string)[] | (number | string)[][] | null;
+        };
+        /**
+         * ClosedLoop
+         * @description The same road again with this table: an estimate with its band.
+         */
+        ClosedLoop: {
+            /**
+             * Meaning
+             * @description What it is and what it leaves out, in English.
+             */
+            meaning: string;
+            /** @description Work at the motor's shaft for a kilometre. */
+            wh_per_km: components["schemas"]["Estimate"];
+            motor_work_wh: components["schemas"]["Estimate"];
+            duration_s: components["schemas"]["Estimate"];
+            trust: components["schemas"]["Trust"];
         };
         /** CompareRequest */
         CompareRequest: {
@@ -1678,6 +1695,23 @@ export interface components {
              * @description Blocks of the flash for logs erased in its life; null if its answer was lost.
              */
             erases: number | null;
+        };
+        /**
+         * Estimate
+         * @description recorded: as ridden. replayed: with the change. difference: what the change makes, in the
+         *     twin. low, high: the band, in which nine of ten simulated rides lay.
+         */
+        Estimate: {
+            /** Recorded */
+            recorded: number;
+            /** Replayed */
+            replayed: number;
+            /** Difference */
+            difference: number;
+            /** Low */
+            low: number;
+            /** High */
+            high: number;
         };
         /** Evaluation */
         Evaluation: {
@@ -2566,12 +2600,12 @@ export interface components {
             ride_id: number;
             /**
              * Mode
-             * @constant
+             * @enum {string}
              */
-            mode: "open_loop";
+            mode: "open_loop" | "closed_loop";
             /**
              * Meaning
-             * @description What the mode leaves out, in English.
+             * @description What the open loop leaves out, in English.
              */
             meaning: string;
             /**
@@ -2628,20 +2662,32 @@ export interface components {
                 [key: string]: number;
             } | null;
             series: components["schemas"]["Series"];
+            /** @description Null where only open loop was asked. */
+            closed_loop: components["schemas"]["ClosedLoop"] | null;
         };
         /** ReplayRequest */
         ReplayRequest: {
             /**
              * Mode
-             * @description Speed and legs as recorded: the bike does not answer.
+             * @description Open: speed and legs as recorded, the bike does not answer. Closed: beside it an estimate by a twin of the bike; takes a second for some minutes of road.
              * @default open_loop
-             * @constant
+             * @enum {string}
              */
-            mode: "open_loop";
+            mode: "open_loop" | "closed_loop";
             fuzzy_table?: components["schemas"]["FuzzyTable"] | null;
             /** @description Shares speed and torque-rate points with the first. */
             second_table?: components["schemas"]["FuzzyTable"] | null;
             assist_modes?: components["schemas"]["AssistModes"] | null;
+            /**
+             * Mass Kg
+             * @description Closed loop: rider, bike and load. Without it 92 kg, and a wider band.
+             */
+            mass_kg?: number | null;
+            /**
+             * Drag Area M2
+             * @description Closed loop: drag coefficient times frontal area; 0.4 bent low to 0.6 upright. Without it 0.5, and a wider band.
+             */
+            drag_area_m2?: number | null;
         };
         /**
          * Revision
@@ -3374,6 +3420,34 @@ export interface components {
             speed_points_kmh: number[];
             /** Torque Rate Points */
             torque_rate_points: number[];
+        };
+        /**
+         * Trust
+         * @description How far the twin is off without any change, and what it rests on.
+         */
+        Trust: {
+            /**
+             * No Change Error Pct
+             * @description Of the motor's work.
+             */
+            no_change_error_pct: number;
+            /** No Change Time Error Pct */
+            no_change_time_error_pct: number;
+            /**
+             * Mass Kg
+             * @description As told, or as assumed.
+             */
+            mass_kg: number;
+            /**
+             * Drag Area M2
+             * @description As told, or as assumed.
+             */
+            drag_area_m2: number;
+            /**
+             * One Gear
+             * @description False where the rider shifted: the gear then belongs to the place as well.
+             */
+            one_gear: boolean;
         };
         /**
          * TwoDefinitions

@@ -18,6 +18,7 @@ SOURCE_FOLDERS = (
     "sim_device/firmware/app",
     "sim_device/firmware/boards/host",
     "sim_device/physics",
+    "sim_device/twin",
     "third_party/monocypher",
 )
 
@@ -34,6 +35,7 @@ HEADERS: tuple[str, ...] = (
     "sim_device/firmware/control/assist_types.h",
     "sim_device/firmware/control/assist_trace.h",
     "sim_device/firmware/control/assist.h",
+    "sim_device/twin/twin.h",
     "sim_device/firmware/control/market.h",
     "sim_device/firmware/control/rotor_receiver.h",
     "sim_device/firmware/control/wheel_speed.h",
