@@ -160,7 +160,7 @@ def own_id(entry_id: str) -> int:
     if entry_id in presets.names():
         raise AccessDenied(
             f"{entry_id} comes with Spindle and stays as it is: save it under another name.",
-            "read_only",
+            "preset_read_only",
         )
     own = OWN.fullmatch(entry_id)
     if own is None:

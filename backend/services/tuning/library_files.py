@@ -62,7 +62,7 @@ def document_table(entry_id: str, document: Mapping[str, Any], which: str = "fir
     missing = [name for name in PARAMETERS_OF[which].values() if name not in values]
     if missing:
         message = f"{entry_id} has no {which} table: it says nothing of {', '.join(missing)}."
-        raise Conflict(message, "no_table")
+        raise Conflict(message, "entry_has_no_table")
     return FuzzyTable.from_parameters(values, which)
 
 

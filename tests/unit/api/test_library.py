@@ -180,7 +180,7 @@ def test_what_comes_with_spindle_stays_as_it_is(client: TestClient) -> None:
     named = client.post(LIBRARY, json=own("even"))
 
     assert [changed.status_code, deleted.status_code] == [403, 403]
-    assert changed.json()["code"] == deleted.json()["code"] == "read_only"
+    assert changed.json()["code"] == deleted.json()["code"] == "preset_read_only"
     assert (named.status_code, named.json()["code"]) == (409, "name_taken")
 
 
@@ -291,7 +291,7 @@ def test_a_table_goes_out_to_other_programs_and_comes_back(client: TestClient) -
     line = fis.text.splitlines().index("1 1, 1 (1) : 1") + 1
     assert (refused.status_code, refused.json()["code"]) == (422, "bad_fis")
     assert refused.json()["errors"][0]["field"] == f"line {line}"
-    assert (none.status_code, none.json()["code"]) == (409, "no_table")
+    assert (none.status_code, none.json()["code"]) == (409, "entry_has_no_table")
 
 
 def test_two_tables_differ_where_they_were_made_to_differ(client: TestClient) -> None:
