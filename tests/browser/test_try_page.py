@@ -77,7 +77,7 @@ def test_a_bigger_gain_is_tried_from_tune_and_takes_more_work(tuner: Desk, ride:
     page.focus("[data-cell='0,0']")
     page.keyboard.press("Control+a")
     page.keyboard.press("5")
-    page.get_by_role("link", name="Try on a ride").click()
+    page.get_by_test_id("draft-bar").get_by_role("link", name="Try on a ride").click()
 
     expect(page.locator(SENTENCE)).to_contain_text("more")
     answered(page)
@@ -217,6 +217,7 @@ def test_a_moment_says_who_took_what_and_the_next_cut_is_a_key_away(
 ) -> None:
     cuts = workshop.get(f"/rides/{ride}/cuts")["items"]
     page = tuner.open(f"/rides/{ride}")
+    expect(page.get_by_test_id("ledger")).to_contain_text("sport")
     page.get_by_role("link", name="Why").click()
     page.wait_for_selector("[data-testid=waterfall]")
 

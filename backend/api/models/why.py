@@ -175,6 +175,8 @@ class RuleShare(Answer):
     row: int
     column: int
     label: Label
+    speed_point_kmh: float
+    torque_rate_point: float
     seconds: float
     motor_wh: float
     share: float | None = Field(description="Of the ride's motor energy, 0 to 1.")

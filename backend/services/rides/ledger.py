@@ -143,6 +143,8 @@ def told_rules(
                     "row": row,
                     "column": column,
                     "label": labels[row][column],
+                    "speed_point_kmh": config["fuzzy_speed_points_kmh"][row],
+                    "torque_rate_point": config["fuzzy_torque_rate_points"][column],
                     "seconds": float(use.seconds[row, column]),
                     "motor_wh": carried_wh,
                     "share": share(carried_wh, total_wh),

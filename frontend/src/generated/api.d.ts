@@ -2969,6 +2969,10 @@ export interface components {
              * @enum {string}
              */
             label: "NB" | "NS" | "ZO" | "PS" | "PB";
+            /** Speed Point Kmh */
+            speed_point_kmh: number;
+            /** Torque Rate Point */
+            torque_rate_point: number;
             /** Seconds */
             seconds: number;
             /** Motor Wh */

@@ -25,12 +25,18 @@ export class RideMoment {
       if (id === null) return
       const [ride, cuts] = await Promise.all([this.server.ride(id), this.server.cuts(id)])
       this.ride = ride
+      if (this.unknown) return
       this.cuts = cuts
       this.move(t_s ?? cuts[0]?.at_s ?? this.end_s / 2)
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
       this.refused = error
     }
+  }
+
+  /** Nobody knows with which configuration the ride was made: nothing of it is explained. */
+  get unknown(): boolean {
+    return this.ride !== null && this.ride.device.config_crc32 === null
   }
 
   get end_s(): number {
@@ -68,7 +74,7 @@ export class RideMoment {
   private async latest(): Promise<number | null> {
     const { items } = await this.server.rides()
     const told = items.filter(({ state, device }) => state === 'done' && device.config_crc32)
-    return (told[0] ?? items[0])?.id ?? null
+    return told[0]?.id ?? null
   }
 
   private async ask(): Promise<void> {

@@ -3,6 +3,9 @@ import { fill, type Locale, type Values } from '$shared/i18n/locale.svelte'
 
 export const en = {
   no_rides: 'No ride yet. Record one, or import a file of this bike, to ask why.',
+  no_table:
+    'Nobody kept the configuration that this ride was made with, so why the motor gave what it ' +
+    'gave is not known.',
   choose: 'Choose another ride',
   asked_arrived: '{mode} asked for {asked}; {given} arrived.',
   asked_commanded: '{mode} asked for {asked}; the motor was told {given}.',

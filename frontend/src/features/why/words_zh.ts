@@ -3,6 +3,7 @@ import type { WhyKey } from './words.svelte'
 
 export const zh: Record<WhyKey, string> = {
   no_rides: '还没有骑行。请先记录一次，或导入此车的文件。',
+  no_table: '没有人保留此骑行当时的配置，因此无法说明电机为何如此输出。',
   choose: '选择另一次骑行',
   asked_arrived: '{mode} 要求 {asked}，实际得到 {given}。',
   asked_commanded: '{mode} 要求 {asked}，给电机的指令为 {given}。',

@@ -2,9 +2,9 @@
 import { body, bodyAndTag, type Http } from './client'
 import { readSeries, type Series } from './series'
 import type {
-  Config,
   ComparedSide,
   Comparison,
+  Config,
   ConfigChange,
   Cut,
   Dashboard,
@@ -13,6 +13,7 @@ import type {
   Feel,
   FuzzyTable,
   Health,
+  Ledger,
   LibraryDocument,
   LibraryEntry,
   LibraryRow,
@@ -287,6 +288,11 @@ export class Server {
             ...this.unit(device_id),
           }),
         )
+  }
+
+  /** Which mode and which rule carried which share of a ride's motor energy. */
+  ledger(id: number): Promise<Ledger> {
+    return body(this.http.GET('/api/v1/rides/{ride_id}/ledger', this.rideAt(id)))
   }
 
   /** Where limits held the motor back on a ride, in order of time. */
