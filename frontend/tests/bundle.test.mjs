@@ -37,7 +37,8 @@ describe.skipIf(!built)('the built pages', () => {
   // Style sheets are named after the chunk that they come with.
   const withStyles = (names) => {
     const stems = names.map((name) => name.replace(/-[\w-]{8}\.js$/, ''))
-    return [...names, ...files.filter((name) => stems.includes(name.replace(/-[\w-]{8}\.css$/, '')))]
+    const ofThem = (name) => stems.includes(name.replace(/-[\w-]{8}\.css$/, ''))
+    return [...names, ...files.filter(ofThem)]
   }
   const first = () => withStyles(loaded([...entry(), ...all(/^BikePage-.*js$/)]))
 

@@ -195,3 +195,40 @@ def test_a_chinese_reader_is_told_why_in_chinese(open_desk: OpenDesk, standing: 
     link = page.get_by_role("region", name="链路")
     expect(link).to_contain_text("已与单元建立联系。")
     expect(link).not_to_contain_text("Connected to")
+
+
+def test_the_first_sentence_says_how_the_bike_is_and_each_part_has_a_lamp(
+    desk: Desk, server: SpindleServer, standing: str
+) -> None:
+    page = desk.open("/")
+    name = server.get(f"/devices/{standing}")["identity"]["serial_number"][-6:]
+    headline, lamps = page.get_by_test_id("headline"), page.get_by_test_id("lamps")
+    expect(headline).to_have_text(f"Simulated {name} is ready to ride")
+    expect(lamps.locator("li.ok")).to_have_count(6)
+    expect(lamps.locator("[data-lamp=battery]")).to_contain_text("%")
+    # By the unit's own law: the fixed law of mode eco has a ratio of one half.
+    motor = page.get_by_role("region", name="What is set").locator("dt:has-text('eco') + dd")
+    expect(motor).to_have_text("15 Nm")
+
+    unit = server.get(f"/devices/{standing}")
+    answers = [{**unit, "faults_active": ["torque_stuck"]}, {**unit, "state": "lost"}]
+    listed = {"items": [answers[0]], "next": None}
+    page.route("**/api/v1/devices", lambda route: route.fulfill(json=listed))
+
+    expect(headline).to_contain_text("gives no assist")
+    expect(lamps.locator("li.bad")).to_contain_text("Torque sensor stuck")
+    expect(page.get_by_role("region", name="Do next")).to_contain_text("Mend the fault")
+
+    listed["items"] = [answers[1]]
+
+    # What was known stays; what only a unit that answers can tell is a dash.
+    expect(headline).to_contain_text("was last seen at")
+    expect(page.locator(PILL)).to_contain_text("read-only")
+    expect(lamps.locator("[data-lamp=motor]")).to_contain_text("only while connected")
+    expect(lamps.locator("[data-lamp=firmware]")).to_contain_text(
+        unit["identity"]["firmware_version"]
+    )
+    expect(motor).to_have_text("15 Nm")
+    expect(page.get_by_role("region", name="Now").locator("dd").first).to_have_text("—")
+    desk.picture("bike-lost", full=True)
+    page.unroute_all(behavior="ignoreErrors")

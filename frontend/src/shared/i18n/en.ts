@@ -1,5 +1,6 @@
 // English: the words of the pages. What the unit speaks of (parameters, channels) is in en_unit.ts,
 // rides are in en_rides.ts, how things stand (faults) in en_state.ts.
+import { enBike } from './en_bike'
 import { enModes } from './en_modes'
 import { enRides } from './en_rides'
 import { enState } from './en_state'
@@ -12,6 +13,7 @@ export const en = {
   ...enState,
   ...enTune,
   ...enModes,
+  ...enBike,
   'app.choose_unit': 'Choose a unit',
   'app.dismiss': 'Dismiss',
   'app.loading': 'Loading…',

@@ -1,5 +1,6 @@
 // 中文：页面用语。缺少任何一个词，类型检查都会失败。
 import type { Key } from './en'
+import { zhBike } from './zh_bike'
 import { zhModes } from './zh_modes'
 import { zhRides } from './zh_rides'
 import { zhState } from './zh_state'
@@ -12,6 +13,7 @@ export const zh: Record<Key, string> = {
   ...zhState,
   ...zhTune,
   ...zhModes,
+  ...zhBike,
   'app.choose_unit': '选择驱动单元',
   'app.dismiss': '关闭',
   'app.loading': '正在载入…',
