@@ -108,6 +108,13 @@ def test_nothing_changed_gives_what_was_recorded(tuner: Desk, ride: int) -> None
     expect(page.get_by_label("Try")).to_have_value("ride")
     names = tuner.plot("gd.data.map((line) => line.name)")
     assert names[:2] == ["Motor torque at the shaft", "Motor torque, replayed"]
+    again = page.get_by_test_id("try-again")
+    cells = again.locator("[data-again=wh_per_km] td")
+    expect(cells).to_have_count(3)
+    ridden, _, band = cells.all_inner_texts()
+    low, high = band.split(" – ")
+    assert float(low) <= float(ridden) <= float(high)
+    expect(again).to_contain_text("With nothing changed the twin is off by")
 
 
 def test_a_table_that_comes_with_spindle_is_tried_in_place_of_the_first(
