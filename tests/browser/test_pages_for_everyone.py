@@ -164,6 +164,21 @@ def test_the_first_tab_skips_to_the_page(desk: Desk, device: str) -> None:
     assert page.evaluate("document.activeElement.id") == "main"
 
 
+def test_a_question_mark_lists_the_keys_and_two_letters_go_to_a_page(
+    desk: Desk, standing: str
+) -> None:
+    page = desk.open("/settings")
+
+    page.keyboard.press("?")
+    expect(page.get_by_role("dialog", name="Keyboard")).to_contain_text("then b Bike")
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    page.keyboard.press("g")
+    page.keyboard.press("c")
+
+    expect(page.locator("h1")).to_have_text("Calibrate")
+
+
 def test_an_unknown_address_says_so(desk: Desk, device: str) -> None:
     page = desk.open("/nonsense")
 

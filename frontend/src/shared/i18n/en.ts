@@ -349,6 +349,8 @@ export const en = {
   'units.metric': 'km/h, Nm, °C',
   'units.imperial': 'mph, lbf·ft, °F',
   'keys.title': 'Keyboard',
+  'keys.go':
+    '? lists these keys. g, then b Bike, l Live, t Tune, c Calibrate, s Service, r Rides.',
   'keys.live': 'Space pauses the strips.',
   'keys.rules':
     'Arrows move, 1 to 5 set NB to PB, + and − nudge, Shift with arrows selects, Ctrl+C ' +

@@ -316,6 +316,8 @@ export const zh: Record<Key, string> = {
   'units.metric': 'km/h、Nm、°C',
   'units.imperial': 'mph、lbf·ft、°F',
   'keys.title': '键盘',
+  'keys.go':
+    '? 列出这些按键。先按 g，再按 b 车辆、l 实时、t 调校、c 标定、s 维修、r 骑行。',
   'keys.live': '空格键暂停曲线。',
   'keys.rules':
     '方向键移动，1 至 5 设为 NB 至 PB，+ − 微调，Shift 加方向键选择，Ctrl+C 与 Ctrl+V 复' +
