@@ -24,6 +24,8 @@ TIME_ERROR_MAX = 0.03
 WORK_LEAST_J = 180.0
 """A twentieth of a Wh: below it a share of the work says nothing."""
 HOLES_MAX = 0.01
+LONGEST_S = 4 * 3600.0
+"""A band of it takes some twenty seconds of a thread."""
 SLOW_KMH = 6.0
 SLOW_SHARE_MAX = 0.1
 SLOW_LEAST_S = 60.0
@@ -103,6 +105,11 @@ def refuse_what_cannot_be_laid_over(reader: RideReader, columns: Columns) -> Non
         raise InvalidRequest(
             f"{start} it does not tell what the motor gave, only what was asked of it at most.",
             code="not_delivered",
+        )
+    seconds = columns["speed_kmh"].size * (ride.period_us or 0) / 1e6
+    if seconds > LONGEST_S:
+        raise InvalidRequest(
+            f"{start} it took longer than {LONGEST_S / 3600.0:.0f} h.", code="ride_too_long"
         )
     missing = np.mean(~np.isfinite(columns["speed_kmh"])) if columns["speed_kmh"].size else 1.0
     if missing > HOLES_MAX:

@@ -23,6 +23,7 @@ from backend.domain.rider_and_bike import RiderAndBike
 from backend.errors import InvalidRequest
 from backend.ingest import ImportedRide, Outcome
 from backend.services.imports.upload import Uploads
+from backend.services.rides import ride_again
 from backend.services.rides.replay import RideReplay
 from backend.services.tuning.preview import Preview
 from backend.store import Store, open_store
@@ -168,3 +169,14 @@ def test_what_cannot_be_trusted_is_refused_with_the_reason(
 
     assert refused.value.code == code
     assert "cannot be ridden again" in str(refused.value)
+
+
+def test_a_ride_of_half_a_day_is_refused_before_it_takes_a_thread(
+    store: Store, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ride_again, "LONGEST_S", len(sport()["speed_kmh"]) * 0.01 - 1.0)
+
+    with pytest.raises(InvalidRequest) as refused:
+        again(store, sport())
+
+    assert refused.value.code == "ride_too_long"

@@ -53,7 +53,7 @@ class Shop:
     def __init__(self, folder: Path) -> None:
         self.store = open_store(f"sqlite:///{folder}/db", f"file://{folder}/objects")
 
-        def replay(reader: RideReader, table: object, modes: object, second: object) -> object:
+        def replay(reader: RideReader, *question: object) -> object:
             return reader.counts(["speed_kmh"], 0, reader.row_count)
 
         self.rides = Rides(self.store, replay)

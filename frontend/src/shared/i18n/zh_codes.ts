@@ -103,6 +103,7 @@ const refusal = {
   entry_has_no_table: '此条目中没有这一控制表。',
   why_refused: '控制律不接受这一状态。',
   not_delivered: '此骑行无法再骑一次：没有记录电机实际给出的扭矩。',
+  ride_too_long: '此骑行无法再骑一次：时间超过四小时。',
   holes: '此骑行无法再骑一次：车速记录有缺失。',
   faults: '此骑行无法再骑一次：途中单元报告过故障。',
   too_slow_to_tell: '此骑行无法再骑一次：车速低于 6 km/h 的时间过长。',
