@@ -41,8 +41,6 @@ def test_a_dealer_keeps_opens_compares_and_takes_back(
 ) -> None:
     before = server.get(f"/devices/{device}/config")["parameters"]
     desk = open_desk(width=1440, height=900)
-    # What Tune listens to may not be open yet when it is left.
-    desk.allow("WebSocket is closed before the connection is established")
     page = desk.open("/settings")
     page.get_by_label("Your name").fill("张工")
     page = desk.open("/tune/library?a=even&b=strong-start")

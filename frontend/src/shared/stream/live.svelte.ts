@@ -8,6 +8,7 @@ import {
   type StreamHeader,
   type StreamState,
 } from './frame'
+import { hangUp } from './hang_up'
 import { TraceBuffer } from './trace_buffer'
 
 const STALE_AFTER_MS = 1500 // a rider's glance: older than this must not look alive
@@ -68,7 +69,7 @@ export class LiveStream {
     this.timers.forEach(clearTimeout)
     document.removeEventListener('visibilitychange', this.wake)
     window.removeEventListener('online', this.wake)
-    this.socket?.close()
+    if (this.socket) hangUp(this.socket)
   }
 
   /** Index of a channel in the buffer's columns, or -1. */
@@ -110,7 +111,7 @@ export class LiveStream {
     this.timers.forEach(clearTimeout)
     const old = this.socket
     this.socket = null
-    old?.close()
+    if (old) hangUp(old)
     this.retry_ms = 250
     this.connect()
   }
