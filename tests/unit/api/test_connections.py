@@ -108,6 +108,7 @@ def test_a_body_that_stops_ends_the_connection(address: tuple[str, int]) -> None
         ends(talker)
 
 
+@pytest.mark.slow
 def test_the_second_request_of_a_connection_may_not_drip_either(address: tuple[str, int]) -> None:
     with socket.create_connection(address) as talker:
         talker.sendall(b"GET /value HTTP/1.1\r\nHost: x\r\n\r\nGET /va")
@@ -131,6 +132,7 @@ def test_a_hundred_bodies_that_drip_do_not_keep_a_talker_out() -> None:
         asking.close()
 
 
+@pytest.mark.slow
 def test_two_hundred_silent_sockets_do_not_keep_a_talker_out(address: tuple[str, int]) -> None:
     with contextlib.ExitStack() as held:
         silent = [held.enter_context(socket.create_connection(address)) for _ in range(200)]

@@ -54,6 +54,7 @@ tables = st.builds(
 )
 
 
+@pytest.mark.slow
 @given(tables)
 @settings(max_examples=200, deadline=None)
 def test_a_table_comes_back_as_it_went_out(table: FuzzyTable) -> None:
@@ -210,6 +211,7 @@ def test_a_file_that_is_no_table_says_so(text: str, says: str) -> None:
         table_of(read_fis(text))
 
 
+@pytest.mark.slow
 @given(st.data())
 @settings(max_examples=300, deadline=None)
 def test_nothing_but_a_refusal_comes_of_a_damaged_file(data: st.DataObject) -> None:

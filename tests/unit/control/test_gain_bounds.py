@@ -144,6 +144,7 @@ def test_a_bound_is_never_below_what_the_unit_does(block: int) -> None:
     assert blurred <= 1 + counts.of(TABLES) // BLOCKS // 100
 
 
+@pytest.mark.slow
 def test_the_gains_range_holds_all_gains_and_little_more() -> None:
     random = np.random.default_rng(7)
     for _ in range(60):
@@ -179,6 +180,7 @@ def test_a_bilinear_gain_is_known_exactly(question: Any) -> None:
     assert change.at_most == pytest.approx(change.at_least + ROUNDING)
 
 
+@pytest.mark.slow
 def test_the_thesis_table_ripples_as_the_reference_measured_it() -> None:
     rise = largest_rise(THESIS_TABLE, "speed")
     fall = largest_rise(THESIS_TABLE, "rate", sign=-1)

@@ -33,6 +33,7 @@ def modes(law: str, ratio: float) -> AssistModes:
     return AssistModes(tuple(AssistMode(f"slot {i}", law, ratio) for i in range(5)), 0)
 
 
+@pytest.mark.slow
 def test_the_thesis_table_has_no_errors_and_only_its_permanent_gain_to_explain() -> None:
     report = lint(THESIS_TABLE)
 
@@ -43,6 +44,7 @@ def test_the_thesis_table_has_no_errors_and_only_its_permanent_gain_to_explain()
     assert codes(report.notes) == ["centroid_ripple"]
 
 
+@pytest.mark.slow
 def test_the_ripple_of_the_centroid_is_told_where_the_reference_measured_it() -> None:
     note = lint(THESIS_TABLE).notes[0]
 
@@ -65,6 +67,7 @@ def test_the_misread_row_is_found_out() -> None:
     assert {"label_step", "steep_gain"} <= set(codes(report.warnings))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("inference", ["mamdani_centroid", "weighted_average"])
 def test_a_cliff_between_close_points_is_found_wherever_it_stands(inference: str) -> None:
     rows = tuple((label,) * 5 for label in ("NB", "PB", "NB", "PB", "NB"))
@@ -104,6 +107,7 @@ def test_equal_rows_and_columns_are_noted() -> None:
     assert len(notes) == 8
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("limits", "code"),
     [
@@ -131,6 +135,7 @@ def test_a_demand_beyond_the_motor_says_from_which_rider_torque_on() -> None:
     assert "55 Nm" in demand[0].message
 
 
+@pytest.mark.slow
 def test_a_demand_is_judged_with_the_units_own_gear() -> None:
     limits = {"motor_torque_nm_max": 2.0}
     low_gear, high_gear = (
@@ -144,6 +149,7 @@ def test_a_demand_is_judged_with_the_units_own_gear() -> None:
     assert "demand_beyond_motor" not in codes(high_gear)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("band_kmh", "told"), [(0.0, True), (0.9, True), (1.0, False)])
 def test_a_cutoff_band_too_narrow_to_be_felt_is_told(band_kmh: float, told: bool) -> None:
     warnings = lint(THESIS_TABLE, limits={"assist_cutoff_band_kmh": band_kmh}).warnings
@@ -152,6 +158,7 @@ def test_a_cutoff_band_too_narrow_to_be_felt_is_told(band_kmh: float, told: bool
     assert [f.where for f in found] == (["assist_cutoff_band_kmh"] if told else [])
 
 
+@pytest.mark.slow
 def test_a_table_no_mode_uses_is_noted() -> None:
     assert "table_not_used" in codes(lint(THESIS_TABLE, modes("fixed", 0.5)).notes)
     assert "table_not_used" not in codes(lint(THESIS_TABLE, modes("fuzzy", 0.5)).notes)

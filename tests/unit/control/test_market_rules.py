@@ -65,6 +65,7 @@ def test_the_lower_of_setting_and_market_ends_assist(
     assert cutoff.holds_kmh == pytest.approx(holds_kmh, abs=1e-4)
 
 
+@pytest.mark.slow
 def test_a_cutoff_above_the_market_s_is_told_with_the_speed_that_holds() -> None:
     warning = found(judged("japan"), "cutoff_above_market")[0]
 
@@ -74,6 +75,7 @@ def test_a_cutoff_above_the_market_s_is_told_with_the_speed_that_holds() -> None
     assert warning.values == {"market": "japan", "speed_kmh": 24.0}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("configured_kmh", [24.0, 22.1, 22.3, 0.0])
 def test_a_cutoff_the_market_allows_is_not_complained_of(configured_kmh: float) -> None:
     report = judged("japan", limits={"assist_cutoff_kmh": configured_kmh})
@@ -81,12 +83,14 @@ def test_a_cutoff_the_market_allows_is_not_complained_of(configured_kmh: float) 
     assert found(report, "cutoff_above_market") == []
 
 
+@pytest.mark.slow
 def test_an_extra_that_the_market_does_not_give_is_told_at_its_field() -> None:
     report = judged("eu_epac", limits={"assist_cutoff_extra_kmh": 10.0})
 
     assert [f.where for f in found(report, "cutoff_above_market")] == ["assist_cutoff_extra_kmh"]
 
 
+@pytest.mark.slow
 def test_rules_whose_speeds_the_market_takes_away_are_named_by_row() -> None:
     fast = replace(THESIS_TABLE, speed_points_kmh=(5.0, 10.0, 20.0, 25.0, 30.0))
 
@@ -106,6 +110,7 @@ def test_a_setting_below_the_market_s_speed_is_the_reason_that_is_told() -> None
     assert found(report, "row_above_market") == []
 
 
+@pytest.mark.slow
 def test_the_thesis_table_in_the_eu_has_nothing_to_explain_to_its_market() -> None:
     report = judged("eu_epac", AssistMode("sport", "fuzzy", 1.0))
 
@@ -121,6 +126,7 @@ def test_a_fuzzy_mode_of_ratio_one_passes_japans_envelope_from_14_2_km_h_on() ->
     assert warning.values["speed_kmh"] == pytest.approx(14.2, abs=0.13)
 
 
+@pytest.mark.slow
 def test_a_fuzzy_mode_is_judged_with_the_table_it_uses() -> None:
     second = AssistMode("sport", "fuzzy", 1.0, table="second")
 
@@ -130,6 +136,7 @@ def test_a_fuzzy_mode_is_judged_with_the_table_it_uses() -> None:
     assert found(judged("japan", second, which="second"), "table_not_used") == []
 
 
+@pytest.mark.slow
 def test_a_demand_beyond_the_motor_is_told_of_modes_with_this_table_only() -> None:
     modes = (AssistMode("first", "fuzzy", 1.0), AssistMode("second", "fuzzy", 1.0, table="second"))
     limits = {"motor_torque_nm_max": 2.0}
@@ -141,6 +148,7 @@ def test_a_demand_beyond_the_motor_is_told_of_modes_with_this_table_only() -> No
     assert [finding.where for finding in second] == ["modes[1]"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("taper", "ratio", "passes"),
     [
@@ -160,12 +168,14 @@ def test_the_fixed_law_is_judged_with_its_taper(taper: str, ratio: float, passes
     assert bool(found(report, "ratio_above_market")) is passes
 
 
+@pytest.mark.slow
 def test_a_taper_nobody_told_is_not_judged() -> None:
     report = judged("japan", AssistMode("tour", "fixed", 3.0))
 
     assert found(report, "ratio_above_market") == []
 
 
+@pytest.mark.slow
 def test_only_a_market_that_names_a_ratio_has_one_to_keep() -> None:
     report = judged("us_class_1", AssistMode("tour", "fixed", 3.0, "none"))
 

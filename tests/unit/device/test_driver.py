@@ -48,6 +48,7 @@ def driver(opener: UnitOpener, heard: Heard) -> Iterator[Driver]:
     driver.close()
 
 
+@pytest.mark.slow
 def test_a_listener_hears_the_state_and_then_the_rows(driver: Driver, heard: Heard) -> None:
     driver.start()
 
@@ -108,6 +109,7 @@ def test_asking_a_unit_that_is_not_there_gives_the_reason(
         driver.run(ask(CfgInfoRequest(), CfgInfoResponse), timeout_s=10.0)
 
 
+@pytest.mark.slow
 def test_a_listener_that_fails_is_logged_and_the_thread_goes_on(
     opener: UnitOpener, heard: Heard, caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -138,6 +140,7 @@ def test_a_fault_of_ours_is_logged_and_the_port_is_opened_anew(
     assert opener.links[0].closed
 
 
+@pytest.mark.slow
 def test_a_vanished_port_is_opened_again_when_it_returns(
     opener: UnitOpener, driver: Driver, heard: Heard
 ) -> None:
@@ -222,6 +225,7 @@ class PtyUnit:
             os.write(self.master, self._unit.transmit())
 
 
+@pytest.mark.slow
 def test_a_unit_on_a_pseudo_terminal_vanishes_with_it_and_is_ready_again_on_the_next(
     heard: Heard, tmp_path: os.PathLike[str]
 ) -> None:
@@ -245,6 +249,7 @@ def test_a_unit_on_a_pseudo_terminal_vanishes_with_it_and_is_ready_again_on_the_
     served.stop()
 
 
+@pytest.mark.slow
 def test_a_unit_whose_adapter_came_back_under_another_name_is_taken_up_again(
     heard: Heard, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -30,6 +30,7 @@ def test_nothing_is_known_before_the_first_sample() -> None:
     assert ClockEstimator().estimate is None
 
 
+@pytest.mark.slow
 @given(
     delays=st.lists(st.tuples(st.integers(0, 200_000), st.integers(0, 200_000)), min_size=1),
     offset_us=st.integers(-(10**12), 10**12),

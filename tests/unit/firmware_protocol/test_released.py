@@ -65,6 +65,7 @@ def test_a_new_parameter_goes_last_and_nothing_else_is_asked_of_it(tmp_path: Pat
     assert released.new_names(release, grown) == {"chain_length_m"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [

@@ -110,6 +110,7 @@ def test_a_rider_above_the_critical_power_fades_to_it_as_the_reserve_goes() -> N
     assert max(abs(after - now) for now, after in pairwise(given_w)) < 8.0
 
 
+@pytest.mark.slow
 def test_the_tired_rider_of_the_pass_does_not_jump() -> None:
     unit = LockstepUnit(21, scenario="alpine_climb")
     names = ("spindle_torque_nm", "rider_reserve_j", "t_s")

@@ -143,6 +143,7 @@ def original(shop: Shop, download: Download) -> bytes:
     return shop.store.objects.local_path(key).read_bytes()
 
 
+@pytest.mark.slow
 def test_a_log_becomes_a_ride_and_is_confirmed(shop: Shop) -> None:
     (log,) = shop.collect.logs(shop.device).items
     assert (log.state, log.confirmed, log.started_at) == ("closed", False, None)
@@ -204,6 +205,7 @@ def test_what_is_no_beginning_of_the_log_is_thrown_away(shop: Shop, found: bytes
     assert original(shop, done) == flash_bytes(shop)
 
 
+@pytest.mark.slow
 def test_the_unit_is_not_told_before_the_ride_is_stored(
     shop: Shop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -301,6 +303,7 @@ def test_what_was_fetched_of_a_log_that_is_gone_becomes_a_ride(shop: Shop, suffi
     assert shop.collect.logs(shop.device).items == (log,)
 
 
+@pytest.mark.slow
 def test_a_beginning_the_store_refuses_stays_on_the_disk(
     shop: Shop, monkeypatch: pytest.MonkeyPatch
 ) -> None:

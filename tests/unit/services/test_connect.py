@@ -178,6 +178,7 @@ def test_who_stopped_listening_hears_nothing_more(devices: Devices) -> None:
     assert len(gone.events) == count
 
 
+@pytest.mark.slow
 def test_a_snapshot_is_the_newest_row_with_nothing_missing_made_up(
     devices: Devices, workshop: Workshop
 ) -> None:

@@ -255,6 +255,7 @@ def test_a_time_no_unit_can_count_is_refused(bench: Bench) -> None:
         bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, confirm_s=256)
 
 
+@pytest.mark.slow
 def test_a_silent_unit_is_no_answer_and_unchanged(bench: Bench) -> None:
     bench.unit.silent = True
 
@@ -284,6 +285,7 @@ def falls_silent_at_commit(unit: FakeUnit, does_it: bool, for_requests: int) -> 
     unit._respond = respond  # type: ignore[method-assign, assignment]
 
 
+@pytest.mark.slow
 def test_a_commit_nobody_acknowledged_is_found_done_when_it_was(bench: Bench) -> None:
     falls_silent_at_commit(bench.unit, does_it=True, for_requests=1)
 
@@ -293,6 +295,7 @@ def test_a_commit_nobody_acknowledged_is_found_done_when_it_was(bench: Bench) ->
     assert bench.held["pedal_stop_ms"] == 200
 
 
+@pytest.mark.slow
 def test_a_commit_nobody_acknowledged_is_told_undone_when_it_was_not(bench: Bench) -> None:
     falls_silent_at_commit(bench.unit, does_it=False, for_requests=1)
 
@@ -302,6 +305,7 @@ def test_a_commit_nobody_acknowledged_is_told_undone_when_it_was_not(bench: Benc
     assert bench.held == default_config()
 
 
+@pytest.mark.slow
 def test_a_commit_nobody_acknowledged_is_not_believed_when_something_else_is_there(
     bench: Bench,
 ) -> None:

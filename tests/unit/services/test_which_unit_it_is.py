@@ -124,6 +124,7 @@ def refused(unit: FakeUnit) -> Iterator[None]:
     assert not WRITES & set(unit.executed)
 
 
+@pytest.mark.slow
 def test_a_unit_on_another_cable_keeps_its_bike_and_its_configurations(
     open_desk: OpenDesk,
 ) -> None:
@@ -143,6 +144,7 @@ def test_a_unit_on_another_cable_keeps_its_bike_and_its_configurations(
     assert after.memory.ride_context(desk.id).unit_key == shed.unit_key
 
 
+@pytest.mark.slow
 def test_another_unit_on_the_same_cable_has_none_of_what_was_there(open_desk: OpenDesk) -> None:
     before = open_desk({SHED: FakeUnit(b"FIRST-UNIT-1")})
     first = before.devices.add(SHED)
@@ -211,6 +213,7 @@ def test_nothing_is_written_to_a_unit_without_number_and_name(open_desk: OpenDes
         desk.collect.erase(device, 1)
 
 
+@pytest.mark.slow
 def test_a_named_unit_is_written_and_its_configurations_come_back_under_its_name(
     open_desk: OpenDesk,
 ) -> None:

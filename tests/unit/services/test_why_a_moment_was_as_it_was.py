@@ -117,6 +117,7 @@ def test_a_brake_is_named_with_all_that_it_took(store: Store) -> None:
     assert steps["motor_torque"]["torque_nm"] == 0.0
 
 
+@pytest.mark.slow
 def test_what_is_not_known_is_refused_with_its_reason(store: Store) -> None:
     ride_id = kept(store, speed_kmh=np.where(np.arange(ROWS) == 700, np.nan, 12.0))
     by_defaults = WhyRide(store, lambda ride: (law_defaults(), "defaults"))

@@ -16,6 +16,7 @@ FLUSH_S = 0.5
 RIDE_S_MAX = 430.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in names() if load(name).live])
 def test_the_told_current_adds_up_to_the_charge_used(name: str) -> None:
     scenario = load(name)

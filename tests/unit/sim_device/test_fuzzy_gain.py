@@ -194,6 +194,7 @@ def test_the_centroid_ripples_no_more_than_the_reference_measured() -> None:
     assert fall == pytest.approx(0.0090, abs=1e-4)
 
 
+@pytest.mark.slow
 def test_a_point_alone_and_in_a_long_batch_gives_the_same_bits() -> None:
     random = np.random.default_rng(4)
     speeds, rates = random.uniform(-1, 27, 1000), random.uniform(-0.1, 1, 1000)

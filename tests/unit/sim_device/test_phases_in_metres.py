@@ -39,6 +39,7 @@ def where_the_hill_begins(unit: LockstepUnit) -> tuple[float, float]:
     return seen["t_s"], seen["distance_m"]
 
 
+@pytest.mark.slow
 def test_a_faster_bike_meets_the_hill_sooner_and_at_the_same_place() -> None:
     begun = [where_the_hill_begins(LockstepUnit(scenario=road(push))) for push in (20.0, 45.0)]
     (slow_s, slow_m), (fast_s, fast_m) = begun
@@ -71,6 +72,7 @@ def test_what_a_step_goes_too_far_is_not_added_up_over_the_phases() -> None:
     assert 68.0 <= seen["distance_m"] < 68.01
 
 
+@pytest.mark.slow
 def test_a_bike_that_stands_is_let_go_after_the_time_of_a_pushed_one() -> None:
     scenario = road(0.0)
     unit = LockstepUnit(scenario=scenario)
@@ -98,6 +100,7 @@ def test_the_ride_says_which_phases_stalled_and_how_long_it_took(tmp_path: Any) 
     assert 68.0 < ridden["duration_s"] < 90.0
 
 
+@pytest.mark.slow
 def test_a_road_that_begins_again_begins_again_at_its_end() -> None:
     unit = LockstepUnit(scenario=road(30.0, more="repeat = true"))
     seen_m = []
@@ -111,6 +114,7 @@ def test_a_road_that_begins_again_begins_again_at_its_end() -> None:
     assert [round(met, 1) for met in seen_m] == [60.0, 160.0, 260.0]
 
 
+@pytest.mark.slow
 def test_seconds_after_metres_count_from_where_the_metres_ended() -> None:
     unit = LockstepUnit(scenario=road(30.0, ending="seconds = 5"))
     begun_s, _ = where_the_hill_begins(unit)

@@ -116,6 +116,7 @@ def test_an_area_is_not_erased_while_the_bike_rolls() -> None:
     assert counters(unit).saved_operating_s > 60 * 20
 
 
+@pytest.mark.slow
 @pytest.mark.board_long
 def test_power_lost_in_any_byte_of_a_saving_leaves_the_count_before_or_after() -> None:
     unit = BenchUnit(flash_block_bytes=512, flash_bytes=6 * 512)

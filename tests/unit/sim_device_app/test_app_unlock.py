@@ -344,6 +344,7 @@ def test_restarts_do_not_shorten_the_delay(unit: BenchUnit) -> None:
         assert delay_s(unit) == 8
 
 
+@pytest.mark.slow
 def test_guesses_over_restarts_never_lose_count(unit: BenchUnit) -> None:
     """Over the line; ten thousand past it are in test_app_unlock_numbers."""
     for attempt in range(1, 31):

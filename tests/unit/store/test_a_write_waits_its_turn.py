@@ -35,6 +35,7 @@ def read_then_write(connection: Connection) -> None:
     connection.exec_driver_sql(f"PRAGMA user_version={count + 7}")
 
 
+@pytest.mark.slow
 def test_a_change_that_reads_first_waits_too(tmp_path: Path) -> None:
     database = Database(f"sqlite:///{tmp_path}/db")
     with closing(database), held(tmp_path / "db") as other:
