@@ -23,7 +23,7 @@ from tests.fakes.known_roads import STEP_S, Columns, Outside, Ridden, configurat
 
 pytestmark = [pytest.mark.slow, pytest.mark.large_count]
 
-SEEDS = range(501, 501 + counts.of(12, least=2))
+SEEDS = range(801, 801 + counts.of(12, least=2))
 CHANGES = ((1, 3), (3, 2))
 """Eco ridden again as sport, and sport as tour; the same slots in the configuration."""
 RIDERS = {"torque": Rider(0.0, 0.0), "power": Rider(1.0, 0.0), "speed": Rider(0.0, 1.0)}
