@@ -1,6 +1,6 @@
-// A moment of a ride and why the motor gave what it gave then: the newest question wins, and the
-// old answer stays until the new one is there.
+// A moment of a ride, and why the motor gave what it gave then.
 import { Refusal } from '$shared/api/client'
+import { NewestAnswer } from '$shared/api/newest_answer.svelte'
 import type { Server } from '$shared/api/server'
 import type { Cut, Ride, Why } from '$shared/api/types'
 
@@ -10,9 +10,8 @@ export class RideMoment {
   ride = $state.raw<Ride | null>(null)
   cuts = $state.raw<Cut[]>([])
   t_s = $state(0)
-  why = $state.raw<Why | null>(null)
-  refused = $state.raw<Refusal | null>(null)
-  private asked = new AbortController()
+  private trouble = $state.raw<Refusal | null>(null)
+  private readonly newest = new NewestAnswer<Why>()
   private asked_ms = -Infinity
   private timer: ReturnType<typeof setTimeout> | null = null
 
@@ -25,13 +24,22 @@ export class RideMoment {
       if (id === null) return
       const [ride, cuts] = await Promise.all([this.server.ride(id), this.server.cuts(id)])
       this.ride = ride
+      this.trouble = null
       if (this.unknown) return
       this.cuts = cuts
       this.move(t_s ?? cuts[0]?.at_s ?? this.end_s / 2)
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
-      this.refused = error
+      this.trouble = error
     }
+  }
+
+  get why(): Why | null {
+    return this.newest.answer
+  }
+
+  get refused(): Refusal | null {
+    return this.trouble ?? this.newest.refusal
   }
 
   /** Nobody knows with which configuration the ride was made: nothing of it is explained. */
@@ -68,7 +76,7 @@ export class RideMoment {
 
   stop(): void {
     if (this.timer) clearTimeout(this.timer)
-    this.asked.abort()
+    this.newest.stop()
   }
 
   private async latest(): Promise<number | null> {
@@ -80,19 +88,7 @@ export class RideMoment {
   private async ask(): Promise<void> {
     if (!this.ride) return
     this.asked_ms = performance.now()
-    this.asked.abort()
-    this.asked = new AbortController()
-    const { signal } = this.asked
-    try {
-      const why = await this.server.whyOfRide(this.ride.id, this.t_s, signal)
-      if (signal.aborted) return
-      this.why = why
-      this.refused = null
-    } catch (error) {
-      if (signal.aborted) return
-      if (!(error instanceof Refusal)) throw error
-      this.refused = error
-      this.why = null
-    }
+    const [id, t_s] = [this.ride.id, this.t_s]
+    await this.newest.ask((signal) => this.server.whyOfRide(id, t_s, signal))
   }
 }

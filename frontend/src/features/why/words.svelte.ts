@@ -1,5 +1,6 @@
 // The words of this page. They come with it: the first page need not carry them.
-import { fill, type Locale, type Values } from '$shared/i18n/locale.svelte'
+import type { Values } from '$shared/i18n/locale.svelte'
+import { pageWords } from '$shared/i18n/page_words.svelte'
 
 export const en = {
   no_rides: 'No ride yet. Record one, or import a file of this bike, to ask why.',
@@ -122,13 +123,4 @@ export type WhyKey = keyof typeof en
 
 export type Say = (key: WhyKey, values?: Values) => string
 
-let chinese = $state.raw<Record<WhyKey, string> | null>(null)
-
-/** This page's words in the reader's language; English until another language's are here. */
-export function words(locale: Locale): Say {
-  return (key, values) => {
-    if (locale.language !== 'zh') return fill(en[key], values)
-    if (chinese === null) void import('./words_zh').then(({ zh }) => (chinese = zh))
-    return fill((chinese ?? en)[key], values)
-  }
-}
+export const words = pageWords(en, async () => (await import('./words_zh')).zh)
