@@ -267,6 +267,7 @@ def test_rules_and_surface_stand_side_by_side_and_stay_so_while_a_peak_is_dragge
 ) -> None:
     page = open_tune(open_desk(width=1440, height=900))
     page.wait_for_selector("[data-testid=surface][data-draws]")
+    page.wait_for_selector("[data-testid=lint] li")
     panels = [page.get_by_role("region", name=name) for name in ("Rules", "Gain surface")]
     rules, surface = (panel.bounding_box() or {} for panel in panels)
     sides = [surface[side] for side in ("y", "height")]
