@@ -39,6 +39,7 @@ from backend.services.rides.replay import RideReplay
 from backend.services.rides.review import Rides
 from backend.services.rides.use_of_table import UseOfTable
 from backend.services.rides.why_ride import WhyRide
+from backend.services.tuning.certify import CertifiedRevisions, Certify, KeptCertificates
 from backend.services.tuning.compare import Compare
 from backend.services.tuning.library import Library
 from backend.services.tuning.preview import Preview
@@ -84,8 +85,10 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             bike_of=store.units.bike_of,
             families=families,
         )
-        tuning = Tuning(devices, store.revisions)
-        memory = UnitMemory(devices, store.revisions, store.units, tuning.note_trial_end)
+        certificates = KeptCertificates(store.certificates, __version__)
+        revisions = CertifiedRevisions(store.revisions, certificates)
+        tuning = Tuning(devices, revisions)
+        memory = UnitMemory(devices, revisions, store.units, tuning.note_trial_end)
         closing.callback(memory.close)
         recorder = Recorder(store.rides, memory.ride_context, unfinished=store.unfinished)
         closing.callback(recorder.close)
@@ -124,6 +127,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             preview=preview,
             library=library,
             compare=Compare(library, tuning),
+            certify=Certify(certificates, devices, tuning, library),
             rides=Rides(store, RideReplay(preview, memory.ride_config), devices.unit_at),
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
             why_steady=WhySteady(devices.writable),

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from backend.services.rides.review import Rides
     from backend.services.rides.use_of_table import UseOfTable
     from backend.services.rides.why_ride import WhyRide
+    from backend.services.tuning.certify import Certify
     from backend.services.tuning.compare import Compare
     from backend.services.tuning.library import Library
     from backend.services.tuning.preview import Preview
@@ -42,6 +43,7 @@ class Services:
     preview: Preview
     library: Library
     compare: Compare
+    certify: Certify
     rides: Rides
     use_of_table: UseOfTable
     why_steady: WhySteady

@@ -1,4 +1,4 @@
-"""`spindle surface`, `spindle lint` and `spindle calibrate evaluate`."""
+"""`spindle surface`, `spindle lint`, `spindle certificate` and `spindle calibrate evaluate`."""
 
 from __future__ import annotations
 
@@ -45,6 +45,36 @@ def lint(options: Namespace) -> int:
                 print(f"{level[:-1]} {finding['code']} {text_of(finding['where'])}")
                 print(f"  {finding['message']}")
     return 1 if answer["errors"] else 0
+
+
+def certificate(options: Namespace) -> int:
+    """What is proven of a configuration; 1 unless all of it keeps the market's law."""
+    server = server_of(options)
+    question: dict[str, Any] = {}
+    if options.table is not None:
+        question["fuzzy_table"] = table_of(server, options)
+    if options.library is not None:
+        question["library"] = options.library
+    elif options.table is None or options.unit is not None:
+        question |= {"device_id": server.device_id(options.unit), "revision": options.revision}
+    answer = server.ask("POST", "/certificates", json=question)
+    print_json(answer) if options.json else print_certificate(answer)
+    return 0 if answer["holds"] else 1
+
+
+def print_certificate(answer: dict[str, Any]) -> None:
+    """As a sheet of paper would have it."""
+    state = "holds" if answer["holds"] else f"NOT PROVEN ({answer['unproven'] or 'see below'})"
+    print(f"Certificate {answer['sha256']}: {state}")
+    for name in ("config_sha256", "table_sha256", "market", "market_sha256", "firmware_version"):
+        print(f"  {name:17} {answer[name]}")
+    print(f"  {'method':17} {answer['method']}, {text_of(answer['created_at'])}")
+    for claim in answer["claims"]:
+        margin = "" if claim["margin"] is None else f", margin {claim['margin']:.4g}"
+        mark = "" if claim["holds"] else "NOT KEPT: "
+        print(f"{mark}{claim['message']}")
+        print(f"  by {claim['how']}{margin} {claim['unit'] if margin else ''}".rstrip())
+    print(f"Not covered: {', '.join(answer['not_covered'])}")
 
 
 def evaluate(options: Namespace) -> int:

@@ -1,5 +1,6 @@
-"""The only door from the backend to the unit's C law: surface, points, lint, replay, twin, why."""
+"""The only door from the backend to the unit's C law: surface, lint, certificate, replay, twin."""
 
+from backend.control.certificate import certify
 from backend.control.finding import Finding, LintReport
 from backend.control.gain import ENGINE, points, surface
 from backend.control.lint_rules import lint
@@ -30,6 +31,7 @@ __all__ = [
     "Replay",
     "RoadTwin",
     "Why",
+    "certify",
     "cutoff_of",
     "law_defaults",
     "law_readings",

@@ -1,11 +1,11 @@
-"""A revision: one configuration a unit has had, who gave it, when and why."""
+"""A revision: one configuration a unit has had, who gave it, when and why; where they are kept."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
-from typing import Any, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
 Parameters: TypeAlias = Mapping[str, Any]
 
@@ -45,3 +45,25 @@ class Revision:
     def created_at(self) -> datetime:
         """`created_us` as a moment in UTC."""
         return datetime.fromtimestamp(self.created_us / 1e6, UTC)
+
+
+class RevisionLog(Protocol):
+    """Where configurations are kept by unit; backend.store has one."""
+
+    def append(
+        self,
+        unit_key: str,
+        parameters: Mapping[str, Any],
+        changed: Sequence[Mapping[str, Any]] = (),
+        reason: str = "",
+        author: str = "",
+        generation: int | None = None,
+        crc32: int | None = None,
+        state: str = "verified",
+    ) -> Revision:
+        """Add a configuration the unit has. Raises StoreError."""
+        ...
+
+    def list(self, unit_key: str, limit: int = ...) -> Sequence[Revision]:
+        """Configurations of a unit, newest first."""
+        ...

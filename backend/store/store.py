@@ -15,7 +15,7 @@ from types import TracebackType
 from backend.domain.ride import Ride, iso_utc
 from backend.errors import StoreError
 from backend.store.advisory import fence
-from backend.store.configurations import LibraryStore, RevisionLog
+from backend.store.configurations import CertificateStore, LibraryStore, RevisionLog
 from backend.store.database import Database, is_postgresql, shown
 from backend.store.database_url import check_url
 from backend.store.deletion import Deletions
@@ -38,7 +38,8 @@ NAMED_MAX = 10
 
 
 class Store:
-    """Everything that is kept: `rides`, `revisions`, `library`, `units`, `uploads`.
+    """Everything that is kept: `rides`, `revisions`, `library`, `certificates`, `units`,
+    `uploads`.
 
     closing: lets go of the locks.
     """
@@ -55,6 +56,7 @@ class Store:
         self.rides = RideStore(database, objects, self.deletions, self.soundness, server_id)
         self.revisions = RevisionLog(database)
         self.library = LibraryStore(database)
+        self.certificates = CertificateStore(database)
         self.units = UnitStore(database)
         self.uploads = UploadStore(database, objects, objects.root / SPOOL, self.deletions)
         # Rides that the start could not finish.

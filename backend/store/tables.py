@@ -139,6 +139,19 @@ library_version = Table(
     UniqueConstraint("item_id", "seq"),
 )
 
+# What was proven of a configuration, by the hash of what the law reads of it: derived, and worked
+# out anew at any time. body: the certificate as it was made first.
+certificate = Table(
+    "certificate",
+    metadata,
+    Column("config_sha256", String(64), primary_key=True),
+    Column("method", Integer, primary_key=True, autoincrement=False),
+    Column("firmware_version", String(32), primary_key=True),
+    Column("sha256", String(64), nullable=False),
+    Column("body", JSON, nullable=False),
+    Column("created_us", BigInteger, nullable=False),
+)
+
 upload = Table(
     "upload",
     metadata,

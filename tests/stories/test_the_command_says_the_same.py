@@ -240,6 +240,7 @@ def test_both_of_the_unit_s_tables_are_drawn_and_judged(server: SpindleServer, d
     first = spindle(server, "surface", *grid)
     second = spindle(server, "surface", "--second", *grid)
     findings = spindle(server, "lint", "--second", "--unit", device, "--json")
+    proven = spindle(server, "certificate", "--unit", device)
 
     # The factory's tables differ in how they are combined; beside the points that shows.
     tables = [json.loads(drawn.stdout) for drawn in (first, second)]
@@ -249,6 +250,8 @@ def test_both_of_the_unit_s_tables_are_drawn_and_judged(server: SpindleServer, d
     assert findings.returncode == 0, findings.stderr
     # Every fuzzy mode of the factory uses the first table.
     assert "table_not_used" in [note["code"] for note in json.loads(findings.stdout)["notes"]]
+    assert proven.returncode == 0, proven.stdout + proven.stderr
+    assert "At 25 km/h and above" in proven.stdout
 
 
 def test_no_server_is_said_so_with_what_to_do() -> None:

@@ -186,8 +186,11 @@ def test_every_change_is_remembered_with_reason_and_author(
     server.ask("PATCH", f"/devices/{device}/config", json=body, headers=named)
 
     newest = server.get(f"/devices/{device}/config/revisions")["items"][0]
+    of_it = {"device_id": device, "revision": newest["seq"]}
+    certificate = server.ask("POST", "/certificates", json=of_it)
 
     assert newest["reason"] == "smoother on the climb"
     assert (newest["author"], newest["author_proof"]) == ("王工", "stated")
     assert [change["name"] for change in newest["changed"]] == ["torque_filter_s"]
     assert newest["changed"][0]["new"] == pytest.approx(0.45)
+    assert certificate["holds"]

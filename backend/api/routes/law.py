@@ -6,6 +6,7 @@ from typing import Any, cast
 
 from fastapi import APIRouter
 
+from backend.api.models.certificate import Certificate, CertificateRequest
 from backend.api.models.curves import ModeCurves, ModeCurvesRequest
 from backend.api.models.law import (
     Evaluation,
@@ -20,6 +21,7 @@ from backend.api.models.law import (
 from backend.api.models.why import Why, WhyRequest
 from backend.api.problem import refusals
 from backend.api.services import Provided
+from backend.services.tuning.certify import Certified
 
 router = APIRouter(tags=["law"], responses=refusals())
 
@@ -57,6 +59,19 @@ def lint_table(body: LintRequest, services: Provided) -> Any:
         question["taper_speeds_kmh"],
         question["gear_ratio"],
     )
+
+
+@router.post(
+    "/certificates",
+    operation_id="certify",
+    response_model=Certificate,
+    responses=refusals(404, 409, 503, 504),
+)
+def certify(body: CertificateRequest, services: Provided) -> Any:
+    """What is proven of every ride with a configuration, against the law of its market."""
+    parameters = cast("dict[str, Any]", body.parameters)
+    asked = Certified(body.device_id, body.revision, body.library, body.changes(), parameters)
+    return services.certify(asked)
 
 
 @router.post("/why", operation_id="why_steady", response_model=Why)

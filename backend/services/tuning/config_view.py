@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Any, Protocol
+from typing import Any
 
 from backend.device.configuration import ConfigImage, Free, ParameterRow, Value
-from backend.domain.revision import Revision
 from backend.errors import ConfigConflict
 
 
@@ -78,28 +77,6 @@ class TypedView:
     generation: int
     crc32: int
     value: dict[str, Any]
-
-
-class RevisionLog(Protocol):
-    """Where configurations are kept by device; backend.store has one."""
-
-    def append(
-        self,
-        unit_key: str,
-        parameters: Mapping[str, Any],
-        changed: Sequence[Mapping[str, Any]] = (),
-        reason: str = "",
-        author: str = "",
-        generation: int | None = None,
-        crc32: int | None = None,
-        state: str = "verified",
-    ) -> Revision:
-        """Add a configuration the device has. Raises StoreError."""
-        ...
-
-    def list(self, unit_key: str, limit: int = ...) -> Sequence[Revision]:
-        """Configurations of a device, newest first."""
-        ...
 
 
 # Entity tags of a list, a weak one with its mark. A comma may stand inside the quotes.

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 
 from backend.device.configuration import ConfigImage, ParameterTable
-from backend.domain.revision import Revision
+from backend.domain.revision import Revision, RevisionLog
 from backend.errors import StoreError
-from backend.services.tuning.config_view import Change, RevisionLog
+from backend.services.tuning.config_view import Change
 
 LOG = logging.getLogger(__name__)
 

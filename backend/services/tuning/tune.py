@@ -17,7 +17,7 @@ from datetime import UTC, datetime
 from backend.device.configuration import NO_TRIAL, ConfigImage, ParameterTable, Value
 from backend.device.unit import Unit
 from backend.domain.capability import Capability
-from backend.domain.revision import Revision
+from backend.domain.revision import Revision, RevisionLog
 from backend.errors import (
     Conflict,
     FieldError,
@@ -30,7 +30,6 @@ from backend.services.tuning.config_view import (
     ConfigChange,
     ConfigView,
     ParameterView,
-    RevisionLog,
     TypedView,
     check_base,
     differences,

@@ -24,10 +24,11 @@ from backend.device.states import (
     UnitEvent,
 )
 from backend.domain.capability import Capability
+from backend.domain.revision import RevisionLog
 from backend.domain.ride import Ride, RideContext
 from backend.errors import NoAnswer, NotFound, SpindleError
 from backend.services.units.connect import Devices
-from backend.store import RevisionLog, SeenUnit, UnitStore
+from backend.store import SeenUnit, UnitStore
 
 LOG = logging.getLogger(__name__)
 

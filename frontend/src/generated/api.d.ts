@@ -651,6 +651,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/certificates": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Certify
+         * @description What is proven of every ride with a configuration, against the law of its market.
+         */
+        post: operations["certify"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/why": {
         parameters: {
             query?: never;
@@ -1290,6 +1310,21 @@ export interface components {
          * @enum {string}
          */
         Capability: "read_config" | "write_config" | "unit_trial" | "stream" | "rider_torque" | "calibrate" | "live_set" | "logs" | "unlock" | "unit_limits" | "unique_id" | "restart_to_apply" | "fuzzy_table" | "assist_modes" | "limits" | "simulation";
+        /**
+         * Cell
+         * @description Between two speed points: the assist per rider torque that any mode asks for at most, and
+         *     what the market allows there at least.
+         */
+        Cell: {
+            /** From Kmh */
+            from_kmh: number;
+            /** To Kmh */
+            to_kmh: number;
+            /** Ratio Most */
+            ratio_most: number;
+            /** Allowed Ratio */
+            allowed_ratio: number | null;
+        };
         /** CellChange */
         CellChange: {
             /**
@@ -1313,6 +1348,85 @@ export interface components {
              */
             right: "NB" | "NS" | "ZO" | "PS" | "PB";
         };
+        /**
+         * Certificate
+         * @description Float32 rounding is within every bound. `holds`: every claim keeps the market's law, and
+         *     the unit runs the firmware that was proven.
+         */
+        Certificate: {
+            /**
+             * Sha256
+             * @description Of all that follows but `holds`, `unproven`, `created_at`.
+             */
+            sha256: string;
+            /**
+             * Config Sha256
+             * @description Of all that the law reads of the configuration.
+             */
+            config_sha256: string;
+            /** Table Sha256 */
+            table_sha256: string;
+            /** Market */
+            market: string;
+            /** Market Sha256 */
+            market_sha256: string;
+            /**
+             * Firmware Version
+             * @description Whose C was proven.
+             */
+            firmware_version: string;
+            /** Method */
+            method: number;
+            /** Holds */
+            holds: boolean;
+            /**
+             * Unproven
+             * @description Why nothing is said of this unit; null if something is.
+             */
+            unproven: "other_firmware" | null;
+            /** Claims */
+            claims: components["schemas"]["Claim"][];
+            /** Cells */
+            cells: components["schemas"]["Cell"][];
+            /**
+             * Not Covered
+             * @description What no proof about the law can hold.
+             */
+            not_covered: string[];
+            /**
+             * Created At
+             * @description When it was first made here.
+             */
+            created_at: string | null;
+        };
+        /**
+         * CertificateRequest
+         * @description Of a unit's configuration, one of its revisions, an entry of the library, or the law's
+         *     defaults; tables, modes, limits and parameters take the place of theirs.
+         */
+        CertificateRequest: {
+            /** Device Id */
+            device_id?: string | null;
+            /**
+             * Revision
+             * @description Of the unit.
+             */
+            revision?: number | null;
+            /**
+             * Library
+             * @description An entry's id.
+             */
+            library?: string | null;
+            fuzzy_table?: components["schemas"]["FuzzyTable"] | null;
+            /** @description Shares speed and torque-rate points with the first. */
+            second_table?: components["schemas"]["FuzzyTable"] | null;
+            assist_modes?: components["schemas"]["AssistModes"] | null;
+            limits?: components["schemas"]["Limits"] | null;
+            /** Parameters */
+            parameters?: {
+                [key: string]: number | string | (number | string)[] | (number | string)[][];
+            };
+        };
         /** Change */
         Change: {
             /** Name */
@@ -1321,6 +1435,50 @@ export interface components {
             old: number | string | (number | string)[] | (number | string)[][] | null;
             /** New */
             new: number | string | (number | string)[] | (number | string)[][] | null;
+        };
+        /**
+         * Claim
+         * @description A statement about every ride there can be with this configuration.
+         */
+        Claim: {
+            /** Code */
+            code: string;
+            /** Message */
+            message: string;
+            /** Unit */
+            unit: string;
+            /**
+             * Bound
+             * @description What was proven; null where it does not happen.
+             */
+            bound: number | null;
+            /**
+             * Allowed
+             * @description What the market asks for; null where it asks for nothing.
+             */
+            allowed: number | null;
+            /**
+             * Least
+             * @description The market asks for `allowed` or more, not for less.
+             */
+            least: boolean;
+            /**
+             * Margin
+             * @description From the bound to what is allowed.
+             */
+            margin: number | null;
+            /** Holds */
+            holds: boolean;
+            /**
+             * How
+             * @description `structure`: a step of the unit's pipeline that every way goes through. `interval`: bounds over every cell of a table. `recursion`: what filters, ramps and counters can remember.
+             * @enum {string}
+             */
+            how: "structure" | "interval" | "recursion";
+            /** Values */
+            values: {
+                [key: string]: number | string;
+            };
         };
         /**
          * ClosedLoop
@@ -7021,6 +7179,84 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    certify: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CertificateRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Certificate"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
                 headers: {
                     [name: string]: unknown;
                 };

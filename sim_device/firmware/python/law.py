@@ -424,6 +424,20 @@ def law_defaults() -> dict[str, Any]:
     return dict(default_config())
 
 
+def law_image(config: Config, tables_only: bool = False) -> bytes:
+    """The bytes of what the law reads of a configuration, and the defaults of all else.
+
+    Two configurations that the law cannot tell apart have the same. tables_only: of both fuzzy
+    tables alone. Raises LawRefused.
+    """
+    rows = [
+        row
+        for row in LAW_PARAMETERS
+        if row.name in config and (not tables_only or row.name.startswith(("fuzzy_", "second_")))
+    ]
+    return _image_of(config, rows, "configuration")
+
+
 def native_config(config: Config, step_s: float = STEP_S, in_range: bool = True) -> Any:
     """The assist_config of a configuration, as AssistLaw takes it. Raises LawRefused."""
     if in_range:

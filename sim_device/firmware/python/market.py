@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,39 @@ from firmware_protocol.spelling import member_of, words_of
 from sim_device.firmware.python._native import ffi, lib
 
 MARKETS = words_of(Market)
+
+
+@dataclass(frozen=True, slots=True)
+class MarketProfile:
+    """What a market allows, as market.h has it; None where it says nothing.
+
+    cutoff_kmh: no assist from there on. band_kmh: assist falls over no less than this below it.
+    walk_kmh: no walk assist from there on, 0 for none at all. continuous_w, peak_w: at the motor's
+    shaft. pedal_stop_s: longest time assist may outlive pedalling. ratio_falls: assist per rider
+    torque is under `market_ratios`.
+    """
+
+    cutoff_kmh: float
+    band_kmh: float | None
+    walk_kmh: float
+    continuous_w: float | None
+    peak_w: float | None
+    pedal_stop_s: float
+    ratio_falls: bool
+
+
+def market_profile(market: str) -> MarketProfile:
+    """A market's numbers. Raises KeyError if it is none."""
+    found = lib.market_profile_of(member_of(Market, market))
+    return MarketProfile(
+        cutoff_kmh=_shortest(found.cutoff_kmh),
+        band_kmh=_shortest(found.band_kmh) or None,
+        walk_kmh=_shortest(found.walk_kmh),
+        continuous_w=_shortest(found.continuous_w) or None,
+        peak_w=_shortest(found.peak_w) or None,
+        pedal_stop_s=_shortest(found.pedal_stop_s),
+        ratio_falls=bool(found.ratio_falls),
+    )
 
 
 def market_speed_kmh(market: str) -> float:

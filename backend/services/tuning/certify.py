@@ -1,0 +1,138 @@
+"""Certificates: what is proven of a configuration before it is written, and kept with it after.
+
+A certificate follows from the configuration, the method and the firmware whose C is in this
+process. It is worked out whenever it is asked for, and kept as it was first made.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, Protocol
+
+from backend import control
+from backend.domain.capability import Capability
+from backend.domain.certificate import Certificate
+from backend.domain.revision import Revision, RevisionLog
+from backend.errors import FieldError, InvalidRequest, NotFound, SpindleError
+from backend.services.tuning.library import Library
+from backend.services.tuning.preview import changed_config
+from backend.services.tuning.tune import Tuning
+from backend.services.units.connect import Devices
+
+LOG = logging.getLogger(__name__)
+OTHER_FIRMWARE = "other_firmware"
+
+
+class Certificates(Protocol):
+    """Where certificates are kept; backend.store has one."""
+
+    def keep(self, made: Certificate) -> int:
+        """Since when it is kept, Unix microseconds. Raises StoreError."""
+        ...
+
+
+@dataclass(frozen=True)
+class Certified:
+    """Of what: a unit (`revision` of it, or what it has), an entry of the library, or neither of
+    them and so the law's defaults; and what takes the place of their values.
+
+    changes: as of `changed_config`. parameters: by registry name.
+    """
+
+    device_id: str | None = None
+    revision: int | None = None
+    library: str | None = None
+    changes: Mapping[str, Any] = field(default_factory=dict)
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+
+
+class KeptCertificates:
+    """Makes certificates and keeps them. For any thread. firmware_version: of the C in here."""
+
+    def __init__(self, certificates: Certificates, firmware_version: str) -> None:
+        self._certificates = certificates
+        self._firmware_version = firmware_version
+
+    def of(self, config: Mapping[str, Any]) -> Certificate:
+        """Of a configuration by registry name. Raises InvalidRequest, StoreError."""
+        made = control.certify(config, self._firmware_version)
+        return replace(made, created_us=self._certificates.keep(made))
+
+
+class CertifiedRevisions:
+    """A log of revisions that keeps a certificate with each; otherwise as the log it stands for."""
+
+    def __init__(self, revisions: RevisionLog, certificates: KeptCertificates) -> None:
+        self._revisions = revisions
+        self._certificates = certificates
+        self.list = revisions.list
+
+    def append(
+        self, unit_key: str, parameters: Mapping[str, Any], *rest: Any, **named: Any
+    ) -> Revision:
+        """As RevisionLog. A certificate that cannot be kept is told in the log; it can be made
+        at any time."""
+        added = self._revisions.append(unit_key, parameters, *rest, **named)
+        if has_law(parameters):
+            try:
+                self._certificates.of(parameters)
+            except SpindleError as error:
+                LOG.warning("%s: no certificate was kept: %s", unit_key, error.message)
+        return added
+
+
+class Certify:
+    """Certificates of what there is and of what might be written. From any thread."""
+
+    def __init__(
+        self, kept: KeptCertificates, devices: Devices, tuning: Tuning, library: Library
+    ) -> None:
+        self._kept = kept
+        self._devices = devices
+        self._tuning = tuning
+        self._library = library
+
+    def __call__(self, asked: Certified) -> Certificate:
+        """Raises InvalidRequest for what no unit takes, NotFound, NoAnswer, CapabilityMissing."""
+        if asked.device_id is not None and asked.library is not None:
+            message = "Name a unit or an entry of the library, not both."
+            raise InvalidRequest(message, fields=[FieldError("library", "not_one", message)])
+        base = self._base(asked)
+        config = {**changed_config(base, **asked.changes), **asked.parameters}
+        unknown = [name for name in asked.parameters if name not in base]
+        if unknown:
+            faults = [FieldError(name, "unknown", f"There is no {name}.") for name in unknown]
+            raise InvalidRequest(" ".join(fault.message for fault in faults), fields=faults)
+        made = self._kept.of(config)
+        if asked.device_id is None:
+            return made
+        identity = self._devices.get(asked.device_id).identity
+        runs = identity.firmware_version if identity else None
+        return made if runs == made.firmware_version else replace(made, unproven=OTHER_FIRMWARE)
+
+    def _base(self, asked: Certified) -> dict[str, Any]:
+        defaults = control.law_defaults()
+        if asked.library is not None:
+            document = self._library.entry(asked.library).document
+            values = {name: entry["value"] for name, entry in document["parameters"].items()}
+            return {**defaults, **values}
+        if asked.device_id is None:
+            return defaults
+        if asked.revision is None:
+            unit = self._devices.writable(asked.device_id)
+            unit.require(Capability.READ_CONFIG, Capability.FUZZY_TABLE)
+            return {**defaults, **unit.read_config().parameters}
+        for revision in self._revisions(asked.device_id):
+            if revision.seq == asked.revision and has_law(revision.parameters):
+                return {**defaults, **revision.parameters}
+        raise NotFound(f"{asked.device_id} has no revision {asked.revision} with a rule table.")
+
+    def _revisions(self, device_id: str) -> Sequence[Revision]:
+        return self._tuning.revisions(device_id)
+
+
+def has_law(parameters: Mapping[str, Any]) -> bool:
+    """Whether a configuration is one of the law's, and not of a unit of another make."""
+    return "fuzzy_rules" in parameters and "market" in parameters
