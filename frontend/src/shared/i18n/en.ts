@@ -353,8 +353,9 @@ export const en = {
     '? lists these keys. g, then b Bike, l Live, t Tune, c Calibrate, s Service, r Rides.',
   'keys.live': 'Space pauses the strips.',
   'keys.rules':
-    'Arrows move, 1 to 5 set NB to PB, + and − nudge, Shift with arrows selects, Ctrl+C ' +
-    'and Ctrl+V copy and paste as text, Delete restores, Ctrl+Z and Ctrl+Y undo and redo.',
+    'Arrows move, Shift with arrows selects, 1 to 5 set NB to PB, + and − nudge, = levels, ' +
+    '* scales, / interpolates, S smooths, Ctrl+C and Ctrl+V copy and paste as text, Delete ' +
+    'restores, Ctrl+Z and Ctrl+Y undo and redo.',
   'keys.numbers': 'Numbers',
   'keys.numbers_text': 'Arrow up and down nudge; with Shift five times as far.',
 

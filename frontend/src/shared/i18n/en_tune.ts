@@ -32,9 +32,6 @@ export const enTune = {
   'tune.cell': '{label} {gain}, gain at speed {speed} and torque rate {rate}',
   'tune.cell_changed':
     '{label} {gain}, gain at speed {speed} and torque rate {rate}; changed from {old}',
-  'tune.keys':
-    'Arrows move · 1–5 set NB–PB · + and − nudge · Shift selects · Ctrl+C/V as text · ' +
-    'Delete restores · Ctrl+Z undoes',
   'tune.strip': 'Set the chosen rules',
   'tune.step_down': 'One label down',
   'tune.step_up': 'One label up',

@@ -320,8 +320,8 @@ export const zh: Record<Key, string> = {
     '? 列出这些按键。先按 g，再按 b 车辆、l 实时、t 调校、c 标定、s 维修、r 骑行。',
   'keys.live': '空格键暂停曲线。',
   'keys.rules':
-    '方向键移动，1 至 5 设为 NB 至 PB，+ − 微调，Shift 加方向键选择，Ctrl+C 与 Ctrl+V 复' +
-    '制粘贴，Delete 还原，Ctrl+Z 与 Ctrl+Y 撤销和重做。',
+    '方向键移动，Shift 加方向键选择，1 至 5 设为 NB 至 PB，+ − 微调，= 取平，* 缩放，/ 插值，' +
+    'S 平滑，Ctrl+C 与 Ctrl+V 复制粘贴，Delete 还原，Ctrl+Z 与 Ctrl+Y 撤销和重做。',
   'keys.numbers': '数字',
   'keys.numbers_text': '上下方向键微调；按住 Shift 为五倍。',
 

@@ -32,8 +32,6 @@ export const zhTune: Record<keyof typeof enTune, string> = {
   'tune.grid_label': '各速度（行）与扭矩变化率（列）的增益标签',
   'tune.cell': '{label} {gain}，增益，速度 {speed}，扭矩变化率 {rate}',
   'tune.cell_changed': '{label} {gain}，增益，速度 {speed}，扭矩变化率 {rate}；原为 {old}',
-  'tune.keys':
-    '方向键移动 · 1–5 设为 NB–PB · + − 微调 · Shift 选择 · Ctrl+C/V 复制粘贴 · Delete 还原 · Ctrl+Z 撤销',
   'tune.strip': '设定所选规则',
   'tune.step_down': '降一级',
   'tune.step_up': '升一级',

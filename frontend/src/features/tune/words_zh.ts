@@ -1,0 +1,30 @@
+// Chinese: the words of this page's tools.
+import type { TuneKey } from './words.svelte'
+
+export const zh: Record<TuneKey, string> = {
+  block_tools: '对所选规则的操作',
+  up_to: '选到…',
+  up_to_hint: '接下来按下的格为区块的对角',
+  up_to_next: '请按区块的对角。',
+  all: '全选',
+  copy: '复制',
+  copied: '所选规则已在剪贴板中。',
+  paste: '粘贴',
+  paste_forbidden: '浏览器不允许此页面读取剪贴板：请在规则中按 Ctrl+V。',
+  level: '取平',
+  level_hint: '全部取其平均增益',
+  scale: '缩放',
+  scale_hint: '其增益乘以系数',
+  cancel: '取消',
+  scale_title: '缩放所选规则',
+  scale_percent: '增益，占现值的 %',
+  scale_range: '请给出 {least} 至 {most} %。',
+  scale_note: '规则中是标签：各取增益最接近的标签。要精确缩放整个表的增益，请移动增益峰点。',
+  would_move: '{count} 条规则中将有 {moved} 条改变。',
+  interpolate: '插值',
+  interpolate_hint: '在四角之间或两端之间均匀过渡',
+  smooth: '平滑',
+  smooth_hint: '各取自身与相邻规则的平均',
+  moved: '{count} 条规则中有 {moved} 条移到最接近的标签。',
+  moved_none: '没有规则改变：各已是最接近的标签。',
+}
