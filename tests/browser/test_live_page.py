@@ -5,6 +5,7 @@ Real server, real protocol, the unit's own firmware; a rider pedals in the simul
 
 from __future__ import annotations
 
+import re
 import signal
 import subprocess
 import sys
@@ -16,6 +17,7 @@ from playwright.sync_api import expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk, sideways
+from tests.browser.test_pages_for_everyone import SHIFT
 from tests.fakes.server import SpindleServer, eventually
 
 OwnUnit = tuple[subprocess.Popen[str], str]
@@ -52,30 +54,50 @@ def test_numbers_move_and_strips_draw_at_thirty_frames_a_second(desk: Desk, ridi
     desk.picture("live")
 
 
-def test_the_motor_torque_is_labelled_with_where_it_acts(desk: Desk, riding: str) -> None:
-    page = desk.open("/live")
-
-    page.wait_for_selector("text=Motor torque at the crank (motor × 40.34)")
-
-
-def test_the_riders_row_keeps_the_powers_apart_on_a_phone(open_desk: OpenDesk, riding: str) -> None:
+def test_four_figures_then_eight_and_the_powers_apart(open_desk: OpenDesk, riding: str) -> None:
     desk = open_desk(width=390, height=844)
     page = desk.open("/live")
-    row = page.get_by_test_id("rider-row")
+    figures = page.get_by_test_id("figures")
 
-    expect(row.locator("dt")).to_have_text(
-        ["Speed", "Acceleration", "Rider power", "Motor power", "Distance", "Battery", "Range"]
+    expect(figures.locator(".large dt")).to_have_text(
+        ["Speed", "Your power", "Motor power", "Cadence"]
     )
-    expect(row.locator("[data-value=rider_power_w]")).to_contain_text("W")
-    expect(row.locator("[data-value=motor_power_w]")).to_contain_text("W")
-    expect(row.locator("[data-value=battery_soc_pct]")).to_contain_text("%")
+    expect(figures.locator(".small dt")).to_have_text(
+        [
+            "Rider torque",
+            "Motor torque",
+            "Gain",
+            "Assist ratio",
+            "Motor",
+            "Battery",
+            "Distance",
+            "Range",
+        ]
+    )
+    expect(figures.locator("[data-value=rider_power_w]")).to_contain_text("W")
+    expect(figures.locator("[data-value=motor_power_w]")).to_contain_text("W")
+    expect(figures.locator("[data-channel=motor_torque_nm]")).to_contain_text("at the crank")
+    expect(figures.locator("[data-channel=battery_soc_pct]")).to_contain_text("%")
+    expect(page.get_by_test_id("strips")).to_contain_text("at the crank (motor × 40.34)")
     assert sideways(page) == 0
-    desk.picture("live-rider-row-390")
+    desk.picture("live-390", full=True)
+
+
+def test_the_crank_and_the_rules_follow_the_rider(desk: Desk, riding: str) -> None:
+    page = desk.open("/live")
+
+    # The simulated legs are alike: half of the work is done with each of them.
+    crank = page.get_by_test_id("crank")
+    expect(crank).to_contain_text(re.compile(r"left (49|50|51)\s%"))
+    rules = page.get_by_test_id("rules-firing")
+    fired = rules.locator(".fired").first
+    expect(fired).to_contain_text(re.compile(r"(NB|NS|ZO|PS|PB)\s*[01]\.\d\d"))
+    expect(rules.get_by_role("link", name="why")).to_have_attribute("href", "/tune/why?state")
 
 
 def test_pausing_holds_the_strips_and_not_the_numbers(desk: Desk, riding: str) -> None:
     page = desk.open("/live")
-    desk.until("Number(document.querySelector('[data-draws]')?.dataset.draws) > 10")
+    desk.until("Number(document.querySelector('[data-draws]')?.dataset.draws) > 99")
 
     page.keyboard.press("Space")
     page.wait_for_selector("text=The strips stand still")
@@ -84,6 +106,28 @@ def test_pausing_holds_the_strips_and_not_the_numbers(desk: Desk, riding: str) -
     eventually(lambda: page.inner_text(TORQUE), lambda text: text != before)
 
     assert page.get_attribute("[data-draws]", "data-draws") == draws
+
+    page.keyboard.press("Shift+ArrowLeft")
+    page.keyboard.press("ArrowLeft")
+    expect(page.get_by_test_id("strips")).to_contain_text("cursor -1.1\u00a0s")
+    speed = page.get_by_test_id("strips").get_by_role("img", name="Speed: Speed")
+    expect(speed).to_have_attribute("aria-label", re.compile(r"Speed \d+\.\d"))
+
+
+def test_what_held_the_motor_back_is_shaded_and_named_a_while(
+    desk: Desk, server: SpindleServer, riding: str
+) -> None:
+    page = desk.open("/live")
+    held = page.get_by_test_id("held-back")
+    desk.until("Number(document.querySelector('[data-draws]')?.dataset.draws) > 10")
+
+    server.simulate(riding, brake=True)
+    expect(held.locator(".warn")).to_contain_text("brake")
+    eventually(lambda: desk.number(SPEED), lambda speed: speed < 3)
+    server.simulate(riding, brake=False)
+
+    expect(held).to_contain_text(re.compile(r"brake, \d+\u00a0s ago for \d+\.\d\u00a0s"))
+    assert page.evaluate(SHIFT) < 0.02
 
 
 def test_a_silent_unit_is_shown_as_old_and_comes_back(
@@ -99,7 +143,8 @@ def test_a_silent_unit_is_shown_as_old_and_comes_back(
     unit.send_signal(signal.SIGSTOP)
     page.wait_for_selector(f"{LIVE}[data-stale=true]")
     page.wait_for_selector("text=the values below are old")
-    assert "s old" in page.inner_text("[data-channel=speed_kmh]")
+    expect(page.locator("[data-channel=speed_kmh]")).to_contain_text("— no data")
+    expect(page.get_by_test_id("strips")).to_contain_text("before the data stopped")
     page.wait_for_selector("[data-testid=banner]")
     desk.picture("live-stale")
 

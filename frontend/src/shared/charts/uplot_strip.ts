@@ -1,12 +1,20 @@
 // StripChart on uPlot: five to six times cheaper than Plotly for what moves (measured in ui.md).
 import uPlot from 'uplot'
 import 'uplot/dist/uPlot.min.css'
-import { niceStep, roundRange, type StripChart, type StripSpec } from './strip_chart'
+import {
+  niceStep,
+  roundRange,
+  type StripChart,
+  type StripMarks,
+  type StripSpec,
+} from './strip_chart'
+import { drawCursor, drawShades } from './strip_marks'
 
 const AXIS_PX = 44
 
 export function uplotStrip(node: HTMLElement, spec: StripSpec, show_time: boolean): StripChart {
   let edge_s = 0
+  let marks: StripMarks = { shades: [], cursor: null }
   const font = '12px -apple-system, "Segoe UI", Roboto, "Noto Sans", "Noto Sans CJK SC", sans-serif'
   const line = {
     stroke: spec.ink,
@@ -31,15 +39,14 @@ export function uplotStrip(node: HTMLElement, spec: StripSpec, show_time: boolea
           size: show_time ? 24 : 0,
           gap: 4,
           splits: () => timeMarks(edge_s, spec.span_s),
-          values: (_, marks) =>
-            marks.map((mark) => (show_time ? `${Math.round(mark - edge_s)} s` : '')),
+          values: (_, at) => at.map((mark) => (show_time ? `${Math.round(mark - edge_s)} s` : '')),
         },
         {
           ...line,
           size: AXIS_PX,
           gap: 4,
           splits: (_, __, min, max) => valueMarks(min, max),
-          values: (_, marks) => marks.map((mark) => String(Number(mark.toFixed(3)))),
+          values: (_, at) => at.map((mark) => String(Number(mark.toFixed(3)))),
         },
       ],
       series: [
@@ -52,17 +59,23 @@ export function uplotStrip(node: HTMLElement, spec: StripSpec, show_time: boolea
           spanGaps: false,
         })),
       ],
+      hooks: {
+        drawClear: [(chart) => drawShades(chart, spec, marks.shades, font)],
+        draw: [(chart) => drawCursor(chart, spec, marks.cursor, font)],
+      },
     },
     [[], ...spec.lines.map(() => [])],
     node,
   )
   return {
-    draw(times, columns, edge) {
+    draw(times, columns, edge, drawn) {
       edge_s = edge
+      marks = drawn
       const nothing = (): null[] => new Array<null>(times.length).fill(null)
       plot.setData([times, ...columns.map((column) => column ?? nothing())], false)
       plot.setScale('x', { min: edge - spec.span_s, max: edge })
     },
+    secondsAt: (x) => plot.posToVal(x - plot.over.offsetLeft, 'x') - edge_s,
     resize: (width, height) => plot.setSize({ width, height }),
     destroy: () => plot.destroy(),
   }

@@ -154,31 +154,13 @@ export const en = {
   'live.flowing': 'Live',
   'live.waiting': 'Waiting for data',
   'live.stale': 'No data for {age} s: the values below are old',
-  'live.old': '{age} s old',
   'live.gaps': 'Gaps: {gaps}, rows lost: {rows}',
-  'live.pause': 'Pause',
-  'live.resume': 'Go on',
-  'live.paused': 'The strips stand still. Recording goes on.',
-  'live.strips': 'Last 30 seconds',
-  'live.turn_cranks': 'Nothing moves: turn the cranks.',
-  'live.held_back': 'Motor held back by:',
-  'live.nothing': 'nothing',
-  'live.now': 'now',
-  'live.over_stroke': 'over the stroke',
-  'live.motor_torque_crank': 'Motor torque at the crank',
-  'live.motor_torque_crank_asked': 'Motor torque asked, at the crank',
-  'live.motor_at_crank': 'Motor torque at the crank (motor × {ratio})',
-  'live.motor_at_crank_asked': 'Motor torque asked, at the crank (motor × {ratio})',
 
-  'rider_row.title': "The rider's display",
   'rider_row.speed_kmh': 'Speed',
-  'rider_row.acceleration_ms2': 'Acceleration',
   'rider_row.rider_power_w': 'Rider power',
   'rider_row.motor_power_w': 'Motor power',
-  'rider_row.distance_km': 'Distance',
   'rider_row.battery_soc_pct': 'Battery',
   'rider_row.range_km': 'Range',
-  'rider_row.range_later': 'known once some road and battery are used',
 
   'group.assist': 'Assist modes and ramps',
   'group.limits': 'Limits',
@@ -351,7 +333,7 @@ export const en = {
   'keys.title': 'Keyboard',
   'keys.go':
     '? lists these keys. g, then b Bike, l Live, t Tune, c Calibrate, s Service, r Rides.',
-  'keys.live': 'Space pauses the strips.',
+  'keys.live': 'Space pauses the strips; then ← → move the cursor, Shift by 1 s.',
   'keys.rules':
     'Arrows move, Shift with arrows selects, 1 to 5 set NB to PB, + and − nudge, = levels, ' +
     '* scales, / interpolates, S smooths, Ctrl+C and Ctrl+V copy and paste as text, Delete ' +

@@ -1,0 +1,35 @@
+// What the server sums up of a unit's rows once a second: powers, distance and range.
+import { Refusal } from '$shared/api/client'
+import type { Server } from '$shared/api/server'
+import type { Dashboard } from '$shared/api/types'
+import { PollWhileVisible } from '$shared/context/poll_while_visible'
+
+const PERIOD_MS = 1000
+
+export class RiderNow {
+  /** Null until the first answer and while there is none: nothing old is shown. */
+  values = $state.raw<Dashboard | null>(null)
+  private readonly polling = new PollWhileVisible(() => this.look(), PERIOD_MS)
+
+  constructor(
+    private readonly server: Server,
+    private readonly device_id: string,
+  ) {}
+
+  start(): void {
+    this.polling.start()
+  }
+
+  stop(): void {
+    this.polling.stop()
+  }
+
+  private async look(): Promise<void> {
+    try {
+      this.values = await this.server.dashboard(this.device_id)
+    } catch (error) {
+      if (!(error instanceof Refusal)) throw error
+      this.values = null
+    }
+  }
+}
