@@ -18,7 +18,8 @@ const SHARED = {
   context: ['api', 'i18n', 'ui', 'units'],
   charts: ['api', 'context', 'i18n', 'stream', 'ui', 'units'],
   device: ['api', 'context', 'i18n', 'stream', 'ui', 'units'],
-  config: ['api', 'context', 'device', 'i18n', 'ui', 'units'],
+  certificate: ['api', 'context', 'i18n', 'ui', 'units'],
+  config: ['api', 'certificate', 'context', 'device', 'i18n', 'ui', 'units'],
 }
 
 const zone = (message, ...regexes) => [

@@ -127,8 +127,10 @@ def test_on_paper_the_page_names_the_unit_and_shows_no_buttons(
     page = desk.open("/service")
     expect(page.locator("[data-fault=torque_sensor]")).to_be_visible()
 
+    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
     page.emulate_media(media="print")
 
+    expect(page.locator("[data-code=power_continuous]")).to_be_visible()
     head = page.get_by_test_id("sheet-head")
     expect(head).to_be_visible()
     expect(head).to_contain_text(server.get(f"/devices/{standing}")["identity"]["serial_number"])

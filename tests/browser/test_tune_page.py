@@ -48,6 +48,10 @@ def test_an_edit_by_keyboard_is_reviewed_written_verified_and_felt(
     review(page)
     dialog = page.locator("dialog")
     expect(dialog).to_contain_text("Rule at 15 km/h, torque rate 0.45")
+    certificate = dialog.get_by_test_id("certificate")
+    expect(certificate).to_contain_text("no ride with these settings breaks the law")
+    certificate.locator("summary").click()
+    expect(certificate.locator("[data-code=cutoff]")).to_contain_text("25.0 km/h")
     desk.picture("tune-review")
     page.click(WRITE)
 

@@ -2,6 +2,8 @@
 import { body, bodyAndTag, type Http } from './client'
 import { readSeries, type Series } from './series'
 import type {
+  Certificate,
+  CertificateRequest,
   ComparedSide,
   Comparison,
   Config,
@@ -199,6 +201,11 @@ export class Server {
 
   lint(question: LintRequest, signal: AbortSignal): Promise<LintReport> {
     return body(this.http.POST('/api/v1/lint', { body: question, signal }))
+  }
+
+  /** What is proven of every ride with a configuration. */
+  certify(question: CertificateRequest, signal: AbortSignal): Promise<Certificate> {
+    return body(this.http.POST('/api/v1/certificates', { body: question, signal }))
   }
 
   /** Where in a table a unit's latest rides were. */
