@@ -20,6 +20,7 @@ const SHARED = {
   device: ['api', 'context', 'i18n', 'stream', 'ui', 'units'],
   certificate: ['api', 'context', 'i18n', 'ui', 'units'],
   config: ['api', 'certificate', 'context', 'device', 'i18n', 'ui', 'units'],
+  lint: ['api', 'config', 'context', 'i18n', 'ui', 'units'],
 }
 
 const zone = (message, ...regexes) => [

@@ -18,7 +18,7 @@ const GROUPS = [
   { name: 'traces', test: /src\/shared\/charts\/(Traces|trace_line|trace_window|ride_view)/ },
   { name: 'rides', test: /src\/features\/(rides|try)/ },
   { name: 'settings', test: /src\/features\/(service|settings)/ },
-  { name: 'config', test: /src\/shared\/config/ },
+  { name: 'config', test: /src\/shared\/(config|lint)/ },
   { name: 'tune', test: /src\/features\/tune/ },
 ]
 

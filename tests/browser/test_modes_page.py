@@ -40,6 +40,10 @@ def test_a_mode_s_torque_is_its_ratio_times_the_push_and_follows_an_edit(
     expect(setting(page, "Taper", "1 eco").locator("option:checked")).to_have_text("15 to 24 km/h")
     expect(setting(page, "Taper", "3 sport")).to_have_count(0)
     assert not re.search(r"[a-z]+_[a-z]+", page.inner_text(MATRIX))
+    # 2 Nm at the shaft are 80.7 Nm at the crank, by 40.34 motor turns: 27 Nm of the rider times 3.
+    setting(page, "Assist ratio", "1 eco").fill("3")
+    checks = page.get_by_role("region", name="Checks of modes and limits")
+    expect(checks.locator("li", has_text="mode 1")).to_contain_text("above 27 Nm")
 
 
 def test_a_setting_is_edited_copied_to_the_right_and_undone_from_the_keyboard(

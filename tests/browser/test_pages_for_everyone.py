@@ -170,13 +170,55 @@ def test_a_question_mark_lists_the_keys_and_two_letters_go_to_a_page(
     page = desk.open("/settings")
 
     page.keyboard.press("?")
-    expect(page.get_by_role("dialog", name="Keyboard")).to_contain_text("then b Bike")
+    keys = page.get_by_role("dialog", name="Help").get_by_role("region", name="Keyboard")
+    expect(keys).to_contain_text("then b Bike")
+    expect(keys).to_be_in_viewport()
     page.keyboard.press("Escape")
     expect(page.get_by_role("dialog")).to_have_count(0)
     page.keyboard.press("g")
     page.keyboard.press("c")
 
     expect(page.locator("h1")).to_have_text("Calibrate")
+
+
+def test_a_word_of_the_field_is_explained_where_it_stands_and_by_touch(
+    open_desk: OpenDesk, standing: str, axe: str
+) -> None:
+    page = open_desk(width=390, height=844, touch=True).open("/tune/modes")
+
+    page.get_by_role("button", name="Taper").tap()
+
+    explained = page.get_by_role("dialog", name="Help")
+    expect(explained.locator(".asked")).to_contain_text("ratio falls with speed")
+    expect(explained.locator(".asked")).to_be_in_viewport()
+    explained.get_by_role("searchbox").fill("back-emf")
+    expect(explained.get_by_role("region", name="Words").locator("dt")).to_have_text(["Back-EMF"])
+    page.evaluate(axe)
+    assert page.evaluate(JUDGE) == []
+    explained.get_by_role("button", name="Dismiss").tap()
+    page.locator("nav .toggle").tap()
+    page.locator("nav .menu").get_by_role("button", name="Help").tap()
+    expect(explained).to_contain_text("not zero")
+
+
+def test_who_is_new_is_led_through_the_pages_once(desk: Desk, standing: str) -> None:
+    page = desk.open("/")
+    steps = page.get_by_role("region", name="First steps")
+    expect(steps.locator("li")).to_have_count(5)
+    expect(steps.locator("li.done")).to_contain_text("Connect a unit")
+
+    steps.get_by_role("link", name="Watch it live").click()
+    page.wait_for_selector("[data-draws]")
+    page.goto(f"{desk.address}/")
+
+    expect(steps.locator("li.done")).to_have_count(2)
+    steps.get_by_role("button", name="Put away").click()
+    page.reload()
+    expect(page.get_by_test_id("headline")).to_be_visible()
+    expect(steps).to_have_count(0)
+    page.keyboard.press("?")
+    page.get_by_role("button", name="Show the first steps on Bike").click()
+    expect(steps.locator("li.done")).to_have_count(1)
 
 
 def test_an_unknown_address_says_so(desk: Desk, device: str) -> None:

@@ -5,7 +5,9 @@ import { Server } from '$shared/api/server'
 import { Drafts } from '$shared/config/drafts'
 import type { AppContext } from '$shared/context/app_context'
 import { DeviceWatch } from '$shared/context/device_watch.svelte'
+import { FirstSteps } from '$shared/context/first_steps.svelte'
 import { HealthWatch } from '$shared/context/health_watch.svelte'
+import { Help } from '$shared/context/help.svelte'
 import { Locale } from '$shared/i18n/locale.svelte'
 import '$shared/ui/base.css'
 import { Foot } from '$shared/ui/foot.svelte'
@@ -38,6 +40,8 @@ const context: AppContext = {
   theme,
   toasts: new Toasts(),
   foot: new Foot(),
+  help: new Help(),
+  first_steps: new FirstSteps(chosen.first_steps),
   go: router.go,
 }
 router.start()

@@ -9,6 +9,8 @@ export interface Preferences {
   units: System
   device_id: string | null
   author: string
+  /** As `FirstSteps` reads it. */
+  first_steps: unknown
 }
 
 const KEY = 'spindle'
@@ -25,6 +27,7 @@ export function readPreferences(): Preferences {
     units: oneOf(systems, kept.units) ?? 'metric',
     device_id: typeof kept.device_id === 'string' ? kept.device_id : null,
     author: typeof kept.author === 'string' ? kept.author : '',
+    first_steps: kept.first_steps,
   }
 }
 

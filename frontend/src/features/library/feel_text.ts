@@ -6,8 +6,8 @@ import type { Say } from './words.svelte'
 export const FIGURES = [
   { name: 'start_s', unit: 'start_unit', digits: 1 },
   { name: 'rise_nm_per_s', unit: 'rise_unit', digits: 2 },
-  { name: 'ripple_pct', unit: 'ripple_unit', digits: 1 },
-  { name: 'lag_ms', unit: 'lag_unit', digits: 0 },
+  { name: 'ripple_pct', unit: 'ripple_unit', digits: 1, term: 'ripple' },
+  { name: 'lag_ms', unit: 'lag_unit', digits: 0, term: 'lag' },
   { name: 'toggles_hz', unit: 'toggles_unit', digits: 1 },
 ] as const
 

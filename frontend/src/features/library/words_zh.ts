@@ -2,10 +2,10 @@
 import type { LibraryKey } from './words.svelte'
 
 export const zh: Record<LibraryKey, string> = {
-  entries: '控制表与配置',
+  entries: '规则表与配置',
   lead: '此页不会写入车辆：条目以草稿打开，写入前需要核对。',
   name: '名称',
-  kind_table: '控制表',
+  kind_table: '规则表',
   kind_configuration: '配置',
   preset: 'Spindle 自带',
   own: '自有，{when}，{author}',
@@ -46,7 +46,7 @@ export const zh: Record<LibraryKey, string> = {
   same: '两者相同。',
   differ: '{cells} 条规则不同。',
   largest: '增益最多相差 {gain}，从 {left} 到 {right}，位于 {speed}、扭矩变化率 {rate}。',
-  no_table: '其中一个没有控制表：只比较其设置。',
+  no_table: '其中一个没有规则表：只比较其设置。',
   not_felt: '{name}：{why}',
   rules: 'A 的规则，不同处并列 B 的',
   cell_same: '{label}，{speed}，扭矩变化率 {rate}',
@@ -54,7 +54,7 @@ export const zh: Record<LibraryKey, string> = {
   map: 'B 的增益减去 A 的',
   settings: '不同之处',
   save: '存入调校库',
-  save_table: '草稿的控制表',
+  save_table: '草稿的规则表',
   save_configuration: '草稿的全部配置',
   save_button: '保存',
   saved: '{name} 已存入调校库。',

@@ -1,13 +1,15 @@
 // The rows of the matrix of modes: which setting a law has, what it would become in the next mode.
 import type { ParameterValue } from '$shared/api/types'
 import type { ConfigDraft } from '$shared/config/config_draft.svelte'
+import type { Term } from '$shared/context/help.svelte'
 
 export const SLOTS = [0, 1, 2, 3, 4] as const
 
-/** has: whether a mode with this law has the setting. */
+/** has: whether a mode with this law has the setting. term: where help explains it. */
 export interface ModeRow {
   name: string
   has: (law: string) => boolean
+  term?: Term
 }
 const assists = (law: string) => law !== 'off'
 
@@ -15,17 +17,17 @@ export const MODE_ROWS = [
   {
     group: 'asks',
     rows: [
-      { name: 'mode_laws', has: () => true },
-      { name: 'mode_ratios', has: assists },
+      { name: 'mode_laws', has: () => true, term: 'fuzzy_law' },
+      { name: 'mode_ratios', has: assists, term: 'assist_ratio' },
       { name: 'mode_tables', has: (law) => law === 'fuzzy' },
-      { name: 'mode_tapers', has: (law) => law === 'fixed' },
+      { name: 'mode_tapers', has: (law) => law === 'fixed', term: 'taper' },
     ],
   },
   {
     group: 'answers',
     rows: [
-      { name: 'mode_ramp_up_nm_per_s', has: assists },
-      { name: 'mode_ramp_down_nm_per_s', has: assists },
+      { name: 'mode_ramp_up_nm_per_s', has: assists, term: 'ramps' },
+      { name: 'mode_ramp_down_nm_per_s', has: assists, term: 'ramps' },
     ],
   },
   { group: 'uses', rows: [{ name: 'mode_torque_pct', has: assists }] },

@@ -8,7 +8,9 @@ import type { Theme } from '../ui/theme.svelte'
 import type { Toasts } from '../ui/toasts.svelte'
 import type { Units } from '../units/units.svelte'
 import type { DeviceWatch } from './device_watch.svelte'
+import type { FirstSteps } from './first_steps.svelte'
 import type { HealthWatch } from './health_watch.svelte'
+import type { Help } from './help.svelte'
 
 export interface AppContext {
   server: Server
@@ -20,6 +22,8 @@ export interface AppContext {
   theme: Theme
   toasts: Toasts
   foot: Foot
+  help: Help
+  first_steps: FirstSteps
   /** Goes to another page of this application. */
   go: (path: string) => void
 }

@@ -330,6 +330,8 @@ export const en = {
   'theme.dark': 'Dark',
   'units.metric': 'km/h, Nm, °C',
   'units.imperial': 'mph, lbf·ft, °F',
+  'help.title': 'Help',
+  'help.what': 'What is this?',
   'keys.title': 'Keyboard',
   'keys.go':
     '? lists these keys. g, then b Bike, l Live, t Tune, c Calibrate, s Service, r Rides.',

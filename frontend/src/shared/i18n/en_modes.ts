@@ -45,4 +45,6 @@ export const enModes = {
   'modes.limits_note': 'for every mode; they decide last',
   'modes.every': 'For every mode',
   'modes.share': '{share} % of the allowed range',
+  'modes.checks': 'Checks of modes and limits',
+  'modes.checks_clean': 'Nothing to look at.',
 }

@@ -16,7 +16,7 @@ const lint = {
   table_not_used: '没有带助力比的模糊模式使用此规则表：它不起任何作用',
   ratio_does_not_fall: '助力比不随车速下降，而日本法规要求下降',
   cutoff_band_narrow:
-    '助力在 {band_kmh} km/h 之内就降为零：在限速附近电机每秒会通断数次；低于 1 km/h 时，EN 15194 的逐渐减小感觉不出来',
+    '助力在 {band_kmh} km/h 之内就降为零：在限速附近电机每秒会通断数次；低于 1 km/h 时，EN 15194 的逐衰减小感觉不出来',
   cutoff_above_market:
     '设定的截止速度高于市场（{market}）所允许：无论如何设定，助力都在 {speed_kmh} km/h 截止',
   ratio_above_market:
@@ -100,7 +100,7 @@ const refusal = {
   name_taken: '调校库中已有此名称：请另选一个。',
   item_changed: '期间有人修改了此条目。请重新读取，再作修改。',
   library_full: '调校库已满，没有保存。',
-  entry_has_no_table: '此条目中没有这一控制表。',
+  entry_has_no_table: '此条目中没有这一规则表。',
   why_refused: '控制律不接受这一状态。',
   not_delivered: '此骑行无法再骑一次：没有记录电机实际给出的扭矩。',
   ride_too_long: '此骑行无法再骑一次：时间超过四小时。',

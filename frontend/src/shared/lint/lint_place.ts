@@ -1,7 +1,7 @@
 // Where the linter found something, in the reader's words and units.
-import { parameterLabel } from '$shared/config/parameter_text'
-import type { Locale } from '$shared/i18n/locale.svelte'
-import type { Units } from '$shared/units/units.svelte'
+import { parameterLabel } from '../config/parameter_text'
+import type { Locale } from '../i18n/locale.svelte'
+import type { Units } from '../units/units.svelte'
 
 /** Words for a place: `rules[2][0]`, `modes[3]`, "9.4 km/h, torque rate 0.87", a parameter. */
 export function lintPlace(where: string, locale: Locale, units: Units): string {

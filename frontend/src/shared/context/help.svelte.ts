@@ -1,0 +1,37 @@
+// What the reader asked to have explained. The explanations load when they are first asked for.
+
+/** The field's words that Spindle explains, in the order of the list. */
+export const TERMS = [
+  'rider_torque',
+  'torque_rate',
+  'assist_ratio',
+  'fixed_law',
+  'fuzzy_law',
+  'gain',
+  'labels',
+  'peaks',
+  'inference',
+  'taper',
+  'cutoff_band',
+  'ramps',
+  'pedal_stop',
+  'ripple',
+  'lag',
+  'commanded',
+  'back_emf',
+  'battery_soc',
+  'zero',
+  'market',
+  'generation',
+  'trial',
+  'closed_loop',
+] as const
+export type Term = (typeof TERMS)[number]
+
+/** A word, all of them, or the keys. */
+export type Asked = Term | 'words' | 'keys'
+
+export class Help {
+  /** Null while nothing is asked. */
+  asked = $state.raw<Asked | null>(null)
+}
