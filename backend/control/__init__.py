@@ -14,6 +14,7 @@ from backend.control.ride_replay import (
     raw_counts_of,
     replay,
 )
+from backend.control.torque_surface import TorqueSurface, torque_surface
 from backend.control.twin import HOLDS_POWER, RoadTwin
 from backend.control.why import Why, why, why_steady
 from sim_device.firmware.python.law import LIMITS, law_defaults
@@ -30,6 +31,7 @@ __all__ = [
     "ModeCurve",
     "Replay",
     "RoadTwin",
+    "TorqueSurface",
     "Why",
     "certify",
     "cutoff_of",
@@ -43,6 +45,7 @@ __all__ = [
     "recorded_ride",
     "replay",
     "surface",
+    "torque_surface",
     "why",
     "why_steady",
 ]

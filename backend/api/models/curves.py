@@ -1,4 +1,4 @@
-"""What each mode gives for a steady push, over speed."""
+"""What modes give for a steady push: over speed, and over the grid of a table."""
 
 from __future__ import annotations
 
@@ -36,4 +36,31 @@ class ModeCurves(Answer):
     cadence_rpm: float
     hard_push_nm: float
     modes: list[ModeCurve] = Field(description="By slot.")
+    engine: str
+
+
+class TorqueSurfaceRequest(Question):
+    """A configuration as it is edited; what is left out has the law's defaults."""
+
+    parameters: Parameters = Field(max_length=400)
+    mode: int = Field(ge=0, le=4, description="The slot whose table and ratio are asked.")
+    rider_torque_nm: float = Field(default=30.0, ge=1.0, le=300.0)
+    speeds_kmh: list[Speed] = Field(min_length=1, max_length=64, description="Increasing.")
+    torque_rates: list[Annotated[float, Field(ge=0.0, le=100.0)]] = Field(
+        min_length=1, max_length=64, description="Increasing."
+    )
+
+
+class TorqueSurface(Answer):
+    """At the crank, rows = speeds. What is given for long: ramps are over, the mean of a minute
+    that a continuous rating is held against has come to rest, the battery has its nominal voltage
+    and the motor is cool."""
+
+    speeds_kmh: list[float]
+    torque_rates: list[float]
+    asked_nm: list[list[float]] = Field(description="By the mode's law.")
+    given_nm: list[list[float]] = Field(description="What is left of it after every limit.")
+    limit_flags: list[list[int]] = Field(description="Bits of the registry: what held it back.")
+    cadence_rpm: float
+    crank_rad_per_s: float = Field(description="Torque times this is the power.")
     engine: str

@@ -7,7 +7,12 @@ from typing import Any, cast
 from fastapi import APIRouter
 
 from backend.api.models.certificate import Certificate, CertificateRequest
-from backend.api.models.curves import ModeCurves, ModeCurvesRequest
+from backend.api.models.curves import (
+    ModeCurves,
+    ModeCurvesRequest,
+    TorqueSurface,
+    TorqueSurfaceRequest,
+)
 from backend.api.models.law import (
     Evaluation,
     EvaluationRequest,
@@ -38,6 +43,15 @@ def compute_surface(body: SurfaceRequest, services: Provided) -> Any:
 def compute_points(body: PointsRequest, services: Provided) -> Any:
     """The gain at single points, by the unit's own C law."""
     return services.preview.points(body.fuzzy_table.model_dump(), body.points)
+
+
+@router.post("/surface/torque", operation_id="compute_torque_surface", response_model=TorqueSurface)
+def compute_torque_surface(body: TorqueSurfaceRequest, services: Provided) -> Any:
+    """What a steady push gets of a table for long, as motor, battery and market leave it."""
+    parameters = cast("dict[str, Any]", body.parameters)
+    return services.preview.torque_surface(
+        parameters, body.mode, body.rider_torque_nm, body.speeds_kmh, body.torque_rates
+    )
 
 
 @router.post("/modes/curves", operation_id="compute_mode_curves", response_model=ModeCurves)

@@ -70,6 +70,32 @@ class Preview:
             "engine": control.ENGINE,
         }
 
+    def torque_surface(
+        self,
+        parameters: Mapping[str, Any],
+        mode: int,
+        rider_torque_nm: float,
+        speeds_kmh: Sequence[float],
+        torque_rates: Sequence[float],
+    ) -> dict[str, Any]:
+        """What a mode gives over the grid of its table, as the API tells it.
+
+        parameters: by registry name; those that are missing have the law's defaults. Raises
+        InvalidRequest.
+        """
+        config = {**control.law_defaults(), **parameters}
+        found = control.torque_surface(config, mode, rider_torque_nm, speeds_kmh, torque_rates)
+        return {
+            "speeds_kmh": list(speeds_kmh),
+            "torque_rates": list(torque_rates),
+            "asked_nm": found.asked_nm.tolist(),
+            "given_nm": found.given_nm.tolist(),
+            "limit_flags": found.limit_flags.tolist(),
+            "cadence_rpm": control.CADENCE_RPM,
+            "crank_rad_per_s": control.CADENCE_RPM * RADIANS_PER_S_PER_RPM,
+            "engine": control.ENGINE,
+        }
+
     def lint(
         self,
         fuzzy_table: Mapping[str, Any],

@@ -611,6 +611,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/surface/torque": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Compute Torque Surface
+         * @description What a steady push gets of a table for long, as motor, battery and market leave it.
+         */
+        post: operations["compute_torque_surface"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/modes/curves": {
         parameters: {
             query?: never;
@@ -3582,6 +3602,72 @@ export interface components {
             speed_points_kmh: number[];
             /** Torque Rate Points */
             torque_rate_points: number[];
+        };
+        /**
+         * TorqueSurface
+         * @description At the crank, rows = speeds. What is given for long: ramps are over, the mean of a minute
+         *     that a continuous rating is held against has come to rest, the battery has its nominal voltage
+         *     and the motor is cool.
+         */
+        TorqueSurface: {
+            /** Speeds Kmh */
+            speeds_kmh: number[];
+            /** Torque Rates */
+            torque_rates: number[];
+            /**
+             * Asked Nm
+             * @description By the mode's law.
+             */
+            asked_nm: number[][];
+            /**
+             * Given Nm
+             * @description What is left of it after every limit.
+             */
+            given_nm: number[][];
+            /**
+             * Limit Flags
+             * @description Bits of the registry: what held it back.
+             */
+            limit_flags: number[][];
+            /** Cadence Rpm */
+            cadence_rpm: number;
+            /**
+             * Crank Rad Per S
+             * @description Torque times this is the power.
+             */
+            crank_rad_per_s: number;
+            /** Engine */
+            engine: string;
+        };
+        /**
+         * TorqueSurfaceRequest
+         * @description A configuration as it is edited; what is left out has the law's defaults.
+         */
+        TorqueSurfaceRequest: {
+            /** Parameters */
+            parameters: {
+                [key: string]: number | string | (number | string)[] | (number | string)[][];
+            };
+            /**
+             * Mode
+             * @description The slot whose table and ratio are asked.
+             */
+            mode: number;
+            /**
+             * Rider Torque Nm
+             * @default 30
+             */
+            rider_torque_nm: number;
+            /**
+             * Speeds Kmh
+             * @description Increasing.
+             */
+            speeds_kmh: number[];
+            /**
+             * Torque Rates
+             * @description Increasing.
+             */
+            torque_rates: number[];
         };
         /**
          * Trust
@@ -7082,6 +7168,48 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["PointGains"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    compute_torque_surface: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TorqueSurfaceRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TorqueSurface"];
                 };
             };
             /** @description The body is not JSON */

@@ -35,6 +35,7 @@ HEADERS: tuple[str, ...] = (
     "sim_device/firmware/control/assist_types.h",
     "sim_device/firmware/control/assist_trace.h",
     "sim_device/firmware/control/assist.h",
+    "sim_device/firmware/control/hold.h",
     "sim_device/twin/twin.h",
     "sim_device/firmware/control/market.h",
     "sim_device/firmware/control/rotor_receiver.h",

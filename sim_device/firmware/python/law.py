@@ -87,8 +87,6 @@ TRACE_STEPS = tuple(
     )[: lib.ASSIST_TRACE_STEPS]
 )
 """The steps of the pipeline in their order: the names of assist_trace.h in lower case."""
-STEADY_SHARE = 1.0 - 5e-7
-"""Rounding of a steady torque must not count as a falling one."""
 
 VIOLATIONS_TOLD = 5
 """Of a configuration that is refused: enough to mend it by."""
@@ -244,14 +242,29 @@ class AssistLaw:
         No torque can do that for long; it is a question about a point of the table. inputs:
         INPUT_DTYPE (1,), contiguous. torque_rate: above -1. Below 0 the torque falls.
         """
-        history = np.frombuffer(
-            ffi.buffer(ffi.addressof(self._state, "torque_history_nm")), np.float32
-        )
         given = ffi.cast("assist_input *", ffi.from_buffer(inputs))
         output = ffi.new("assist_output *")
-        for _ in range(steps):
-            lib.assist_step(self._config, self._state, given, output)
-            history[:] = self._state.torque_filtered_nm / (1.0 + torque_rate) * STEADY_SHARE
+        lib.assist_hold(self._config, self._state, given, torque_rate, steps, output)
+
+    def settle(
+        self, inputs: npt.NDArray[np.void], torque_rates: Floats, steps: int
+    ) -> npt.NDArray[np.void]:
+        """What is given for long at points beside each other, OUTPUT_DTYPE (n,).
+
+        inputs: INPUT_DTYPE (n,), contiguous. torque_rates: float32 (n,), contiguous, above -1; as
+        of `hold`. steps: for each point; see hold.h.
+        """
+        outputs = np.empty(inputs.size, OUTPUT_DTYPE)
+        lib.assist_settle(
+            self._config,
+            self._state,
+            ffi.cast("assist_input *", ffi.from_buffer(inputs)),
+            ffi.from_buffer("float[]", torque_rates),
+            steps,
+            ffi.cast("assist_output *", ffi.from_buffer(outputs, require_writable=True)),
+            inputs.size,
+        )
+        return outputs
 
     def _rules(self, row: np.void, output: Mapping[str, float]) -> tuple[FiredRule, ...]:
         """The rules that made this gain, by the table of the row's mode."""

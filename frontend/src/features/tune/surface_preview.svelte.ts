@@ -1,54 +1,83 @@
 // The surface and the findings of a table as it is edited, from the unit's own law on the server.
-// The newest table wins: an answer to an older one is dropped.
-import { Refusal } from '$shared/api/client'
+import { NewestAnswer } from '$shared/api/newest_answer.svelte'
 import type { Server } from '$shared/api/server'
-import type { LintReport, LintRequest } from '$shared/api/types'
+import type {
+  FuzzyTable,
+  LintReport,
+  LintRequest,
+  ParameterValue,
+  TorqueSurface,
+} from '$shared/api/types'
 import { spread } from './table'
 
-const POINTS = 41
+const GAIN_POINTS = 41
+/** Each is a moment of the whole law: fewer, so that a drag is followed. */
+const TORQUE_POINTS = 25
 
-export interface Drawn {
+export interface GainSurface {
   speeds_kmh: number[]
   torque_rates: number[]
   gain: number[][]
-  engine: string
+}
+
+export interface TorqueQuestion {
+  parameters: Record<string, ParameterValue>
+  mode: number
+  rider_torque_nm: number
 }
 
 export class SurfacePreview {
-  drawn = $state.raw<Drawn | null>(null)
-  lint = $state.raw<LintReport | null>(null)
-  trouble = $state<string | null>(null)
-  private asked = new AbortController()
+  private readonly gains = new NewestAnswer<GainSurface>()
+  private readonly torques = new NewestAnswer<TorqueSurface>()
+  private readonly findings = new NewestAnswer<LintReport>()
 
   constructor(private readonly server: Server) {}
 
+  get gain(): GainSurface | null {
+    return this.gains.answer
+  }
+
+  get torque(): TorqueSurface | null {
+    return this.torques.answer
+  }
+
+  get lint(): LintReport | null {
+    return this.findings.answer
+  }
+
+  get trouble(): string | null {
+    const refused = this.gains.refusal ?? this.torques.refusal ?? this.findings.refusal
+    return refused?.message ?? null
+  }
+
+  /** The findings take longer, as they are proven; the surface does not wait for them. */
   async ask(question: LintRequest): Promise<void> {
     const table = question.fuzzy_table
-    this.asked.abort()
-    this.asked = new AbortController()
-    const { signal } = this.asked
-    const speeds_kmh = spread(0, table.speed_points_kmh[4] ?? 25, POINTS)
-    const rates = table.torque_rate_points
-    const torque_rates = spread(rates[0] ?? 0, rates[4] ?? 1, POINTS)
-    try {
-      // The findings take longer, as they are proven; the surface does not wait for them.
-      await Promise.all([
-        this.server.surface(table, speeds_kmh, torque_rates, signal).then(({ gain, engine }) => {
-          if (!signal.aborted) this.drawn = { speeds_kmh, torque_rates, gain, engine }
-        }),
-        this.server.lint(question, signal).then((lint) => {
-          if (!signal.aborted) this.lint = lint
-        }),
-      ])
-      if (!signal.aborted) this.trouble = null
-    } catch (error) {
-      if (signal.aborted) return
-      if (!(error instanceof Refusal)) throw error
-      this.trouble = error.message
-    }
+    const { speeds_kmh, torque_rates } = grid(table, GAIN_POINTS)
+    await Promise.all([
+      this.gains.ask(async (signal) => {
+        const { gain } = await this.server.surface(table, speeds_kmh, torque_rates, signal)
+        return { speeds_kmh, torque_rates, gain }
+      }),
+      this.findings.ask((signal) => this.server.lint(question, signal)),
+    ])
+  }
+
+  /** What comes of the table at the crank, for a steady push in one of its modes. */
+  async askTorque(table: FuzzyTable, question: TorqueQuestion): Promise<void> {
+    const asked = { ...question, ...grid(table, TORQUE_POINTS) }
+    await this.torques.ask((signal) => this.server.torqueSurface(asked, signal))
   }
 
   stop(): void {
-    this.asked.abort()
+    for (const newest of [this.gains, this.torques, this.findings]) newest.stop()
+  }
+}
+
+function grid(table: FuzzyTable, count: number) {
+  const [speeds, rates] = [table.speed_points_kmh, table.torque_rate_points]
+  return {
+    speeds_kmh: spread(0, speeds[4] ?? 25, count),
+    torque_rates: spread(rates[0] ?? 0, rates[4] ?? 1, count),
   }
 }

@@ -31,6 +31,23 @@ export const en = {
   smooth_hint: 'Each the mean of itself and its neighbours',
   moved: '{moved} of {count} rules moved to the nearest label.',
   moved_none: 'No rule moved: each has the label that is nearest already.',
+  shown: 'Show',
+  shown_asked_nm: 'Asked, torque',
+  shown_given_nm: 'Arrives, torque',
+  shown_asked_w: 'Asked, power',
+  shown_given_w: 'Arrives, power',
+  push: 'Your push',
+  mode: 'Mode',
+  slices: 'Slices',
+  torque_summary: '{least} to {most} at the crank, held for long at 60 rpm.',
+  no_mode: 'No mode runs by this table, so it comes to no torque.',
+  taken: 'Hatched, taken by {limits}.',
+  taken_by: '{limit} ({share} % of the map)',
+  taken_nothing: 'No limit takes anything.',
+  slice_speed: '{name} at {speed}',
+  slice_rate: '{name} at torque rate {rate}',
+  slice_summary: '{least} to {most}.',
+  slice_asked: 'Dashed: asked, up to {most}; hatched: taken by a limit.',
 }
 
 export type TuneKey = keyof typeof en

@@ -38,6 +38,8 @@ import type {
   Surface,
   TableUse,
   TableUseRequest,
+  TorqueSurface,
+  TorqueSurfaceRequest,
   UnitLogs,
   Why,
   WhyRequest,
@@ -186,6 +188,11 @@ export class Server {
   ): Promise<Surface> {
     const request = { body: { fuzzy_table, speeds_kmh, torque_rates }, signal }
     return body(this.http.POST('/api/v1/surface', request))
+  }
+
+  /** What a steady push gets of a table for long, as the limits leave it, by the unit's own law. */
+  torqueSurface(question: TorqueSurfaceRequest, signal: AbortSignal): Promise<TorqueSurface> {
+    return body(this.http.POST('/api/v1/surface/torque', { body: question, signal }))
   }
 
   /** What each of the five modes gives for a steady push, by the unit's own law. */

@@ -117,12 +117,19 @@ export function tableOfMode(read: Read, slot: number): TableName | null {
   return TABLES[tables?.[slot] ?? -1] ?? null
 }
 
-/** The names of the modes that run by a table, as the draft has them. */
-export function modesWith(draft: ConfigDraft, which: TableName): string[] {
+/** The modes that run by a table, as the draft has them. */
+export function slotsWith(draft: ConfigDraft, which: TableName): { slot: number; name: string }[] {
   const names = (draft.value('mode_names') ?? []) as string[]
   return names.flatMap((name, slot) =>
-    tableOfMode((parameter) => draft.value(parameter), slot) === which ? [name || `${slot}`] : [],
+    tableOfMode((parameter) => draft.value(parameter), slot) === which
+      ? [{ slot, name: name || `${slot}` }]
+      : [],
   )
+}
+
+/** Their names. */
+export function modesWith(draft: ConfigDraft, which: TableName): string[] {
+  return slotsWith(draft, which).map(({ name }) => name)
 }
 
 /** What a table is judged with; what has an impossible value is left out. */

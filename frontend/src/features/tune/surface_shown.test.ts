@@ -1,0 +1,58 @@
+/* Goal: the picture of the surface is what the law answered, in the unit that was asked for, and
+says who took what. */
+import { expect, it } from 'vitest'
+import type { TorqueSurface } from '$shared/api/types'
+import { columnAt, pictureOf, rowAt, takers } from './surface_shown'
+
+const MARKET = 0x4000
+const CUTOFF = 0x0002
+const torque: TorqueSurface = {
+  speeds_kmh: [0, 10],
+  torque_rates: [0, 0.5],
+  asked_nm: [
+    [20, 60],
+    [20, 60],
+  ],
+  given_nm: [
+    [20, 40],
+    [0, 0],
+  ],
+  limit_flags: [
+    [0, MARKET],
+    [CUTOFF, CUTOFF | MARKET],
+  ],
+  cadence_rpm: 60,
+  crank_rad_per_s: 2 * Math.PI,
+  engine: '',
+}
+const gain = { speeds_kmh: [0, 10], torque_rates: [0, 1], gain: [[0.1, 0.2]] }
+
+it('shows the gain until the torque is known', () => {
+  expect(pictureOf('given_nm', gain, null, 60)?.shown).toBe('gain')
+  expect(pictureOf('given_nm', null, null, 60)).toBeNull()
+})
+
+it('tells what arrives, what was asked, and which limit took the rest', () => {
+  const picture = pictureOf('given_nm', gain, torque, 60)
+
+  expect(picture?.z).toEqual(torque.given_nm)
+  expect(picture?.asked).toEqual(torque.asked_nm)
+  expect(picture?.taken_by).toEqual([
+    [[], ['market']],
+    [['speed_cutoff'], ['speed_cutoff', 'market']],
+  ])
+  expect(picture && takers(picture)).toEqual([
+    { name: 'market', share: 0.5 },
+    { name: 'speed_cutoff', share: 0.5 },
+  ])
+})
+
+it('tells power at the speed the crank turns with', () => {
+  expect(pictureOf('asked_w', gain, torque, 60)?.z[0]?.[1]).toBeCloseTo(60 * 2 * Math.PI)
+})
+
+it('cuts between the lines of its grid', () => {
+  expect(rowAt(torque.given_nm, torque.speeds_kmh, 5)).toEqual([10, 20])
+  expect(columnAt(torque.given_nm, torque.torque_rates, 0.25)).toEqual([30, 0])
+  expect(columnAt(torque.given_nm, torque.torque_rates, 9)).toEqual([40, 0])
+})

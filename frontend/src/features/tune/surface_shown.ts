@@ -1,0 +1,102 @@
+// What the surface shows: the table's gain, or what comes of it at the crank for a steady push.
+import type { TorqueSurface } from '$shared/api/types'
+import { flagNames } from '$shared/stream/flags'
+import type { GainSurface } from './surface_preview.svelte'
+
+export const SHOWN = ['gain', 'asked_nm', 'given_nm', 'asked_w', 'given_w'] as const
+export type Shown = (typeof SHOWN)[number]
+
+/** The largest gain a table can hold: a fixed scale makes edits comparable. */
+export const GAIN_MAX = 0.5
+/** What is less than this is rounding, not a limit. */
+const TAKEN_SHARE = 0.005
+
+export interface Picture {
+  shown: Shown
+  speeds_kmh: number[]
+  torque_rates: number[]
+  /** Values in SI, rows = speeds. */
+  z: number[][]
+  top: number
+  unit: '' | 'Nm' | 'W'
+  /** What the law asks where what arrives is shown; null for anything else. */
+  asked: number[][] | null
+  /** By which limits it is less than that; null for anything else. */
+  taken_by: string[][][] | null
+}
+
+const OFF_THE_WAY = ['ramp_up', 'ramp_down', 'taper']
+
+/** The picture of what is wanted; of the gain until the rest is known. top_nm: of the scale, at the
+    crank. */
+export function pictureOf(
+  wanted: Shown,
+  gain: GainSurface | null,
+  torque: TorqueSurface | null,
+  top_nm: number,
+): Picture | null {
+  if (wanted === 'gain' || !torque) {
+    if (!gain) return null
+    const plain = { top: GAIN_MAX, unit: '' as const, asked: null, taken_by: null }
+    return { shown: 'gain', ...gain, z: gain.gain, ...plain }
+  }
+  const { speeds_kmh, torque_rates, limit_flags } = torque
+  const watts = wanted.endsWith('_w')
+  const times = (rows: number[][]) =>
+    watts ? rows.map((row) => row.map((nm) => nm * torque.crank_rad_per_s)) : rows
+  const frame = {
+    shown: wanted,
+    speeds_kmh,
+    torque_rates,
+    top: watts ? top_nm * torque.crank_rad_per_s : top_nm,
+    unit: watts ? ('W' as const) : ('Nm' as const),
+  }
+  if (wanted.startsWith('asked')) {
+    return { ...frame, z: times(torque.asked_nm), asked: null, taken_by: null }
+  }
+  const taken_by = torque.given_nm.map((row, i) =>
+    row.map((given, j) => {
+      const asked = torque.asked_nm[i]?.[j] ?? 0
+      if (asked - given <= TAKEN_SHARE * asked) return []
+      return flagNames('limit_flags', limit_flags[i]?.[j] ?? 0).filter(
+        (name) => !OFF_THE_WAY.includes(name),
+      )
+    }),
+  )
+  return { ...frame, z: times(torque.given_nm), asked: times(torque.asked_nm), taken_by }
+}
+
+/** Every limit that takes something anywhere, and how much of the grid it is. */
+export function takers(picture: Picture): { name: string; share: number }[] {
+  const places = picture.taken_by?.flat() ?? []
+  const names = [...new Set(places.flat())]
+  return names
+    .map((name) => ({
+      name,
+      share: places.filter((at) => at.includes(name)).length / places.length,
+    }))
+    .sort((a, b) => b.share - a.share)
+}
+
+/** A row of the picture at a speed, between its lines. */
+export function rowAt(rows: number[][], speeds_kmh: number[], speed_kmh: number): number[] {
+  const { low, high, share } = between(speeds_kmh, speed_kmh)
+  const [a, b] = [rows[low] ?? [], rows[high] ?? []]
+  return a.map((value, j) => value + share * ((b[j] ?? value) - value))
+}
+
+/** A column of the picture at a torque rate, between its lines. */
+export function columnAt(rows: number[][], torque_rates: number[], rate: number): number[] {
+  const { low, high, share } = between(torque_rates, rate)
+  return rows.map((row) => (row[low] ?? NaN) + share * ((row[high] ?? NaN) - (row[low] ?? NaN)))
+}
+
+function between(points: number[], value: number): { low: number; high: number; share: number } {
+  const after = points.findIndex((point) => point >= value)
+  if (after <= 0) {
+    const end = after < 0 ? points.length - 1 : 0
+    return { low: end, high: end, share: 0 }
+  }
+  const [from = 0, to = 1] = [points[after - 1], points[after]]
+  return { low: after - 1, high: after, share: (value - from) / (to - from) }
+}

@@ -1,0 +1,20 @@
+// Where in the table the bike was in the last seconds.
+export interface Place {
+  speed_kmh: number
+  torque_rate: number
+}
+
+const KEPT_MS = 10_000
+
+export class Trail {
+  places = $state.raw<Place[]>([])
+  private seen: (Place & { at_ms: number })[] = []
+
+  /** The bike is at a place now; null: nobody knows, or it runs by the other table. */
+  note(place: Place | null, now_ms: number): void {
+    if (place) this.seen.push({ ...place, at_ms: now_ms })
+    else this.seen = []
+    this.seen = this.seen.filter(({ at_ms }) => now_ms - at_ms <= KEPT_MS)
+    this.places = [...this.seen]
+  }
+}
