@@ -13,11 +13,13 @@ const MOST = [
   'config/(config_draft|drafts|limits|page_draft|parameter_text|ratchet|trial|two_tables)',
   'i18n/(?!zh)',
 ]
+const REVIEW = ['ReviewDialog', 'TokenSteps', 'UnlockPanel', 'WriteRefused', 'write_']
 const GROUPS = [
   { name: 'unit', test: new RegExp(`src/shared/(${MOST.join('|')})`) },
   { name: 'traces', test: /src\/shared\/charts\/(Traces|trace_line|trace_window|ride_view)/ },
   { name: 'rides', test: /src\/features\/(rides|try)/ },
   { name: 'settings', test: /src\/features\/(service|settings)/ },
+  { name: 'review', test: new RegExp(`src/shared/(certificate|config/(${REVIEW.join('|')}))`) },
   { name: 'config', test: /src\/shared\/(config|lint)/ },
   { name: 'tune', test: /src\/features\/tune/ },
 ]
