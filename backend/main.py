@@ -34,6 +34,7 @@ from backend.services.health import Health
 from backend.services.imports.collect import Collect
 from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
 from backend.services.rides.ledger import EnergyLedger
+from backend.services.rides.propose import Proposals
 from backend.services.rides.record import Recorder
 from backend.services.rides.replay import RideReplay
 from backend.services.rides.review import Rides
@@ -92,11 +93,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
         closing.callback(memory.close)
         recorder = Recorder(store.rides, memory.ride_context, unfinished=store.unfinished)
         closing.callback(recorder.close)
-        limit = UploadSettings(length_max=settings.upload_bytes_max)
-        children = Children()
-        quick = partial(read_in_child, wall_s=QUICK_S, children=children)
-        slow = partial(read_in_child, children=children)
-        uploads = Uploads(store, limit, quick, slow, children.stop)
+        uploads = make_uploads(settings, store)
         in_background("uploads", uploads.recover)
         # Units close first: their last rows still find the recorder.
         closing.callback(devices.close)
@@ -114,6 +111,8 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             in_background(url, partial(devices.add, url))
         preview = Preview()
         library = Library(store.library)
+        proposals = Proposals(store, memory.ride_config, certificates)
+        closing.callback(proposals.close)
         yield Services(
             health=Health(
                 __version__, devices, recorder, store.watch, store.database.ask, store.soundness
@@ -129,6 +128,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             compare=Compare(library, tuning),
             certify=Certify(certificates, devices, tuning, library),
             rides=Rides(store, RideReplay(preview, memory.ride_config), devices.unit_at),
+            proposals=proposals,
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
             why_steady=WhySteady(devices.writable),
             why_ride=WhyRide(store, memory.ride_config),
@@ -136,6 +136,15 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             uploads=uploads,
             collect=collect,
         )
+
+
+def make_uploads(settings: Settings, store: Store) -> Uploads:
+    """What becomes of files: each is read in a process of its own."""
+    limit = UploadSettings(length_max=settings.upload_bytes_max)
+    children = Children()
+    quick = partial(read_in_child, wall_s=QUICK_S, children=children)
+    slow = partial(read_in_child, children=children)
+    return Uploads(store, limit, quick, slow, children.stop)
 
 
 def make_data_folder(folder: Path) -> None:

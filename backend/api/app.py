@@ -12,7 +12,17 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 
 from backend.api import docs, errors, live, pages
 from backend.api.problem import Problem, refusals
-from backend.api.routes import config, devices, health, law, library, logs, rides, uploads
+from backend.api.routes import (
+    config,
+    devices,
+    health,
+    law,
+    library,
+    logs,
+    proposals,
+    rides,
+    uploads,
+)
 from backend.api.safety import AllowedHosts, BodyBound, SameOriginOnly, SecurityHeaders
 from backend.api.services import Services
 
@@ -54,7 +64,8 @@ def create_app(settings: ApiSettings, services: Services | None = None) -> FastA
     app.state.upload_bytes_max = settings.upload_bytes_max
     app.state.author = settings.author
     api = APIRouter(prefix=PREFIX)
-    for module in (health, devices, logs, config, law, library, rides, uploads, live):
+    parts = (health, devices, logs, config, law, library, rides, proposals, uploads, live)
+    for module in parts:
         api.include_router(module.router)
     app.include_router(api)
     app.include_router(health.probes)

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from backend.services.imports.collect import Collect
     from backend.services.imports.upload import Uploads
     from backend.services.rides.ledger import EnergyLedger
+    from backend.services.rides.propose import Proposals
     from backend.services.rides.review import Rides
     from backend.services.rides.use_of_table import UseOfTable
     from backend.services.rides.why_ride import WhyRide
@@ -45,6 +46,7 @@ class Services:
     compare: Compare
     certify: Certify
     rides: Rides
+    proposals: Proposals
     use_of_table: UseOfTable
     why_steady: WhySteady
     why_ride: WhyRide

@@ -13,6 +13,7 @@ from backend.cli import (
     device_log,
     law,
     library,
+    propose,
     ride,
     serve,
     store,
@@ -227,6 +228,13 @@ def _add_law(verbs: Any) -> None:
     command.add_argument("--table", type=Path, help="a fuzzy_table as JSON; the unit's if absent")
     command.add_argument("--unit", help="whose table; may be left out when there is only one unit")
     command.add_argument("--second", action="store_true", help="the second of its two tables")
+    command = _asking(verbs, "propose", propose.propose, help="settings for a wish, from rides")
+    command.add_argument("rides", type=int, nargs="+", help="1 to 5, by number")
+    command.add_argument("--objective", choices=propose.OBJECTIVES, default="more_range")
+    command.add_argument("--target-pct", type=float, help="10 for range, else 20")
+    command.add_argument("--knobs", help="of ratio,band,filter,torque_rate,cells; all if absent")
+    command.add_argument("--mass-kg", type=float, help="rider, bike and load")
+    command.add_argument("--save", metavar="NAME", help="keep the recommended one in the library")
     command = _asking(verbs, "certificate", law.certificate, help="what is proven of every ride")
     command.add_argument("--table", type=Path, help="a fuzzy_table as JSON, in the first's place")
     command.add_argument("--unit", help="whose; may be left out when there is only one unit")

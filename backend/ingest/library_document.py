@@ -8,7 +8,7 @@ the unit it was made of is left out, because an item is of no unit.
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -17,6 +17,7 @@ from backend.errors import FieldError, InvalidRequest
 from firmware_protocol._generated import PARAMETER_BY_NAME
 from firmware_protocol.configuration_check import FAMILY, faults_of
 from firmware_protocol.configuration_file import (
+    CONFIGURATION,
     TABLE,
     BadConfigurationFile,
     ConfigurationFile,
@@ -54,11 +55,21 @@ def library_document(saved: object) -> dict[str, Any]:
 
 def table_document(name: str, comment: str, table: FuzzyTable) -> dict[str, Any]:
     """A table as the document that is kept. Raises InvalidRequest for a name that cannot be."""
+    return document_of(TABLE, name, comment, table.to_parameters())
+
+
+def settings_document(name: str, comment: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Some parameters by registry name as the document that is kept. Raises InvalidRequest."""
+    return document_of(CONFIGURATION, name, comment, values)
+
+
+def document_of(kind: str, name: str, comment: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Values as a document of a kind."""
     entries = {
         parameter: Entry(value, PARAMETER_BY_NAME[parameter].unit)
-        for parameter, value in table.to_parameters().items()
+        for parameter, value in values.items()
     }
-    return library_document(ConfigurationFile(TABLE, name, comment, FAMILY, entries).to_json())
+    return library_document(ConfigurationFile(kind, name, comment, FAMILY, entries).to_json())
 
 
 def tidy_name(name: str) -> str:

@@ -1097,6 +1097,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/proposals": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Propose
+         * @description Begins to look for settings; nothing is written to any unit.
+         */
+        post: operations["propose"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/proposals/{proposal_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Proposal
+         * @description How far it is, and what was found.
+         */
+        get: operations["get_proposal"];
+        put?: never;
+        post?: never;
+        /**
+         * Cancel Proposal
+         * @description Gives it up; one that is over stays as it is.
+         */
+        delete: operations["cancel_proposal"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/rides/import": {
         parameters: {
             query?: never;
@@ -2734,6 +2778,129 @@ export interface components {
             items: components["schemas"]["Port"][];
             /** Next */
             next: string | null;
+        };
+        /**
+         * Proposal
+         * @description A job and what it found: `done` with candidates by how much they gain, `failed` with why.
+         */
+        Proposal: {
+            /** Id */
+            id: string;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "waiting" | "riding" | "proving" | "done" | "failed" | "cancelled";
+            /**
+             * Objective
+             * @enum {string}
+             */
+            objective: "more_range" | "gentler_start" | "flatter_at_the_limit";
+            /** Target Pct */
+            target_pct: number;
+            /**
+             * Knobs
+             * @description Those that do something on these rides.
+             */
+            knobs: ("ratio" | "band" | "filter" | "torque_rate" | "cells")[];
+            /** Ride Ids */
+            ride_ids: number[];
+            /**
+             * Config Source
+             * @enum {string}
+             */
+            config_source: "ride" | "defaults";
+            /**
+             * Aim Before
+             * @description What the wish is measured by, as it is now: Wh/km of the battery, or Nm/s rms at the crank.
+             */
+            aim_before: number;
+            /** Progress */
+            progress: number;
+            /** Rides Ridden */
+            rides_ridden: number;
+            /** Seconds */
+            seconds: number;
+            /** Code */
+            code: string | null;
+            /** Detail */
+            detail: string | null;
+            /** Candidates */
+            candidates: components["schemas"]["ProposalCandidate"][];
+        };
+        /**
+         * ProposalCandidate
+         * @description Settings that were found. The linter has no doubt of them that it has not of what is set
+         *     now, and their certificate holds.
+         */
+        ProposalCandidate: {
+            /**
+             * Gained Pct
+             * @description More range, or less of what is felt, by the twin.
+             */
+            gained_pct: number;
+            /** Meets Target */
+            meets_target: boolean;
+            /** Recommended */
+            recommended: boolean;
+            battery_wh_per_km: components["schemas"]["ProposalFigure"];
+            duration_s: components["schemas"]["ProposalFigure"];
+            /** Parameters */
+            parameters: {
+                [key: string]: number | string | (number | string)[] | (number | string)[][];
+            };
+            /** Changed */
+            changed: components["schemas"]["Change"][];
+            /** Certificate Sha256 */
+            certificate_sha256: string;
+            /**
+             * Document
+             * @description The same, as `POST /library` takes it.
+             */
+            document: {
+                [key: string]: unknown;
+            };
+        };
+        /**
+         * ProposalFigure
+         * @description Of all rides; nine of ten simulated rides lay between `low` and `high`.
+         */
+        ProposalFigure: {
+            /** Before */
+            before: number;
+            /** After */
+            after: number;
+            /** Low */
+            low: number;
+            /** High */
+            high: number;
+        };
+        /**
+         * ProposalRequest
+         * @description A wish, the rides it is measured on, and what may be turned for it.
+         */
+        ProposalRequest: {
+            /** Ride Ids */
+            ride_ids: number[];
+            /**
+             * Objective
+             * @enum {string}
+             */
+            objective: "more_range" | "gentler_start" | "flatter_at_the_limit";
+            /**
+             * Knobs
+             * @description `ratio` of the ridden modes, `band` below the cut-off speed, `filter` of the torque, `torque_rate` points as a whole, `cells` of the table as monotone steps.
+             */
+            knobs?: ("ratio" | "band" | "filter" | "torque_rate" | "cells")[];
+            /**
+             * Target Pct
+             * @description How much more range, or how much less of what is to be gentler or flatter; 10 or 20 without it.
+             */
+            target_pct?: number | null;
+            /** Mass Kg */
+            mass_kg?: number | null;
+            /** Drag Area M2 */
+            drag_area_m2?: number | null;
         };
         /**
          * ReadFis
@@ -8825,6 +8992,146 @@ export interface operations {
             };
             /** @description Unsupported Media Type */
             415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    propose: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ProposalRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Proposal"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_proposal: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                proposal_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Proposal"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    cancel_proposal: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                proposal_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Proposal"];
+                };
+            };
+            /** @description Not Found */
+            404: {
                 headers: {
                     [name: string]: unknown;
                 };

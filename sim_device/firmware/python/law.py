@@ -437,6 +437,14 @@ def law_defaults() -> dict[str, Any]:
     return dict(default_config())
 
 
+def parameter_range(name: str) -> tuple[float, float]:
+    """The least and the most of a number that the unit takes. Raises KeyError for no number."""
+    row = PARAMETER_BY_NAME[name]
+    if row.min is None or row.max is None:
+        raise KeyError(name)
+    return float(row.min), float(row.max)
+
+
 def law_image(config: Config, tables_only: bool = False) -> bytes:
     """The bytes of what the law reads of a configuration, and the defaults of all else.
 

@@ -1,0 +1,372 @@
+"""Proposals: settings for a wish, found on the rider's own rides; nothing is written to a unit.
+
+    waiting -> riding -> proving -> done
+    any -> failed, with the reason; or cancelled
+
+A job's rides are read and laid over their road before it is taken, so that what cannot be told is
+refused at once. The search is one thread's: a second job waits for the first.
+"""
+
+from __future__ import annotations
+
+import itertools
+import threading
+import time
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from backend import control
+from backend.control import proposal
+from backend.control.front_search import GENERATIONS, POPULATION, Tried, front_of
+from backend.domain.assist_mode import AssistModes
+from backend.domain.fuzzy_table import FuzzyTable
+from backend.domain.rider_and_bike import RiderAndBike
+from backend.errors import Conflict, InvalidRequest, NotFound, SpindleError
+from backend.ingest.library_document import settings_document
+from backend.services.rides.replay import ConfigOf, read_columns
+from backend.services.rides.ride_again import (
+    refuse_what_cannot_be_laid_over,
+    refuse_what_differs,
+    with_brake,
+)
+from backend.services.tuning.certify import KeptCertificates
+from backend.store import Store
+
+JOBS_KEPT = 20
+WAITING_MAX = 4
+RIDES_MAX = 5
+SEARCH_S_MAX = 60.0
+"""A search of long rides ends here with what it has; one of five minutes takes four."""
+SHOWN = 6
+BEYOND = 2.5
+"""Candidates go so many times beyond what was wished, not to the end of the knobs."""
+WORDS = {
+    "more_range": "range by",
+    "gentler_start": "start gentler by",
+    "flatter_at_the_limit": "limit flatter by",
+}
+RUNNING = ("waiting", "riding", "proving")
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """Of all rides, without the change and with it, and where nine of ten lie; all of the twin."""
+
+    before: float
+    after: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A proposal. gained_pct: of the wish. parameters: what it sets, by registry name; document:
+    the same, as the library keeps it."""
+
+    gained_pct: float
+    meets_target: bool
+    recommended: bool
+    battery_wh_per_km: Figure
+    duration_s: Figure
+    parameters: dict[str, Any]
+    changed: tuple[dict[str, Any], ...]
+    certificate_sha256: str
+    document: dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """How far a proposal is. progress: 0 to 1. aim_before: what the wish is measured by, as it is
+    now: Wh/km of the battery, or Nm/s rms at the crank."""
+
+    id: str
+    state: str
+    objective: str
+    target_pct: float
+    knobs: tuple[str, ...]
+    ride_ids: tuple[int, ...]
+    config_source: str
+    aim_before: float
+    progress: float = 0.0
+    rides_ridden: int = 0
+    seconds: float = 0.0
+    code: str | None = None
+    detail: str | None = None
+    candidates: tuple[Candidate, ...] = ()
+
+
+@dataclass
+class _Work:
+    job: Job
+    road: proposal.Road
+    space: proposal.Space
+    twins: Sequence[control.RoadTwin]
+    config: Mapping[str, Any]
+    stopped: threading.Event = field(default_factory=threading.Event)
+
+
+class Proposals:
+    """Jobs by id; from any thread. The newest are kept until the server ends.
+
+    generations: how long each search is.
+    """
+
+    def __init__(
+        self,
+        store: Store,
+        config_of: ConfigOf,
+        certificates: KeptCertificates,
+        generations: int = GENERATIONS,
+    ) -> None:
+        self._generations = generations
+        self._store = store
+        self._config_of = config_of
+        self._certificates = certificates
+        self._lock = threading.Lock()
+        self._numbers = itertools.count(1)
+        self._work: dict[str, _Work] = {}
+        self._pool = ThreadPoolExecutor(1, thread_name_prefix="proposals")
+
+    def begin(
+        self,
+        ride_ids: Sequence[int],
+        objective: str,
+        knobs: Sequence[str] = proposal.KNOBS,
+        target_pct: float | None = None,
+        told: RiderAndBike | None = None,
+    ) -> Job:
+        """A new job. target_pct: how much of the wish; told: of rider and bike.
+
+        Raises NotFound, InvalidRequest for rides that cannot be ridden again or tell nothing of
+        this wish, Conflict while too many jobs wait.
+        """
+        if not 1 <= len(ride_ids) <= RIDES_MAX:
+            raise InvalidRequest(f"Choose 1 to {RIDES_MAX} rides.", "ride_count")
+        with self._lock:
+            waiting = sum(work.job.state in RUNNING for work in self._work.values())
+        if waiting >= WAITING_MAX:
+            raise Conflict(f"{waiting} proposals are being made: wait or cancel one.", "busy")
+        config, source = self._config_of(self._store.rides.get(ride_ids[0]))
+        config = {**control.law_defaults(), **config}
+        twins = [self._twin(ride_id, config, told or RiderAndBike()) for ride_id in ride_ids]
+        road = proposal.Road(twins, objective, config)
+        space = proposal.Space(config, road.modes, knobs)
+        if target_pct is None:
+            target_pct = proposal.TARGET_PCT[objective]
+        number = f"proposal-{next(self._numbers)}"
+        job = Job(
+            number,
+            "waiting",
+            objective,
+            target_pct,
+            space.knobs,
+            tuple(ride_ids),
+            source,
+            road.before.aim,
+        )
+        work = _Work(job, road, space, twins, config)
+        with self._lock:
+            self._work[number] = work
+            for old in [key for key, kept in self._work.items() if kept.job.state not in RUNNING]:
+                if len(self._work) > JOBS_KEPT:
+                    del self._work[old]
+        self._pool.submit(self._run, work)
+        return job
+
+    def get(self, job_id: str) -> Job:
+        """How far it is. Raises NotFound."""
+        return self._find(job_id).job
+
+    def cancel(self, job_id: str) -> Job:
+        """Gives a job up; one that is over stays as it is. Raises NotFound."""
+        work = self._find(job_id)
+        work.stopped.set()
+        with self._lock:
+            if work.job.state in RUNNING:
+                work.job = replace(work.job, state="cancelled")
+            return work.job
+
+    def close(self) -> None:
+        """Ends what runs."""
+        with self._lock:
+            for work in self._work.values():
+                work.stopped.set()
+        self._pool.shutdown(cancel_futures=True)
+
+    def _find(self, job_id: str) -> _Work:
+        with self._lock:
+            found = self._work.get(job_id)
+        if found is None:
+            raise NotFound(f"There is no proposal {job_id}: this server keeps the newest alone.")
+        return found
+
+    def _twin(
+        self, ride_id: int, config: Mapping[str, Any], told: RiderAndBike
+    ) -> control.RoadTwin:
+        reader = self._store.rides.reader(ride_id)
+        columns = read_columns(reader)
+        refuse_what_cannot_be_laid_over(reader, columns)
+        step_s = (reader.ride.period_us or 0) / 1e6
+        own = {**control.law_defaults(), **self._config_of(reader.ride)[0]}
+        ride = control.recorded_ride(with_brake(columns), own, step_s)
+        twin = control.RoadTwin(ride, own, told)
+        refuse_what_differs(ride_id, twin)
+        return twin
+
+    def _tell(self, work: _Work, **news: Any) -> None:
+        with self._lock:
+            if work.job.state in RUNNING:
+                work.job = replace(work.job, **news)
+
+    def _run(self, work: _Work) -> None:
+        began = time.monotonic()
+        try:
+            front = self._searched(work, began)
+            candidates = self._proven(work, front)
+            if work.stopped.is_set():
+                return
+            seconds = time.monotonic() - began
+            if candidates:
+                news = {"state": "done", "progress": 1.0, "candidates": candidates}
+            else:
+                detail = "Within these knobs nothing was found that is better and without a doubt."
+                news = {"state": "failed", "code": "nothing_found", "detail": detail}
+            self._tell(work, seconds=seconds, **news)
+        except SpindleError as error:
+            self._tell(work, state="failed", code=error.code, detail=error.message)
+        except Exception:
+            self._tell(work, state="failed", code="internal", detail="The search broke off.")
+            raise
+
+    def _searched(self, work: _Work, began: float) -> list[Tried]:
+        tried, in_all = 0, POPULATION * self._generations
+
+        def going() -> bool:
+            seconds = time.monotonic() - began
+            share = 0.9 * min(1.0, max(tried / in_all, seconds / SEARCH_S_MAX))
+            self._tell(work, state="riding", progress=share, rides_ridden=tried, seconds=seconds)
+            return not work.stopped.is_set() and seconds < SEARCH_S_MAX
+
+        def evaluate(point: Any) -> tuple[float, float] | None:
+            nonlocal tried
+            tried += 1
+            ridden = work.road.ridden({**work.config, **work.space.changes(point)})
+            if ridden is None:
+                return None
+            return ridden.aim, ridden.cost(work.road.before, work.job.objective)
+
+        front = front_of(evaluate, work.space.start, going, self._generations)
+        self._tell(work, state="proving", rides_ridden=tried)
+        return front
+
+    def _proven(self, work: _Work, front: Sequence[Tried]) -> tuple[Candidate, ...]:
+        """What is worth showing of a front: better, near to what was wished, clean, certified."""
+        job, before = work.job, work.road.before.aim
+        gains = [proposal.gained_pct(job.objective, before, one.scores[0]) for one in front]
+        worth = [
+            (gain, one)
+            for gain, one in zip(gains, front, strict=True)
+            if 0.1 * job.target_pct < gain <= BEYOND * job.target_pct
+        ]
+        kept: list[Candidate] = []
+        known = codes_of(work.config, work.space.which)
+        for gain, one in nearest_first(worth, job.target_pct):
+            if work.stopped.is_set() or len(kept) == SHOWN:
+                break
+            changes = work.space.changes(one.point)
+            if any(abs(gain - other.gained_pct) < 0.15 * job.target_pct for other in kept):
+                continue
+            config = {**work.config, **changes}
+            if not codes_of(config, work.space.which) <= known:
+                continue
+            certificate = self._certificates.of(config)
+            if certificate.holds:
+                kept.append(self._candidate(work, gain, changes, certificate.sha256))
+        return recommended(sorted(kept, key=lambda one: one.gained_pct))
+
+    def _candidate(
+        self, work: _Work, gain: float, changes: dict[str, Any], sha256: str
+    ) -> Candidate:
+        config = {**work.config, **changes}
+        battery, duration = figures(work, config)
+        return Candidate(
+            gained_pct=gain,
+            meets_target=gain >= work.job.target_pct - 0.05,
+            recommended=False,
+            battery_wh_per_km=battery,
+            duration_s=duration,
+            parameters=changes,
+            changed=tuple(
+                {"name": name, "old": work.config[name], "new": value}
+                for name, value in changes.items()
+            ),
+            certificate_sha256=sha256,
+            document=settings_document(
+                f"{WORDS[work.job.objective]} {gain:.0f} %",
+                f"Proposed on {rides_words(work.job.ride_ids)}.",
+                changes,
+            ),
+        )
+
+
+def rides_words(ride_ids: Sequence[int]) -> str:
+    """The rides as a comment names them."""
+    return f"ride{'s' * (len(ride_ids) > 1)} {', '.join(map(str, ride_ids))}"
+
+
+def figures(work: _Work, config: Mapping[str, Any]) -> tuple[Figure, Figure]:
+    """Energy of the battery for a kilometre, and time. The band of the battery's energy is that of
+    the motor's work."""
+    after, before = work.road.ridden(config), work.road.before
+    assert after is not None
+    bands = [twin.band(config) for twin in work.twins]
+    per_km = 1.0 / 3600.0 / work.road.distance_km
+    work_j = [sum(band.motor_work_j[end] for band in bands) for end in (0, 1)]
+    time_s = [sum(band.duration_s[end] for band in bands) for end in (0, 1)]
+    low, high = (end / max(after.motor_work_j, 1.0) for end in work_j)
+    battery = after.battery_j * per_km
+    return (
+        Figure(
+            before.battery_j * per_km,
+            battery,
+            battery * min(low, 1.0),
+            battery * max(high, 1.0),
+        ),
+        Figure(
+            before.duration_s,
+            after.duration_s,
+            min(time_s[0], after.duration_s),
+            max(time_s[1], after.duration_s),
+        ),
+    )
+
+
+def codes_of(config: Mapping[str, Any], which: str) -> set[str]:
+    """What the linter doubts: its errors and warnings by code."""
+    report = control.lint(
+        FuzzyTable.from_parameters(config, which),
+        AssistModes.from_parameters(config),
+        config,
+        which,
+        (config["fixed_taper_start_kmh"], config["fixed_taper_end_kmh"]),
+        config["gear_ratio"],
+    )
+    return {finding.code for finding in (*report.errors, *report.warnings)}
+
+
+def nearest_first(
+    worth: Sequence[tuple[float, Tried]], target_pct: float
+) -> list[tuple[float, Tried]]:
+    """Those that reach what was wished first, the nearest of them; then the rest by how near."""
+    return sorted(worth, key=lambda one: (abs(one[0] - target_pct), one[0] < target_pct))
+
+
+def recommended(candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
+    """With the first that meets the target marked, or the one that comes nearest to it."""
+    if not candidates:
+        return ()
+    meeting = [one for one in candidates if one.meets_target]
+    chosen = meeting[0] if meeting else candidates[-1]
+    return tuple(replace(one, recommended=one is chosen) for one in candidates)
