@@ -50,6 +50,7 @@ from backend.services.tuning.why import WhySteady
 from backend.services.units.connect import Devices
 from backend.services.units.dashboard import Dashboards
 from backend.services.units.inspection import Inspection
+from backend.services.units.last_seen import LastSeen
 from backend.services.units.remember import UnitMemory
 from backend.services.units.watch import Watch
 from backend.settings import CHECKOUT, Settings
@@ -74,16 +75,17 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
     families: the makes of units there are. Raises StoreError if the store cannot be opened,
     InvalidRequest for a bad url of a device or the database.
     """
-    for url in settings.device:
-        kind_of(url)
-    make_data_folder(settings.data)
+    check(settings)
     with contextlib.ExitStack() as closing:
         store = open_store(settings.db, settings.objects)
         closing.callback(store.close)
+        last_seen = LastSeen(store.units)
+        closing.callback(last_seen.close)
         devices = Devices(
             flash_folder=settings.data / "units",
             schemas=SchemaFiles(settings.data / "schemas"),
             bike_of=store.units.bike_of,
+            last_seen=last_seen.at,
             families=families,
         )
         certificates = KeptCertificates(store.certificates, __version__)
@@ -102,11 +104,11 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
         # Closes before those who wait for a file to be read.
         closing.callback(uploads.close)
 
-        devices.watch(memory.follow)
-        devices.watch(recorder.watch)
         dashboards = Dashboards()
-        devices.watch(dashboards.follow)
-        closing.enter_context(housekeeping(partial(tidy, recorder, uploads, store)))
+        for watcher in (memory.follow, recorder.watch, dashboards.follow):
+            devices.watch(watcher)
+        work = partial(tidy, recorder, uploads, store, last_seen, devices)
+        closing.enter_context(housekeeping(work))
         for url in settings.device:
             in_background(url, partial(devices.add, url))
         preview = Preview()
@@ -147,6 +149,13 @@ def make_uploads(settings: Settings, store: Store) -> Uploads:
     return Uploads(store, limit, quick, slow, children.stop)
 
 
+def check(settings: Settings) -> None:
+    """What must be right before anything is opened. Raises InvalidRequest, StoreError."""
+    for url in settings.device:
+        kind_of(url)
+    make_data_folder(settings.data)
+
+
 def make_data_folder(folder: Path) -> None:
     """The folder of everything that is kept. Raises StoreError where it cannot be."""
     try:
@@ -158,7 +167,9 @@ def make_data_folder(folder: Path) -> None:
         ) from None
 
 
-def tidy(recorder: Recorder, uploads: Uploads, store: Store) -> None:
+def tidy(
+    recorder: Recorder, uploads: Uploads, store: Store, last_seen: LastSeen, devices: Devices
+) -> None:
     """Ends what has been silent too long; fills rides that are over; removes what has expired."""
     now_us = time.time_ns() // 1000
     store.try_again()
@@ -166,6 +177,7 @@ def tidy(recorder: Recorder, uploads: Uploads, store: Store) -> None:
     uploads.look_again()
     store.sweep(now_us)
     store.scrub(now_us)
+    last_seen.look(devices.list(), now_us)
 
 
 def in_background(name: str, work: Callable[[], object]) -> None:

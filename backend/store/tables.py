@@ -72,6 +72,7 @@ unit = Table(
     Column("firmware_version", Text),
     Column("created_us", BigInteger, nullable=False),
     Column("last_seen_us", BigInteger, nullable=False),
+    Column("last_url", Text),
 )
 
 bike = Table(

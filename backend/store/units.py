@@ -14,6 +14,7 @@ from sqlalchemy import Connection, Table, insert, select, update
 from sqlalchemy.dialects import postgresql, sqlite
 
 from backend.domain.ride import RideContext
+from backend.domain.sighting import Sighting
 from backend.domain.unit_key import bike_name, tells_unit
 from backend.store import tables as t
 from backend.store.database import Database
@@ -59,6 +60,29 @@ class UnitStore:
         bike_id = self._database.write(work)
         if bike_id is not None:
             self._bikes = {**self._bikes, unit.key: bike_id}
+
+    def sighted(self, sighting: Sighting) -> None:
+        """Note when and over which connection a unit was last there. Raises StoreError."""
+        values = {"last_seen_us": sighting.seen_us, "last_url": sighting.url}
+        mine = t.unit.c.key == sighting.unit_key
+        self._database.write(lambda c: c.execute(update(t.unit).where(mine).values(values)))
+
+    def sightings(self) -> tuple[Sighting, ...]:
+        """The last sight of every unit whose connection is known, oldest first."""
+        query = select(t.unit).where(t.unit.c.last_url.is_not(None)).order_by(t.unit.c.last_seen_us)
+        rows = self._database.read(lambda connection: connection.execute(query).all())
+        return tuple(
+            Sighting(
+                url=row.last_url,
+                unit_key=row.key,
+                seen_us=row.last_seen_us,
+                serial_number=row.serial_number,
+                name=row.name,
+                model=row.model,
+                firmware_version=row.firmware_version,
+            )
+            for row in rows
+        )
 
     def bike_of(self, key: str) -> int | None:
         """The bike a unit is on now; None for one that is on none or was not seen. Never waits."""

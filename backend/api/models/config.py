@@ -62,6 +62,17 @@ class ParameterList(Answer):
     next: str | None = None
 
 
+class LastKnown(Answer):
+    """What a unit was last known to be set to. Nothing can be written on it: it has no ETag."""
+
+    unit_key: str
+    seen_at: datetime | None = Field(description="When the unit was last there.")
+    noted_at: datetime = Field(description="When this configuration was read from it.")
+    generation: int | None
+    crc32: int | None
+    parameters: list[Parameter]
+
+
 class Config(Answer):
     generation: int
     crc32: int

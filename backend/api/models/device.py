@@ -157,6 +157,10 @@ class Device(Answer):
         description="Counters of the link since it was added."
     )
     faults_active: list[str]
+    last_seen_at: datetime | None = Field(
+        description="When the unit was last there over this connection, now if it is; null if none "
+        "ever was. Kept over a restart, as are `identity` and `unit_key` of a unit that is away."
+    )
     family: str = Field(description="The make of the unit: what `?family=` of its url takes.")
     capabilities: list[Capability] = Field(
         description="What this unit can do. A route that needs another answers 409 "

@@ -15,6 +15,7 @@ from backend.api.models.config import (
     Config,
     ConfigChange,
     ConfigPatch,
+    LastKnown,
     Live,
     LiveRequest,
     ParameterList,
@@ -69,6 +70,16 @@ def get_config(
     if bank == "active":
         response.headers["etag"] = etag(config.generation, config.crc32)
     return config
+
+
+@router.get("/last-known", operation_id="get_last_known", response_model=LastKnown)
+def get_last_known(device_id: str, services: Provided) -> Any:
+    """What the unit was last known to be set to, connected or not, over a restart too.
+
+    For reading: what is written goes to a connected unit only. What was on trial is left out. 404
+    `never_read` where no configuration is kept.
+    """
+    return services.tuning.last_known(device_id)
 
 
 @router.patch("/config", operation_id="patch_config", response_model=ConfigChange)

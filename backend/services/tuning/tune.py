@@ -24,11 +24,13 @@ from backend.errors import (
     InvalidRequest,
     LimitViolation,
     NoAnswer,
+    NotFound,
 )
 from backend.services.tuning.config_view import (
     Change,
     ConfigChange,
     ConfigView,
+    LastKnown,
     ParameterView,
     TypedView,
     check_base,
@@ -68,16 +70,7 @@ class Tuning:
     def parameters(self, device_id: str) -> list[ParameterView]:
         """Every parameter with its bounds and its value now. Raises NotFound, NoAnswer."""
         unit = self._devices.writable(device_id)
-        config = unit.read_config()
-        table = unit.parameters
-        return [
-            ParameterView(
-                **asdict(row),
-                value=config.parameters[row.name],
-                free=table.free_of(row.name, config.parameters),
-            )
-            for row in table.rows
-        ]
+        return _views(unit.parameters, unit.read_config().parameters)
 
     def read_config(self, device_id: str, bank: str = ACTIVE) -> ConfigView:
         """A whole configuration of the unit: `active`, `previous` or `default`.
@@ -104,7 +97,28 @@ class Tuning:
     def revisions(self, device_id: str) -> Sequence[Revision]:
         """Every configuration the unit is known to have had, newest first."""
         table = self._devices.unit(device_id).parameters
-        return self._book.list(self._devices.unit_key(device_id), table)
+        return self._book.list(self._devices.known_key(device_id), table)
+
+    def last_known(self, device_id: str) -> LastKnown:
+        """What the unit was last known to be set to, whether it is connected or not.
+
+        What was on trial is left out: a unit that nobody hears gives it up by itself. Raises
+        NotFound, also where no configuration of the unit is kept, and NoAnswer where nobody knows
+        which unit it is.
+        """
+        device = self._devices.get(device_id)
+        kept = next((one for one in self.revisions(device_id) if one.state != TRIED), None)
+        if kept is None:
+            raise NotFound(f"No configuration of the unit at {device.url} is kept.", "never_read")
+        table = self._devices.unit(device_id).parameters
+        return LastKnown(
+            kept.unit_key,
+            device.last_seen_at,
+            kept.created_at,
+            kept.generation,
+            kept.crc32,
+            tuple(_views(table, kept.parameters)),
+        )
 
     # ------------------------------------------------------------------ writing
 
@@ -303,6 +317,21 @@ class Tuning:
                 "this link. Write again with more time."
             )
         return datetime.fromtimestamp(self._now_s() + trial.left_s, UTC)
+
+
+def _views(table: ParameterTable, values: Mapping[str, Value]) -> list[ParameterView]:
+    """Every parameter that has a value."""
+    known = {row.name: values[row.name] for row in table.rows if row.name in values}
+    whole = len(known) == len(table.rows)
+    return [
+        ParameterView(
+            **asdict(row),
+            value=known[row.name],
+            free=table.free_of(row.name, known) if whole else None,
+        )
+        for row in table.rows
+        if row.name in known
+    ]
 
 
 def _part(unit: Unit, name: str) -> ConfigPart:

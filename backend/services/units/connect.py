@@ -10,16 +10,18 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, MutableMapping, Sequence
 from dataclasses import asdict
+from datetime import UTC, datetime
 from pathlib import Path
 
 from backend.device.driver import LinkOpener, Listener
 from backend.device.families import DEFAULT_FAMILY, FAMILIES, Families
 from backend.device.identity import Identity
 from backend.device.ports import Opener, PortInfo, family_of, kind_of, list_ports
-from backend.device.states import DeviceEvent, LinkState, Named
+from backend.device.states import CONNECTED, DeviceEvent, LinkState, Named
 from backend.device.unit import Unit
 from backend.domain.capability import Capability
 from backend.domain.channels import ChannelSpec
+from backend.domain.sighting import Sighting
 from backend.domain.unit_key import tells_unit, unit_key
 from backend.errors import Conflict, InvalidRequest, NameFirst, NoAnswer, NotFound
 from backend.services.units.device_ids import canonical, id_of
@@ -99,7 +101,8 @@ class Devices:
     flash_folder: where simulated units keep their configuration between runs, None for nowhere.
     streaming: whether rows of every channel are to come by themselves. opener: how a url becomes a
     link. schemas: where descriptions of units with another firmware are kept. families: the makes
-    there are. bike_of: the bike that the unit with a key is on, told at once.
+    there are. bike_of: the bike that the unit with a key is on, told at once. last_seen: the unit
+    that was last there over the connection with a url, told at once.
     """
 
     def __init__(
@@ -110,11 +113,13 @@ class Devices:
         schemas: MutableMapping[str, bytes] | None = None,
         families: Families = FAMILIES,
         bike_of: Callable[[str], int | None] = lambda key: None,
+        last_seen: Callable[[str], Sighting | None] = lambda url: None,
     ) -> None:
         self._streaming = streaming
         self._schemas = {} if schemas is None else schemas
         self._families = families
         self._bike_of = bike_of
+        self._last_seen = last_seen
         self._opener = opener or (lambda url: Opener(url, flash_folder))
         self._lock = threading.Lock()
         self._devices: dict[str, _Device] = {}  # by url
@@ -223,6 +228,12 @@ class Devices:
             raise NoAnswer(device.unit.status().reason, "not_connected")
         return key
 
+    def known_key(self, device_id: str) -> str:
+        """As `unit_key`, for whoever only reads what is kept: of a unit that has not yet said who
+        it is, the one that was last seen over its connection. Raises NotFound, NoAnswer."""
+        key = self.get(device_id).unit_key
+        return key if key is not None else self.unit_key(device_id)
+
     def unit_at(self, device_id: str) -> str | None:
         """As `unit_key`; None where there is no such device or it has not said so."""
         try:
@@ -324,6 +335,13 @@ class Devices:
         status = device.unit.status()
         identity = status.identity
         key = device.unit_key_of(identity)
+        seen = self._last_seen(device.url)
+        if identity is None and seen is not None:
+            identity = Identity(seen.serial_number, seen.model or "", seen.firmware_version)
+            key = seen.unit_key
+        seen_at = seen.seen_at if seen else None
+        if status.state in CONNECTED:
+            seen_at = datetime.now(UTC)
         return DeviceView(
             id=device.id or id_of(device.url),
             url=device.url,
@@ -336,9 +354,10 @@ class Devices:
             faults_active=status.faults_active,
             family=device.unit.family,
             capabilities=tuple(sorted(device.unit.capabilities)),
-            name=device.name,
+            name=device.name or (seen.name if seen else None),
             unit_key=key,
             bike_id=self._bike_of(key) if key is not None else None,
+            last_seen_at=seen_at,
         )
 
 

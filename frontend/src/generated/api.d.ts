@@ -365,6 +365,29 @@ export interface paths {
         patch: operations["patch_config"];
         trace?: never;
     };
+    "/api/v1/devices/{device_id}/last-known": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Last Known
+         * @description What the unit was last known to be set to, connected or not, over a restart too.
+         *
+         *     For reading: what is written goes to a connected unit only. What was on trial is left out. 404
+         *     `never_read` where no configuration is kept.
+         */
+        get: operations["get_last_known"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/devices/{device_id}/config/confirm": {
         parameters: {
             query?: never;
@@ -1855,6 +1878,11 @@ export interface components {
             /** Faults Active */
             faults_active: string[];
             /**
+             * Last Seen At
+             * @description When the unit was last there over this connection, now if it is; null if none ever was. Kept over a restart, as are `identity` and `unit_key` of a unit that is away.
+             */
+            last_seen_at: string | null;
+            /**
              * Family
              * @description The make of the unit: what `?family=` of its url takes.
              */
@@ -2260,6 +2288,31 @@ export interface components {
             left: number;
             /** Right */
             right: number;
+        };
+        /**
+         * LastKnown
+         * @description What a unit was last known to be set to. Nothing can be written on it: it has no ETag.
+         */
+        LastKnown: {
+            /** Unit Key */
+            unit_key: string;
+            /**
+             * Seen At
+             * @description When the unit was last there.
+             */
+            seen_at: string | null;
+            /**
+             * Noted At
+             * Format: date-time
+             * @description When this configuration was read from it.
+             */
+            noted_at: string;
+            /** Generation */
+            generation: number | null;
+            /** Crc32 */
+            crc32: number | null;
+            /** Parameters */
+            parameters: components["schemas"]["Parameter"][];
         };
         /**
          * Ledger
@@ -5794,6 +5847,91 @@ export interface operations {
                 };
                 content: {
                     "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Precondition Failed */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_last_known: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LastKnown"];
                 };
             };
             /** @description Forbidden */

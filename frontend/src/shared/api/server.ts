@@ -15,6 +15,7 @@ import type {
   Feel,
   FuzzyTable,
   Health,
+  LastKnown,
   Ledger,
   LibraryDocument,
   LibraryEntry,
@@ -124,6 +125,11 @@ export class Server {
   /** What the unit enforces, its market included, and where assist ends because of it. */
   limits(id: string): Promise<Limits> {
     return body(this.http.GET('/api/v1/devices/{device_id}/limits', this.unit(id)))
+  }
+
+  /** What the unit was last known to be set to, connected or not. */
+  lastKnown(id: string): Promise<LastKnown> {
+    return body(this.http.GET('/api/v1/devices/{device_id}/last-known', this.unit(id)))
   }
 
   async revisions(id: string): Promise<Revision[]> {

@@ -51,6 +51,21 @@ export class ConfigDraft {
     this.loaded = true
   }
 
+  /** Shows what the unit was last known to have, until it can be read again. It has no ETag, so
+      that nothing can be written on it. */
+  async recall(): Promise<void> {
+    if (this.loaded) return
+    const known = await this.server.lastKnown(this.device_id)
+    if (this.loaded) return
+    const values = Object.fromEntries(
+      known.parameters.flatMap(({ name, value }) => (value === null ? [] : [[name, value]])),
+    ) as Edits
+    this.parameters = known.parameters
+    this.take({ generation: known.generation ?? 0, crc32: known.crc32 ?? 0 }, values, '')
+    this.crc32 = null
+    this.loaded = true
+  }
+
   /** Reads the configuration unless it is the one the draft has, or a write is about to say which
       it is. stamp: of what the unit has; null where it does not tell. */
   async follow(stamp: ConfigStamp | null): Promise<void> {

@@ -26,6 +26,16 @@ export function pageDraft(page: string): PageDraft {
   const crc32 = $derived(device?.config?.crc32)
   const draft = $derived(device_id ? drafts.of(device_id, page) : null)
 
+  // Of a unit that is away, what it was last known to have.
+  const recalled = $derived(devices.away && !devices.unreachable && can(device, 'read_config'))
+
+  $effect(() => {
+    if (!recalled || !draft) return
+    untrack(() => draft.recall()).then(
+      () => (trouble = null),
+      (error: Refusal) => (trouble = refusalText(locale, error)),
+    )
+  })
   $effect(() => {
     if (!readable || !draft) return
     const stamped = generation !== undefined && crc32 !== undefined

@@ -11,9 +11,7 @@ export class DeviceWatch {
   known = $state(false) // false until the server answered once
   unreachable = $state(false)
   chosen_id = $state<string | null>(null)
-  now_ms = $state(Date.now())
   current = $derived(this.items.find((d) => d.id === this.chosen_id) ?? this.items[0] ?? null)
-  private seen_ms = $state.raw<Record<string, number>>({})
   private readonly polling = new PollWhileVisible(() => this.refresh(), PERIOD_MS)
 
   constructor(
@@ -36,24 +34,23 @@ export class DeviceWatch {
     return this.current?.state === 'ready' && !this.unreachable
   }
 
-  /** When the current unit last answered, as a time in ms; null if it never did. */
+  /** When the current unit was last there, as a time in ms; null if it never was. The server keeps
+      it, so that it outlives this page. */
   get seen_at_ms(): number | null {
-    return (this.current && this.seen_ms[this.current.id]) ?? null
+    const seen_at = this.current?.last_seen_at
+    return seen_at ? Date.parse(seen_at) : null
   }
 
-  /** Seconds since then; null if it never answered. */
-  get age_s(): number | null {
-    const seen = this.seen_at_ms
-    return seen === null ? null : Math.max(0, (this.now_ms - seen) / 1000)
+  /** Whether the current unit was here and is not: what is known of it is as it was then. */
+  get away(): boolean {
+    const state = this.current?.state
+    return this.seen_at_ms !== null && state !== 'ready' && state !== 'read_only'
   }
 
   /** Asks now; also after something was connected or removed. */
   async refresh(): Promise<void> {
     try {
       const items = await this.server.devices()
-      const now_ms = Date.now()
-      const alive = items.filter((d) => d.state === 'ready' || d.state === 'read_only')
-      this.seen_ms = { ...this.seen_ms, ...Object.fromEntries(alive.map((d) => [d.id, now_ms])) }
       this.items = items
       // A choice that an earlier version kept is a serial number.
       const serial = this.chosen_id
@@ -65,6 +62,5 @@ export class DeviceWatch {
       if (!(error instanceof Refusal)) throw error
       this.unreachable = true
     }
-    this.now_ms = Date.now()
   }
 }

@@ -48,6 +48,7 @@ const refusal = {
   no_answer: '单元没有应答。请检查电池和数据线，然后重试。',
   no_result: '在规定时间内没有结果；请求可能仍会完成。重复之前请先查看单元的内容。',
   not_connected: '单元未连接。',
+  never_read: '没有保存过此单元的设置。',
   peer_protocol: '单元发来的数据不符合协议。',
   read_back_differs: '回读的内容与写入的不同。请重新读取后再试。',
   invalid: '数值无效。',

@@ -1,0 +1,90 @@
+"""Goal: what was known of a unit is there without it, with its time, read-only: while it is away,
+after the page was loaded anew, and after the server started anew; and it all lives again with it.
+
+Method: a simulated unit behind a socket of its own, so that its cable can be pulled.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.conftest import OpenDesk
+from tests.fakes.server import SpindleServer
+
+pytestmark = pytest.mark.slow
+
+PILL = "[data-testid=device-pill]"
+SEEN = re.compile(r"Last seen \d\d:\d\d")
+
+
+def plug_in(port: int = 0) -> tuple[subprocess.Popen[str], int]:
+    """A unit on a port, the next free one for 0."""
+    words = [sys.executable, "-m", "sim_device", "unit", "--tcp", str(port), "--seed", "7"]
+    unit = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
+    assert unit.stdout is not None
+    return unit, int(unit.stdout.readline().split()[-1].rsplit(":", 1)[-1])
+
+
+def unplug(unit: subprocess.Popen[str]) -> None:
+    unit.terminate()
+    unit.wait(10)
+
+
+def is_known_and_read_only(page: Page, address: str) -> None:
+    """Every page tells what was known, when that was, and offers no write."""
+    page.goto(f"{address}/tune")
+    expect(page.locator(PILL)).to_contain_text(SEEN)
+    expect(page.locator(PILL)).to_contain_text("read-only")
+    expect(page.get_by_test_id("draft-bar")).to_contain_text(SEEN)
+    rules = page.get_by_role("gridcell", name=re.compile(r"\bNB\b"))
+    expect(rules.first).to_be_visible()
+    rules.first.click()
+    page.keyboard.press("5")
+    page.get_by_role("button", name="Review and write").click()
+    dialog = page.get_by_role("dialog")
+    expect(dialog).to_contain_text("not connected")
+    expect(dialog.locator("button.primary")).to_be_disabled()
+    page.goto(f"{address}/tune/modes")
+    share = page.get_by_role("textbox", name="Torque share, mode 4 boost")
+    expect(share).to_have_value("100")
+    page.goto(f"{address}/")
+    expect(page.get_by_test_id("headline")).to_contain_text("was last seen at")
+    expect(page.locator("main")).to_contain_text("thesis 4-2")
+    page.goto(f"{address}/live")
+    expect(page.locator("[data-channel=speed_kmh]")).to_contain_text("— no data")
+    page.goto(f"{address}/service")
+    expect(page.locator("main")).to_contain_text("found when the unit connected")
+
+
+def test_what_was_known_is_there_without_the_unit(open_desk: OpenDesk, tmp_path: Path) -> None:
+    unit, port = plug_in()
+    devices = [f"socket://127.0.0.1:{port}"]
+    server = SpindleServer(tmp_path, devices).start()
+    server.ready_device()
+    desk = open_desk(address=server.url)
+    desk.allow("status of 50[34]|WebSocket|ERR_CONNECTION")
+    page = desk.open("/tune")
+    expect(page.get_by_test_id("draft-bar")).to_contain_text("Same as in the unit")
+
+    unplug(unit)
+    expect(page.locator(PILL)).to_contain_text(SEEN)
+    page.reload()
+    expect(page.get_by_test_id("draft-bar")).to_contain_text(SEEN)
+    server.stop()
+    server = SpindleServer(tmp_path, devices).start()
+    is_known_and_read_only(page, server.url)
+
+    page.goto(f"{server.url}/tune")
+    expect(page.get_by_test_id("draft-bar")).to_contain_text(SEEN)
+    unit, _ = plug_in(port)
+    expect(page.locator(PILL)).to_contain_text("Connected")
+    expect(page.get_by_test_id("draft-bar")).to_contain_text("Same as in the unit")
+    page.context.close()
+    server.stop()
+    unplug(unit)
