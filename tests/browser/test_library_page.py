@@ -7,8 +7,9 @@ Method: a server with one simulated unit; what the page says is held against the
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import sideways
@@ -34,6 +35,25 @@ def restored(page: Page, server: SpindleServer, device: str) -> float:
     page.get_by_role("dialog").get_by_role("button", name="Write").click()
     expect(page.get_by_test_id("draft-bar")).to_contain_text("Same as in the unit")
     return float(server.get(f"/devices/{device}/config")["parameters"]["torque_filter_s"])
+
+
+def replaced_and_brought_back(
+    page: Page, server: SpindleServer, kept: Locator, unit: dict[str, Any]
+) -> None:
+    """The same name again, with the second table, is another version; what it was comes back."""
+    path = f"/library/{kept.get_attribute('data-entry')}"
+    was = server.get(path)["parameters"]
+    page.get_by_label("Name", exact=True).fill("Zhang, city")
+    page.get_by_label("Keep in the library").last.select_option("second")
+    expect(page.get_by_text("It becomes its version 2")).to_be_visible()
+    page.get_by_role("button", name="Replace").click()
+    kept.get_by_text("2 versions").click()
+    second = server.get(path)["parameters"]
+    assert second["fuzzy_rules"]["value"] == unit["second_rules"]
+    assert second["fuzzy_inference"]["value"] == unit["second_inference"]
+    kept.get_by_role("button", name="Bring back").click()
+    expect(kept.get_by_text("3 versions")).to_be_visible()
+    assert server.get(path)["parameters"] == was
 
 
 def test_a_dealer_keeps_opens_compares_and_takes_back(
@@ -67,6 +87,8 @@ def test_a_dealer_keeps_opens_compares_and_takes_back(
         for path in (f"/library/{entry_id}", "/library/strong-start")
     )
     assert values == preset
+
+    replaced_and_brought_back(page, server, kept, before)
 
     page.get_by_label("A", exact=True).last.select_option("draft")
     page.get_by_label("B", exact=True).last.select_option(entry_id)

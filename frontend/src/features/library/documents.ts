@@ -1,18 +1,25 @@
 // Between the draft of a unit and a document of the library: what is saved, and what is opened.
 import type { ComparedSide, LibraryDocument, Parameter, ParameterValue } from '$shared/api/types'
 import type { ConfigDraft } from '$shared/config/config_draft.svelte'
-import { PARAMETERS_OF, tableOf } from '$shared/config/two_tables'
+import { PARAMETERS_OF, tableOf, type TableName } from '$shared/config/two_tables'
 
-export type Kind = 'table' | 'configuration'
+/** What of the draft is kept: one of its tables, or all of it. */
+export type Kept = TableName | 'configuration'
 
-/** The draft as a document; only what its unit tells is in it. */
-export function documentOf(draft: ConfigDraft, name: string, kind: Kind): LibraryDocument {
-  const names: string[] = Object.values(PARAMETERS_OF.first)
-  const kept = (parameter: Parameter) => kind === 'configuration' || names.includes(parameter.name)
+/** The draft as a document; only what its unit tells is in it. A table is kept by the names of the
+    first one, whichever of the two it was. */
+export function documentOf(draft: ConfigDraft, name: string, what: Kept): LibraryDocument {
+  const whole = what === 'configuration'
+  const from = Object.entries(PARAMETERS_OF[whole ? 'first' : what])
+  const to: Record<string, string> = PARAMETERS_OF.first
+  const called = new Map(from.map(([role, own]) => [own, to[role] ?? own]))
+  const kept = (parameter: Parameter) => whole || called.has(parameter.name)
   const parameters = draft.parameters.filter(kept).flatMap(({ name, unit }) => {
     const value = draft.value(name)
-    return value === undefined ? [] : [[name, { value, unit, comment: '' }] as const]
+    const entry = { value: value as ParameterValue, unit, comment: '' }
+    return value === undefined ? [] : [[called.get(name) ?? name, entry] as const]
   })
+  const kind = whole ? 'configuration' : 'table'
   return {
     format: `spindle-${kind}`,
     version: 1,

@@ -52,6 +52,22 @@ export class Entries {
     return row
   }
 
+  /** Gives an own entry another content; what it was stays among its versions. Throws Refusal. */
+  async replace(row: LibraryRow, document: LibraryDocument): Promise<void> {
+    await this.server.changeInLibrary(row.id, document, row.etag)
+    await this.load()
+  }
+
+  /** What an own entry was, newest first. Throws Refusal. */
+  versions(row: LibraryRow): Promise<LibraryRow[]> {
+    return this.server.libraryVersions(row.id)
+  }
+
+  /** Makes an own entry what it once was, as a version of its own. Throws Refusal. */
+  async backTo(row: LibraryRow, version: number): Promise<void> {
+    await this.replace(row, await this.server.libraryEntry(row.id, version))
+  }
+
   /** Throws Refusal. */
   async remove(row: LibraryRow): Promise<LibraryRow> {
     const gone = await this.server.removeFromLibrary(row.id, row.etag)

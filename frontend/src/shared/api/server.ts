@@ -238,6 +238,12 @@ export class Server {
     return body(this.http.GET('/api/v1/library/{entry_id}', request))
   }
 
+  /** Every state an own entry was in, newest first. */
+  async libraryVersions(entry_id: string): Promise<LibraryRow[]> {
+    const request = { params: { path: { entry_id } } }
+    return (await body(this.http.GET('/api/v1/library/{entry_id}/versions', request))).items
+  }
+
   /** How an entry feels on the simulated bike. */
   libraryFeel(entry_id: string): Promise<Feel> {
     const request = { params: { path: { entry_id } } }
