@@ -154,6 +154,11 @@ def print_estimate(estimate: dict[str, Any]) -> None:
         if isinstance(value, dict) and "replayed" in value
     ]
     print_table(figures, ["", *parts])
+    held = [
+        [row["limit"], *(text_of(row[name]) for name in ("recorded_s", "replayed_s"))]
+        for row in estimate["limits"]
+    ]
+    print_table(held, ["seconds held back by", "recorded", "replayed"])
     for name, value in estimate["trust"].items():
         print(f"{name:32} {text_of(value)}")
     print()

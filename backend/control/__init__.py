@@ -14,17 +14,25 @@ from backend.control.ride_replay import (
     raw_counts_of,
     replay,
 )
+from backend.control.road_figures import (
+    curves_of,
+    curves_of_record,
+    limits_of_record,
+    places_km,
+)
 from backend.control.torque_surface import TorqueSurface, torque_surface
-from backend.control.twin import HOLDS_POWER, RoadTwin
+from backend.control.twin import WORK_LEAST_J, Band, RoadTwin
 from backend.control.why import Why, why, why_steady
 from sim_device.firmware.python.law import LIMITS, law_defaults
+from sim_device.firmware.python.twin import Totals
 
 __all__ = [
     "CADENCE_RPM",
     "ENGINE",
     "HARD_PUSH_NM",
-    "HOLDS_POWER",
     "LIMITS",
+    "WORK_LEAST_J",
+    "Band",
     "Cutoff",
     "Finding",
     "LintReport",
@@ -32,14 +40,19 @@ __all__ = [
     "Replay",
     "RoadTwin",
     "TorqueSurface",
+    "Totals",
     "Why",
     "certify",
+    "curves_of",
+    "curves_of_record",
     "cutoff_of",
     "law_defaults",
     "law_readings",
     "limit_shares",
+    "limits_of_record",
     "lint",
     "mode_curves",
+    "places_km",
     "points",
     "raw_counts_of",
     "recorded_ride",

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.control.market import cutoff_of
-from backend.control.twin import HOLDS_POWER, RoadTwin
+from backend.control.twin import RoadTwin
 from backend.domain.fuzzy_table import LABELS, PARAMETERS_OF, FuzzyTable
 from backend.errors import InvalidRequest
 from sim_device.firmware.python.law import LawRefused, parameter_range
@@ -196,7 +196,7 @@ class Road:
         rises, totals = [], []
         for twin in self._twins:
             try:
-                told, samples = twin.ridden(config, HOLDS_POWER, SAMPLE_STEPS)
+                told, samples = twin.ridden(config, twin.rider, SAMPLE_STEPS)
             except LawRefused:
                 return None
             if told.gave_up:

@@ -47,6 +47,7 @@ class Recorded:
     controller_degc: Floats
     voltage_v: Floats | None
     current_a: Floats | None
+    limit_flags: Floats | None
 
     @property
     def duration_s(self) -> float:
@@ -64,7 +65,8 @@ def recorded(columns: Columns, config: Mapping[str, Any], step_s: float) -> Reco
 
     columns: speed_kmh, cadence_rpm, assist_mode, motor_torque_nm (delivered), rider_torque_raw or
     rider_torque_nm, (n,) each, missing as NaN; motor_speed_rpm, battery_voltage_v,
-    battery_current_a, motor_temperature_degc, controller_temperature_degc and `brake` may be there.
+    battery_current_a, motor_temperature_degc, controller_temperature_degc, limit_flags and `brake`
+    may be there.
     """
     speed_ms = np.nan_to_num(columns["speed_kmh"]) / KMH_PER_MS
     cadence_rad_s = np.nan_to_num(columns["cadence_rpm"]) * RADIANS_PER_S_PER_RPM
@@ -91,6 +93,7 @@ def recorded(columns: Columns, config: Mapping[str, Any], step_s: float) -> Reco
         controller_degc=columns.get("controller_temperature_degc", unknown),
         voltage_v=columns.get("battery_voltage_v"),
         current_a=columns.get("battery_current_a"),
+        limit_flags=columns.get("limit_flags"),
     )
 
 

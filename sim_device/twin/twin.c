@@ -11,6 +11,8 @@
 #define HOLD_PER_MS 2.0   /* push more by this share for each m/s below the recorded speed */
 #define PUSH_SHARE_MIN 0.4
 #define PUSH_SHARE_MAX 2.5
+#define REACH_SHARE_MIN 0.5 /* no cassette is wider than that around the cog it is on */
+#define REACH_SHARE_MAX 2.0
 #define CEILING_PLAY_MS 0.05
 #define STALLED_S 20.0
 #define STAND_STEPS_MAX 500 /* the law has forgotten the ride after five seconds at rest */
@@ -27,6 +29,7 @@ typedef struct {
     double speed_ms;
     double voltage_v;
     double current_a;
+    double motor_nm; /* of the step before */
     double stalled_s;
     size_t stood_at; /* the point of the last stop */
 } ride;
@@ -42,16 +45,31 @@ static double between(double value, double low, double high)
     return fmin(fmax(value, low), high);
 }
 
+static int crawls(const ride *self, size_t at)
+{
+    return self->road->speed_ms[at] < CRAWLING_MS || self->speed_ms < CRAWLING_MS;
+}
+
+/* The recorded reach, or the one this rider shifts to at another speed. */
+static double reach_m(const ride *self, size_t at)
+{
+    const double recorded_m = self->road->reach_m[at];
+    if (!(self->rider->cadence_share > 0.0) || crawls(self, at)) return recorded_m;
+    return recorded_m *
+           between(pow(self->speed_ms / self->road->speed_ms[at], self->rider->cadence_share),
+                   REACH_SHARE_MIN, REACH_SHARE_MAX);
+}
+
 /* The recorded push, changed as this rider changes it at another speed. */
-static double push_nm(const ride *self, size_t at)
+static double push_nm(const ride *self, size_t at, double reached_m)
 {
     const double recorded_nm = self->road->rider_nm[at];
     const double recorded_ms = self->road->speed_ms[at];
     double share;
-    if (recorded_ms < CRAWLING_MS || self->speed_ms < CRAWLING_MS || recorded_nm <= 0.0) {
-        return recorded_nm;
-    }
-    share = pow(recorded_ms / self->speed_ms, self->rider->power_share);
+    if (crawls(self, at) || recorded_nm <= 0.0) return recorded_nm;
+    /* Chainring then over chainring now. */
+    share = recorded_ms / self->speed_ms * reached_m / self->road->reach_m[at];
+    share = pow(share, self->rider->power_share);
     share += self->rider->hold_share * HOLD_PER_MS * (recorded_ms - self->speed_ms);
     return recorded_nm *
            between(share, PUSH_SHARE_MIN * (1.0 - self->rider->hold_share), PUSH_SHARE_MAX);
@@ -109,28 +127,43 @@ static void move(ride *self, double force_n, double step_s)
     self->distance_m += 0.5 * (before_ms + self->speed_ms) * step_s;
 }
 
+/* What a step on the way adds up to. */
+static void count(ride *self, const assist_output *output, double step_s)
+{
+    twin_ride_totals *totals = self->totals;
+    const double motor_nm = (double)output->motor_torque_nm;
+    const double rise_nm_per_s = (motor_nm - self->motor_nm) / step_s;
+    totals->moving_s += step_s;
+    totals->ripple_nm2_per_s += rise_nm_per_s * rise_nm_per_s * step_s;
+    for (unsigned bit = 0; output->limit_flags >> bit != 0; bit++) {
+        if (output->limit_flags >> bit & 1u) totals->limit_s[bit] += step_s;
+    }
+}
+
 static void step(ride *self, int standing, assist_output *output, double *rider_nm)
 {
     const twin_road *road = self->road;
     const double step_s = (double)self->law->step_s;
     const size_t at = point_at(road, self->distance_m);
-    const double chainring_rad_s = standing ? 0.0 : self->speed_ms / road->reach_m[at];
+    const double reached_m = reach_m(self, at);
+    const double chainring_rad_s = standing ? 0.0 : self->speed_ms / reached_m;
     const double motor_rad_s = chainring_rad_s * (double)self->law->gear_ratio;
     const int brakes = road->braking[at] || self->speed_ms > road->ceiling_ms[at] + CEILING_PLAY_MS;
     double motor_nm;
-    *rider_nm = standing || brakes ? 0.0 : push_nm(self, at);
+    *rider_nm = standing || brakes ? 0.0 : push_nm(self, at, reached_m);
     motor_nm = assist_nm(self, at, *rider_nm, chainring_rad_s, standing || brakes, output);
     supply(self, motor_nm, motor_rad_s, step_s);
     self->t_s += step_s;
+    if (!standing) count(self, output, step_s);
+    self->motor_nm = motor_nm;
     if (standing) return;
     self->totals->motor_work_j += motor_nm * motor_rad_s * step_s;
     self->totals->rider_work_j += *rider_nm * chainring_rad_s * step_s;
-    self->totals->motor_nm_max = fmax(self->totals->motor_nm_max, motor_nm);
     move(self,
          self->bike->chain_efficiency *
                  (*rider_nm +
                   self->bike->gear_efficiency * (double)self->law->gear_ratio * motor_nm) /
-                 road->reach_m[at] -
+                 reached_m -
              road->force_n[at],
          step_s);
     if (self->speed_ms > road->ceiling_ms[at]) {

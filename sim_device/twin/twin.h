@@ -12,6 +12,8 @@
 
 #include "assist_types.h" // assist_config
 
+#define TWIN_LIMITS 16 /* bits of limit_flags */
+
 /* At equal distances from the start of the ride; `count` numbers each. */
 typedef struct {
     double spacing_m;
@@ -43,11 +45,13 @@ typedef struct {
     double idle_w;
 } twin_bike;
 
-/* How the rider answers another speed. power_share 1: pushes less the faster it goes, the same
- * power; 0: the same torque. hold_share 1: pushes as hard as the recorded speed needs. */
+/* How the rider answers another speed. power_share 1: pushes less the faster the cranks turn, the
+ * same power; 0: the same torque. hold_share 1: pushes as hard as the recorded speed needs.
+ * cadence_share 1: shifts so that the cranks turn as recorded; 0: the recorded gear stays. */
 typedef struct {
     double power_share;
     double hold_share;
+    double cadence_share;
 } twin_rider;
 
 typedef struct {
@@ -64,9 +68,11 @@ typedef struct {
     double motor_work_j; /* at its shaft */
     double battery_j;
     double rider_work_j;
-    double motor_nm_max;
-    double crawling_s; /* below 1.5 m/s and not standing: a real rider may not make it */
-    int gave_up;       /* stood where the recorded ride did not, or outlasted the time given */
+    double moving_s;
+    double ripple_nm2_per_s;     /* (dT/dt)^2 dt of the motor's torque while the bike moves */
+    double crawling_s;           /* below 1.5 m/s and not standing: a real rider may not make it */
+    double limit_s[TWIN_LIMITS]; /* while it moves, by bit of limit_flags */
+    int gave_up; /* stood where the recorded ride did not, or outlasted the time given */
     size_t samples;
 } twin_ride_totals;
 

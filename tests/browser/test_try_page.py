@@ -115,6 +115,20 @@ def test_nothing_changed_gives_what_was_recorded(tuner: Desk, ride: int) -> None
     low, high = band.split(" – ")
     assert float(low) <= float(ridden) <= float(high)
     expect(again).to_contain_text("With nothing changed the twin is off by")
+    expect(again.locator("[data-again=km_per_100_wh] td")).to_have_count(3)
+    expect(page.get_by_test_id("try-again-sentence")).to_contain_text("of motor work instead of")
+
+    # Three rides over one road, by distance and by time, and a cursor that keys move.
+    curves = page.get_by_test_id("road-curves")
+    expect(curves.locator("path.replayed")).to_have_count(2)
+    again.get_by_role("button", name="again with it").click()
+    expect(curves.locator("path.replayed")).to_have_count(0)
+    curves.press("ArrowRight")
+    expect(page.get_by_test_id("road-cursor")).to_contain_text("as ridden")
+    expect(page.get_by_test_id("road-cursor")).not_to_contain_text("again with it")
+    curves.press("k")
+    expect(curves).to_have_attribute("data-by", "time")
+    expect(again.get_by_role("button", name="time")).to_have_attribute("aria-pressed", "true")
 
 
 def test_a_table_that_comes_with_spindle_is_tried_in_place_of_the_first(

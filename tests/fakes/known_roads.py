@@ -17,6 +17,8 @@ from sim_device.lockstep import LockstepUnit
 
 STEP_S = 0.01
 CADENCE_RPM_MAX = 110.0
+CRAWLING_RPM = 14.0
+"""Some 1.5 m/s in the one gear. Below it nobody minds his power."""
 GIVEN_UP_S = 400.0
 SEEN = {
     "speed_kmh": "speed_kmh",
@@ -53,6 +55,8 @@ class Outside:
 
     mass_kg: float = 92.0
     drag_area_m2: float = 0.5
+    cogs: tuple[int, ...] = ()
+    """Teeth of a cassette that the rider shifts to his cadence; without one there is one gear."""
 
 
 def road(seed: int, stretches: int = 12) -> list[Stretch]:
@@ -92,6 +96,7 @@ class Ridden:
     ) -> None:
         given = outside or Outside()
         bike = {"road.mass_kg": given.mass_kg, "road.drag_area_m2": given.drag_area_m2}
+        bike |= {f"gears.cog_teeth_{n + 1}": float(teeth) for n, teeth in enumerate(given.cogs)}
         self._unit = LockstepUnit(seed, overrides, bike={**bike, "sensor.noise_nm": 0.06})
         self._unit.select_mode(mode)
         self._rider = rider
@@ -138,16 +143,20 @@ class Ridden:
         raise AssertionError("the bike does not get to the end of this road; choose another seed")
 
     def _share(self, seen: dict[str, Any]) -> float:
-        """Of the push, by a rider held to the power or to the speed of the ride before."""
-        assert self._before is not None
-        speed_ms = max(seen["speed_kmh"] / 3.6, 1.5)
-        before_kmh = np.interp(
-            seen["distance_m"], self._before["distance_m"], self._before["speed_kmh"]
-        )
-        before_ms = max(float(before_kmh) / 3.6, 1.5)
+        """Of the push, by a rider held to the power or to the speed of the ride before, or half to
+        its torque and half to its speed."""
         if self._rider == "power":
-            return float(np.clip(before_ms / speed_ms, 0.4, 2.5))
-        return float(np.clip(1.0 + 2.0 * (before_ms - speed_ms), 0.0, 2.5))
+            before_rpm = self._before_at(seen["distance_m"], "cadence_rpm")
+            share = max(before_rpm, CRAWLING_RPM) / max(seen["cadence_rpm"], CRAWLING_RPM)
+            return float(np.clip(share, 0.4, 2.5))
+        speed_ms = max(seen["speed_kmh"] / 3.6, 1.5)
+        before_ms = max(self._before_at(seen["distance_m"], "speed_kmh") / 3.6, 1.5)
+        holds_speed = float(np.clip(1.0 + 2.0 * (before_ms - speed_ms), 0.0, 2.5))
+        return 0.5 + 0.5 * holds_speed if self._rider == "half" else holds_speed
+
+    def _before_at(self, distance_m: float, channel: str) -> float:
+        assert self._before is not None
+        return float(np.interp(distance_m, self._before["distance_m"], self._before[channel]))
 
 
 def configuration(overrides: dict[str, Any] | None = None) -> dict[str, Any]:

@@ -216,8 +216,9 @@ class Compared(Answer):
 
 
 class Estimate(Answer):
-    """recorded: as ridden. replayed: with the change. difference: what the change makes, in the
-    twin. low, high: the band, in which nine of ten simulated rides lay."""
+    """recorded: as ridden. replayed: with the change, less what the twin errs by without it.
+    difference: what the change makes. low, high: the band, in which nine of ten simulated rides
+    lay."""
 
     recorded: float
     replayed: float
@@ -234,17 +235,62 @@ class Trust(Answer):
     mass_kg: float = Field(description="As told, or as assumed.")
     drag_area_m2: float = Field(description="As told, or as assumed.")
     one_gear: bool = Field(
-        description="False where the rider shifted: the gear then belongs to the place as well."
+        description="False where the rider shifted: then he shifts again so that the cranks turn "
+        "as they did there, and the band is wider by those who shift less."
     )
 
 
+class TimeAtLimit(Answer):
+    """Seconds on the way that a limit of the registry was at work; an estimate without a band."""
+
+    limit: str
+    recorded_s: float | None = Field(description="Null where the ride does not tell its limits.")
+    replayed_s: float
+
+
+class RideCurve(Answer):
+    """Means over each stretch of the road, null where there is no sample."""
+
+    t_s: list[float | None] = Field(description="Since the ride's own start.")
+    speed_kmh: list[float | None]
+    motor_torque_nm: list[float | None] = Field(description="At the motor's shaft.")
+
+
+class RideCurves(Answer):
+    """The same road three times: as recorded, by the twin without any change, and with it."""
+
+    distance_km: list[float] = Field(
+        description="Middle of each stretch; at most 400, none shorter than a turn of the crank."
+    )
+    recorded: RideCurve
+    unchanged: RideCurve
+    replayed: RideCurve
+
+
 class ClosedLoop(Answer):
-    """The same road again with this table: an estimate with its band."""
+    """The same road again with this table: an estimate with its band.
+
+    Peak torque and its steepest rise are not told: they cannot be forecast.
+    """
 
     meaning: str = Field(description="What it is and what it leaves out, in English.")
     wh_per_km: Estimate = Field(description="Work at the motor's shaft for a kilometre.")
     motor_work_wh: Estimate
+    battery_wh: Estimate | None = Field(
+        description="What leaves the battery, also at a stand; null where voltage or current was "
+        "not recorded."
+    )
+    km_per_100_wh: Estimate | None = Field(
+        description="Range: how far 100 Wh of the battery go on this road. Null as `battery_wh`."
+    )
+    rider_work_wh: Estimate
     duration_s: Estimate
+    motor_power_w_mean: Estimate = Field(description="At the shaft, while the bike moves.")
+    ripple_nm_per_s: Estimate = Field(
+        description="Rms of how fast the motor's torque changes, while the bike moves."
+    )
+    limits: list[TimeAtLimit] = Field(description="Those that were at work, in either ride.")
+    curves: RideCurves
     trust: Trust
 
 

@@ -321,11 +321,15 @@ def figures(work: _Work, config: Mapping[str, Any]) -> tuple[Figure, Figure]:
     the motor's work."""
     after, before = work.road.ridden(config), work.road.before
     assert after is not None
+    told = [twin.corrected(twin.ridden(config, twin.rider)[0]) for twin in work.twins]
     bands = [twin.band(config) for twin in work.twins]
+    work_j, time_s = (
+        [sum(band[name][end] for band in bands) for end in (0, 1)]
+        for name in ("motor_work_j", "duration_s")
+    )
+    low, high = (end / max(sum(one["motor_work_j"] for one in told), 1.0) for end in work_j)
+    duration_s = sum(one["duration_s"] for one in told)
     per_km = 1.0 / 3600.0 / work.road.distance_km
-    work_j = [sum(band.motor_work_j[end] for band in bands) for end in (0, 1)]
-    time_s = [sum(band.duration_s[end] for band in bands) for end in (0, 1)]
-    low, high = (end / max(after.motor_work_j, 1.0) for end in work_j)
     battery = after.battery_j * per_km
     return (
         Figure(
@@ -335,10 +339,10 @@ def figures(work: _Work, config: Mapping[str, Any]) -> tuple[Figure, Figure]:
             battery * max(high, 1.0),
         ),
         Figure(
-            before.duration_s,
-            after.duration_s,
-            min(time_s[0], after.duration_s),
-            max(time_s[1], after.duration_s),
+            sum(twin.recorded["duration_s"] for twin in work.twins),
+            duration_s,
+            min(time_s[0], duration_s),
+            max(time_s[1], duration_s),
         ),
     )
 

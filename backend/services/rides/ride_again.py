@@ -6,10 +6,12 @@ its reason. What nobody recorded, above all what the rider does at another speed
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from backend import control
 from backend.domain._generated import INPUT_FLAGS
@@ -21,8 +23,6 @@ from backend.store import RideReader
 
 WORK_ERROR_MAX = 0.01
 TIME_ERROR_MAX = 0.03
-WORK_LEAST_J = 180.0
-"""A twentieth of a Wh: below it a share of the work says nothing."""
 HOLES_MAX = 0.01
 LONGEST_S = 4 * 3600.0
 """A band of it takes some twenty seconds of a thread."""
@@ -40,6 +40,8 @@ MEANING = (
 
 Columns = Mapping[str, Values]
 Config = Mapping[str, Any]
+Estimate = dict[str, float]
+Samples = npt.NDArray[np.void]
 
 
 def ridden_again(
@@ -59,29 +61,23 @@ def ridden_again(
     refuse_what_cannot_be_laid_over(reader, columns)
     ride = control.recorded_ride(with_brake(columns), config, step_s)
     twin = control.RoadTwin(ride, config, told)
-    unchanged = twin.self_replay
     refuse_what_differs(reader.ride.id, twin)
-    again, _ = twin.ridden(changed, control.HOLDS_POWER)
+    again, samples = twin.ridden(changed, twin.rider, sample_steps=1)
     if again.gave_up:
         raise InvalidRequest(
             f"Ride {reader.ride.id} cannot be estimated with this table: with as little help the"
             " bike would have stood where it was ridden.",
             code="twin_stands",
         )
-    band = twin.band(changed)
-    distance_km = float(ride.distance_m[-1]) / 1000.0
-    work = estimate(
-        ride.motor_work_j, unchanged.motor_work_j, again.motor_work_j, band.motor_work_j
-    )
-    time = estimate(ride.duration_s, unchanged.duration_s, again.duration_s, band.duration_s)
+    own, own_samples = twin.ridden(config, twin.rider, sample_steps=1)
     return {
         "meaning": MEANING,
-        "wh_per_km": scaled(work, 1.0 / (SECONDS_PER_HOUR * distance_km)),
-        "motor_work_wh": scaled(work, 1.0 / SECONDS_PER_HOUR),
-        "duration_s": time,
+        **estimates(twin, again, twin.band(changed)),
+        "limits": limits(twin, own, again),
+        "curves": curves(twin, own_samples, samples),
         "trust": {
-            "no_change_error_pct": 100.0 * share_off(unchanged.motor_work_j, ride.motor_work_j),
-            "no_change_time_error_pct": 100.0 * (unchanged.duration_s / ride.duration_s - 1.0),
+            "no_change_error_pct": 100.0 * share_off(own.motor_work_j, ride.motor_work_j),
+            "no_change_time_error_pct": 100.0 * (own.duration_s / ride.duration_s - 1.0),
             "one_gear": twin.one_gear,
             "mass_kg": twin.assumed.mass_kg,
             "drag_area_m2": twin.assumed.drag_area_m2,
@@ -151,24 +147,88 @@ def refuse_what_differs(ride_id: int, twin: control.RoadTwin) -> None:
 
 def share_off(told_j: float, recorded_j: float) -> float:
     """How far a work is off, as a share of the recorded one."""
-    return (told_j - recorded_j) / max(abs(recorded_j), WORK_LEAST_J)
+    return (told_j - recorded_j) / max(abs(recorded_j), control.WORK_LEAST_J)
 
 
-def estimate(
-    recorded: float, unchanged: float, told: float, band: tuple[float, float]
-) -> dict[str, float]:
-    """An estimate beside the record; the difference is the twin's own, with and without the
-    change, so that what the twin errs by does not count as an effect."""
-    low, high = min(band[0], told), max(band[1], told)
+def estimates(
+    twin: control.RoadTwin, again: control.Totals, band: control.Band
+) -> dict[str, Estimate | None]:
+    """Each figure of the ride with its band; None for what the ride did not record."""
+    recorded, told = twin.recorded, twin.corrected(again)
+
+    def of(name: str, factor: float = 1.0) -> Estimate | None:
+        low, high = band[name]
+        return estimate(*(factor * value for value in (recorded[name], told[name], low, high)))
+
+    km = float(twin.ride.distance_m[-1]) / 1000.0
+    per_wh = 1.0 / SECONDS_PER_HOUR
+    battery = of("battery_j", per_wh)
     return {
-        "recorded": recorded,
-        "replayed": told,
-        "difference": told - unchanged,
-        "low": low,
-        "high": high,
+        "wh_per_km": of("motor_work_j", per_wh / km),
+        "motor_work_wh": of("motor_work_j", per_wh),
+        "battery_wh": battery,
+        "km_per_100_wh": battery and way_on(battery, 100.0 * km),
+        "rider_work_wh": of("rider_work_j", per_wh),
+        "duration_s": of("duration_s"),
+        "motor_power_w_mean": of("motor_power_w"),
+        "ripple_nm_per_s": of("ripple_nm_per_s"),
     }
 
 
-def scaled(values: Mapping[str, float], factor: float) -> dict[str, float]:
-    """The same in another unit."""
-    return {name: value * factor for name, value in values.items()}
+def estimate(recorded: float, told: float, low: float, high: float) -> Estimate | None:
+    """An estimate beside the record; None where nothing was recorded."""
+    if not math.isfinite(recorded):
+        return None
+    return {
+        "recorded": recorded,
+        "replayed": told,
+        "difference": told - recorded,
+        "low": min(low, told),
+        "high": max(high, told),
+    }
+
+
+def way_on(battery_wh: Estimate, wh_km: float) -> Estimate | None:
+    """How far some energy of the battery goes: the more it takes, the less far."""
+    if min(battery_wh["low"], battery_wh["recorded"]) <= 0.0:
+        return None
+    order = ("recorded", "replayed", "high", "low")
+    return estimate(*(wh_km / battery_wh[name] for name in order))
+
+
+def limits(
+    twin: control.RoadTwin, own: control.Totals, again: control.Totals
+) -> list[dict[str, Any]]:
+    """Seconds on the way that each limit was at work, where it was. What the record has on top of
+    the twin without a change is on top of the estimate too."""
+    recorded = control.limits_of_record(twin.ride)
+    told = []
+    for name, own_s in own.limit_s.items():
+        recorded_s = None if recorded is None else recorded[name]
+        beyond_s = 0.0 if recorded_s is None else recorded_s - own_s
+        replayed_s = max(again.limit_s[name] + beyond_s, 0.0)
+        if max(recorded_s or 0.0, replayed_s) > 0.0:
+            told.append({"limit": name, "recorded_s": recorded_s, "replayed_s": replayed_s})
+    return told
+
+
+def curves(twin: control.RoadTwin, own: Samples, again: Samples) -> dict[str, Any]:
+    """The three rides over the distance, as the API tells them."""
+    turn_m = 2.0 * math.pi * twin.reach_m
+    ends_km = control.places_km(twin.ride, turn_m)
+    of = {
+        "recorded": control.curves_of_record(twin.ride, ends_km),
+        "unchanged": control.curves_of(own, ends_km),
+        "replayed": control.curves_of(again, ends_km),
+    }
+    middles = 0.5 * (ends_km[1:] + ends_km[:-1])
+    told = {
+        ride: {name: nullable(values) for name, values in found.items()}
+        for ride, found in of.items()
+    }
+    return {"distance_km": middles.tolist(), **told}
+
+
+def nullable(values: Values) -> list[float | None]:
+    """Rounded to what can be seen; missing as null."""
+    return [round(value, 3) if math.isfinite(value) else None for value in values.tolist()]

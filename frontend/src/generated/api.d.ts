@@ -1570,6 +1570,8 @@ export interface components {
         /**
          * ClosedLoop
          * @description The same road again with this table: an estimate with its band.
+         *
+         *     Peak torque and its steepest rise are not told: they cannot be forecast.
          */
         ClosedLoop: {
             /**
@@ -1580,7 +1582,22 @@ export interface components {
             /** @description Work at the motor's shaft for a kilometre. */
             wh_per_km: components["schemas"]["Estimate"];
             motor_work_wh: components["schemas"]["Estimate"];
+            /** @description What leaves the battery, also at a stand; null where voltage or current was not recorded. */
+            battery_wh: components["schemas"]["Estimate"] | null;
+            /** @description Range: how far 100 Wh of the battery go on this road. Null as `battery_wh`. */
+            km_per_100_wh: components["schemas"]["Estimate"] | null;
+            rider_work_wh: components["schemas"]["Estimate"];
             duration_s: components["schemas"]["Estimate"];
+            /** @description At the shaft, while the bike moves. */
+            motor_power_w_mean: components["schemas"]["Estimate"];
+            /** @description Rms of how fast the motor's torque changes, while the bike moves. */
+            ripple_nm_per_s: components["schemas"]["Estimate"];
+            /**
+             * Limits
+             * @description Those that were at work, in either ride.
+             */
+            limits: components["schemas"]["TimeAtLimit"][];
+            curves: components["schemas"]["RideCurves"];
             trust: components["schemas"]["Trust"];
         };
         /** CompareRequest */
@@ -1948,8 +1965,9 @@ export interface components {
         };
         /**
          * Estimate
-         * @description recorded: as ridden. replayed: with the change. difference: what the change makes, in the
-         *     twin. low, high: the band, in which nine of ten simulated rides lay.
+         * @description recorded: as ridden. replayed: with the change, less what the twin errs by without it.
+         *     difference: what the change makes. low, high: the band, in which nine of ten simulated rides
+         *     lay.
          */
         Estimate: {
             /** Recorded */
@@ -3225,6 +3243,38 @@ export interface components {
             derived: boolean;
         };
         /**
+         * RideCurve
+         * @description Means over each stretch of the road, null where there is no sample.
+         */
+        RideCurve: {
+            /**
+             * T S
+             * @description Since the ride's own start.
+             */
+            t_s: (number | null)[];
+            /** Speed Kmh */
+            speed_kmh: (number | null)[];
+            /**
+             * Motor Torque Nm
+             * @description At the motor's shaft.
+             */
+            motor_torque_nm: (number | null)[];
+        };
+        /**
+         * RideCurves
+         * @description The same road three times: as recorded, by the twin without any change, and with it.
+         */
+        RideCurves: {
+            /**
+             * Distance Km
+             * @description Middle of each stretch; at most 400, none shorter than a turn of the crank.
+             */
+            distance_km: number[];
+            recorded: components["schemas"]["RideCurve"];
+            unchanged: components["schemas"]["RideCurve"];
+            replayed: components["schemas"]["RideCurve"];
+        };
+        /**
          * RideDevice
          * @description What was true of the bike while the ride was made; null where nobody knows.
          */
@@ -3824,6 +3874,21 @@ export interface components {
             torque_rate_points: number[];
         };
         /**
+         * TimeAtLimit
+         * @description Seconds on the way that a limit of the registry was at work; an estimate without a band.
+         */
+        TimeAtLimit: {
+            /** Limit */
+            limit: string;
+            /**
+             * Recorded S
+             * @description Null where the ride does not tell its limits.
+             */
+            recorded_s: number | null;
+            /** Replayed S */
+            replayed_s: number;
+        };
+        /**
          * TorqueSurface
          * @description At the crank, rows = speeds. What is given for long: ramps are over, the mean of a minute
          *     that a continuous rating is held against has come to rest, the battery has its nominal voltage
@@ -3913,7 +3978,7 @@ export interface components {
             drag_area_m2: number;
             /**
              * One Gear
-             * @description False where the rider shifted: the gear then belongs to the place as well.
+             * @description False where the rider shifted: then he shifts again so that the cranks turn as they did there, and the band is wider by those who shift less.
              */
             one_gear: boolean;
         };

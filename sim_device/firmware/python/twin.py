@@ -71,19 +71,23 @@ class Rider:
 
     power_share: float
     hold_share: float
+    cadence_share: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
 class Totals:
-    """What a ride came to. gave_up: it stood where the recorded ride did not, or took too long."""
+    """What a ride came to, as in twin.h. gave_up: it stood where the recorded ride did not, or took
+    too long. limit_s: by the registry's names."""
 
     duration_s: float
     motor_work_j: float
     battery_j: float
     rider_work_j: float
-    motor_nm_max: float
+    moving_s: float
+    ripple_nm2_per_s: float
     crawling_s: float
     gave_up: bool
+    limit_s: dict[str, float]
 
 
 class Twin:
@@ -119,7 +123,7 @@ class Twin:
         lib.twin_ride(
             self._road,
             self._bike,
-            ffi.new("twin_rider *", [rider.power_share, rider.hold_share]),
+            ffi.new("twin_rider *", [rider.power_share, rider.hold_share, rider.cadence_share]),
             native,
             self._longest_s,
             steps,
@@ -128,4 +132,8 @@ class Twin:
             totals,
         )
         told = {field.name: getattr(totals, field.name) for field in fields(Totals)}
-        return Totals(**told | {"gave_up": bool(totals.gave_up)}), samples[: totals.samples]
+        told["gave_up"] = bool(totals.gave_up)
+        told["limit_s"] = {
+            name: totals.limit_s[flag.bit_length() - 1] for name, flag in law.LIMITS.items()
+        }
+        return Totals(**told), samples[: totals.samples]

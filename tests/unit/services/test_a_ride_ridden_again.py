@@ -28,19 +28,33 @@ from backend.services.rides.replay import RideReplay
 from backend.services.tuning.preview import Preview
 from backend.store import Store, open_store
 from firmware_protocol._generated import CHANNELS, InputFlags
-from tests.fakes.known_roads import Ridden, road
+from tests.fakes.known_roads import Outside, Ridden, road
 
 pytestmark = pytest.mark.slow
 
 PERIOD_US = 10_000
 SPECS = {row.name: ChannelSpec(row.name, row.unit, float(row.scale)) for row in CHANNELS}
 SPORT = 3
+FIGURES = (
+    "wh_per_km",
+    "motor_work_wh",
+    "battery_wh",
+    "km_per_100_wh",
+    "rider_work_wh",
+    "duration_s",
+    "motor_power_w_mean",
+    "ripple_nm_per_s",
+)
 
 
 @cache
 def sport() -> dict[str, Values]:
     """A ride in sport, as a unit records it."""
-    columns = Ridden(road(601), SPORT).columns
+    return as_recorded(Ridden(road(601), SPORT))
+
+
+def as_recorded(ridden: Ridden) -> dict[str, Values]:
+    columns = ridden.columns
     columns["input_flags"] = columns.pop("brake") * float(InputFlags.BRAKE)
     columns["motor_torque_demanded_nm"] = columns["motor_torque_nm"]
     del columns["distance_m"]
@@ -87,22 +101,70 @@ def test_without_a_change_there_is_no_difference_and_the_record_lies_in_the_band
     assert abs(closed["trust"]["no_change_error_pct"]) < 1.0
     assert abs(closed["trust"]["no_change_time_error_pct"]) < 3.0
     assert closed["trust"]["one_gear"]
-    for name in ("wh_per_km", "motor_work_wh", "duration_s"):
+    for name in FIGURES:
         figure = closed[name]
-        assert figure["difference"] == 0.0
+        assert figure["difference"] == pytest.approx(0.0, abs=1e-9)
         assert figure["low"] <= figure["recorded"] <= figure["high"]
+    at_limits = {row["limit"]: row for row in closed["limits"]}
+    # In sport on flat road the cut-off is always at work somewhere; the ride did not record it.
+    assert at_limits["speed_cutoff"]["replayed_s"] > 1.0
+    assert at_limits["speed_cutoff"]["recorded_s"] is None
     assert closed["motor_work_wh"]["recorded"] == pytest.approx(
         answer["motor_work_wh"]["recorded"], rel=1e-3
     )
 
 
 def test_less_help_takes_less_work_and_longer(store: Store) -> None:
-    closed = again(store, sport(), assist_modes=modes_with_ratio(0.4))["closed_loop"]
+    answer = again(store, sport(), assist_modes=modes_with_ratio(0.4))
 
-    for name in ("wh_per_km", "motor_work_wh"):
+    closed = answer["closed_loop"]
+    for name in ("wh_per_km", "motor_work_wh", "battery_wh", "motor_power_w_mean"):
         assert closed[name]["difference"] < 0.0
         assert closed[name]["low"] <= closed[name]["replayed"] <= closed[name]["high"]
     assert closed["duration_s"]["difference"] > 0.0
+    way_km = closed["km_per_100_wh"]
+    assert way_km["difference"] > 0.0
+    assert way_km["replayed"] == pytest.approx(
+        100.0 * answer["distance_km"] / closed["battery_wh"]["replayed"], rel=1e-3
+    )
+
+
+def test_the_three_rides_are_told_over_the_same_places(store: Store) -> None:
+    columns = sport()
+    answer = again(store, columns, assist_modes=modes_with_ratio(0.4))
+
+    curves = answer["closed_loop"]["curves"]
+    km = curves["distance_km"]
+    assert len(km) <= 400
+    assert min(np.diff(km)) * 1000.0 > 6.0
+    recorded, unchanged, replayed = (
+        {name: np.array(values, float) for name, values in curves[ride].items()}
+        for ride in ("recorded", "unchanged", "replayed")
+    )
+    # The mean of a stretch over its time is its length.
+    length_m = np.nansum(recorded["speed_kmh"] / 3.6 * np.gradient(recorded["t_s"]))
+    assert length_m == pytest.approx(answer["distance_km"] * 1000.0, rel=0.05)
+    apart_kmh = np.abs(unchanged["speed_kmh"] - recorded["speed_kmh"])
+    assert np.nanmedian(apart_kmh) < 0.2
+    assert np.nanmean(replayed["speed_kmh"] - unchanged["speed_kmh"]) < -0.2
+    assert np.nanmean(replayed["motor_torque_nm"] - unchanged["motor_torque_nm"]) < 0.0
+
+
+def test_time_at_a_limit_is_the_recorded_one_and_what_the_change_adds(store: Store) -> None:
+    columns = {**sport(), "limit_flags": np.zeros(len(sport()["speed_kmh"]))}
+
+    unchanged = again(store, columns)["closed_loop"]["limits"]
+
+    assert unchanged == []
+
+
+def test_a_battery_that_was_not_measured_has_no_estimate(store: Store) -> None:
+    columns = {name: values for name, values in sport().items() if "battery" not in name}
+
+    closed = again(store, columns)["closed_loop"]
+
+    assert closed["battery_wh"] is None
+    assert closed["km_per_100_wh"] is None
 
 
 def test_what_is_told_of_bike_and_rider_narrows_the_band(store: Store) -> None:
@@ -112,6 +174,18 @@ def test_what_is_told_of_bike_and_rider_narrows_the_band(store: Store) -> None:
         return float(figure["high"] - figure["low"])
 
     assert width(RiderAndBike(mass_kg=92.0, drag_area_m2=0.5)) < width(RiderAndBike())
+
+
+def test_who_shifted_shifts_again_and_that_is_told(store: Store) -> None:
+    bike = Outside(cogs=(11, 13, 15, 17, 19, 21, 24, 28, 32, 37, 42))
+    columns = as_recorded(Ridden(road(601), SPORT, outside=bike))
+
+    closed = again(store, columns, assist_modes=modes_with_ratio(0.4))["closed_loop"]
+
+    assert not closed["trust"]["one_gear"]
+    work = closed["motor_work_wh"]
+    assert work["low"] < work["replayed"] < work["high"]
+    assert work["difference"] == pytest.approx(work["replayed"] - work["recorded"])
 
 
 def test_an_open_loop_has_no_estimate(store: Store) -> None:

@@ -185,17 +185,6 @@ export const enRides = {
   'try.why_torque': 'The ride has no motor torque.',
   'try.why_speed': 'The ride has no motor speed, so the work as ridden is not known.',
   'try.why_limits': 'The ride does not tell its limits.',
-  'try.again': 'The same road again: an estimate',
-  'try.again_mass': 'Rider and bike',
-  'try.again_running': 'A twin of the bike rides the road again…',
-  'try.again_estimate': 'again',
-  'try.again_band': 'nine of ten',
-  'try.again_duration': 'Time',
-  'try.again_trust': 'With nothing changed the twin is off by {work} of work, {time} of time.',
-  'try.again_trust_gears':
-    'With nothing changed the twin is off by {work} of work, {time} of time. It shifts as you did.',
-  'try.again_meaning':
-    'Here the bike answers. The band holds how you may pedal at another speed; gusts are averaged.',
   'try.rests': 'What this rests on',
   'try.rows': 'Samples',
   'try.rows_over': '{rows} over {time}',

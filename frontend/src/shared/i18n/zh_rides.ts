@@ -169,17 +169,6 @@ export const zhRides: Record<keyof typeof enRides, string> = {
   'try.why_torque': '此骑行没有电机扭矩。',
   'try.why_speed': '此骑行没有电机转速，因此实际做功未知。',
   'try.why_limits': '此骑行未记录限制。',
-  'try.again': '同一路线再骑一次：估计',
-  'try.again_mass': '骑手与车',
-  'try.again_running': '车的孪生模型正在重骑此路线…',
-  'try.again_estimate': '再骑',
-  'try.again_band': '十有九次在此范围',
-  'try.again_duration': '用时',
-  'try.again_trust': '不作改动时，孪生模型的做功偏差为 {work}，用时偏差为 {time}。',
-  'try.again_trust_gears':
-    '不作改动时，孪生模型的做功偏差为 {work}，用时偏差为 {time}。换挡位置与实际骑行相同。',
-  'try.again_meaning':
-    '此处车会作出反应：助力越多，车速越快。范围包含无人记录的内容，主要是在另一车速下您如何蹬踏；阵风取平均。',
   'try.rests': '计算依据',
   'try.rows': '数据',
   'try.rows_over': '{rows} 行，{time}',
