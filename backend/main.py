@@ -38,6 +38,7 @@ from backend.services.rides.propose import Proposals
 from backend.services.rides.record import Recorder
 from backend.services.rides.replay import RideReplay
 from backend.services.rides.review import Rides
+from backend.services.rides.since_change import SinceChange
 from backend.services.rides.use_of_table import UseOfTable
 from backend.services.rides.why_ride import WhyRide
 from backend.services.tuning.certify import CertifiedRevisions, Certify, KeptCertificates
@@ -132,6 +133,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             rides=Rides(store, RideReplay(preview, memory.ride_config), devices.unit_at),
             proposals=proposals,
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
+            since_change=SinceChange(store, tuning.revisions),
             why_steady=WhySteady(devices.writable),
             why_ride=WhyRide(store, memory.ride_config),
             ledger=EnergyLedger(store, memory.ride_config),

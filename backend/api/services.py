@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from backend.services.rides.ledger import EnergyLedger
     from backend.services.rides.propose import Proposals
     from backend.services.rides.review import Rides
+    from backend.services.rides.since_change import SinceChange
     from backend.services.rides.use_of_table import UseOfTable
     from backend.services.rides.why_ride import WhyRide
     from backend.services.tuning.certify import Certify
@@ -48,6 +49,7 @@ class Services:
     rides: Rides
     proposals: Proposals
     use_of_table: UseOfTable
+    since_change: SinceChange
     why_steady: WhySteady
     why_ride: WhyRide
     ledger: EnergyLedger

@@ -145,6 +145,42 @@ class Revision(Answer):
     unit_key: str = Field(description="Whose configuration it was, over whatever connection.")
 
 
+class RidesTogether(Answer):
+    """What some rides of a unit come to together; null where none of them tells it.
+
+    Rider and motor energy are never added up: `assist_ratio` is the motor's over the rider's.
+    """
+
+    ride_ids: list[int] = Field(description="Newest first; at most 20, each of 500 m and more.")
+    distance_km: float
+    speed_kmh_mean: float | None = Field(description="While moving.")
+    motor_rides: int = Field(description="Of the rides those whose motor work was measured.")
+    motor_wh_per_km: float | None = Field(description="Work at the motor's shaft.")
+    motor_wh_per_km_least: float | None = Field(description="Of one ride.")
+    motor_wh_per_km_most: float | None
+    rider_wh_per_km: float | None
+    battery_wh_per_km: float | None
+    assist_ratio: float | None
+
+
+class SinceChange(Answer):
+    """The rides since a change beside those before it."""
+
+    seq: int
+    created_at: datetime
+    meaning: str = Field(description="What it cannot tell, in English.")
+    before: RidesTogether
+    after: RidesTogether
+    motor_wh_per_km_after: Literal["more", "less", "mixed", "too_few"] = Field(
+        description="`more`, `less`: every ride since took more, or less, than every ride before. "
+        "`mixed`: they overlap. `too_few`: fewer than 3 on a side."
+    )
+    other_changes: int = Field(
+        description="How many other configurations the unit got between the first and the last of "
+        "these rides: what moved may be theirs."
+    )
+
+
 class RevisionList(Answer):
     items: list[Revision]
     next: str | None = None

@@ -20,6 +20,7 @@ from backend.api.models.config import (
     LiveRequest,
     ParameterList,
     RevisionList,
+    SinceChange,
 )
 from backend.api.models.law import AssistModes, Calibration, FuzzyTable, Limits, Table
 from backend.api.models.why import Why, WhyRequest
@@ -121,6 +122,14 @@ def rollback_config(device_id: str, services: Provided, response: Response, auth
 def list_revisions(device_id: str, services: Provided) -> dict[str, Any]:
     """Who changed what, when and why, newest first."""
     return {"items": services.tuning.revisions(device_id)}
+
+
+@router.get(
+    "/config/revisions/{seq}/since", operation_id="since_revision", response_model=SinceChange
+)
+def since_revision(device_id: str, seq: int, services: Provided) -> Any:
+    """The unit's rides since this configuration beside those before it."""
+    return services.since_change(device_id, seq)
 
 
 @router.post("/why", operation_id="why_of_device", response_model=Why)

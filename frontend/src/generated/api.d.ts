@@ -448,6 +448,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/devices/{device_id}/config/revisions/{seq}/since": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Since Revision
+         * @description The unit's rides since this configuration beside those before it.
+         */
+        get: operations["since_revision"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/devices/{device_id}/why": {
         parameters: {
             query?: never;
@@ -3399,6 +3419,49 @@ export interface components {
             message: string;
         };
         /**
+         * RidesTogether
+         * @description What some rides of a unit come to together; null where none of them tells it.
+         *
+         *     Rider and motor energy are never added up: `assist_ratio` is the motor's over the rider's.
+         */
+        RidesTogether: {
+            /**
+             * Ride Ids
+             * @description Newest first; at most 20, each of 500 m and more.
+             */
+            ride_ids: number[];
+            /** Distance Km */
+            distance_km: number;
+            /**
+             * Speed Kmh Mean
+             * @description While moving.
+             */
+            speed_kmh_mean: number | null;
+            /**
+             * Motor Rides
+             * @description Of the rides those whose motor work was measured.
+             */
+            motor_rides: number;
+            /**
+             * Motor Wh Per Km
+             * @description Work at the motor's shaft.
+             */
+            motor_wh_per_km: number | null;
+            /**
+             * Motor Wh Per Km Least
+             * @description Of one ride.
+             */
+            motor_wh_per_km_least: number | null;
+            /** Motor Wh Per Km Most */
+            motor_wh_per_km_most: number | null;
+            /** Rider Wh Per Km */
+            rider_wh_per_km: number | null;
+            /** Battery Wh Per Km */
+            battery_wh_per_km: number | null;
+            /** Assist Ratio */
+            assist_ratio: number | null;
+        };
+        /**
          * RuleShare
          * @description A rule of the table the ride was ridden with: its cell is `rules[row][column]`.
          */
@@ -3739,6 +3802,37 @@ export interface components {
             words_bad: number;
             /** Words Lost */
             words_lost: number;
+        };
+        /**
+         * SinceChange
+         * @description The rides since a change beside those before it.
+         */
+        SinceChange: {
+            /** Seq */
+            seq: number;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /**
+             * Meaning
+             * @description What it cannot tell, in English.
+             */
+            meaning: string;
+            before: components["schemas"]["RidesTogether"];
+            after: components["schemas"]["RidesTogether"];
+            /**
+             * Motor Wh Per Km After
+             * @description `more`, `less`: every ride since took more, or less, than every ride before. `mixed`: they overlap. `too_few`: fewer than 3 on a side.
+             * @enum {string}
+             */
+            motor_wh_per_km_after: "more" | "less" | "mixed" | "too_few";
+            /**
+             * Other Changes
+             * @description How many other configurations the unit got between the first and the last of these rides: what moved may be theirs.
+             */
+            other_changes: number;
         };
         /**
          * Snapshot
@@ -6258,6 +6352,92 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RevisionList"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Precondition Failed */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    since_revision: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                device_id: string;
+                seq: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SinceChange"];
                 };
             };
             /** @description Forbidden */

@@ -32,6 +32,7 @@ import type {
   Replay,
   ReplayRequest,
   Revision,
+  SinceChange,
   Ride,
   Scenario,
   Simulation,
@@ -136,6 +137,13 @@ export class Server {
     return (
       await body(this.http.GET('/api/v1/devices/{device_id}/config/revisions', this.unit(id)))
     ).items
+  }
+
+  /** The unit's rides since a configuration of its history, beside those before it. */
+  sinceRevision(id: string, seq: number, signal: AbortSignal): Promise<SinceChange> {
+    const params = { path: { device_id: id, seq } }
+    const path = '/api/v1/devices/{device_id}/config/revisions/{seq}/since'
+    return body(this.http.GET(path, { params, signal }))
   }
 
   async channels(id: string): Promise<Record<string, number | null>> {
