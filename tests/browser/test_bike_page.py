@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
 from playwright.sync_api import expect
@@ -232,3 +233,15 @@ def test_the_first_sentence_says_how_the_bike_is_and_each_part_has_a_lamp(
     expect(page.get_by_role("region", name="Now").locator("dd").first).to_have_text("—")
     desk.picture("bike-lost", full=True)
     page.unroute_all(behavior="ignoreErrors")
+
+
+def test_the_last_minute_and_the_last_ride_are_drawn_and_told(
+    desk: Desk, server: SpindleServer, riding: str
+) -> None:
+    page = desk.open("/")
+    now = page.get_by_role("region", name="Now").get_by_role("img")
+
+    expect(now).to_have_accessible_name(
+        re.compile(r"yours up to [1-9]\d*\sW, the motor up to \d+\sW")
+    )
+    expect(now.locator("path").first).to_have_attribute("d", re.compile(r"^M.*L"))

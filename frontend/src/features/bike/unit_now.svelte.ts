@@ -6,6 +6,7 @@ import { PollWhileVisible } from '$shared/context/poll_while_visible'
 import { LiveStream } from '$shared/stream/live.svelte'
 
 const PERIOD_MS = 1000
+const KEPT = 61 // a minute
 const CHANNELS = [
   'rider_torque_nm',
   'speed_kmh',
@@ -20,6 +21,8 @@ const CHANNELS = [
 export class UnitNow {
   /** Null until the first answer, and while there is none: nothing old is shown. */
   dashboard = $state.raw<Dashboard | null>(null)
+  /** The last minute, once a second; null where nobody told. */
+  powers = $state.raw<{ at_s: number; rider_w: number | null; motor_w: number | null }[]>([])
   private readonly stream: LiveStream
   private readonly polling = new PollWhileVisible(() => this.look(), PERIOD_MS)
 
@@ -52,5 +55,12 @@ export class UnitNow {
       if (!(error instanceof Refusal)) throw error
       this.dashboard = null
     }
+    const { rider_power_w, motor_power_w } = this.dashboard ?? {}
+    const now = {
+      at_s: performance.now() / 1000,
+      rider_w: rider_power_w ?? null,
+      motor_w: motor_power_w ?? null,
+    }
+    this.powers = [...this.powers.slice(1 - KEPT), now]
   }
 }

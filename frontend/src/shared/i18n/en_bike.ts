@@ -10,6 +10,8 @@ export const enBike = {
     'What is shown here is what was known then. It can be read; writing waits for the unit.',
   'bike.watch': 'Watch live',
   'bike.now': 'Now',
+  'bike.powers': 'power, last minute: yours up to {rider}, the motor up to {motor}',
+  'bike.speed_line': 'speed, up to {top}',
   'bike.set': 'What is set',
   'bike.motor_for': 'Motor at the crank for {torque} of yours held steady, at {speed}',
   'bike.set_unread': 'Not read from the unit since this page was opened.',

@@ -11,6 +11,8 @@ export const zhBike: Record<keyof typeof enBike, string> = {
   'bike.as_then': '这里显示的是当时已知的内容。可以查看；写入要等单元回来。',
   'bike.watch': '查看实时',
   'bike.now': '现在',
+  'bike.powers': '最近一分钟的功率：您最高 {rider}，电机最高 {motor}',
+  'bike.speed_line': '速度，最高 {top}',
   'bike.set': '当前设置',
   'bike.motor_for': '您以 {torque} 稳定踩踏、{speed} 时电机在曲柄处的扭矩',
   'bike.set_unread': '打开本页后尚未从单元读取。',
