@@ -21,7 +21,10 @@ const GROUPS = [
   { name: 'settings', test: /src\/features\/(service|settings)/ },
   { name: 'review', test: new RegExp(`src/shared/(certificate|config/(${REVIEW.join('|')}))`) },
   { name: 'config', test: /src\/shared\/(config|lint)/ },
-  { name: 'tune', test: /src\/features\/tune/ },
+  {
+    name: 'tune',
+    test: /src\/features\/tune\/(?!words_zh|Rescale|Scale|Slice|Surface(Plot|Marks))/,
+  },
 ]
 
 export default defineConfig({

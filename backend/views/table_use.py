@@ -19,6 +19,14 @@ from backend.domain.channels import Values
 from backend.domain.energy import MOTOR_POWER, MOTOR_TORQUE, MOTOR_TORQUE_DEMANDED, SECONDS_PER_HOUR
 
 SETS = 5
+RATE_STEP = 0.001
+RATE_STEPS = 5000
+"""To 5, the largest point a table can have."""
+PROPOSED_AT = (0.25, 0.5, 0.75, 0.98)
+"""Shares of the time in which the torque rose: each set but the last acts for as long."""
+PROPOSED_STEP = 0.005
+RISING_S_MIN = 60.0
+"""Of less time nothing is proposed."""
 NEEDED = ("speed_kmh", "torque_rate", "assist_mode", "cadence_rpm")
 # What was asked of the motor: a ride has one of them, or both.
 ASKED = (MOTOR_TORQUE_DEMANDED, MOTOR_TORQUE)
@@ -33,17 +41,19 @@ class TableUse:
     """What the cells of one table came to, [speed][torque rate], (5, 5) each.
 
     seconds: the samples' time. motor_wh: of the samples whose motor power is known, None where no
-    sample's is. motor_excluded_s: time of those whose motor power is not.
+    sample's is. motor_excluded_s: time of those whose motor power is not. rising_s: time at each
+    torque rate, (RATE_STEPS,) of RATE_STEP; while it does not rise is not in it.
     """
 
     seconds: Cells
     motor_wh: Cells | None
     motor_excluded_s: float
+    rising_s: Values
 
     @classmethod
     def none(cls) -> Self:
         """Of no samples."""
-        return cls(np.zeros((SETS, SETS)), None, 0.0)
+        return cls(np.zeros((SETS, SETS)), None, 0.0, np.zeros(RATE_STEPS))
 
     def __add__(self, other: TableUse) -> TableUse:
         """Of both their samples."""
@@ -52,7 +62,25 @@ class TableUse:
             self.seconds + other.seconds,
             np.sum(energies, axis=0) if energies else None,
             self.motor_excluded_s + other.motor_excluded_s,
+            self.rising_s + other.rising_s,
         )
+
+    def proposed_rates(self) -> tuple[float, ...] | None:
+        """Torque-rate points that these rides use evenly; None where they rise for too little time.
+
+        The first stays 0, where the torque holds or falls. The others divide the time in which it
+        rises by PROPOSED_AT.
+        """
+        total_s = float(self.rising_s.sum())
+        if total_s < RISING_S_MIN:
+            return None
+        edges = (np.arange(RATE_STEPS) + 1) * RATE_STEP
+        points = [0.0]
+        for share in PROPOSED_AT:
+            at = edges[np.searchsorted(np.cumsum(self.rising_s), share * total_s)]
+            on_step = round(float(at) / PROPOSED_STEP) * PROPOSED_STEP
+            points.append(round(max(on_step, points[-1] + PROPOSED_STEP), 3))
+        return tuple(points)
 
 
 def acting(columns: Mapping[str, Values], slots: Collection[int], needs_gain: bool) -> Mask:
@@ -99,7 +127,16 @@ def table_use(
         seconds=spread(corners, seconds),
         motor_wh=spread(corners, work_wh) if known.any() else None,
         motor_excluded_s=float(np.sum(seconds[~known])),
+        rising_s=rising(columns["torque_rate"], seconds),
     )
+
+
+def rising(torque_rate: Values, seconds: Values) -> Values:
+    """Time at each torque rate (RATE_STEPS,) of samples (n,); what does not rise is left out."""
+    steps = np.clip((torque_rate / RATE_STEP).astype(np.intp), 0, RATE_STEPS - 1)
+    held = np.bincount(steps, weights=seconds, minlength=RATE_STEPS).astype(np.float64)
+    held[0] = 0.0
+    return held
 
 
 def memberships(points: Sequence[float], values: Values) -> tuple[npt.NDArray[np.intp], Values]:

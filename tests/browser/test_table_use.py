@@ -210,6 +210,44 @@ def test_that_the_rides_cannot_be_looked_through_is_told(
     expect(page.locator(SHARES)).to_have_text(["—"] * 5)
 
 
+def test_points_that_the_rides_use_are_shown_before_they_are_taken_and_undone(
+    open_desk: OpenDesk, shop: SpindleServer
+) -> None:
+    desk = open_desk(address=shop.url)
+    rescale = desk.page.get_by_role("button", name="Rescale the torque-rate points")
+    open_tune(desk)
+    # These rides' torque rose for 4 s: too little to propose anything.
+    expect(desk.page.locator(SHARES).first).to_have_text("96 %")
+    expect(rescale).to_be_disabled()
+
+    def proposing(route: Route) -> None:
+        answer = route.fetch()
+        points = [0.0, 0.05, 0.1, 0.2, 0.4]
+        route.fulfill(
+            response=answer, json={**answer.json(), "torque_rate_points_proposed": points}
+        )
+
+    desk.page.route(ASKED, proposing)
+    page = open_tune(desk)
+    rescale.click()
+    dialog = page.get_by_role("dialog", name="Torque-rate points that your rides use")
+    rows = dialog.get_by_test_id("rescale").get_by_role("row")
+    expect(rows.nth(1)).to_have_accessible_name("Now 0 0.225 0.45 0.675 0.9")
+    expect(rows.nth(3)).to_have_accessible_name("Proposed 0 0.05 0.1 0.2 0.4")
+    # 0.225 lies an eighth of the way from 0.2 to 0.4: of its 3 s the fourth set has 2.6 s.
+    expect(rows.nth(4)).to_have_accessible_name("Time 96 % 0 % 0 % 2.6 % 1.4 %")
+    expect(dialog.get_by_test_id("rescale-lint")).to_be_visible()
+    dialog.get_by_role("button", name="Take it into the draft").click()
+
+    third = page.get_by_role("textbox", name="Torque rate 3").or_(
+        page.get_by_role("spinbutton", name="Torque rate 3")
+    )
+    expect(third).to_have_value("0.1")
+    page.get_by_test_id("draft-bar").get_by_role("button", name="Undo").click()
+    expect(third).to_have_value("0.45")
+    expect(page.get_by_test_id("draft-bar")).to_contain_text("Same as in the unit")
+
+
 @pytest.mark.parametrize(
     ("width", "theme", "language"),
     [(1440, "dark", "en-GB"), (390, "light", "en-GB"), (390, "dark", "zh-CN")],

@@ -417,6 +417,10 @@ class TableUse(Answer):
     motor_excluded_s: float = Field(
         description="Part of `assisted_s` whose motor power is not known: not in `motor_wh`."
     )
+    torque_rate_points_proposed: list[float] | None = Field(
+        description="Points that these rides use evenly, from 0 on: they divide the time in which "
+        "the torque rose by 25, 50, 75 and 98 %. Null where it rose for less than a minute."
+    )
     columns: list[UseOfPoint]
     rows: list[UseOfPoint]
     cells: UseOfCells

@@ -218,6 +218,7 @@ def told(use: TableUse, points: Points) -> dict[str, Any]:
     return {
         "assisted_s": total_s,
         "motor_excluded_s": use.motor_excluded_s,
+        "torque_rate_points_proposed": use.proposed_rates(),
         "columns": by_point("torque_rate_points", 0),
         "rows": by_point("speed_points_kmh", 1),
         "cells": {

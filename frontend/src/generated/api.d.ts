@@ -3934,6 +3934,11 @@ export interface components {
              * @description Part of `assisted_s` whose motor power is not known: not in `motor_wh`.
              */
             motor_excluded_s: number;
+            /**
+             * Torque Rate Points Proposed
+             * @description Points that these rides use evenly, from 0 on: they divide the time in which the torque rose by 25, 50, 75 and 98 %. Null where it rose for less than a minute.
+             */
+            torque_rate_points_proposed: number[] | null;
             /** Columns */
             columns: components["schemas"]["UseOfPoint"][];
             /** Rows */

@@ -11,6 +11,7 @@ import numpy.typing as npt
 import pytest
 
 from backend.domain.channels import Values
+from backend.domain.fuzzy_table import point_faults
 from backend.views.table_use import TableUse, acting, table_use
 
 SPEEDS = (5.0, 10.0, 16.0, 20.0, 25.0)
@@ -148,3 +149,25 @@ def test_an_older_unit_s_motor_torque_says_what_was_asked() -> None:
     columns["motor_torque_nm"] = np.array([asked, 0.0])
 
     assert acting(columns, [3], needs_gain=False).tolist() == [True, False]
+
+
+def test_points_are_proposed_that_divide_the_time_in_which_the_torque_rises() -> None:
+    # A second at each of 400 rates that are spread evenly to 0.8, and as long at none.
+    rates = np.concatenate([np.linspace(0.002, 0.8, 400), np.zeros(400)])
+    seconds = np.ones(800)
+
+    use = table_use({"speed_kmh": np.full(800, 10.0), "torque_rate": rates}, seconds, SPEEDS, RATES)
+
+    # A quarter, a half, three quarters and 98 % of 0.8.
+    assert use.proposed_rates() == pytest.approx((0.0, 0.2, 0.4, 0.6, 0.785), abs=0.006)
+    assert (use + use).proposed_rates() == use.proposed_rates()
+
+
+def test_points_stay_apart_where_all_rates_are_alike_and_a_short_rise_proposes_none() -> None:
+    columns = {"speed_kmh": np.full(100, 10.0), "torque_rate": np.full(100, 0.01)}
+
+    alike = table_use(columns, np.ones(100), SPEEDS, RATES).proposed_rates()
+
+    assert alike == pytest.approx((0.0, 0.01, 0.015, 0.02, 0.025), abs=0.002)
+    assert not list(point_faults("torque_rate_points", alike or ()))
+    assert table_use(columns, np.full(100, 0.5), SPEEDS, RATES).proposed_rates() is None

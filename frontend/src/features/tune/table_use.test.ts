@@ -30,6 +30,7 @@ function used(seconds: number[][], change: Partial<TableUse> = {}): TableUse {
     since: null,
     assisted_s,
     motor_excluded_s: assisted_s,
+    torque_rate_points_proposed: null,
     columns: rates.map((rate, i) => point(rate, sum(seconds.map((row) => row[i] ?? 0)))),
     rows: seconds.map((row, i) => point(5 * i, sum(row))),
     cells: { seconds, motor_wh: null },

@@ -1,0 +1,47 @@
+// What the rides of a unit say about a table as it is edited. The newest question wins; it is asked
+// once the points rest, because a drag asks at every step and an answer reads whole rides.
+import type { Refusal } from '$shared/api/client'
+import { NewestAnswer } from '$shared/api/newest_answer.svelte'
+import type { Server } from '$shared/api/server'
+import type { TableUse, TableUseRequest } from '$shared/api/types'
+
+const REST_MS = 400
+
+export class TableUseQuestion {
+  private readonly newest = new NewestAnswer<TableUse>()
+  // Not read from the answer: whoever asks in an effect would ask again at every answer.
+  private answered = false
+  private device: string | null | undefined
+
+  constructor(private readonly server: Server) {}
+
+  /** Of the points asked for last, or while those are looked up of the ones before. */
+  get found(): TableUse | null {
+    return this.newest.answer
+  }
+
+  get trouble(): Refusal | null {
+    return this.newest.refusal
+  }
+
+  async ask(question: TableUseRequest): Promise<void> {
+    // What another unit's rides say is not kept on show.
+    if (this.device !== question.device) {
+      this.newest.answer = null
+      this.answered = false
+    }
+    this.device = question.device
+    const rest_ms = this.answered ? REST_MS : 0
+    await this.newest.ask(async (signal) => {
+      if (rest_ms) await new Promise((rested) => setTimeout(rested, rest_ms))
+      signal.throwIfAborted()
+      const found = await this.server.tableUse(question, signal)
+      this.answered = true
+      return found
+    })
+  }
+
+  stop(): void {
+    this.newest.stop()
+  }
+}
