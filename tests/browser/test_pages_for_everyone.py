@@ -15,12 +15,14 @@ from tests.browser.desk import Desk, sideways
 from tests.browser.test_rides_page import long_ride
 from tests.fakes.server import SpindleServer
 
-PAGES = ["/", "/live", "/tune", "/tune/modes", "/rides", "/sensor", "/service", "/settings"]
+WHY = "/tune/why?now"
+PAGES = ["/", "/live", "/tune", "/tune/modes", WHY, "/rides", "/sensor", "/service", "/settings"]
 READY = {
     "/": "[data-testid=link-health]",
     "/live": "[data-draws]",
     "/tune": "[data-testid=surface][data-draws]",
     "/tune/modes": "[data-testid=modes] .ridden svg",
+    WHY: "[data-testid=why-answer]",
     "/rides": "[data-testid=ride-table]",
     "/sensor": "[data-parameter=sensor_offset_counts]",
     "/service": "section",
@@ -58,7 +60,7 @@ SMALL_TARGETS = """() => [...document.querySelectorAll('button, select, summary,
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-@pytest.mark.parametrize("path", ["/", "/live", "/tune", "/tune/modes", "/rides", "/sensor"])
+@pytest.mark.parametrize("path", ["/", "/live", "/tune", "/tune/modes", WHY, "/rides", "/sensor"])
 def test_axe_finds_no_fault(
     open_desk: OpenDesk, riding: str, axe: str, path: str, theme: str
 ) -> None:
@@ -126,7 +128,7 @@ def test_a_ride_fits_a_small_phone(open_desk: OpenDesk, server: SpindleServer) -
     desk.picture("ride-phone", full=True)
 
 
-@pytest.mark.parametrize("path", ["/live", "/tune", "/tune/modes"])
+@pytest.mark.parametrize("path", ["/live", "/tune", "/tune/modes", WHY])
 def test_a_phone_in_the_dark_reads_chinese(open_desk: OpenDesk, riding: str, path: str) -> None:
     desk = open_desk(width=390, height=844, theme="dark", language="zh-CN")
     page = desk.open(path)
