@@ -1,5 +1,5 @@
 // One replay after another: the newest question wins, and the answer before it stays meanwhile.
-import { Refusal } from '$shared/api/client'
+import { NewestAnswer } from '$shared/api/newest_answer.svelte'
 import type { Series } from '$shared/api/series'
 import type { Server } from '$shared/api/server'
 import type { Replay, ReplayRequest } from '$shared/api/types'
@@ -13,44 +13,25 @@ export interface Answered {
 }
 
 export class ReplayRun {
-  answered = $state.raw<Answered | null>(null)
-  refused = $state.raw<Refusal | null>(null)
-  running = $state(false)
-  private asked = new AbortController()
+  readonly newest = new NewestAnswer<Answered>()
 
   constructor(private readonly server: Server) {}
 
-  async ask(ride_id: number, question: ReplayRequest): Promise<void> {
-    this.stop()
-    this.asked = new AbortController()
-    const { signal } = this.asked
-    this.running = true
-    try {
+  ask(ride_id: number, question: ReplayRequest): Promise<void> {
+    return this.newest.ask(async (signal) => {
       const replay = await this.server.replay(ride_id, question, signal)
-      if (!signal.aborted) this.take(replay)
-    } catch (error) {
-      if (signal.aborted) return
-      if (!(error instanceof Refusal)) throw error
-      this.answered = null
-      this.refused = error
-    }
-    if (!signal.aborted) this.running = false
+      signal.throwIfAborted()
+      return this.seen(replay)
+    })
   }
 
-  /** Gives up what is asked; what was answered stays. */
-  stop(): void {
-    this.asked.abort()
-    this.running = false
-  }
-
-  private take(replay: Replay): void {
+  private seen(replay: Replay): Answered {
     const series = drawnSeries(replay)
     // The same stretch of the same ride stays in view, so that two candidates can be compared.
-    const before = this.answered
+    const before = this.newest.answer
     const view =
       before?.replay.ride_id === replay.ride_id ? before.view : new TraceWindow(replay.duration_s)
     view.series = series
-    this.answered = { replay, series, view }
-    this.refused = null
+    return { replay, series, view }
   }
 }
