@@ -5,6 +5,7 @@ those that are over.
 from __future__ import annotations
 
 import json
+import re
 from typing import Any
 
 import pytest
@@ -144,6 +145,8 @@ def test_on_paper_the_page_names_the_unit_and_shows_no_buttons(
     expect(page.locator("nav").first).to_be_hidden()
     expect(page.get_by_role("button").locator("visible=true")).to_have_count(0)
     assert page.evaluate("getComputedStyle(document.documentElement).color") == "rgb(0, 0, 0)"
+    pages = page.pdf(format="A4", print_background=True)
+    assert len(re.findall(rb"/Type\s*/Page[^s]", pages)) == 1
     box = head.bounding_box()
     assert box is not None
     assert box["width"] > 1000  # the sheet's width, not the menu's column

@@ -43,6 +43,7 @@ import type {
   TorqueSurface,
   TorqueSurfaceRequest,
   UnitLogs,
+  WearCounters,
   Why,
   WhyRequest,
 } from './types'
@@ -159,6 +160,11 @@ export class Server {
   async clearFaults(id: string): Promise<Fault[]> {
     const request = this.http.POST('/api/v1/devices/{device_id}/faults/clear', this.unit(id))
     return (await body(request)).items
+  }
+
+  /** How far and how long the unit ran, and how its flash is. */
+  wear(id: string): Promise<WearCounters> {
+    return body(this.http.GET('/api/v1/devices/{device_id}/service', this.unit(id)))
   }
 
   /** The rides in the unit's own flash. */
@@ -279,8 +285,13 @@ export class Server {
   }
 
   /** Two of anything side by side, with how they feel. */
-  compare(left: ComparedSide, right: ComparedSide, signal: AbortSignal): Promise<Comparison> {
-    const question = { left: side(left), right: side(right), feel: true }
+  compare(
+    left: ComparedSide,
+    right: ComparedSide,
+    signal: AbortSignal,
+    feel = true,
+  ): Promise<Comparison> {
+    const question = { left: side(left), right: side(right), feel }
     return body(this.http.POST('/api/v1/library/compare', { body: question, signal }))
   }
 

@@ -1,0 +1,83 @@
+// What can be checked of a unit without touching it: found, allowed, and whether it passed.
+import type { WearCounters } from '$shared/api/types'
+import { healthOf } from '$shared/device/link_health'
+import { standstillOf } from '$shared/device/standstill'
+import type { Units } from '$shared/units/units.svelte'
+import type { Say, ServiceKey } from './words.svelte'
+
+export interface Reading {
+  channels: Readonly<Record<string, number | null>>
+  wear: WearCounters | null
+  counters: Record<string, number | null>
+  /** Of battery_voltage_v_min; null where it is not known. */
+  battery_v_min: number | null
+}
+
+export interface Check {
+  word: ServiceKey
+  found: string
+  allowed: string
+  /** Null: not done, `found` says why. */
+  passed: boolean | null
+}
+
+// From here on the unit itself counts a fault or lowers the assist.
+const ZERO_NM_MAX = 3
+const ROTOR_MS_MAX = 250
+const MOTOR_DEGC_MAX = 110
+const CONTROLLER_DEGC_MAX = 85
+
+/** Every check, in the order of the sheet. */
+export function checksOf(reading: Reading, say: Say, units: Units): Check[] {
+  const { channels, wear, counters, battery_v_min } = reading
+  const at = (name: string) => channels[name] ?? null
+
+  const bounded = (word: ServiceKey, name: string, unit: string, most: number): Check => {
+    const value = at(name)
+    const allowed = say('up_to', { most: units.text(most, unit, 0) })
+    if (value === null) return { word, found: say('why_unsent'), allowed, passed: null }
+    return { word, found: units.text(value, unit), allowed, passed: Math.abs(value) <= most }
+  }
+
+  const zero = bounded('check_zero', 'rider_torque_nm', 'Nm', ZERO_NM_MAX)
+  const moves = standstillOf(channels).stands === false
+  const volts = at('battery_voltage_v')
+  const battery: Check = {
+    word: 'check_battery',
+    found: volts === null ? say('why_unsent') : units.text(volts, 'V'),
+    allowed:
+      battery_v_min === null ? '—' : say('at_least', { least: units.text(battery_v_min, 'V') }),
+    passed: volts === null || battery_v_min === null ? null : volts >= battery_v_min,
+  }
+  return [
+    moves ? { ...zero, found: say('why_moving'), passed: null } : zero,
+    bounded('check_rotor', 'torque_age_ms', 'ms', ROTOR_MS_MAX),
+    battery,
+    bounded('check_motor', 'motor_temperature_degc', 'degC', MOTOR_DEGC_MAX),
+    bounded('check_controller', 'controller_temperature_degc', 'degC', CONTROLLER_DEGC_MAX),
+    flash(wear, say),
+    line(counters, say),
+  ]
+}
+
+function flash(wear: WearCounters | null, say: Say): Check {
+  const word = 'check_flash'
+  const allowed = say('flash_whole')
+  if (wear === null) return { word, found: say('why_unsent'), allowed, passed: null }
+  const bad = wear.config_slots.some(({ state }) => state === 'damaged')
+  const places = say(
+    wear.runs_on_default ? 'flash_default' : bad ? 'flash_damaged' : 'flash_whole',
+  )
+  const erases = wear.config_slots.reduce((sum, slot) => sum + slot.erases, 0)
+  const passed = !bad && !wear.runs_on_default
+  return { word, found: say('flash_worn', { places, erases }), allowed, passed }
+}
+
+function line(counters: Reading['counters'], say: Say): Check {
+  const health = healthOf(counters)
+  const word = 'check_line'
+  const allowed = say('none_lost')
+  if (!health) return { word, found: say('why_unsent'), allowed, passed: null }
+  const lost = health.lost + health.dropped
+  return { word, found: say('lost_of', { lost, built: health.built }), allowed, passed: lost === 0 }
+}
