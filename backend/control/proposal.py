@@ -30,7 +30,7 @@ TARGET_PCT = {"more_range": 10.0, "gentler_start": 20.0, "flatter_at_the_limit":
 RATIO_SHARES = (0.5, 1.6)
 """Of each ridden mode's own ratio."""
 RATE_SCALES = (0.5, 2.0)
-FILTER_S_MIN = 0.05
+FILTER_S_MIN = 0.2
 """Faster, the motor follows the stroke (docs/torque-filter.md)."""
 FILTER_S_MAX = 1.0
 CELL_KNOBS = 9
@@ -88,14 +88,21 @@ class Space:
             )
         self.start = np.concatenate([self._start(knob) for knob in self.knobs])
 
+    def parts(self) -> list[slice]:
+        """Which numbers of a point are of each knob."""
+        sizes = [CELL_KNOBS if knob == "cells" else 1 for knob in self.knobs]
+        ends = np.cumsum(sizes)
+        return [slice(int(end - size), int(end)) for end, size in zip(ends, sizes, strict=True)]
+
     def changes(self, point: Floats) -> dict[str, Any]:
-        """The parameters that differ from what is set now, by registry name. point: (n,)."""
+        """The parameters that differ from what is set now, by registry name.
+
+        point: (n,); a knob whose numbers are NaN is not touched.
+        """
         told: dict[str, Any] = {}
-        at = 0
-        for knob in self.knobs:
-            size = CELL_KNOBS if knob == "cells" else 1
-            told |= self._turned(knob, point[at : at + size])
-            at += size
+        for knob, part in zip(self.knobs, self.parts(), strict=True):
+            if not np.isnan(point[part]).any():
+                told |= self._turned(knob, point[part])
         return {name: value for name, value in told.items() if value != self.config[name]}
 
     def _start(self, knob: str) -> Floats:

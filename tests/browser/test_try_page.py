@@ -131,6 +131,31 @@ def test_nothing_changed_gives_what_was_recorded(tuner: Desk, ride: int) -> None
     expect(again.get_by_role("button", name="time")).to_have_attribute("aria-pressed", "true")
 
 
+def test_settings_for_a_wish_become_the_draft_and_nothing_is_written(
+    tuner: Desk, workshop: SpindleServer, ride: int
+) -> None:
+    page = tuner.open(f"/tune/try?ride={ride}&with=ride")
+    before = workshop.get("/devices")["items"][0]["config"]
+    proposals = page.get_by_test_id("proposals")
+    for knob in ("torque filter", "torque-rate points", "rules, as a monotone table"):
+        proposals.get_by_label(knob).uncheck()
+    look = proposals.get_by_role("button", name="Look on this ride")
+
+    look.click()
+    proposals.get_by_role("button", name="Stop looking").click()
+    expect(proposals.get_by_test_id("proposal-status")).to_contain_text("Nothing was changed")
+    look.click()
+    wished = proposals.locator("[data-candidate]", has_text="as wished")
+    expect(wished).to_be_visible(timeout=60_000)
+    expect(wished).to_contain_text("Assist ratio of each mode")
+    wished.get_by_role("button", name="Try").click()
+
+    expect(page.get_by_label("Try", exact=True)).to_have_value("draft")
+    expect(page.get_by_test_id("try-tables")).to_contain_text("changed, not yet in the unit")
+    eventually(lambda: figure(page, "wh_per_km"), lambda f: f[1] < 0.97 * f[0])
+    assert workshop.get("/devices")["items"][0]["config"] == before
+
+
 def test_a_table_that_comes_with_spindle_is_tried_in_place_of_the_first(
     tuner: Desk, ride: int
 ) -> None:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from backend.api.models.base import Answer, Question
 from backend.api.models.config import Change, Parameters
+from backend.api.models.library import LibraryEntry
 
 Objective = Literal["more_range", "gentler_start", "flatter_at_the_limit"]
 Knob = Literal["ratio", "band", "filter", "torque_rate", "cells"]
@@ -58,7 +59,7 @@ class ProposalCandidate(Answer):
     parameters: Parameters
     changed: list[Change]
     certificate_sha256: str
-    document: dict[str, Any] = Field(description="The same, as `POST /library` takes it.")
+    document: LibraryEntry = Field(description="The same, as `POST /library` takes it.")
 
 
 class Proposal(Answer):

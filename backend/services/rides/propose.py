@@ -17,6 +17,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+import numpy as np
+
 from backend import control
 from backend.control import proposal
 from backend.control.front_search import GENERATIONS, POPULATION, Tried, front_of
@@ -40,6 +42,8 @@ RIDES_MAX = 5
 SEARCH_S_MAX = 60.0
 """A search of long rides ends here with what it has; one of five minutes takes four."""
 SHOWN = 6
+SAME_AIM, SAME_COST_PCT = 0.004, 0.1
+"""A knob that moves neither by more than this is left as it is."""
 BEYOND = 2.5
 """Candidates go so many times beyond what was wished, not to the end of the knobs."""
 WORDS = {
@@ -252,10 +256,7 @@ class Proposals:
         def evaluate(point: Any) -> tuple[float, float] | None:
             nonlocal tried
             tried += 1
-            ridden = work.road.ridden({**work.config, **work.space.changes(point)})
-            if ridden is None:
-                return None
-            return ridden.aim, ridden.cost(work.road.before, work.job.objective)
+            return scores_of(work, point)
 
         front = front_of(evaluate, work.space.start, going, self._generations)
         self._tell(work, state="proving", rides_ridden=tried)
@@ -275,6 +276,8 @@ class Proposals:
         for gain, one in nearest_first(worth, job.target_pct):
             if work.stopped.is_set() or len(kept) == SHOWN:
                 break
+            one = plain(work, one)
+            gain = proposal.gained_pct(job.objective, before, one.scores[0])
             changes = work.space.changes(one.point)
             if any(abs(gain - other.gained_pct) < 0.15 * job.target_pct for other in kept):
                 continue
@@ -314,6 +317,28 @@ class Proposals:
 def rides_words(ride_ids: Sequence[int]) -> str:
     """The rides as a comment names them."""
     return f"ride{'s' * (len(ride_ids) > 1)} {', '.join(map(str, ride_ids))}"
+
+
+def scores_of(work: _Work, point: Any) -> tuple[float, float] | None:
+    """What a point comes to: the aim, and what it costs; None if it cannot be."""
+    ridden = work.road.ridden({**work.config, **work.space.changes(point)})
+    if ridden is None:
+        return None
+    return ridden.aim, ridden.cost(work.road.before, work.job.objective)
+
+
+def plain(work: _Work, found: Tried) -> Tried:
+    """The same without the knobs that make no difference: what need not change stays."""
+    for part in work.space.parts():
+        point = found.point.copy()
+        point[part] = np.nan
+        scores = scores_of(work, point)
+        if scores is None:
+            continue
+        no_worse = scores[0] <= found.scores[0] * (1.0 + SAME_AIM)
+        if no_worse and scores[1] <= found.scores[1] + SAME_COST_PCT:
+            found = Tried(point, scores)
+    return found
 
 
 def figures(work: _Work, config: Mapping[str, Any]) -> tuple[Figure, Figure]:

@@ -2944,13 +2944,8 @@ export interface components {
             changed: components["schemas"]["Change"][];
             /** Certificate Sha256 */
             certificate_sha256: string;
-            /**
-             * Document
-             * @description The same, as `POST /library` takes it.
-             */
-            document: {
-                [key: string]: unknown;
-            };
+            /** @description The same, as `POST /library` takes it. */
+            document: components["schemas"]["LibraryEntry"];
         };
         /**
          * ProposalFigure

@@ -28,6 +28,8 @@ import type {
   Parameter,
   ParameterValue,
   Port,
+  Proposal,
+  ProposalRequest,
   ReadFis,
   Replay,
   ReplayRequest,
@@ -233,6 +235,21 @@ export class Server {
   /** What is proven of every ride with a configuration. */
   certify(question: CertificateRequest, signal: AbortSignal): Promise<Certificate> {
     return body(this.http.POST('/api/v1/certificates', { body: question, signal }))
+  }
+
+  /** Begins to look for settings for a wish; a job to be watched. */
+  propose(question: ProposalRequest): Promise<Proposal> {
+    return body(this.http.POST('/api/v1/proposals', { body: question }))
+  }
+
+  proposal(proposal_id: string): Promise<Proposal> {
+    const request = { params: { path: { proposal_id } } }
+    return body(this.http.GET('/api/v1/proposals/{proposal_id}', request))
+  }
+
+  cancelProposal(proposal_id: string): Promise<Proposal> {
+    const request = { params: { path: { proposal_id } } }
+    return body(this.http.DELETE('/api/v1/proposals/{proposal_id}', request))
   }
 
   /** Where in a table a unit's latest rides were. */
