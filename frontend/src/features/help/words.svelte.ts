@@ -104,6 +104,10 @@ export const en: Record<HelpKey, string> = {
     'Open loop: a recorded ride with another table, speed and legs as they were; it ranks ' +
     'tables. Closed loop: the same road ridden again by a fitted bike, so that speed answers ' +
     'too; an estimate with its band.',
+  'certificate.word': 'Certificate',
+  'certificate.means':
+    'What is proven of every ride with a configuration: each statement with its bound, how it ' +
+    'was proven, and what it does not cover, such as a wrong sensor gain or wheel size.',
 }
 
 export type Say = (key: HelpKey, values?: Values) => string

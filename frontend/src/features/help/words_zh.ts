@@ -58,4 +58,7 @@ export const zh: Record<HelpKey, string> = {
   'closed_loop.word': '开环与闭环',
   'closed_loop.means':
     '开环：用另一张规则表重算已记录的骑行，速度与踩踏不变；用于排序。闭环：由拟合出的车辆重骑同一路线，速度也随之改变；给出带误差范围的估计。',
+  'certificate.word': '证书',
+  'certificate.means':
+    '对使用某一配置的每次骑行已证明的内容：每条陈述附界限、证明方法，以及不涵盖的内容，例如传感器增益或车轮尺寸有误。',
 }

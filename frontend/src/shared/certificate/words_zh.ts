@@ -3,8 +3,8 @@ import type { CertificateKey } from './words.svelte'
 
 export const zh: Record<CertificateKey, string> = {
   title: '已证明的内容',
-  holds: '就控制器所能决定的范围，使用这些设置的任何骑行都不违反其市场的法规：{market}。',
-  other_firmware: '对此控制器未证明：被证明的是固件 {firmware}，而它运行的是另一版本。',
+  holds: '就单元所能决定的范围，使用这些设置的任何骑行都不违反其市场的法规：{market}。',
+  other_firmware: '对此单元未证明：被证明的是固件 {firmware}，而它运行的是另一版本。',
   broken: '未证明：{what}',
   show: '{count} 条结论及其界限',
   statement: '对任何骑行的任何时刻',
@@ -34,6 +34,6 @@ export const zh: Record<CertificateKey, string> = {
   recursion: '滤波与斜坡所能记忆的',
   not_covered:
     '不包括：力矩传感器增益与车轮周长是否准确、读数迟到多久、电机是否按指令输出、' +
-    '控制器断电再上电、其他固件。',
+    '单元断电再上电、其他固件。',
   identity: '证书 {certificate}，规则表 {table}，固件 {firmware}，方法 {method}',
 }

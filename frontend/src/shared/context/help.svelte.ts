@@ -25,6 +25,7 @@ export const TERMS = [
   'generation',
   'trial',
   'closed_loop',
+  'certificate',
 ] as const
 export type Term = (typeof TERMS)[number]
 
