@@ -3,7 +3,19 @@
 import sys
 from pathlib import Path
 
-from tests.bench import answers, board, law, link, logs, plant, rides, server, wire, writes
+from tests.bench import (
+    answers,
+    board,
+    law,
+    link,
+    logs,
+    pages,
+    plant,
+    rides,
+    server,
+    wire,
+    writes,
+)
 from tests.bench.figures import Figure, mark, write
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "benchmarks.md"
@@ -17,6 +29,7 @@ SECTIONS = {
     "Ride logs": logs.run,
     "Rides": rides.run,
     "The server": server.run,
+    "The pages in a browser": pages.run,
     "The firmware on a Cortex-M4F": board.run,
 }
 
