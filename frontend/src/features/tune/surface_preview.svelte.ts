@@ -30,6 +30,7 @@ export class SurfacePreview {
   private readonly gains = new NewestAnswer<GainSurface>()
   private readonly torques = new NewestAnswer<TorqueSurface>()
   private readonly findings = new NewestAnswer<LintReport>()
+  private asked: LintRequest | null = null
 
   constructor(private readonly server: Server) {}
 
@@ -50,17 +51,18 @@ export class SurfacePreview {
     return refused?.message ?? null
   }
 
-  /** The findings take longer, as they are proven; the surface does not wait for them. */
+  /** The surface comes first: the findings keep the server longer, as they are proven. */
   async ask(question: LintRequest): Promise<void> {
+    this.asked = question
+    this.findings.stop()
     const table = question.fuzzy_table
     const { speeds_kmh, torque_rates } = grid(table, GAIN_POINTS)
-    await Promise.all([
-      this.gains.ask(async (signal) => {
-        const { gain } = await this.server.surface(table, speeds_kmh, torque_rates, signal)
-        return { speeds_kmh, torque_rates, gain }
-      }),
-      this.findings.ask((signal) => this.server.lint(question, signal)),
-    ])
+    await this.gains.ask(async (signal) => {
+      const { gain } = await this.server.surface(table, speeds_kmh, torque_rates, signal)
+      return { speeds_kmh, torque_rates, gain }
+    })
+    if (this.asked !== question) return
+    await this.findings.ask((signal) => this.server.lint(question, signal))
   }
 
   /** What comes of the table at the crank, for a steady push in one of its modes. */
@@ -70,6 +72,7 @@ export class SurfacePreview {
   }
 
   stop(): void {
+    this.asked = null
     for (const newest of [this.gains, this.torques, this.findings]) newest.stop()
   }
 }
