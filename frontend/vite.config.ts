@@ -17,7 +17,7 @@ const REVIEW = ['ReviewDialog', 'TokenSteps', 'UnlockPanel', 'WriteRefused', 'wr
 const GROUPS = [
   { name: 'unit', test: new RegExp(`src/shared/(${MOST.join('|')})`) },
   { name: 'traces', test: /src\/shared\/charts\/(Traces|trace_line|trace_window|ride_view)/ },
-  { name: 'rides', test: /src\/features\/(rides|try)/ },
+  { name: 'rides', test: /src\/features\/(rides|try)\/(?!proposals)/ },
   { name: 'settings', test: /src\/features\/(service|settings)/ },
   { name: 'review', test: new RegExp(`src/shared/(certificate|config/(${REVIEW.join('|')}))`) },
   { name: 'config', test: /src\/shared\/(config|lint)/ },
