@@ -60,7 +60,7 @@ SMALL_TARGETS = """() => [...document.querySelectorAll('button, select, summary,
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-@pytest.mark.parametrize("path", ["/", "/live", "/tune", "/tune/modes", WHY, "/rides", "/sensor"])
+@pytest.mark.parametrize("path", PAGES)
 def test_axe_finds_no_fault(
     open_desk: OpenDesk, riding: str, axe: str, path: str, theme: str
 ) -> None:

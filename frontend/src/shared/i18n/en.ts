@@ -324,6 +324,13 @@ export const en = {
     'Kept with your changes, as stated: nobody signs in yet. ' +
     'Empty: the name the server runs under.',
   'settings.units_note': 'Only what is shown changes; the unit and the files keep SI units.',
+  'settings.server': 'This Spindle',
+  'settings.version': 'Version',
+  'settings.keeps': 'Keeping records',
+  'settings.keeps_ok': 'everything that is to be kept is kept',
+  'settings.keeps_degraded': 'not everything can be saved now: see the message above',
+  'settings.keeps_unknown': 'not known: the server does not answer',
+  'settings.rows': '{saved} rows saved since it started, {waiting} waiting, {lost} lost',
   'settings.api': 'Description of the API',
   'theme.system': 'As the system',
   'theme.light': 'Light',
@@ -340,6 +347,8 @@ export const en = {
     'Arrows move, Shift with arrows selects, 1 to 5 set NB to PB, + and − nudge, = levels, ' +
     '* scales, / interpolates, S smooths, Ctrl+C and Ctrl+V copy and paste as text, Delete ' +
     'restores, Ctrl+Z and Ctrl+Y undo and redo.',
+  'keys.try': 'On the road’s lines ← → move the cursor, Shift further; K shows km or time.',
+  'keys.why': '← → move the moment, Shift by 1 s, N and P go to the next and last cut.',
   'keys.numbers': 'Numbers',
   'keys.numbers_text': 'Arrow up and down nudge; with Shift five times as far.',
 

@@ -291,6 +291,13 @@ export const zh: Record<Key, string> = {
   'settings.author': '您的姓名',
   'settings.author_note': '随您的更改保存，仅为自述：目前无需登录。留空则用服务器的用户名。',
   'settings.units_note': '只改变显示；单元和文件始终使用国际单位。',
+  'settings.server': '此 Spindle',
+  'settings.version': '版本',
+  'settings.keeps': '记录保存',
+  'settings.keeps_ok': '需要保存的内容均已保存',
+  'settings.keeps_degraded': '目前无法保存全部内容：见上方提示',
+  'settings.keeps_unknown': '未知：服务器没有应答',
+  'settings.rows': '启动以来已保存 {saved} 行，等待 {waiting} 行，丢失 {lost} 行',
   'settings.api': 'API 说明',
   'theme.system': '跟随系统',
   'theme.light': '浅色',
@@ -306,6 +313,8 @@ export const zh: Record<Key, string> = {
   'keys.rules':
     '方向键移动，Shift 加方向键选择，1 至 5 设为 NB 至 PB，+ − 微调，= 取平，* 缩放，/ 插值，' +
     'S 平滑，Ctrl+C 与 Ctrl+V 复制粘贴，Delete 还原，Ctrl+Z 与 Ctrl+Y 撤销和重做。',
+  'keys.try': '在路线曲线上用 ← → 移动光标，加 Shift 移动更多；K 切换公里或时间。',
+  'keys.why': '← → 移动时刻，加 Shift 移动 1 s；N 与 P 前往下一处和上一处限制。',
   'keys.numbers': '数字',
   'keys.numbers_text': '上下方向键微调；按住 Shift 为五倍。',
 
