@@ -18,7 +18,8 @@ class PortInfo:
 
     url: what to add. description: the adapter's own words. usb_serial_number: finds the same
     adapter again under a new name. in_use: None where it cannot be told without opening the port.
-    hint: what stands in the way and what to do about it, None when nothing does.
+    hint: what stands in the way and what to do about it, None when nothing does. hint_code: a word
+    for it, as a LinkError of such a port has.
     """
 
     url: str
@@ -30,6 +31,7 @@ class PortInfo:
     usb_serial_number: str | None = None
     in_use: bool | None = None
     hint: str | None = None
+    hint_code: str | None = None
 
 
 SIMULATED = PortInfo(
@@ -71,6 +73,7 @@ def usb_serial_of(device: str) -> str | None:
 def _describe(port: pyserial_ports.ListPortInfo, holders: set[str] | None) -> PortInfo:
     device = str(port.device)
     in_use = None if holders is None else os.path.realpath(device) in holders
+    hint, hint_code = _hint(device, in_use)
     return PortInfo(
         url=device,
         kind="serial",
@@ -80,19 +83,21 @@ def _describe(port: pyserial_ports.ListPortInfo, holders: set[str] | None) -> Po
         usb_product_id=port.pid,
         usb_serial_number=port.serial_number,
         in_use=in_use,
-        hint=_hint(device, in_use),
+        hint=hint,
+        hint_code=hint_code,
     )
 
 
-def _hint(device: str, in_use: bool | None) -> str | None:
+def _hint(device: str, in_use: bool | None) -> tuple[str, str] | tuple[None, None]:
     if os.name == "posix" and not os.access(device, os.R_OK | os.W_OK):
         return (
             "You may not open this port. Add yourself to the group that owns it "
-            "(`sudo usermod -aG dialout $USER`) and sign in again."
+            "(`sudo usermod -aG dialout $USER`, on Arch `uucp`) and sign in again.",
+            "port_permission",
         )
     if in_use:
-        return "A program has this port open."
-    return None
+        return "A program has this port open.", "port_busy"
+    return None, None
 
 
 def _open_devices() -> set[str] | None:

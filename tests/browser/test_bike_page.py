@@ -1,4 +1,4 @@
-"""Goal: who the unit is and how its link stands; several units side by side from the first day."""
+"""Goal: who the unit is, how its link stands, and how the bike is."""
 
 from __future__ import annotations
 
@@ -130,50 +130,6 @@ def test_the_bike_s_surroundings_are_set_from_the_panel(
     air = panel.get_by_role("slider", name="Air temperature")
     assert asked(lambda: air.press("ArrowRight")) == {"ambient_degc": -4}
     desk.picture("simulation-surroundings", full=True)
-
-
-def test_a_second_unit_is_added_chosen_and_removed(
-    desk: Desk, server: SpindleServer, standing: str
-) -> None:
-    page = desk.open("/")
-    page.wait_for_selector(PILL)
-
-    page.click("text=Add a simulated unit")
-
-    chooser = page.locator(f"{PILL} select")
-    expect(chooser.locator("option")).to_have_count(2)
-    second = next(d for d in server.get("/devices")["items"] if d["id"] != standing)
-    expect(page.locator("main")).to_contain_text(second["url"])
-    page.get_by_role("button", name="Disconnect", exact=True).click()
-    expect(chooser).to_have_count(0)
-    assert [d["id"] for d in server.get("/devices")["items"]] == [standing]
-
-
-def test_a_port_that_cannot_be_opened_says_why(
-    desk: Desk, server: SpindleServer, device: str
-) -> None:
-    desk.allow("the server responded with a status of 50[34]")
-    page = desk.open("/")
-
-    page.fill("input[aria-label='Address of a port']", "socket://127.0.0.1:9")
-    page.press("input[aria-label='Address of a port']", "Enter")
-
-    expect(page.locator("[data-testid=banner]")).to_contain_text("127.0.0.1")
-    page.get_by_role("button", name="Disconnect", exact=True).click()
-    expect(page.locator(PILL)).to_contain_text("Connected")
-    assert [d["id"] for d in server.get("/devices")["items"]] == [device]
-
-
-def test_without_a_unit_the_page_shows_the_way(desk: Desk) -> None:
-    nothing: dict[str, object] = {"items": [], "next": None}
-    desk.page.route("**/api/v1/devices", lambda route: route.fulfill(json=nothing))
-
-    page = desk.open("/live")
-
-    page.wait_for_selector("[data-testid=no-unit]")
-    page.click("text=Connect a unit")
-    expect(page.locator("button", has_text="Add a simulated unit")).to_be_visible()
-    desk.picture("no-unit")
 
 
 def test_a_unit_without_rides_shows_no_other_bike_s(

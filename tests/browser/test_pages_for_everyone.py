@@ -16,9 +16,11 @@ from tests.browser.test_rides_page import long_ride
 from tests.fakes.server import SpindleServer
 
 WHY = "/tune/why?now"
-PAGES = ["/", "/live", "/tune", "/tune/modes", WHY, "/rides", "/sensor", "/service", "/settings"]
+PAGES = ["/", "/connect", "/live", "/tune", "/tune/modes", WHY, "/rides", "/sensor", "/service"]
+PAGES += ["/settings"]
 READY = {
     "/": "[data-testid=link-health]",
+    "/connect": "[data-testid=what-works] dd",
     "/live": "[data-draws]",
     "/tune": "[data-testid=surface][data-draws]",
     "/tune/modes": "[data-testid=modes] .ridden svg",

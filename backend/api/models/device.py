@@ -72,6 +72,10 @@ class Port(Answer):
     usb_serial_number: str | None
     in_use: bool | None = Field(description="null where it cannot be told without opening it.")
     hint: str | None = Field(description="What stands in the way and what to do about it.")
+    hint_code: str | None = Field(
+        description="A word for the hint: `port_permission` or `port_busy`, as a device's "
+        "`reason_code`."
+    )
 
 
 class PortList(Answer):

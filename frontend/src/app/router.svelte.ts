@@ -7,6 +7,7 @@ export type TunePage = (typeof TUNE_PAGES)[number]
 export type PageName =
   | TunePage
   | 'bike'
+  | 'connect'
   | 'live'
   | 'rides'
   | 'ride'
@@ -22,6 +23,7 @@ export interface Route {
 
 const pages: Record<string, PageName> = {
   '': 'bike',
+  connect: 'connect',
   live: 'live',
   rides: 'rides',
   sensor: 'sensor',

@@ -4,6 +4,7 @@ import { readRoute } from './router.svelte'
 
 it.each([
   ['/', { page: 'bike', id: '' }],
+  ['/connect', { page: 'connect', id: '' }],
   ['/live', { page: 'live', id: '' }],
   ['/rides', { page: 'rides', id: '' }],
   ['/rides/12', { page: 'ride', id: '12' }],

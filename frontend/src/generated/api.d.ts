@@ -2862,6 +2862,11 @@ export interface components {
              * @description What stands in the way and what to do about it.
              */
             hint: string | null;
+            /**
+             * Hint Code
+             * @description A word for the hint: `port_permission` or `port_busy`, as a device's `reason_code`.
+             */
+            hint_code: string | null;
         };
         /** PortList */
         PortList: {

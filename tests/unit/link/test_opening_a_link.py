@@ -13,7 +13,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from backend.errors import InvalidRequest, LinkError
-from backend.link import kind_of, list_ports, open_link
+from backend.link import kind_of, list_ports, open_link, ports
 from backend.link.opening import Opener
 from backend.link.ports import pyserial_ports
 from backend.link.serial_port import SerialPort
@@ -134,6 +134,30 @@ def test_a_host_where_nothing_listens_says_so() -> None:
 
 def test_the_list_of_ports_always_offers_a_simulated_unit() -> None:
     assert list_ports()[-1].url == "sim"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pseudo-terminals are POSIX")
+def test_the_list_of_ports_says_with_a_word_what_stands_in_the_way(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    gone = str(tmp_path / "ttyUSB0")  # what is not there may not be opened either
+    pair = os.openpty()
+    adapter = {"description": None, "manufacturer": None, "vid": None, "pid": None}
+    plugged = [
+        SimpleNamespace(device=at, serial_number=None, **adapter)
+        for at in (os.ttyname(pair[1]), gone)
+    ]
+    monkeypatch.setattr(pyserial_ports, "comports", lambda: plugged)
+    try:
+        found = {port.url: port.hint_code for port in list_ports()}
+        assert found == {gone: "port_permission", plugged[0].device: None, "sim": None}
+
+        monkeypatch.setattr(ports, "_open_devices", lambda: {os.path.realpath(os.ttyname(pair[1]))})
+        found = {port.url: port.hint_code for port in list_ports()}
+        assert found[plugged[0].device] == "port_busy"
+    finally:
+        for end in pair:
+            os.close(end)
 
 
 def child(program: str) -> list[str]:

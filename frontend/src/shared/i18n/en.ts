@@ -25,6 +25,7 @@ export const en = {
   'app.skip': 'Skip to the page',
   'app.unknown': 'There is no page at this address.',
   'page.bike': 'Bike',
+  'page.connect': 'Connect a unit',
   'page.live': 'Live',
   'page.tune': 'Tune',
   'page.try': 'Try on a ride',
@@ -69,9 +70,7 @@ export const en = {
   'no_unit.title': 'No drive unit is connected',
   'no_unit.text':
     'This page shows a connected unit. Connect one, or add a simulated one to look ' + 'around.',
-  'no_unit.connect': 'Connect a unit',
 
-  'bike.empty': 'Connect a drive unit by cable, or add a simulated one to look around.',
   'bike.last_ride': 'Last ride',
   'bike.all_rides': 'All rides',
   'bike.no_ride': 'No ride yet. A ride is recorded by itself when the bike moves.',
@@ -89,7 +88,7 @@ export const en = {
   'link.state': 'State',
   'link.reason': 'Why',
   'link.url': 'Address',
-  'link.disconnect': 'Disconnect',
+  'link.change': 'Change unit…',
   'link.counters': 'Link counters',
   'health.title': 'Health of the link',
   'health.whole': 'Healthy: every frame the unit built has arrived',
@@ -103,12 +102,6 @@ export const en = {
   'health.unit_advice':
     'Dropped by the unit: the line was full. Fewer channels or a faster line help.',
   'health.none': 'No frame of the live stream has come yet.',
-  'connect.title': 'Connect a unit',
-  'connect.look_again': 'Look again',
-  'connect.connect': 'Connect',
-  'connect.address': 'Address of a port',
-  'connect.no_ports': 'No serial port found. Plug the cable in, then look again.',
-  'connect.add_simulated': 'Add a simulated unit',
   'simulation.title': 'Simulation',
   'simulation.explain':
     'A simulated rider on a simulated road. A real drive unit has no such panel.',

@@ -88,6 +88,7 @@ const refusal = {
   port_permission: '没有使用此端口的权限。',
   port_vanished: '端口消失了：数据线被拔出，或单元断电。',
   simulator_failed: '模拟单元无法启动，或已意外停止。',
+  not_from_here: '不能从网页打开它：它不是串口，或是服务器上的文件。',
   not_json: '请求内容不是可读的 JSON。',
   not_accepted: '不接受此值。',
   not_a_number: '不是数字。',
@@ -256,7 +257,8 @@ const reason = {
   link: '端口无法打开。请检查数据线和端口名。',
   port_absent: '没有这个端口，或对方没有响应。请插好数据线；出现后自动连接。',
   port_busy: '端口被其他程序占用。请关闭该程序，随后自动连接。',
-  port_permission: '没有使用此端口的权限。在 Linux 上，请将自己加入该端口所属的用户组后重新登录。',
+  port_permission:
+    '没有使用此端口的权限。在 Linux 上，请将自己加入该端口所属的用户组（`sudo usermod -aG dialout $USER`，Arch 为 `uucp`）后重新登录。',
   port_vanished: '端口消失了：数据线被拔出，或单元断电。恢复后自动重连。',
   simulator_failed: '模拟单元无法启动，或已意外停止。',
 }
