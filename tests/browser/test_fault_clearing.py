@@ -205,7 +205,7 @@ def test_a_lost_unit_s_fault_is_told_as_old_and_not_cleared(
 
     page = desk.open("/live")
 
-    expect(page.locator(PILL)).to_contain_text("Lost")
+    expect(page.locator(PILL)).to_contain_text("Last seen")
     expect(page.locator(f"{SERVICE} .badge")).to_contain_text("1")
     expect(page.locator(BOX)).to_contain_text("when the unit was last seen")
     expect(page.get_by_role("button", name="Clear the fault")).to_be_disabled()

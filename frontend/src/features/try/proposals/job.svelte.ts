@@ -11,6 +11,9 @@ export class ProposalJob {
   refusal = $state.raw<Refusal | null>(null)
   asking = $state(false)
   private timer: ReturnType<typeof setTimeout> | null = null
+  // An answer counts only if nothing was asked after it.
+  private turn = 0
+  private given_up = false
 
   constructor(private readonly server: Server) {}
 
@@ -20,12 +23,16 @@ export class ProposalJob {
 
   async begin(question: ProposalRequest): Promise<void> {
     this.asking = true
+    this.given_up = false
     this.job = this.refusal = null
     await this.told(() => this.server.propose(question))
     this.asking = false
+    if (this.given_up) await this.cancel()
   }
 
+  /** Also of a search the server has not named yet: it is given up as soon as it has a name. */
   async cancel(): Promise<void> {
+    this.given_up = true
     const { job } = this
     if (job && this.running) await this.told(() => this.server.cancelProposal(job.id))
   }
@@ -38,16 +45,20 @@ export class ProposalJob {
   }
 
   private async told(ask: () => Promise<Proposal>): Promise<void> {
+    const turn = ++this.turn
     try {
-      this.job = await ask()
+      const job = await ask()
+      if (turn !== this.turn) return
+      this.job = job
     } catch (error) {
+      if (turn !== this.turn) return
       if (!(error instanceof Refusal)) throw error
       this.refusal = error
       this.job = null
     }
     if (this.timer) clearTimeout(this.timer)
     const { job } = this
-    if (job && RUNNING.includes(job.state)) {
+    if (job && RUNNING.includes(job.state) && !this.given_up) {
       this.timer = setTimeout(() => void this.told(() => this.server.proposal(job.id)), LOOK_MS)
     }
   }
