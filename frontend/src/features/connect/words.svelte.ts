@@ -93,4 +93,4 @@ export const en = {
 export type ConnectKey = keyof typeof en
 export type Say = (key: ConnectKey, values?: Values) => string
 
-export const words = pageWords<ConnectKey>(en, () => import('./words_zh').then(({ zh }) => zh))
+export const words = await pageWords(en, async () => (await import('./words_zh')).zh)

@@ -112,4 +112,4 @@ export const en: Record<HelpKey, string> = {
 
 export type Say = (key: HelpKey, values?: Values) => string
 
-export const words = pageWords(en, async () => (await import('./words_zh')).zh)
+export const words = await pageWords(en, async () => (await import('./words_zh')).zh)

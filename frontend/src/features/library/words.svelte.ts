@@ -86,4 +86,4 @@ export const en = {
 export type LibraryKey = keyof typeof en
 export type Say = (key: LibraryKey, values?: Values) => string
 
-export const words = pageWords(en, async () => (await import('./words_zh')).zh)
+export const words = await pageWords(en, async () => (await import('./words_zh')).zh)

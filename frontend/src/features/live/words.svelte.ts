@@ -68,4 +68,4 @@ export const en = {
 export type LiveKey = keyof typeof en
 export type Say = (key: LiveKey, values?: Values) => string
 
-export const words = pageWords<LiveKey>(en, () => import('./words_zh').then(({ zh }) => zh))
+export const words = await pageWords(en, async () => (await import('./words_zh')).zh)

@@ -27,4 +27,4 @@ export type SinceKey = keyof typeof en
 
 export type Say = (key: SinceKey, values?: Values) => string
 
-export const sinceWords = pageWords(en, async () => (await import('./since_words_zh')).zh)
+export const sinceWords = await pageWords(en, async () => (await import('./since_words_zh')).zh)

@@ -69,4 +69,4 @@ export const en = {
 export type ServiceKey = keyof typeof en
 export type Say = (key: ServiceKey, values?: Values) => string
 
-export const words = pageWords<ServiceKey>(en, () => import('./words_zh').then(({ zh }) => zh))
+export const words = await pageWords(en, async () => (await import('./words_zh')).zh)

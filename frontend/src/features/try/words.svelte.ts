@@ -48,4 +48,4 @@ export type TryKey = keyof typeof en
 
 export type Say = (key: TryKey, values?: Values) => string
 
-export const words = pageWords(en, async () => (await import('./words_zh')).zh)
+export const words = await pageWords(en, async () => (await import('./words_zh')).zh)

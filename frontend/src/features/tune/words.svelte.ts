@@ -69,4 +69,4 @@ export type TuneKey = keyof typeof en
 
 export type Say = (key: TuneKey, values?: Values) => string
 
-export const words = pageWords(en, async () => (await import('./words_zh')).zh)
+export const words = await pageWords(en, async () => (await import('./words_zh')).zh)

@@ -131,4 +131,4 @@ export type WhyKey = keyof typeof en
 
 export type Say = (key: WhyKey, values?: Values) => string
 
-export const words = pageWords(en, async () => (await import('./words_zh')).zh)
+export const words = await pageWords(en, async () => (await import('./words_zh')).zh)

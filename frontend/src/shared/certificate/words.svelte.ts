@@ -44,4 +44,4 @@ export const en = {
 
 export type CertificateKey = keyof typeof en
 
-export const words = pageWords(en, async () => (await import('./words_zh')).zh)
+export const words = await pageWords(en, async () => (await import('./words_zh')).zh)

@@ -43,4 +43,4 @@ export type ProposalKey = keyof typeof en
 
 export type Say = (key: ProposalKey, values?: Values) => string
 
-export const words = pageWords(en, async () => (await import('./words_zh')).zh)
+export const words = await pageWords(en, async () => (await import('./words_zh')).zh)
