@@ -14,17 +14,19 @@ const MOST = [
   'i18n/(?!zh)',
 ]
 const REVIEW = ['ReviewDialog', 'TokenSteps', 'UnlockPanel', 'WriteRefused', 'write_']
+// Words of another language come apart from their page: only who reads them fetches them.
+const chunk = (name: string, pattern: string) => ({
+  name,
+  test: new RegExp(`^(?!.*words_zh).*src/${pattern}`),
+})
 const GROUPS = [
-  { name: 'unit', test: new RegExp(`src/shared/(${MOST.join('|')})`) },
-  { name: 'traces', test: /src\/shared\/charts\/(Traces|trace_line|trace_window|ride_view)/ },
-  { name: 'rides', test: /src\/features\/(rides|try)\/(?!proposals)/ },
-  { name: 'settings', test: /src\/features\/(service|settings)/ },
-  { name: 'review', test: new RegExp(`src/shared/(certificate|config/(${REVIEW.join('|')}))`) },
-  { name: 'config', test: /src\/shared\/(config|lint)/ },
-  {
-    name: 'tune',
-    test: /src\/features\/tune\/(?!words_zh|Rescale|Scale|Slice|Surface(Plot|Marks))/,
-  },
+  chunk('unit', `shared/(${MOST.join('|')})`),
+  chunk('traces', 'shared/charts/(Traces|trace_line|trace_window|ride_view)'),
+  chunk('rides', 'features/(rides|try)/(?!proposals)'),
+  chunk('settings', 'features/(service|settings)'),
+  chunk('review', `shared/(certificate|config/(${REVIEW.join('|')}))`),
+  chunk('config', 'shared/(config|lint)'),
+  chunk('tune', 'features/tune/(?!Rescale|Scale|Slice|Surface(Plot|Marks))'),
 ]
 
 export default defineConfig({

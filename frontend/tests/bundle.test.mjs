@@ -58,6 +58,16 @@ describe.skipIf(!built)('the built pages', () => {
     expect(kb(chinese)).toBeLessThan(25)
   })
 
+  it('carry no other language for who reads English', () => {
+    const foreign = files.filter(
+      (name) =>
+        !/^(zh|zh_codes|(since_)?words_zh|plotly_lines)-/.test(name) &&
+        /[\u4e00-\u9fff]{4}/.test(readFileSync(`${folder}/${name}`, 'utf8')),
+    )
+
+    expect(foreign).toEqual([])
+  })
+
   it('have line charts within 380 kB, heatmaps within 20 more and live strips within 30', () => {
     expect(lines.length).toBeGreaterThan(0)
     expect(kb(lines)).toBeLessThan(380)

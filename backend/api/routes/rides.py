@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Path, Query, Request, Response, status
 from fastapi.responses import JSONResponse, StreamingResponse
+from pydantic import BeforeValidator
 
 from backend.api.large import in_pieces, whole
 from backend.api.models.ride import (
@@ -39,6 +41,16 @@ BINARY_MEDIA_TYPE = "application/octet-stream"
 DAMAGED: dict[int | str, dict[str, Any]] = {
     500: refusals(500)[500] | {"description": "`object_damaged`: the ride's file is not as written"}
 }
+
+
+def dated(text: object) -> object:
+    """What begins with a date; a bare number, seconds of whatever, is no moment."""
+    if isinstance(text, str) and not re.match(r"\d{4}-\d\d-\d\d", text):
+        raise ValueError("a moment is told as 2026-05-01T12:00:00Z")
+    return text
+
+
+Moment = Annotated[datetime, BeforeValidator(dated)]
 ExportFormat = Literal["csv", "parquet", "fit", "gpx", "original"]
 
 
@@ -51,8 +63,8 @@ def channel_names(text: str | None) -> list[str] | None:
 @router.get("", operation_id="list_rides", response_model=RideList)
 def list_rides(
     services: Provided,
-    begin: Annotated[datetime | None, Query(alias="from")] = None,
-    end: Annotated[datetime | None, Query(alias="to")] = None,
+    begin: Annotated[Moment | None, Query(alias="from")] = None,
+    end: Annotated[Moment | None, Query(alias="to")] = None,
     device: Annotated[
         str | None,
         Query(max_length=500, description="A unit's key or serial number, or a device's id."),
