@@ -121,6 +121,8 @@ def test_what_held_the_motor_back_is_shaded_and_named_a_while(
     held = page.get_by_test_id("held-back")
     desk.until("Number(document.querySelector('[data-draws]')?.dataset.draws) > 10")
 
+    # Under way, so that braking lasts: what is over at once is not listed.
+    eventually(lambda: desk.number(SPEED), lambda speed: speed > 8)
     server.simulate(riding, brake=True)
     expect(held.locator(".warn")).to_contain_text("brake")
     eventually(lambda: desk.number(SPEED), lambda speed: speed < 3)
