@@ -13,7 +13,6 @@ told, no proof about the law can say: NOT_COVERED names it.
 from __future__ import annotations
 
 import hashlib
-import json
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
@@ -24,6 +23,8 @@ import numpy as np
 
 from backend.control.corner_bounds import gain_most
 from backend.control.market import market_words
+from backend.control.recorded_ride import KMH_PER_MS
+from backend.domain.canonical_json import sha256_of
 from backend.domain.certificate import Cell, Certificate, Claim
 from backend.domain.fuzzy_table import FuzzyTable
 from backend.errors import InvalidRequest
@@ -94,12 +95,6 @@ def certify(config: Mapping[str, Any], firmware_version: str) -> Certificate:
     claims = tuple(Claim(**claim) for claim in body["claims"])
     cells = tuple(Cell(**cell) for cell in body["cells"])
     return Certificate(sha256_of(body), **{**body, "claims": claims, "cells": cells})
-
-
-def sha256_of(body: Mapping[str, Any]) -> str:
-    """Of plain JSON, whatever the order of its names."""
-    text = json.dumps(body, sort_keys=True, separators=(",", ":"))
-    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def _known(config: dict[str, Any]) -> _Known:
@@ -303,7 +298,7 @@ def _ending_claims(known: _Known) -> Iterator[Claim]:
     stop_s = min(float(np.float32(config["pedal_stop_ms"] / 1000.0)), profile.pedal_stop_s)
     steps = int(np.float32(stop_s) / np.float32(STEP_S) + np.float32(0.5))
     outlives_s = max(steps - 1, 0) * STEP_S
-    way_m = outlives_s * known.cutoff_kmh / 3.6
+    way_m = outlives_s * known.cutoff_kmh / KMH_PER_MS
     yield Claim(
         "pedal_stop",
         f"Assist outlives the first reading without forward pedalling by {outlives_s:.3g} s at"

@@ -16,13 +16,13 @@ import numpy.typing as npt
 
 from backend.errors import Conflict
 from sim_device.configure import ConfigureError
+from sim_device.firmware.python.law import STEP_S
 from sim_device.lockstep import LockstepUnit
 from sim_device.preset_unit import MARKET, MARKET_OF, unit_with, without_the_bike
 
 Numbers = npt.NDArray[np.float64]
 Ride = Mapping[str, Numbers]
 
-STEP_S = 0.01
 SPORT = 3
 LOOKED_AT = ("t_s", "speed_kmh", "cadence_rpm", "motor_demand_nm", "motor_torque_nm", "fuzzy_gain")
 

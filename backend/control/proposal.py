@@ -15,10 +15,13 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.control.market import cutoff_of
+from backend.control.recorded_ride import KMH_PER_MS
 from backend.control.twin import RoadTwin
+from backend.domain.energy import SECONDS_PER_HOUR
 from backend.domain.fuzzy_table import LABELS, PARAMETERS_OF, FuzzyTable
 from backend.errors import InvalidRequest
-from sim_device.firmware.python.law import LawRefused, parameter_range
+from sim_device.firmware.python.law import STEP_S, LawRefused, parameter_range
+from sim_device.firmware.python.twin import Totals
 
 Floats = npt.NDArray[np.float64]
 Config = Mapping[str, Any]
@@ -41,17 +44,25 @@ LIMIT_KMH = 3.0
 """So far below the cut-off speed a rider feels the limit come and go."""
 FELT_S_MIN = 3.0
 SAMPLE_STEPS = 5
-STEP_S = 0.01
+SAMPLE_S = SAMPLE_STEPS * STEP_S
 
 
 @dataclass(frozen=True, slots=True)
 class Ridden:
-    """What rides came to in sum. aim: what the wish wants small."""
+    """What rides came to, one after the other. aim: what the wish wants small."""
 
     aim: float
-    battery_j: float
-    motor_work_j: float
-    duration_s: float
+    totals: tuple[Totals, ...]
+
+    @property
+    def battery_j(self) -> float:
+        """Of all rides."""
+        return sum(told.battery_j for told in self.totals)
+
+    @property
+    def duration_s(self) -> float:
+        """Of all rides."""
+        return sum(told.duration_s for told in self.totals)
 
     def cost(self, before: Ridden, objective: str) -> float:
         """What the wish takes, per cent: time for range; else what changed beside the wish, of time
@@ -210,25 +221,20 @@ class Road:
                 return None
             totals.append(told)
             rises.append(self._rises(samples))
-        battery_j = sum(told.battery_j for told in totals)
         felt = np.concatenate(rises)
         if self._objective == "more_range":
-            aim = battery_j / 3600.0 / self.distance_km
-        elif felt.size * SAMPLE_STEPS * STEP_S < FELT_S_MIN:
+            battery_j = sum(told.battery_j for told in totals)
+            aim = battery_j / SECONDS_PER_HOUR / self.distance_km
+        elif felt.size * SAMPLE_S < FELT_S_MIN:
             return None
         else:
             aim = float(np.sqrt(np.mean(felt**2)))
-        return Ridden(
-            aim,
-            battery_j,
-            sum(told.motor_work_j for told in totals),
-            sum(told.duration_s for told in totals),
-        )
+        return Ridden(aim, tuple(totals))
 
     def _rises(self, samples: npt.NDArray[np.void]) -> Floats:
         """How fast the torque at the crank changes where the wish looks, Nm/s (k,)."""
-        kmh = samples["speed_ms"][1:] * 3.6
-        nm_per_s = np.diff(samples["motor_nm"]) * self._crank_per_motor / (SAMPLE_STEPS * STEP_S)
+        kmh = samples["speed_ms"][1:] * KMH_PER_MS
+        nm_per_s = np.diff(samples["motor_nm"]) * self._crank_per_motor / SAMPLE_S
         if self._objective == "gentler_start":
             return np.maximum(nm_per_s[(kmh > 0.5) & (kmh < START_KMH)], 0.0)
         return np.asarray(nm_per_s[kmh > self._cutoff_kmh - LIMIT_KMH])

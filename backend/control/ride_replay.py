@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from backend.domain.energy import RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
 from backend.errors import InvalidRequest
 from sim_device.firmware.python import law
 
@@ -16,8 +17,6 @@ BATTERY_VOLTAGE_V = 36.0
 """Nominal, for rides that did not record it."""
 STEPS_MAX = 24 * 3600 * 100
 """A day at 100 Hz; bounds the memory of one replay."""
-RAD_PER_S_PER_RPM = 2.0 * np.pi / 60.0
-JOULE_PER_WH = 3600.0
 
 Floats = npt.NDArray[np.float32]
 
@@ -137,7 +136,8 @@ def _summed(
 ) -> Replay:
     flags = outputs["limit_flags"]
     torque_nm = outputs["motor_torque_nm"]
-    power_w = torque_nm.astype(np.float64) * np.nan_to_num(motor_speed_rpm) * RAD_PER_S_PER_RPM
+    motor_rad_s = np.nan_to_num(motor_speed_rpm) * RADIANS_PER_S_PER_RPM
+    power_w = torque_nm.astype(np.float64) * motor_rad_s
     return Replay(
         rider_torque_filtered_nm=outputs["rider_torque_filtered_nm"],
         torque_rate=outputs["torque_rate"],
@@ -147,6 +147,6 @@ def _summed(
         motor_torque_demanded_nm=outputs["motor_torque_demanded_nm"],
         limit_flags=flags,
         motor_torque_nm_max=float(torque_nm.max(initial=0.0)),
-        motor_work_wh=float(power_w.sum()) * step_s / JOULE_PER_WH,
+        motor_work_wh=float(power_w.sum()) * step_s / SECONDS_PER_HOUR,
         limit_shares=limit_shares(flags),
     )

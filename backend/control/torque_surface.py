@@ -21,7 +21,12 @@ SETTLED_STEPS = 60
 included, which the C lets run 300 times as fast; neighbours differ by little."""
 WARM_STEPS = 2000
 """Before the first point: longer than the slowest torque filter."""
-NO_RAMP_NM_PER_S = 2000.0
+RAMPS = (
+    "assist_ramp_up_nm_per_s",
+    "assist_ramp_down_nm_per_s",
+    "mode_ramp_up_nm_per_s",
+    "mode_ramp_down_nm_per_s",
+)
 
 Config = Mapping[str, Any]
 Floats = npt.NDArray[np.float32]
@@ -85,10 +90,9 @@ def torque_surface(
 
 
 def _no_ramps() -> Config:
-    slots = [int(NO_RAMP_NM_PER_S)] * 5
+    """Ramps as steep as they can be set."""
+    most = {name: law.parameter_range(name)[1] for name in RAMPS}
     return {
-        "assist_ramp_up_nm_per_s": NO_RAMP_NM_PER_S,
-        "assist_ramp_down_nm_per_s": NO_RAMP_NM_PER_S,
-        "mode_ramp_up_nm_per_s": slots,
-        "mode_ramp_down_nm_per_s": slots,
+        name: [int(steepest)] * 5 if name.startswith("mode_") else steepest
+        for name, steepest in most.items()
     }

@@ -14,7 +14,7 @@ from typing import Protocol
 
 import numpy as np
 
-from backend.domain.channels import ChannelSpec, Counts
+from backend.domain.channels import ChannelSpec, Counts, Values
 from backend.domain.energy import FACTORS, derive
 from backend.domain.pyramid import STEPS, Level
 from backend.domain.ride import Ride, RideRows, TimesUs
@@ -102,6 +102,15 @@ class RideReader:
             name: stored[name] if name in self._recorded else self._derive(name, stored)
             for name in names
         }
+
+    def values(
+        self, names: Sequence[str], start: int = 0, stop: int | None = None
+    ) -> dict[str, Values]:
+        """Values of rows [start, stop), missing as NaN, of those of the channels that it has."""
+        offered = {channel.name: channel for channel in self.offered}
+        chosen = [name for name in names if name in offered]
+        counts = self.counts(chosen, start, self.row_count if stop is None else stop)
+        return {name: offered[name].to_values(counts[name]) for name in chosen}
 
     def chunks(self, names: Sequence[str], rows: int) -> Iterator[RideRows]:
         """The whole ride, `rows` rows at a time."""

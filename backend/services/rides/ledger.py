@@ -21,8 +21,8 @@ from backend.services.rides.replay import ConfigOf
 from backend.services.rides.use_of_table import (
     PIECE_ROWS,
     channels_missing,
+    names_for_use,
     needs_gain,
-    read_columns,
     row_seconds,
     slots_by,
 )
@@ -54,10 +54,10 @@ class EnergyLedger:
         uses = {table: TableUse.none() for table in PARAMETERS_OF}
         seconds, motor_ws, excluded_s = np.zeros(SLOTS), np.zeros(SLOTS), 0.0
         measured = False
-        row_s = row_seconds(reader)
+        row_s, names = row_seconds(reader), names_for_use(reader.ride)
         for start in range(0, reader.row_count, PIECE_ROWS):
             stop = min(start + PIECE_ROWS, reader.row_count)
-            columns, spent_s = read_columns(reader, start, stop), row_s[start:stop]
+            columns, spent_s = reader.values(names, start, stop), row_s[start:stop]
             power_w = columns.get(MOTOR_POWER.name, np.full(stop - start, np.nan))
             there = np.isfinite(power_w)
             measured |= bool(there.any())

@@ -23,16 +23,13 @@ from backend import control
 from backend.control import proposal
 from backend.control.front_search import GENERATIONS, POPULATION, Tried, front_of
 from backend.domain.assist_mode import AssistModes
+from backend.domain.energy import SECONDS_PER_HOUR
 from backend.domain.fuzzy_table import FuzzyTable
 from backend.domain.rider_and_bike import RiderAndBike
 from backend.errors import Conflict, InvalidRequest, NotFound, SpindleError
 from backend.ingest.library_document import settings_document
 from backend.services.rides.replay import ConfigOf, read_columns
-from backend.services.rides.ride_again import (
-    refuse_what_cannot_be_laid_over,
-    refuse_what_differs,
-    with_brake,
-)
+from backend.services.rides.ride_again import twin_of
 from backend.services.tuning.certify import KeptCertificates
 from backend.store import Store
 
@@ -154,7 +151,7 @@ class Proposals:
             raise Conflict(f"{waiting} proposals are being made: wait or cancel one.", "busy")
         config, source = self._config_of(self._store.rides.get(ride_ids[0]))
         config = {**control.law_defaults(), **config}
-        twins = [self._twin(ride_id, config, told or RiderAndBike()) for ride_id in ride_ids]
+        twins = [self._twin(ride_id, told or RiderAndBike()) for ride_id in ride_ids]
         road = proposal.Road(twins, objective, config)
         space = proposal.Space(config, road.modes, knobs)
         if target_pct is None:
@@ -206,18 +203,10 @@ class Proposals:
             raise NotFound(f"There is no proposal {job_id}: this server keeps the newest alone.")
         return found
 
-    def _twin(
-        self, ride_id: int, config: Mapping[str, Any], told: RiderAndBike
-    ) -> control.RoadTwin:
+    def _twin(self, ride_id: int, told: RiderAndBike) -> control.RoadTwin:
         reader = self._store.rides.reader(ride_id)
-        columns = read_columns(reader)
-        refuse_what_cannot_be_laid_over(reader, columns)
-        step_s = (reader.ride.period_us or 0) / 1e6
         own = {**control.law_defaults(), **self._config_of(reader.ride)[0]}
-        ride = control.recorded_ride(with_brake(columns), own, step_s)
-        twin = control.RoadTwin(ride, own, told)
-        refuse_what_differs(ride_id, twin)
-        return twin
+        return twin_of(reader, read_columns(reader), own, told)
 
     def _tell(self, work: _Work, **news: Any) -> None:
         with self._lock:
@@ -346,7 +335,7 @@ def figures(work: _Work, config: Mapping[str, Any]) -> tuple[Figure, Figure]:
     the motor's work."""
     after, before = work.road.ridden(config), work.road.before
     assert after is not None
-    told = [twin.corrected(twin.ridden(config, twin.rider)[0]) for twin in work.twins]
+    told = [twin.corrected(totals) for twin, totals in zip(work.twins, after.totals, strict=True)]
     bands = [twin.band(config) for twin in work.twins]
     work_j, time_s = (
         [sum(band[name][end] for band in bands) for end in (0, 1)]
@@ -354,7 +343,7 @@ def figures(work: _Work, config: Mapping[str, Any]) -> tuple[Figure, Figure]:
     )
     low, high = (end / max(sum(one["motor_work_j"] for one in told), 1.0) for end in work_j)
     duration_s = sum(one["duration_s"] for one in told)
-    per_km = 1.0 / 3600.0 / work.road.distance_km
+    per_km = 1.0 / SECONDS_PER_HOUR / work.road.distance_km
     battery = after.battery_j * per_km
     return (
         Figure(

@@ -122,7 +122,6 @@ class RideReplay:
                 columns,
                 config,
                 changed_config(config, fuzzy_table, assist_modes, second_table),
-                step_s,
                 told,
             ),
         }
@@ -134,7 +133,7 @@ def read_columns(reader: RideReader, start: int = 0, stop: int | None = None) ->
     Rows [start, stop), the whole ride without them. Raises InvalidRequest if the ride lacks one, or
     is sampled too slowly.
     """
-    offered = {channel.name: channel for channel in reader.ride.channels}
+    offered = {channel.name for channel in reader.ride.channels}
     torque = next((name for name in TORQUES if name in offered), TORQUES[0])
     missing = [name for name in (*NEEDED, torque) if name not in offered]
     if missing:
@@ -150,10 +149,9 @@ def read_columns(reader: RideReader, start: int = 0, stop: int | None = None) ->
             code="too_slow",
         )
     names = [*NEEDED, torque, *OPTIONAL, FLAGS, LIMITS, *(channel.name for channel in COMPARED)]
-    chosen = [name for name in names if name in offered]
-    counts = reader.counts(chosen, start, reader.row_count if stop is None else stop)
     spans = [span.rows(reader.period_us) for span in reader.ride.filled]
-    return {name: held(offered[name].to_values(counts[name]), spans, start) for name in chosen}
+    read = reader.values(names, start, stop)
+    return {name: held(values, spans, start) for name, values in read.items()}
 
 
 def held(values: Values, spans: Sequence[tuple[int, int]], first: int) -> Values:

@@ -24,7 +24,7 @@ from backend.store import RideReader
 WORK_ERROR_MAX = 0.01
 TIME_ERROR_MAX = 0.03
 HOLES_MAX = 0.01
-LONGEST_S = 4 * 3600.0
+LONGEST_S = 4 * SECONDS_PER_HOUR
 """A band of it takes some twenty seconds of a thread."""
 SLOW_KMH = 6.0
 SLOW_SHARE_MAX = 0.1
@@ -49,7 +49,6 @@ def ridden_again(
     columns: Columns,
     config: Config,
     changed: Config,
-    step_s: float,
     told: RiderAndBike,
 ) -> dict[str, Any]:
     """The estimate as the API tells it.
@@ -58,10 +57,7 @@ def ridden_again(
     place. told: of rider and bike. Raises InvalidRequest with the reason where the ride cannot be
     trusted for that.
     """
-    refuse_what_cannot_be_laid_over(reader, columns)
-    ride = control.recorded_ride(with_brake(columns), config, step_s)
-    twin = control.RoadTwin(ride, config, told)
-    refuse_what_differs(reader.ride.id, twin)
+    twin = twin_of(reader, columns, config, told)
     again, samples = twin.ridden(changed, twin.rider, sample_steps=1)
     if again.gave_up:
         raise InvalidRequest(
@@ -76,13 +72,27 @@ def ridden_again(
         "limits": limits(twin, own, again),
         "curves": curves(twin, own_samples, samples),
         "trust": {
-            "no_change_error_pct": 100.0 * share_off(own.motor_work_j, ride.motor_work_j),
-            "no_change_time_error_pct": 100.0 * (own.duration_s / ride.duration_s - 1.0),
+            "no_change_error_pct": 100.0 * share_off(own.motor_work_j, twin.ride.motor_work_j),
+            "no_change_time_error_pct": 100.0 * (own.duration_s / twin.ride.duration_s - 1.0),
             "one_gear": twin.one_gear,
             "mass_kg": twin.assumed.mass_kg,
             "drag_area_m2": twin.assumed.drag_area_m2,
         },
     }
+
+
+def twin_of(
+    reader: RideReader, columns: Columns, config: Config, told: RiderAndBike
+) -> control.RoadTwin:
+    """The ride's twin. columns: as the replay reads them. config: the unit's on the ride. told: of
+    rider and bike. Raises InvalidRequest with the reason where the ride cannot be trusted for
+    that."""
+    refuse_what_cannot_be_laid_over(reader, columns)
+    step_s = (reader.ride.period_us or 0) / 1e6
+    ride = control.recorded_ride(with_brake(columns), config, step_s)
+    twin = control.RoadTwin(ride, config, told)
+    refuse_what_differs(reader.ride.id, twin)
+    return twin
 
 
 def with_brake(columns: Columns) -> dict[str, Values]:
@@ -105,7 +115,8 @@ def refuse_what_cannot_be_laid_over(reader: RideReader, columns: Columns) -> Non
     seconds = columns["speed_kmh"].size * (ride.period_us or 0) / 1e6
     if seconds > LONGEST_S:
         raise InvalidRequest(
-            f"{start} it took longer than {LONGEST_S / 3600.0:.0f} h.", code="ride_too_long"
+            f"{start} it took longer than {LONGEST_S / SECONDS_PER_HOUR:.0f} h.",
+            code="ride_too_long",
         )
     missing = np.mean(~np.isfinite(columns["speed_kmh"])) if columns["speed_kmh"].size else 1.0
     if missing > HOLES_MAX:
@@ -113,13 +124,10 @@ def refuse_what_cannot_be_laid_over(reader: RideReader, columns: Columns) -> Non
             f"{start} {missing:.0%} of its speed is missing; a road with holes has no length.",
             code="holes",
         )
-    offered = {channel.name: channel for channel in reader.ride.channels}
-    if FAULTS in offered:
-        counts = reader.counts([FAULTS], 0, reader.row_count)[FAULTS]
-        if np.nan_to_num(offered[FAULTS].to_values(counts)).any():
-            raise InvalidRequest(
-                f"{start} the unit told faults on it, and a twin has none.", code="faults"
-            )
+    if any(np.nan_to_num(faults).any() for faults in reader.values([FAULTS]).values()):
+        raise InvalidRequest(
+            f"{start} the unit told faults on it, and a twin has none.", code="faults"
+        )
     speed = columns["speed_kmh"]
     slow_s = np.count_nonzero((speed > 1.0) & (speed < SLOW_KMH)) * (ride.period_us or 0) / 1e6
     moving_s = np.count_nonzero(speed > 1.0) * (ride.period_us or 0) / 1e6

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from backend.domain.energy import SECONDS_PER_HOUR
 from backend.domain.revision import Revision
 from backend.domain.ride import Ride
 from backend.errors import NotFound
@@ -81,7 +82,7 @@ def figures(rides: Sequence[Ride]) -> dict[str, Any]:
     return {
         "ride_ids": [ride.id for ride in rides],
         "distance_km": km,
-        "speed_kmh_mean": km / (moving_s / 3600.0) if moving_s else None,
+        "speed_kmh_mean": km / (moving_s / SECONDS_PER_HOUR) if moving_s else None,
         "motor_rides": len(each),
         "motor_wh_per_km": by_km(rides, "motor_wh"),
         "motor_wh_per_km_least": min(each, default=None),

@@ -122,11 +122,11 @@ class UseOfTable:
     ) -> TableUse:
         """One ride's use of the table, read piece by piece."""
         reader = self._store.rides.reader(ride.id)
-        seconds = row_seconds(reader)
+        seconds, names = row_seconds(reader), names_for_use(reader.ride)
         use = TableUse.none()
         for start in range(0, reader.row_count, PIECE_ROWS):
             stop = min(start + PIECE_ROWS, reader.row_count)
-            columns = read_columns(reader, start, stop)
+            columns = reader.values(names, start, stop)
             acts = acting(columns, slots, needs_gain(config))
             use += table_use(
                 {name: values[acts] for name, values in columns.items()},
@@ -174,14 +174,11 @@ def needs_gain(config: Mapping[str, Any]) -> bool:
     return str(config.get("fuzzy_falling_torque", HOLD_ZERO_RATE)).lower() != HOLD_ZERO_RATE
 
 
-def read_columns(reader: RideReader, start: int, stop: int) -> dict[str, Values]:
-    """What the view asks for of rows [start, stop), as far as the ride has it; missing as NaN."""
-    offered = {channel.name: channel for channel in reader.offered}
+def names_for_use(ride: Ride) -> list[str]:
+    """What the view asks for of a ride, some of which it may lack."""
+    offered = {channel.name for channel in ride.offered}
     asked = next(name for name in ASKED if name in offered)
-    names = [*NEEDED, asked, FUZZY_GAIN, MOTOR_POWER.name]
-    chosen = [name for name in names if name in offered]
-    counts = reader.counts(chosen, start, stop)
-    return {name: offered[name].to_values(counts[name]) for name in chosen}
+    return [*NEEDED, asked, FUZZY_GAIN, MOTOR_POWER.name]
 
 
 def row_seconds(reader: RideReader) -> Values:

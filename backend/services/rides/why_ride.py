@@ -82,12 +82,10 @@ class WhyRide:
     def cuts(self, ride_id: int) -> list[dict[str, Any]]:
         """Stretches in which a limit held the motor back, in order of time, as the unit told it."""
         reader = self._store.rides.reader(ride_id)
-        offered = {channel.name: channel for channel in reader.ride.channels}
-        if LIMITS not in offered or reader.period_us is None:
+        told = reader.values([LIMITS])
+        if LIMITS not in told or reader.period_us is None:
             return []
-        counts = reader.counts([LIMITS], 0, reader.row_count)[LIMITS]
-        flags = np.nan_to_num(offered[LIMITS].to_values(counts)).astype(np.uint16)
-        return cuts_of(flags, reader.period_us / 1e6)
+        return cuts_of(np.nan_to_num(told[LIMITS]).astype(np.uint16), reader.period_us / 1e6)
 
     def _known_config(self, ride: Ride) -> Mapping[str, Any]:
         config, source = self._config_of(ride)

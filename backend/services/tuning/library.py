@@ -6,8 +6,6 @@ a unit. Whatever is changed or deleted stays among the versions of its item.
 
 from __future__ import annotations
 
-import hashlib
-import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -15,6 +13,7 @@ from datetime import datetime
 from typing import Any, Literal, Protocol
 
 from backend.control import presets
+from backend.domain.canonical_json import sha256_of
 from backend.domain.library_item import LibraryVersion
 from backend.errors import AccessDenied, ConfigConflict, Conflict, NotFound
 from backend.ingest.library_document import library_document
@@ -202,8 +201,7 @@ def row_of(item: LibraryVersion) -> LibraryRow:
 
 def preset_etag(document: Document) -> str:
     """Names what a preset holds: it changes with the content and with nothing else."""
-    content = json.dumps(document, sort_keys=True, separators=(",", ":"))
-    return f'"{hashlib.sha256(content.encode()).hexdigest()[:16]}"'
+    return f'"{sha256_of(document)[:16]}"'
 
 
 def item_etag(item: LibraryVersion) -> str:

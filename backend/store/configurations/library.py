@@ -6,8 +6,6 @@ alone writes, so one lock decides who was first.
 
 from __future__ import annotations
 
-import hashlib
-import json
 import threading
 import time
 from collections.abc import Callable, Mapping
@@ -16,6 +14,7 @@ from typing import Any
 from sqlalchemy import Connection, Row, Select, func, insert, select, update
 
 from backend.domain.author import proof_of
+from backend.domain.canonical_json import sha256_of
 from backend.domain.library_item import LibraryVersion
 from backend.errors import Conflict
 from backend.store import tables as t
@@ -152,13 +151,12 @@ def append(
     connection: Connection, item_id: int, seq: int, body: Body, author: str, deleted: bool = False
 ) -> LibraryVersion:
     """Add a state to an item."""
-    text = json.dumps(body, sort_keys=True, separators=(",", ":"))
     values = {
         "item_id": item_id,
         "seq": seq,
         "deleted": deleted,
         "body": dict(body),
-        "sha256": hashlib.sha256(text.encode()).hexdigest(),
+        "sha256": sha256_of(body),
         "author": author,
         "author_proof": proof_of(author),
         "created_us": now_us(),

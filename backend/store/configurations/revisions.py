@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import time
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -11,6 +9,7 @@ from typing import Any
 from sqlalchemy import Connection, insert, select
 
 from backend.domain.author import proof_of
+from backend.domain.canonical_json import sha256_of
 from backend.domain.revision import Revision
 from backend.store import tables as t
 from backend.store.database import Database
@@ -40,10 +39,9 @@ class RevisionLog:
 
         parameters: the whole configuration as plain JSON. Raises StoreError.
         """
-        body = json.dumps(parameters, sort_keys=True, separators=(",", ":"))
         values = {
             "body": dict(parameters),
-            "sha256": hashlib.sha256(body.encode()).hexdigest(),
+            "sha256": sha256_of(parameters),
             "generation": generation,
             "crc32": crc32,
             "changed": [dict(change) for change in changed],
