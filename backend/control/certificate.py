@@ -4,7 +4,7 @@ The unit's C is a pipeline that ends at the market's step, so most of a proof is
 step after the law raises the torque, and what a step bounds stays bounded. The rest is bounds over
 every cell of the tables, not over their points alone (corner_bounds), and what filters, ramps and
 counters can remember, in control steps. Float32 rounding is within every bound. The constants below
-are those of `sim_device/firmware/control`; tests ride its C against what is claimed here.
+are those of `sim_device/firmware/control`; tests compare them, and ride its C against the claims.
 
 The steps see readings. Whether a reading is true or late, and whether the motor gives what it is
 told, no proof about the law can say: NOT_COVERED names it.

@@ -1,21 +1,25 @@
 """Goal: nothing that the unit does passes what a certificate claims, and the claims are near to it.
 
-Method: gains of hostile tables, sampled on, beside and between their points by the unit's C; then
-rides of that C through configurations anywhere in the registry's ranges, with stops, brakes, lost
-readings and walk assist, held against every claim step by step. A claim that no ride comes near
-would be true of anything: for each there is a ride that reaches a stated share of it.
+Method: the premises, as the C's sources have them; gains of hostile tables, sampled on, beside and
+between their points by the unit's C; then rides of that C through configurations anywhere in the
+registry's ranges, with stops, brakes, lost readings and walk assist, held against every claim step
+by step. A claim that no ride comes near would be true of anything: for each there is a ride that
+reaches a stated share of it.
 """
 
 from __future__ import annotations
 
 import math
 import random as plain_random
+import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import pytest
 
+from backend.control import certificate as method
 from backend.control.certificate import certify
 from backend.control.corner_bounds import gain_most
 from backend.domain.certificate import Certificate
@@ -28,6 +32,7 @@ from tests.unit.control.test_gain_bounds import hostile_table, samples
 from tests.unit.sim_device.test_markets import BAND_KMH, CONTINUOUS_W, CUTOFF_KMH, PEAK_W, WALK_KMH
 from tests.unit.sim_device.test_no_transient_breaks_a_law import drawn_config, drawn_ride
 
+CONTROL = Path(__file__).resolve().parents[3] / "sim_device" / "firmware" / "control"
 TABLES = 10_000
 RIDES = 1_000
 STEP_S = 0.01
@@ -284,6 +289,27 @@ def test_names_are_not_part_of_what_is_certified_but_every_rule_is() -> None:
     assert len({one.sha256, changed.sha256, newer.sha256}) == 3
     assert one.table_sha256 == newer.table_sha256 != changed.table_sha256
     assert one.market_sha256 == changed.market_sha256
+
+
+@pytest.mark.parametrize(
+    ("premise", "file", "in_c"),
+    [
+        (method.MEAN_S, "market_limit.c", "POWER_MEAN_S = (.+)f;"),
+        (method.HEADROOM, "market_limit.c", "POWER_HEADROOM = (.+)f;"),
+        (method.HALF_SECOND_S, "cutoffs.c", "PUSH_HALF_SECOND_S = (.+)f;"),
+        (method.HALF_SECONDS, "assist_types.h", r"push_peak_nm\[(\d+)\];"),
+        (method.PUSH_NM, "cutoffs.c", "PUSH_NM_MIN = (.+)f;"),
+        (1000.0 * method.HOLD_S, "ramps.c", "define TORQUE_HOLD_MS (.+)u"),
+        (method.LOST_NM_PER_S, "ramps.c", "LOST_RAMP_NM_PER_S = (.+)f;"),
+        (method.BATTERY_V, "battery_power.c", "NOMINAL_V = (.+)f;"),
+    ],
+)
+def test_a_premise_of_the_proof_is_the_constant_of_the_c(
+    premise: float, file: str, in_c: str
+) -> None:
+    (found,) = re.findall(in_c, (CONTROL / file).read_text())
+
+    assert float(found) == pytest.approx(premise, rel=1e-12)
 
 
 def test_what_the_unit_refuses_gets_no_certificate() -> None:
