@@ -38,6 +38,7 @@ from backend.services.rides.propose import Proposals
 from backend.services.rides.record import Recorder
 from backend.services.rides.replay import RideReplay
 from backend.services.rides.review import Rides
+from backend.services.rides.ride_again import RideAgain
 from backend.services.rides.since_change import SinceChange
 from backend.services.rides.use_of_table import UseOfTable
 from backend.services.rides.why_ride import WhyRide
@@ -112,7 +113,6 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
         closing.enter_context(housekeeping(work))
         for url in settings.device:
             in_background(url, partial(devices.add, url))
-        preview = Preview()
         library = Library(store.library)
         proposals = Proposals(store, memory.ride_config, certificates)
         closing.callback(proposals.close)
@@ -126,11 +126,12 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             dashboards=dashboards,
             tuning=tuning,
             live=LiveTuning(devices),
-            preview=preview,
+            preview=Preview(),
             library=library,
             compare=Compare(library, tuning),
             certify=Certify(certificates, devices, tuning, library),
-            rides=Rides(store, RideReplay(preview, memory.ride_config), devices.unit_at),
+            rides=Rides(store, RideReplay(Preview(), memory.ride_config), devices.unit_at),
+            ride_again=RideAgain(store, memory.ride_config),
             proposals=proposals,
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
             since_change=SinceChange(store, tuning.revisions),

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from backend.services.rides.ledger import EnergyLedger
     from backend.services.rides.propose import Proposals
     from backend.services.rides.review import Rides
+    from backend.services.rides.ride_again import RideAgain
     from backend.services.rides.since_change import SinceChange
     from backend.services.rides.use_of_table import UseOfTable
     from backend.services.rides.why_ride import WhyRide
@@ -47,6 +48,7 @@ class Services:
     compare: Compare
     certify: Certify
     rides: Rides
+    ride_again: RideAgain
     proposals: Proposals
     use_of_table: UseOfTable
     since_change: SinceChange

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from backend.cli.client import print_json, print_table, text_of
-from backend.cli.device import read_json, server_of
+from backend.cli.device import backup_at, read_json, server_of
 from backend.errors import RequestRefused
 
 
@@ -105,7 +105,7 @@ def export(options: Namespace) -> int:
 
 
 def replay(options: Namespace) -> int:
-    """What the motor would have done with another table or other modes."""
+    """What the motor would have done with other settings; or the same road again with them."""
     body = {
         name: read_json(file)
         for name, file in (
@@ -115,15 +115,18 @@ def replay(options: Namespace) -> int:
         )
         if file is not None
     }
-    body["mode"] = "closed_loop" if options.closed_loop else "open_loop"
-    body |= {"mass_kg": options.mass_kg, "drag_area_m2": options.drag_area_m2}
-    answer = server_of(options).ask("POST", f"/rides/{options.ride}/replay", json=body)
+    if options.settings is not None:
+        body["parameters"] = backup_at(options.settings).parameters
+    server, path = server_of(options), f"/rides/{options.ride}"
+    if options.closed_loop:
+        told = {"mass_kg": options.mass_kg, "drag_area_m2": options.drag_area_m2}
+        estimate = server.ask("POST", f"{path}/again", json=body | told)
+        print_json(estimate) if options.json else print_estimate(estimate)
+        return 0
+    answer = server.ask("POST", f"{path}/replay", json=body)
     if options.json:
         print_json(answer)
         return 0
-    estimate = answer.pop("closed_loop")
-    if estimate is not None:
-        print_estimate(estimate)
     print(answer.pop("meaning"))
     for name, value in answer.items():
         if not isinstance(value, dict | list):
@@ -161,7 +164,6 @@ def print_estimate(estimate: dict[str, Any]) -> None:
     print_table(held, ["seconds held back by", "recorded", "replayed"])
     for name, value in estimate["trust"].items():
         print(f"{name:32} {text_of(value)}")
-    print()
 
 
 def list_files(options: Namespace) -> int:

@@ -23,7 +23,7 @@ from backend.control.road_figures import (
 from backend.control.torque_surface import TorqueSurface, torque_surface
 from backend.control.twin import WORK_LEAST_J, Band, RoadTwin
 from backend.control.why import Why, why, why_steady
-from sim_device.firmware.python.law import LIMITS, law_defaults
+from sim_device.firmware.python.law import LIMITS, OF_THE_BIKE, law_defaults
 from sim_device.firmware.python.twin import Totals
 
 __all__ = [
@@ -31,6 +31,7 @@ __all__ = [
     "ENGINE",
     "HARD_PUSH_NM",
     "LIMITS",
+    "OF_THE_BIKE",
     "WORK_LEAST_J",
     "Band",
     "Cutoff",

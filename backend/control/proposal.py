@@ -20,7 +20,7 @@ from backend.control.twin import RoadTwin
 from backend.domain.energy import SECONDS_PER_HOUR
 from backend.domain.fuzzy_table import LABELS, PARAMETERS_OF, FuzzyTable
 from backend.errors import InvalidRequest
-from sim_device.firmware.python.law import STEP_S, LawRefused, parameter_range
+from sim_device.firmware.python.law import STEP_S, parameter_range
 from sim_device.firmware.python.twin import Totals
 
 Floats = npt.NDArray[np.float64]
@@ -215,7 +215,7 @@ class Road:
         for twin in self._twins:
             try:
                 told, samples = twin.ridden(config, twin.rider, SAMPLE_STEPS)
-            except LawRefused:
+            except InvalidRequest:
                 return None
             if told.gave_up:
                 return None

@@ -10,7 +10,7 @@ whose truth is known, work comes within 5 % and time within 1 % in nine of ten
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -29,6 +29,8 @@ from backend.control.road_figures import (
 )
 from backend.control.road_twin import CHAIN_EFFICIENCY, Assumed, air, road_of
 from backend.domain.rider_and_bike import RiderAndBike
+from backend.errors import InvalidRequest
+from sim_device.firmware.python.law import LawRefused
 from sim_device.firmware.python.twin import Bike, Rider, Totals, Twin
 
 LONGEST_SHARE = 3.0
@@ -111,8 +113,12 @@ class RoadTwin:
     def ridden(
         self, config: Mapping[str, Any], rider: Rider, sample_steps: int = 0
     ) -> tuple[Totals, npt.NDArray[np.void]]:
-        """The same road with this configuration; samples as in Twin.ride."""
-        return self._twin.ride(config, rider, sample_steps)
+        """The same road with this configuration; samples as in Twin.ride. Raises InvalidRequest
+        for what the law refuses."""
+        try:
+            return self._twin.ride(config, rider, sample_steps)
+        except LawRefused as refused:
+            raise InvalidRequest(f"replay: {refused}", "replay_refused") from refused
 
     def corrected(self, totals: Totals) -> Figures:
         """What a ride came to, less what the twin errs by without any change; a figure that was not
@@ -120,12 +126,21 @@ class RoadTwin:
         told = figures_of(totals)
         return {name: told[name] * self._record_over_twin[name] for name in told}
 
-    def band(self, config: Mapping[str, Any], count: int = DRAWS, seed: int = 0) -> Band:
+    def band(
+        self,
+        config: Mapping[str, Any],
+        before_each: Callable[[], None] = lambda: None,
+        count: int = DRAWS,
+        seed: int = 0,
+    ) -> Band:
         """Where nine of ten rides lie, over what a ride does not tell: mass, air, losses of the
-        motor's gears, and the rider's answer to another speed, each anywhere in its range."""
+        motor's gears, and the rider's answer to another speed, each anywhere in its range.
+
+        before_each: called before each of `count` rides; what it raises ends them."""
         random = np.random.default_rng(seed)
         found = []
         for number in range(count):
+            before_each()
             assumed = Assumed(
                 mass_kg=random.uniform(*around(self._told.mass_kg, MASSES_KG)),
                 drag_area_m2=random.uniform(*around(self._told.drag_area_m2, DRAG_AREAS_M2)),

@@ -137,6 +137,7 @@ def test_settings_for_a_wish_become_the_draft_and_nothing_is_written(
     page = tuner.open(f"/tune/try?ride={ride}&with=ride")
     before = workshop.get("/devices")["items"][0]["config"]
     proposals = page.get_by_test_id("proposals")
+    page.get_by_label("Rider and bike").fill("95")
     for knob in ("torque filter", "torque-rate points", "rules, as a monotone table"):
         proposals.get_by_label(knob).uncheck()
     look = proposals.get_by_role("button", name="Look on this ride")
@@ -148,8 +149,13 @@ def test_settings_for_a_wish_become_the_draft_and_nothing_is_written(
     wished = proposals.locator("[data-candidate]", has_text="as wished")
     expect(wished).to_be_visible(timeout=60_000)
     expect(wished).to_contain_text("Assist ratio of each mode")
-    wished.get_by_role("button", name="Try").click()
+    with page.expect_request("**/replay") as opened, page.expect_request("**/again") as closed:
+        wished.get_by_role("button", name="Try").click()
 
+    # Both loops are asked with the whole draft, whatever the proposal turned.
+    tried = opened.value.post_data_json["parameters"]
+    assert closed.value.post_data_json["parameters"] == tried
+    assert {"mode_ratios", "assist_cutoff_band_kmh", "torque_filter_s"} <= tried.keys()
     expect(page.get_by_label("Try", exact=True)).to_have_value("draft")
     expect(page.get_by_test_id("try-tables")).to_contain_text("changed, not yet in the unit")
     eventually(lambda: figure(page, "wh_per_km"), lambda f: f[1] < 0.97 * f[0])

@@ -8,6 +8,7 @@ from typing import Any, Literal
 from pydantic import Field
 
 from backend.api.models.base import Answer, Question
+from backend.api.models.config import Parameters
 from backend.api.models.law import AssistModes, FivePoints, FuzzyTable, Table
 from backend.domain.rider_and_bike import RiderAndBike
 
@@ -177,35 +178,47 @@ class Figure(Answer):
     layout: dict[str, Any]
 
 
-class ReplayRequest(Question):
-    mode: Literal["open_loop", "closed_loop"] = Field(
-        default="open_loop",
-        description="Open: speed and legs as recorded, the bike does not answer. Closed: beside it "
-        "an estimate by a twin of the bike; takes a second for some minutes of road.",
+class OtherSettings(Question):
+    """What takes the place of what the ride was made with; what is not told stays."""
+
+    parameters: Parameters = Field(
+        default_factory=dict,
+        max_length=400,
+        description="By registry name, as a unit's configuration or an entry of the library has "
+        "them. Those of sensor, wheel and drivetrain stay as they were on the ride.",
     )
     fuzzy_table: FuzzyTable | None = None
     second_table: FuzzyTable | None = Field(
         default=None, description="Shares speed and torque-rate points with the first."
     )
     assist_modes: AssistModes | None = None
+
+    def changes(self) -> dict[str, Any]:
+        """The settings alone."""
+        return self.model_dump(include=set(OtherSettings.model_fields))
+
+
+class ReplayRequest(OtherSettings):
+    mode: Literal["open_loop"] = "open_loop"
+
+
+class AgainRequest(OtherSettings):
     mass_kg: float | None = Field(
         default=None,
         ge=30.0,
         le=400.0,
-        description="Closed loop: rider, bike and load. Without it 92 kg, and a wider band.",
+        description="Rider, bike and load. Without it 92 kg, and a wider band.",
     )
     drag_area_m2: float | None = Field(
         default=None,
         ge=0.1,
         le=2.0,
-        description="Closed loop: drag coefficient times frontal area; 0.4 bent low to 0.6 upright."
-        " Without it 0.5, and a wider band.",
+        description="Drag coefficient times frontal area; 0.4 bent low to 0.6 upright. Without it "
+        "0.5, and a wider band.",
     )
 
-    def told(self) -> RiderAndBike | None:
-        """Of rider and bike, for a closed loop; None in open loop."""
-        if self.mode == "open_loop":
-            return None
+    def told(self) -> RiderAndBike:
+        """Of rider and bike."""
         return RiderAndBike(self.mass_kg, self.drag_area_m2)
 
 
@@ -268,7 +281,7 @@ class RideCurves(Answer):
 
 
 class ClosedLoop(Answer):
-    """The same road again with this table: an estimate with its band.
+    """The same road again with other settings: an estimate with its band.
 
     Peak torque and its steepest rise are not told: they cannot be forecast.
     """
@@ -295,7 +308,7 @@ class ClosedLoop(Answer):
 
 
 class Replay(Answer):
-    """What the motor would have done with another table, beside what it did.
+    """What the motor would have done with other settings, beside what it did.
 
     `series` has each compared channel as recorded, and as replayed under `replayed_` and its name.
     `limit_shares`: part of the samples, 0 to 1, in which each limit of the registry held the motor
@@ -303,7 +316,7 @@ class Replay(Answer):
     """
 
     ride_id: int
-    mode: Literal["open_loop", "closed_loop"]
+    mode: Literal["open_loop"]
     meaning: str = Field(description="What the open loop leaves out, in English.")
     config_source: Literal["ride", "defaults"] = Field(
         description="Whose parameters the rest of the law ran with."
@@ -341,7 +354,6 @@ class Replay(Answer):
         description="The same as the unit told it on the ride; null where it did not."
     )
     series: Series
-    closed_loop: ClosedLoop | None = Field(description="Null where only open loop was asked.")
 
 
 class TableUseRequest(Question):

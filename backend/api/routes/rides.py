@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
@@ -11,8 +11,11 @@ from fastapi import APIRouter, Path, Query, Request, Response, status
 from fastapi.responses import JSONResponse, StreamingResponse
 from pydantic import BeforeValidator
 
+from backend.api.asker import while_asked
 from backend.api.large import in_pieces, whole
 from backend.api.models.ride import (
+    AgainRequest,
+    ClosedLoop,
     Figure,
     Replay,
     ReplayRequest,
@@ -160,17 +163,28 @@ def export_ride(
     responses=DAMAGED,
 )
 def replay_ride(ride_id: RideId, body: ReplayRequest, services: Provided) -> Any:
-    """Runs the ride's inputs through the unit's own law with other tables or other modes; in closed
-    loop the bike answers, and 422 says why where that cannot be trusted."""
-    question = body.model_dump()
-    answer = services.rides.replay(
-        ride_id,
-        question["fuzzy_table"],
-        question["assist_modes"],
-        question["second_table"],
-        body.told(),
-    )
-    return whole(Replay, answer)
+    """Runs the ride's inputs through the unit's own law with other settings; speed and legs are as
+    recorded, the bike does not answer."""
+    return whole(Replay, services.rides.replay(ride_id, **body.changes()))
+
+
+@router.post(
+    "/{ride_id}/again",
+    operation_id="ride_again",
+    response_model=ClosedLoop,
+    responses=DAMAGED,
+)
+async def ride_again(
+    ride_id: RideId, body: AgainRequest, request: Request, services: Provided
+) -> Any:
+    """The same road again with other settings, by a twin of the bike; 422 says why where that
+    cannot be trusted. Takes a second for some minutes of road, and ends when nobody waits."""
+
+    def work(still_asked: Callable[[], None]) -> Any:
+        told = services.ride_again(ride_id, body.told(), still_asked, **body.changes())
+        return whole(ClosedLoop, told)
+
+    return await while_asked(request, work)
 
 
 @router.get("/{ride_id}/why", operation_id="why_of_ride", response_model=Why, responses=DAMAGED)

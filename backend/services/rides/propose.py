@@ -28,7 +28,7 @@ from backend.domain.fuzzy_table import FuzzyTable
 from backend.domain.rider_and_bike import RiderAndBike
 from backend.errors import Conflict, InvalidRequest, NotFound, SpindleError
 from backend.ingest.library_document import settings_document
-from backend.services.rides.replay import ConfigOf, read_columns
+from backend.services.rides.replay import ConfigOf
 from backend.services.rides.ride_again import twin_of
 from backend.services.tuning.certify import KeptCertificates
 from backend.store import Store
@@ -206,7 +206,7 @@ class Proposals:
     def _twin(self, ride_id: int, told: RiderAndBike) -> control.RoadTwin:
         reader = self._store.rides.reader(ride_id)
         own = {**control.law_defaults(), **self._config_of(reader.ride)[0]}
-        return twin_of(reader, read_columns(reader), own, told)
+        return twin_of(reader, own, told)
 
     def _tell(self, work: _Work, **news: Any) -> None:
         with self._lock:

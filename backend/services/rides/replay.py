@@ -21,10 +21,8 @@ from backend.domain._generated import INPUT_FLAGS
 from backend.domain.channels import ChannelSpec, Values
 from backend.domain.energy import DELIVERED, RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
 from backend.domain.ride import Ride
-from backend.domain.rider_and_bike import RiderAndBike
 from backend.errors import InvalidRequest
-from backend.services.rides.ride_again import ridden_again
-from backend.services.tuning.preview import Preview, changed_config
+from backend.services.tuning.preview import Preview
 from backend.store import RideReader
 from backend.views.trace import trace
 
@@ -49,7 +47,6 @@ COMPARED = (
     ChannelSpec("fuzzy_gain", "", 0.00005),
 )
 REPLAYED = "replayed_"
-OPEN, CLOSED = "open_loop", "closed_loop"
 OPEN_LOOP = (
     "Open loop: speed and legs as recorded. With more help the bike would have been faster and the"
     " ride shorter; this tells what the motor would have given at the speeds that were ridden."
@@ -72,23 +69,21 @@ class RideReplay:
     def __call__(
         self,
         reader: RideReader,
-        fuzzy_table: Mapping[str, Any] | None,
-        assist_modes: Mapping[str, Any] | None,
+        fuzzy_table: Mapping[str, Any] | None = None,
+        assist_modes: Mapping[str, Any] | None = None,
         second_table: Mapping[str, Any] | None = None,
-        told: RiderAndBike | None = None,
+        parameters: Mapping[str, Any] | None = None,
     ) -> dict[str, Any]:
-        """The comparison as the API tells it; with the estimate of a closed loop beside it where
-        `told` says what is known for that.
+        """The comparison as the API tells it. fuzzy_table and the rest: as of `changed_config`.
 
-        Raises InvalidRequest for a ride that lacks what the law needs or cannot be trusted for an
-        estimate, or a table the law refuses.
+        Raises InvalidRequest for a ride that lacks what the law needs, or settings it refuses.
         """
         ride = reader.ride
         columns = read_columns(reader)
         config, config_source = self._config_of(ride)
         step_s = (ride.period_us or 0) / 1e6
         replayed = self._preview.replay(
-            config, law_inputs(columns), fuzzy_table, assist_modes, step_s, second_table
+            config, law_inputs(columns), fuzzy_table, assist_modes, step_s, second_table, parameters
         )
         new_nm = np.asarray(replayed.motor_torque_nm, np.float64)
         # What was only asked of a motor is not compared with what it gives.
@@ -98,7 +93,7 @@ class RideReplay:
         distance_km = float(np.nansum(columns["speed_kmh"])) * step_s / SECONDS_PER_HOUR
         return {
             "ride_id": ride.id,
-            "mode": OPEN if told is None else CLOSED,
+            "mode": "open_loop",
             "meaning": OPEN_LOOP,
             "config_source": config_source,
             "engine": control.ENGINE,
@@ -115,15 +110,6 @@ class RideReplay:
             "limit_shares": replayed.limit_shares,
             "limit_shares_recorded": recorded_shares(columns.get(LIMITS)),
             "series": series(reader, columns, replayed_columns(replayed)),
-            "closed_loop": None
-            if told is None
-            else ridden_again(
-                reader,
-                columns,
-                config,
-                changed_config(config, fuzzy_table, assist_modes, second_table),
-                told,
-            ),
         }
 
 

@@ -12,7 +12,6 @@ import numpy as np
 from backend.domain.channels import ChannelSpec, Values
 from backend.domain.energy import DEMANDED, MOTOR_TORQUE, MOTOR_TORQUE_DEMANDED
 from backend.domain.ride import Ride, iso_utc
-from backend.domain.rider_and_bike import RiderAndBike
 from backend.errors import InvalidRequest, NotFound
 from backend.store import RideReader, Store, expected_of
 from backend.views.figure import figure
@@ -22,9 +21,8 @@ PIECE_BYTES = 1 << 16
 CSV_ROWS = 4096
 FORMATS = ("csv", "parquet", "original")
 
-# (the ride, fuzzy_table, assist_modes, second_table, told) -> the API's answer
-Changed = Mapping[str, Any] | None
-Replay = Callable[[RideReader, Changed, Changed, Changed, RiderAndBike | None], Any]
+# (the ride, what is changed) -> the API's answer
+Replay = Callable[..., Any]
 
 
 @dataclass(frozen=True)
@@ -131,20 +129,11 @@ class Rides:
             code="unsupported_format",
         )
 
-    def replay(
-        self,
-        ride_id: int,
-        fuzzy_table: Mapping[str, Any] | None = None,
-        assist_modes: Mapping[str, Any] | None = None,
-        second_table: Mapping[str, Any] | None = None,
-        told: RiderAndBike | None = None,
-    ) -> Any:
-        """What the motor would have done with other tables or other modes; `told`, of rider
-        and bike, asks for the same road again as well."""
+    def replay(self, ride_id: int, **changes: Mapping[str, Any] | None) -> Any:
+        """What the motor would have done with other settings, as of `changed_config`."""
         if self._replay is None:
             raise InvalidRequest("This server cannot replay rides.", code="unsupported")
-        reader = self._store.rides.reader(ride_id)
-        return self._replay(reader, fuzzy_table, assist_modes, second_table, told)
+        return self._replay(self._store.rides.reader(ride_id), **changes)
 
     def _original(self, ride: Ride) -> Export:
         if ride.upload_id is None:

@@ -7,7 +7,7 @@ its reason. What nobody recorded, above all what the rider does at another speed
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,9 @@ from backend.domain.channels import Values
 from backend.domain.energy import DELIVERED, SECONDS_PER_HOUR
 from backend.domain.rider_and_bike import RiderAndBike
 from backend.errors import InvalidRequest
-from backend.store import RideReader
+from backend.services.rides.replay import FLAGS, ConfigOf, read_columns
+from backend.services.tuning.preview import changed_config
+from backend.store import RideReader, Store
 
 WORK_ERROR_MAX = 0.01
 TIME_ERROR_MAX = 0.03
@@ -30,7 +32,6 @@ SLOW_KMH = 6.0
 SLOW_SHARE_MAX = 0.1
 SLOW_LEAST_S = 60.0
 BRAKE = "brake"
-FLAGS = "input_flags"
 FAULTS = "fault_flags"
 MEANING = (
     "Closed loop: the same road again with this table, ridden by a twin of the bike that was fitted"
@@ -42,51 +43,73 @@ Columns = Mapping[str, Values]
 Config = Mapping[str, Any]
 Estimate = dict[str, float]
 Samples = npt.NDArray[np.void]
+StillAsked = Callable[[], None]
+NOTHING_TOLD = RiderAndBike()
 
 
-def ridden_again(
-    reader: RideReader,
-    columns: Columns,
-    config: Config,
-    changed: Config,
-    told: RiderAndBike,
-) -> dict[str, Any]:
-    """The estimate as the API tells it.
+def as_ever() -> None:
+    """Somebody waits for the answer, however long it takes."""
 
-    columns: as the replay reads them. config: the unit's on the ride; changed: with what takes its
-    place. told: of rider and bike. Raises InvalidRequest with the reason where the ride cannot be
-    trusted for that.
-    """
-    twin = twin_of(reader, columns, config, told)
-    again, samples = twin.ridden(changed, twin.rider, sample_steps=1)
-    if again.gave_up:
-        raise InvalidRequest(
-            f"Ride {reader.ride.id} cannot be estimated with this table: with as little help the"
-            " bike would have stood where it was ridden.",
-            code="twin_stands",
-        )
-    own, own_samples = twin.ridden(config, twin.rider, sample_steps=1)
+
+class RideAgain:
+    """Rides one ride again at a time; holds nothing of it. Safe from any thread."""
+
+    def __init__(self, store: Store, config_of: ConfigOf) -> None:
+        self._store = store
+        self._config_of = config_of
+
+    def __call__(
+        self,
+        ride_id: int,
+        told: RiderAndBike = NOTHING_TOLD,
+        still_asked: StillAsked = as_ever,
+        **changes: Any,
+    ) -> dict[str, Any]:
+        """The estimate as the API tells it.
+
+        told: of rider and bike. still_asked: called before every ride of the twin; what it raises
+        ends the estimate. changes: as of `changed_config`. Raises NotFound; InvalidRequest with the
+        reason where the ride cannot be trusted for that, or for settings the law refuses.
+        """
+        reader = self._store.rides.reader(ride_id)
+        config, _ = self._config_of(reader.ride)
+        changed = changed_config(config, **changes)
+        twin = twin_of(reader, config, told)
+        still_asked()
+        again, samples = twin.ridden(changed, twin.rider, sample_steps=1)
+        if again.gave_up:
+            raise InvalidRequest(
+                f"Ride {ride_id} cannot be estimated with this table: with as little help the"
+                " bike would have stood where it was ridden.",
+                code="twin_stands",
+            )
+        own, own_samples = twin.ridden(config, twin.rider, sample_steps=1)
+        return {
+            "meaning": MEANING,
+            **estimates(twin, again, twin.band(changed, still_asked)),
+            "limits": limits(twin, own, again),
+            "curves": curves(twin, own_samples, samples),
+            "trust": trust(twin, own),
+        }
+
+
+def trust(twin: control.RoadTwin, own: control.Totals) -> dict[str, Any]:
+    """How far the twin is off without any change, and what it rests on."""
     return {
-        "meaning": MEANING,
-        **estimates(twin, again, twin.band(changed)),
-        "limits": limits(twin, own, again),
-        "curves": curves(twin, own_samples, samples),
-        "trust": {
-            "no_change_error_pct": 100.0 * share_off(own.motor_work_j, twin.ride.motor_work_j),
-            "no_change_time_error_pct": 100.0 * (own.duration_s / twin.ride.duration_s - 1.0),
-            "one_gear": twin.one_gear,
-            "mass_kg": twin.assumed.mass_kg,
-            "drag_area_m2": twin.assumed.drag_area_m2,
-        },
+        "no_change_error_pct": 100.0 * share_off(own.motor_work_j, twin.ride.motor_work_j),
+        "no_change_time_error_pct": 100.0 * (own.duration_s / twin.ride.duration_s - 1.0),
+        "one_gear": twin.one_gear,
+        "mass_kg": twin.assumed.mass_kg,
+        "drag_area_m2": twin.assumed.drag_area_m2,
     }
 
 
-def twin_of(
-    reader: RideReader, columns: Columns, config: Config, told: RiderAndBike
-) -> control.RoadTwin:
-    """The ride's twin. columns: as the replay reads them. config: the unit's on the ride. told: of
-    rider and bike. Raises InvalidRequest with the reason where the ride cannot be trusted for
-    that."""
+def twin_of(reader: RideReader, config: Config, told: RiderAndBike) -> control.RoadTwin:
+    """The ride's twin. config: the unit's on the ride. told: of rider and bike.
+
+    Raises InvalidRequest with the reason where the ride cannot be trusted for that.
+    """
+    columns = read_columns(reader)
     refuse_what_cannot_be_laid_over(reader, columns)
     step_s = (reader.ride.period_us or 0) / 1e6
     ride = control.recorded_ride(with_brake(columns), config, step_s)

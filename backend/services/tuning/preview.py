@@ -132,15 +132,17 @@ class Preview:
         assist_modes: Mapping[str, Any] | None = None,
         step_s: float = 0.01,
         second_table: Mapping[str, Any] | None = None,
+        parameters: Mapping[str, Any] | None = None,
     ) -> Replay:
-        """What the motor would have done on a recorded ride under another table or other modes.
+        """What the motor would have done on a recorded ride under other settings.
 
         config: the unit's parameters by registry name. arrays: `speed_kmh`, `cadence_rpm`, `mode`,
         and `torque_raw_counts` or `rider_torque_nm`, (n,) each; what else is known by the names of
-        control.replay. second_table: takes the place of the second, and has the points of the
-        first. Raises InvalidRequest.
+        control.replay. The rest as of `changed_config`. Raises InvalidRequest.
         """
-        changed = changed_config(config, fuzzy_table, assist_modes, second_table)
+        changed = changed_config(
+            config, fuzzy_table, assist_modes, second_table, parameters=parameters
+        )
         readings = dict(arrays)
         torque_nm = readings.pop("rider_torque_nm", None)
         if torque_nm is not None:
@@ -160,13 +162,16 @@ def changed_config(
     assist_modes: Mapping[str, Any] | None = None,
     second_table: Mapping[str, Any] | None = None,
     limits: Mapping[str, Any] | None = None,
+    parameters: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
-    """A configuration with other tables, modes or limits, by registry name.
+    """A configuration with other tables, modes, limits or parameters, by registry name.
 
     second_table: has the points of the first. limits: parameters by name, None where one stays.
-    Raises InvalidRequest.
+    parameters: any, before the others; sensor, wheel and drivetrain stay as they are. Raises
+    InvalidRequest.
     """
-    changed = dict(config)
+    chosen = (parameters or {}).items()
+    changed = {**config, **{name: one for name, one in chosen if name not in control.OF_THE_BIKE}}
     if fuzzy_table is not None:
         changed |= FuzzyTable.from_json(fuzzy_table).to_parameters()
     if second_table is not None:

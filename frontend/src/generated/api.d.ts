@@ -1050,10 +1050,31 @@ export interface paths {
         put?: never;
         /**
          * Replay Ride
-         * @description Runs the ride's inputs through the unit's own law with other tables or other modes; in closed
-         *     loop the bike answers, and 422 says why where that cannot be trusted.
+         * @description Runs the ride's inputs through the unit's own law with other settings; speed and legs are as
+         *     recorded, the bike does not answer.
          */
         post: operations["replay_ride"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/rides/{ride_id}/again": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Ride Again
+         * @description The same road again with other settings, by a twin of the bike; 422 says why where that
+         *     cannot be trusted. Takes a second for some minutes of road, and ends when nobody waits.
+         */
+        post: operations["ride_again"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1313,6 +1334,30 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /** AgainRequest */
+        AgainRequest: {
+            /**
+             * Parameters
+             * @description By registry name, as a unit's configuration or an entry of the library has them. Those of sensor, wheel and drivetrain stay as they were on the ride.
+             */
+            parameters?: {
+                [key: string]: number | string | (number | string)[] | (number | string)[][];
+            };
+            fuzzy_table?: components["schemas"]["FuzzyTable"] | null;
+            /** @description Shares speed and torque-rate points with the first. */
+            second_table?: components["schemas"]["FuzzyTable"] | null;
+            assist_modes?: components["schemas"]["AssistModes"] | null;
+            /**
+             * Mass Kg
+             * @description Rider, bike and load. Without it 92 kg, and a wider band.
+             */
+            mass_kg?: number | null;
+            /**
+             * Drag Area M2
+             * @description Drag coefficient times frontal area; 0.4 bent low to 0.6 upright. Without it 0.5, and a wider band.
+             */
+            drag_area_m2?: number | null;
+        };
         /** Alive */
         Alive: {
             /**
@@ -1589,7 +1634,7 @@ export interface components {
         };
         /**
          * ClosedLoop
-         * @description The same road again with this table: an estimate with its band.
+         * @description The same road again with other settings: an estimate with its band.
          *
          *     Peak torque and its steepest rise are not told: they cannot be forecast.
          */
@@ -3025,7 +3070,7 @@ export interface components {
         };
         /**
          * Replay
-         * @description What the motor would have done with another table, beside what it did.
+         * @description What the motor would have done with other settings, beside what it did.
          *
          *     `series` has each compared channel as recorded, and as replayed under `replayed_` and its name.
          *     `limit_shares`: part of the samples, 0 to 1, in which each limit of the registry held the motor
@@ -3036,9 +3081,9 @@ export interface components {
             ride_id: number;
             /**
              * Mode
-             * @enum {string}
+             * @constant
              */
-            mode: "open_loop" | "closed_loop";
+            mode: "open_loop";
             /**
              * Meaning
              * @description What the open loop leaves out, in English.
@@ -3098,32 +3143,26 @@ export interface components {
                 [key: string]: number;
             } | null;
             series: components["schemas"]["Series"];
-            /** @description Null where only open loop was asked. */
-            closed_loop: components["schemas"]["ClosedLoop"] | null;
         };
         /** ReplayRequest */
         ReplayRequest: {
             /**
-             * Mode
-             * @description Open: speed and legs as recorded, the bike does not answer. Closed: beside it an estimate by a twin of the bike; takes a second for some minutes of road.
-             * @default open_loop
-             * @enum {string}
+             * Parameters
+             * @description By registry name, as a unit's configuration or an entry of the library has them. Those of sensor, wheel and drivetrain stay as they were on the ride.
              */
-            mode: "open_loop" | "closed_loop";
+            parameters?: {
+                [key: string]: number | string | (number | string)[] | (number | string)[][];
+            };
             fuzzy_table?: components["schemas"]["FuzzyTable"] | null;
             /** @description Shares speed and torque-rate points with the first. */
             second_table?: components["schemas"]["FuzzyTable"] | null;
             assist_modes?: components["schemas"]["AssistModes"] | null;
             /**
-             * Mass Kg
-             * @description Closed loop: rider, bike and load. Without it 92 kg, and a wider band.
+             * Mode
+             * @default open_loop
+             * @constant
              */
-            mass_kg?: number | null;
-            /**
-             * Drag Area M2
-             * @description Closed loop: drag coefficient times frontal area; 0.4 bent low to 0.6 upright. Without it 0.5, and a wider band.
-             */
-            drag_area_m2?: number | null;
+            mode: "open_loop";
         };
         /**
          * Revision
@@ -9068,6 +9107,86 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Replay"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unsupported Media Type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    ride_again: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                ride_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AgainRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ClosedLoop"];
                 };
             };
             /** @description The body is not JSON */

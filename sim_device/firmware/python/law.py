@@ -437,6 +437,10 @@ def law_defaults() -> dict[str, Any]:
     return dict(default_config())
 
 
+OF_THE_BIKE = frozenset(row.name for row in PARAMETERS if row.record in ("CALIBRATION", "FACTORY"))
+"""What says how sensor, wheel and drivetrain are made: it is measured, not chosen."""
+
+
 def parameter_range(name: str) -> tuple[float, float]:
     """The least and the most of a number that the unit takes. Raises KeyError for no number."""
     row = PARAMETER_BY_NAME[name]

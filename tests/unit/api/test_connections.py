@@ -37,8 +37,7 @@ def address() -> Iterator[tuple[str, int]]:
         yield listening
 
 
-@contextlib.contextmanager
-def serving(protocol: type[PatientProtocol]) -> Iterator[tuple[str, int]]:
+def small_app() -> FastAPI:
     app = FastAPI()
 
     @app.get("/value")
@@ -49,8 +48,17 @@ def serving(protocol: type[PatientProtocol]) -> Iterator[tuple[str, int]]:
     async def take(request: Request) -> int:
         return len(await request.body())
 
+    return app
+
+
+@contextlib.contextmanager
+def serving(
+    protocol: type[PatientProtocol], app: FastAPI | None = None
+) -> Iterator[tuple[str, int]]:
     with socket.create_server(("127.0.0.1", 0), backlog=256) as listening:
-        config = uvicorn.Config(app, http=protocol, lifespan="off", log_level="error")
+        config = uvicorn.Config(
+            app or small_app(), http=protocol, lifespan="off", log_level="error"
+        )
         server = uvicorn.Server(config)
         thread = threading.Thread(target=lambda: server.run(sockets=[listening]), daemon=True)
         thread.start()

@@ -20,12 +20,11 @@ from backend.domain.assist_mode import AssistModes
 from backend.domain.channels import ChannelSpec, Values
 from backend.domain.ride import RideRows
 from backend.domain.rider_and_bike import RiderAndBike
-from backend.errors import InvalidRequest
+from backend.errors import InvalidRequest, RequestRefused
 from backend.ingest import ImportedRide, Outcome
 from backend.services.imports.upload import Uploads
 from backend.services.rides import ride_again
-from backend.services.rides.replay import RideReplay
-from backend.services.tuning.preview import Preview
+from backend.services.rides.ride_again import RideAgain
 from backend.store import Store, open_store
 from firmware_protocol._generated import CHANNELS, InputFlags
 from tests.fakes.known_roads import Outside, Ridden, road
@@ -67,8 +66,8 @@ def store(tmp_path: Path) -> Iterator[Store]:
         yield opened
 
 
-def again(store: Store, columns: dict[str, Values], **changes: Any) -> dict[str, Any]:
-    """The answer in closed loop for a ride of these channels, (n,) each."""
+def kept(store: Store, columns: dict[str, Values]) -> int:
+    """The id of a ride of these channels, (n,) each."""
     specs = tuple(SPECS[name] for name in columns)
     counts = {spec.name: spec.to_counts(columns[spec.name]) for spec in specs}
     times_us = np.arange(len(columns["speed_kmh"]), dtype=np.int64) * PERIOD_US
@@ -79,10 +78,17 @@ def again(store: Store, columns: dict[str, Values], **changes: Any) -> dict[str,
     uploads = Uploads(store, reader=lambda path, name: outcome)
     (ride_id,) = uploads.receive_file("a.csv", b"as it came").ride_ids
     uploads.close()
-    question = {"fuzzy_table": None, "assist_modes": None, "told": RiderAndBike()} | changes
-    replay = RideReplay(Preview(), lambda ride: (law_defaults(), "defaults"))
-    answer: dict[str, Any] = replay(store.rides.reader(ride_id), **question)
-    return answer
+    return ride_id
+
+
+def again(store: Store, columns: dict[str, Values], **question: Any) -> dict[str, Any]:
+    """The estimate for a ride of these channels, (n,) each."""
+    riding = RideAgain(store, lambda ride: (law_defaults(), "defaults"))
+    return riding(kept(store, columns), **question)
+
+
+def distance_km(columns: dict[str, Values]) -> float:
+    return float(columns["speed_kmh"].sum()) * PERIOD_US / 1e6 / 3600.0
 
 
 def modes_with_ratio(ratio: float) -> dict[str, Any]:
@@ -94,10 +100,10 @@ def modes_with_ratio(ratio: float) -> dict[str, Any]:
 def test_without_a_change_there_is_no_difference_and_the_record_lies_in_the_band(
     store: Store,
 ) -> None:
-    answer = again(store, sport())
+    columns = sport()
 
-    closed = answer["closed_loop"]
-    assert answer["mode"] == "closed_loop"
+    closed = again(store, columns)
+
     assert abs(closed["trust"]["no_change_error_pct"]) < 1.0
     assert abs(closed["trust"]["no_change_time_error_pct"]) < 3.0
     assert closed["trust"]["one_gear"]
@@ -109,15 +115,15 @@ def test_without_a_change_there_is_no_difference_and_the_record_lies_in_the_band
     # In sport on flat road the cut-off is always at work somewhere; the ride did not record it.
     assert at_limits["speed_cutoff"]["replayed_s"] > 1.0
     assert at_limits["speed_cutoff"]["recorded_s"] is None
+    watts = columns["motor_torque_nm"] * columns["motor_speed_rpm"] * np.pi / 30.0
     assert closed["motor_work_wh"]["recorded"] == pytest.approx(
-        answer["motor_work_wh"]["recorded"], rel=1e-3
+        watts.sum() * PERIOD_US / 1e6 / 3600.0, rel=1e-3
     )
 
 
 def test_less_help_takes_less_work_and_longer(store: Store) -> None:
-    answer = again(store, sport(), assist_modes=modes_with_ratio(0.4))
+    closed = again(store, sport(), assist_modes=modes_with_ratio(0.4))
 
-    closed = answer["closed_loop"]
     for name in ("wh_per_km", "motor_work_wh", "battery_wh", "motor_power_w_mean"):
         assert closed[name]["difference"] < 0.0
         assert closed[name]["low"] <= closed[name]["replayed"] <= closed[name]["high"]
@@ -125,15 +131,15 @@ def test_less_help_takes_less_work_and_longer(store: Store) -> None:
     way_km = closed["km_per_100_wh"]
     assert way_km["difference"] > 0.0
     assert way_km["replayed"] == pytest.approx(
-        100.0 * answer["distance_km"] / closed["battery_wh"]["replayed"], rel=1e-3
+        100.0 * distance_km(sport()) / closed["battery_wh"]["replayed"], rel=1e-3
     )
 
 
 def test_the_three_rides_are_told_over_the_same_places(store: Store) -> None:
     columns = sport()
-    answer = again(store, columns, assist_modes=modes_with_ratio(0.4))
 
-    curves = answer["closed_loop"]["curves"]
+    curves = again(store, columns, assist_modes=modes_with_ratio(0.4))["curves"]
+
     km = curves["distance_km"]
     assert len(km) <= 400
     assert min(np.diff(km)) * 1000.0 > 6.0
@@ -143,7 +149,7 @@ def test_the_three_rides_are_told_over_the_same_places(store: Store) -> None:
     )
     # The mean of a stretch over its time is its length.
     length_m = np.nansum(recorded["speed_kmh"] / 3.6 * np.gradient(recorded["t_s"]))
-    assert length_m == pytest.approx(answer["distance_km"] * 1000.0, rel=0.05)
+    assert length_m == pytest.approx(distance_km(columns) * 1000.0, rel=0.05)
     apart_kmh = np.abs(unchanged["speed_kmh"] - recorded["speed_kmh"])
     assert np.nanmedian(apart_kmh) < 0.2
     assert np.nanmean(replayed["speed_kmh"] - unchanged["speed_kmh"]) < -0.2
@@ -153,7 +159,7 @@ def test_the_three_rides_are_told_over_the_same_places(store: Store) -> None:
 def test_time_at_a_limit_is_the_recorded_one_and_what_the_change_adds(store: Store) -> None:
     columns = {**sport(), "limit_flags": np.zeros(len(sport()["speed_kmh"]))}
 
-    unchanged = again(store, columns)["closed_loop"]["limits"]
+    unchanged = again(store, columns)["limits"]
 
     assert unchanged == []
 
@@ -161,7 +167,7 @@ def test_time_at_a_limit_is_the_recorded_one_and_what_the_change_adds(store: Sto
 def test_a_battery_that_was_not_measured_has_no_estimate(store: Store) -> None:
     columns = {name: values for name, values in sport().items() if "battery" not in name}
 
-    closed = again(store, columns)["closed_loop"]
+    closed = again(store, columns)
 
     assert closed["battery_wh"] is None
     assert closed["km_per_100_wh"] is None
@@ -170,7 +176,7 @@ def test_a_battery_that_was_not_measured_has_no_estimate(store: Store) -> None:
 def test_what_is_told_of_bike_and_rider_narrows_the_band(store: Store) -> None:
     def width(told: RiderAndBike) -> float:
         answer = again(store, sport(), assist_modes=modes_with_ratio(0.4), told=told)
-        figure = answer["closed_loop"]["duration_s"]
+        figure = answer["duration_s"]
         return float(figure["high"] - figure["low"])
 
     assert width(RiderAndBike(mass_kg=92.0, drag_area_m2=0.5)) < width(RiderAndBike())
@@ -180,7 +186,7 @@ def test_who_shifted_shifts_again_and_that_is_told(store: Store) -> None:
     bike = Outside(cogs=(11, 13, 15, 17, 19, 21, 24, 28, 32, 37, 42))
     columns = as_recorded(Ridden(road(601), SPORT, outside=bike))
 
-    closed = again(store, columns, assist_modes=modes_with_ratio(0.4))["closed_loop"]
+    closed = again(store, columns, assist_modes=modes_with_ratio(0.4))
 
     assert not closed["trust"]["one_gear"]
     work = closed["motor_work_wh"]
@@ -188,11 +194,44 @@ def test_who_shifted_shifts_again_and_that_is_told(store: Store) -> None:
     assert work["difference"] == pytest.approx(work["replayed"] - work["recorded"])
 
 
-def test_an_open_loop_has_no_estimate(store: Store) -> None:
-    answer = again(store, sport(), told=None)
+def test_settings_beside_tables_and_modes_are_ridden_with_as_well(store: Store) -> None:
+    wide_band = again(store, sport(), parameters={"assist_cutoff_band_kmh": 4.0})
+    slow_filter = again(store, sport(), parameters={"torque_filter_s": 1.0})
 
-    assert answer["mode"] == "open_loop"
-    assert answer["closed_loop"] is None
+    # Sport rides near the cut-off: a wider band takes help there. A slow filter follows no stroke.
+    assert wide_band["wh_per_km"]["difference"] < 0.0
+    assert slow_filter["ripple_nm_per_s"]["difference"] < 0.0
+
+
+def test_sensor_and_drivetrain_stay_as_they_were_on_the_ride(store: Store) -> None:
+    of_another_bike = {"sensor_gain_nm_per_count": 0.02, "gear_ratio": 20.0}
+
+    closed = again(store, sport(), parameters={**law_defaults(), **of_another_bike})
+
+    for name in FIGURES:
+        assert closed[name]["difference"] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_what_no_unit_takes_is_refused_before_the_road_is_ridden(store: Store) -> None:
+    with pytest.raises(InvalidRequest) as refused:
+        again(store, sport(), parameters={"torque_filter_s": 99.0})
+
+    assert refused.value.code == "replay_refused"
+
+
+def test_an_estimate_that_nobody_waits_for_ends_with_the_ride_of_the_moment(store: Store) -> None:
+    asked = []
+
+    def still_asked() -> None:
+        asked.append(1)
+        if len(asked) == 5:
+            raise RequestRefused("gone")
+
+    with pytest.raises(RequestRefused, match="gone"):
+        again(store, sport(), still_asked=still_asked)
+
+    # Of the forty rides of the band.
+    assert len(asked) == 5
 
 
 def asked_only(columns: dict[str, Values]) -> None:

@@ -29,6 +29,7 @@ from backend.ingest import ImportedRide, Outcome
 from backend.ingest.library_document import library_document
 from backend.services.imports.upload import Uploads
 from backend.services.rides.propose import RUNNING, Candidate, Job, Proposals, codes_of
+from backend.services.rides.ride_again import RideAgain
 from backend.services.tuning.certify import KeptCertificates
 from backend.store import Store, open_store
 from firmware_protocol._generated import PARAMETER_BY_NAME
@@ -175,6 +176,23 @@ def test_every_candidate_is_better_clean_and_says_all_that_it_sets(
         assert codes_of({**law_defaults(), **one.parameters}, "first") <= before_codes
         assert library_document(one.document) == one.document
     assert chosen(job)
+
+
+@pytest.mark.slow
+def test_a_candidate_s_band_and_filter_are_tried_and_come_to_what_was_proposed(
+    proposals: Proposals, store: Store, ride_id: int
+) -> None:
+    knobs = ["band", "filter"]
+    job = over(proposals, proposals.begin([ride_id], "flatter_at_the_limit", knobs))
+    again = RideAgain(store, lambda ride: (law_defaults(), "defaults"))
+
+    assert job.candidates
+    for one in job.candidates:
+        assert set(one.parameters) <= {"assist_cutoff_band_kmh", "torque_filter_s"}
+        told = again(ride_id, parameters=one.parameters)["duration_s"]
+        assert (told["replayed"], told["low"], told["high"]) == pytest.approx(
+            (one.duration_s.after, one.duration_s.low, one.duration_s.high)
+        )
 
 
 @pytest.mark.long

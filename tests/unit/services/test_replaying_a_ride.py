@@ -249,6 +249,26 @@ def test_the_second_table_is_replaced_for_the_modes_that_use_it(store: Store) ->
     assert works[2] == works[1]
 
 
+def test_settings_beside_tables_and_modes_are_replayed_and_the_bike_stays(store: Store) -> None:
+    modes = AssistModes.from_parameters(law_defaults()).to_json()
+    modes["modes"][2] |= {"law": "fixed", "ratio": 1.0, "taper": "none"}
+    columns = pushing(speed_kmh=np.full(ROWS, 23.0))
+    of_another_bike = {"sensor_gain_nm_per_count": 0.02, "gear_ratio": 20.0}
+
+    narrow, wide, moved = (
+        replayed(store, columns, assist_modes=modes, parameters=parameters)["motor_work_wh"]
+        for parameters in (
+            {"assist_cutoff_band_kmh": 1.0},
+            {"assist_cutoff_band_kmh": 4.0},
+            {"assist_cutoff_band_kmh": 1.0, **of_another_bike},
+        )
+    )
+
+    # 2 km/h below the cut-off a band of 4 leaves half.
+    assert wide["replayed"] == pytest.approx(0.5 * narrow["replayed"], rel=0.02)
+    assert moved == narrow
+
+
 def test_a_second_table_with_points_of_its_own_is_refused(store: Store) -> None:
     other = THESIS_TABLE.to_json() | {"speed_points_kmh": [4.0, 10.0, 15.0, 20.0, 25.0]}
 

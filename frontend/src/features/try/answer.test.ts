@@ -34,7 +34,6 @@ function replay(changes: Partial<Replay> = {}): Replay {
     motor_torque_nm_difference_max: 1,
     limit_shares: { taper: 0, brake: 0.1, ramp_up: 0.3, fault: 0 },
     limit_shares_recorded: { taper: 0, brake: 0.1, ramp_up: 0, fault: 0.2 },
-    closed_loop: null,
     series: {
       from_s: 0,
       to_s: 2,

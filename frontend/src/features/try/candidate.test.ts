@@ -1,10 +1,10 @@
-/* Goal: what is tried is the tables and modes that were chosen, and an address names them. */
+/* Goal: what is tried is all the settings that were chosen, and an address names them. */
 import { PARAMETERS } from '$generated/registry'
 import type { Server } from '$shared/api/server'
-import type { FuzzyTable, Parameter, ParameterValue } from '$shared/api/types'
+import type { Parameter, ParameterValue } from '$shared/api/types'
 import { ConfigDraft } from '$shared/config/config_draft.svelte'
 import { expect, it } from 'vitest'
-import { candidateIn, libraryId, questionOf } from './candidate'
+import { candidateIn, libraryId, massOf, settingsOf } from './candidate'
 
 const five = <T>(value: T): T[] => Array(5).fill(value)
 const first: Record<string, ParameterValue> = {
@@ -43,42 +43,48 @@ async function draftOf(values: Record<string, ParameterValue>): Promise<ConfigDr
   return draft
 }
 
-it('tries both tables and the modes, as they are edited or as the unit has them', async () => {
+it('tries all that is edited, or all that the unit has', async () => {
   const draft = await draftOf({ ...first, ...rest })
   draft.set('second_rules', five(five('PB')))
 
-  const edited = questionOf('draft', draft, null)
-  const held = questionOf('unit', draft, null)
+  expect(settingsOf('draft', draft, null)).toEqual({
+    ...first,
+    ...rest,
+    second_rules: five(five('PB')),
+  })
+  expect(settingsOf('unit', draft, null)).toEqual({ ...first, ...rest })
+})
 
-  expect(edited?.fuzzy_table?.name).toBe('dry')
-  expect(edited?.second_table?.rules).toEqual(five(five('PB')))
-  expect(held?.second_table?.rules).toEqual(five(five('NB')))
-  expect(edited?.assist_modes?.modes[4]?.table).toBe('second')
+it('tries a band and a filter that a proposal put into the draft', async () => {
+  const draft = await draftOf({ ...first, assist_cutoff_band_kmh: 2, torque_filter_s: 0.5 })
+  draft.set('assist_cutoff_band_kmh', 3.4)
+  draft.set('torque_filter_s', 0.72)
+
+  expect(settingsOf('draft', draft, null)).toMatchObject({
+    assist_cutoff_band_kmh: 3.4,
+    torque_filter_s: 0.72,
+  })
 })
 
 it('waits while an edited value is impossible, and still tries what the unit has', async () => {
   const draft = await draftOf({ ...first, ...rest })
   draft.set('second_gain_points', [0.4, 0.1, 0.2, 0.3, 0.4])
 
-  expect(questionOf('draft', draft, null)).toBeNull()
-  expect(questionOf('unit', draft, null)).not.toBeNull()
+  expect(settingsOf('draft', draft, null)).toBeNull()
+  expect(settingsOf('unit', draft, null)).not.toBeNull()
 })
 
-it('tries one table where the unit has one', async () => {
-  const question = questionOf('draft', await draftOf(first), null)
+it('tries nothing new without a unit: the ride once more, or an entry of the library', () => {
+  const even = { fuzzy_table_name: 'even' }
 
-  expect(question).toMatchObject({ second_table: null, assist_modes: null })
-  expect(question?.fuzzy_table?.rules).toEqual(five(five('ZO')))
+  expect(settingsOf('ride', null, null)).toEqual({})
+  expect(settingsOf('library:even', null, even)).toBe(even)
+  expect(settingsOf('library:even', null, null)).toBeNull()
+  expect(settingsOf('draft', null, null)).toBeNull()
 })
 
-it('tries nothing new without a unit: the ride once more, or a table of the library', () => {
-  const even = { name: 'even' } as FuzzyTable
-  const unchanged = { fuzzy_table: null, second_table: null, assist_modes: null }
-
-  expect(questionOf('ride', null, null)).toEqual({ mode: 'open_loop', ...unchanged })
-  expect(questionOf('library:even', null, even)).toMatchObject({ ...unchanged, fuzzy_table: even })
-  expect(questionOf('library:even', null, null)).toBeNull()
-  expect(questionOf('draft', null, null)).toBeNull()
+it('takes a mass that a rider and a bike can have', () => {
+  expect([null, 8, 85, 999].map(massOf)).toEqual([null, null, 85, null])
 })
 
 it.each([
@@ -91,6 +97,6 @@ it.each([
   expect(candidateIn(new URLSearchParams(query))).toBe(candidate)
 })
 
-it('knows the tables of the library from the others', () => {
+it('knows the entries of the library from the others', () => {
   expect([libraryId('library:even'), libraryId('draft')]).toEqual(['even', null])
 })

@@ -1,26 +1,21 @@
-// What can be tried on a ride, and what the server is asked for it.
-import type { FuzzyTable, ReplayRequest } from '$shared/api/types'
-import type { ConfigDraft } from '$shared/config/config_draft.svelte'
-import {
-  modesFrom,
-  modesOf,
-  tableFrom,
-  tableOf,
-  type Read,
-  type TableName,
-} from '$shared/config/two_tables'
+// What can be tried on a ride, and the settings that it is ridden with.
+import type { ConfigDraft, Edits } from '$shared/config/config_draft.svelte'
+import { faultsOf } from '$shared/config/limits'
+
+/** What takes the place of a ride's own settings, by registry name; sensor and drivetrain stay. */
+export type Settings = Edits
 
 /** What is edited in Tune, what the unit has, or the ride's own configuration once more. */
 export const OWN = ['draft', 'unit', 'ride'] as const
 const LIBRARY = 'library:'
-/** One of those, or a table of the library by its id. */
+/** One of those, or an entry of the library by its id. */
 export type Candidate = (typeof OWN)[number] | `${typeof LIBRARY}${string}`
 
 export function ofLibrary(id: string): Candidate {
   return `${LIBRARY}${id}`
 }
 
-/** The id of a table of the library; null for another candidate. */
+/** The id of an entry of the library; null for another candidate. */
 export function libraryId(candidate: Candidate): string | null {
   return candidate.startsWith(LIBRARY) ? candidate.slice(LIBRARY.length) : null
 }
@@ -37,31 +32,25 @@ export function hasTables(draft: ConfigDraft | null): draft is ConfigDraft {
   return draft !== null && draft.loaded && draft.parameter('fuzzy_rules') !== undefined
 }
 
-/** The question for a candidate; null while a value of it is unknown or impossible. A table of the
-    library stands in for the first one; the ride's own second one and modes stay. */
-export function questionOf(
+/** The settings of a candidate, all of them: what else was edited counts as well. Null while one is
+    unknown or impossible. Those of a library's table are the first table's alone. */
+export function settingsOf(
   candidate: Candidate,
   draft: ConfigDraft | null,
-  in_library: FuzzyTable | null,
-): ReplayRequest | null {
-  const unchanged: ReplayRequest = {
-    mode: 'open_loop',
-    fuzzy_table: null,
-    second_table: null,
-    assist_modes: null,
-  }
-  if (candidate === 'ride') return unchanged
-  if (libraryId(candidate) !== null) return in_library && { ...unchanged, fuzzy_table: in_library }
+  in_library: Settings | null,
+): Settings | null {
+  if (candidate === 'ride') return {}
+  if (libraryId(candidate) !== null) return in_library
   if (!hasTables(draft)) return null
-  const base: Read = (name) => draft.base(name)
   const edited = candidate === 'draft'
-  const table = (which: TableName) => (edited ? tableOf(draft, which) : tableFrom(base, which))
-  const fuzzy_table = table('first')
-  const second_table = table('second')
-  const assist_modes = edited ? modesOf(draft) : modesFrom(base)
-  // A unit may have one table only, or modes that this Spindle does not know.
-  const lacks = (name: string, found: object | null) => !found && draft.parameter(name)
-  if (!fuzzy_table || lacks('second_rules', second_table)) return null
-  if (lacks('mode_laws', assist_modes)) return null
-  return { mode: 'open_loop', fuzzy_table, second_table, assist_modes }
+  if (edited && draft.changes.some((c) => faultsOf(c.parameter, c.value).length > 0)) return null
+  const held = draft.parameters.map(
+    ({ name }) => [name, edited ? draft.value(name) : draft.base(name)] as const,
+  )
+  return Object.fromEntries(held.filter(([, value]) => value !== undefined)) as Settings
+}
+
+/** A mass of rider and bike that a twin can have; null for another. */
+export function massOf(mass_kg: number | null): number | null {
+  return mass_kg !== null && mass_kg >= 30 && mass_kg <= 400 ? mass_kg : null
 }

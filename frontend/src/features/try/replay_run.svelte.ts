@@ -2,9 +2,10 @@
 import { NewestAnswer } from '$shared/api/newest_answer.svelte'
 import type { Series } from '$shared/api/series'
 import type { Server } from '$shared/api/server'
-import type { Replay, ReplayRequest } from '$shared/api/types'
+import type { Replay } from '$shared/api/types'
 import { TraceWindow } from '$shared/charts/trace_window.svelte'
 import { drawnSeries } from './answer'
+import type { Settings } from './candidate'
 
 export interface Answered {
   replay: Replay
@@ -17,9 +18,9 @@ export class ReplayRun {
 
   constructor(private readonly server: Server) {}
 
-  ask(ride_id: number, question: ReplayRequest): Promise<void> {
+  ask(ride_id: number, parameters: Settings): Promise<void> {
     return this.newest.ask(async (signal) => {
-      const replay = await this.server.replay(ride_id, question, signal)
+      const replay = await this.server.replay(ride_id, { mode: 'open_loop', parameters }, signal)
       signal.throwIfAborted()
       return this.seen(replay)
     })

@@ -2,8 +2,10 @@
 import { body, bodyAndTag, type Http } from './client'
 import { readSeries, type Series } from './series'
 import type {
+  AgainRequest,
   Certificate,
   CertificateRequest,
+  ClosedLoop,
   ComparedSide,
   Comparison,
   Config,
@@ -327,10 +329,16 @@ export class Server {
     return body(this.http.GET('/api/v1/rides/{ride_id}', this.rideAt(id)))
   }
 
-  /** What the motor would have done on a ride with other tables or modes, by the unit's law. */
+  /** What the motor would have done on a ride with other settings, by the unit's law. */
   replay(id: number, question: ReplayRequest, signal: AbortSignal): Promise<Replay> {
     const request = { ...this.rideAt(id), body: question, signal }
     return body(this.http.POST('/api/v1/rides/{ride_id}/replay', request))
+  }
+
+  /** The same road again with other settings, by a twin of the bike. */
+  rideAgain(id: number, question: AgainRequest, signal: AbortSignal): Promise<ClosedLoop> {
+    const request = { ...this.rideAt(id), body: question, signal }
+    return body(this.http.POST('/api/v1/rides/{ride_id}/again', request))
   }
 
   /** Why the motor gave what it gave at a moment of a ride, by the unit's own law. */

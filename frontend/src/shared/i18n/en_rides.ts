@@ -137,10 +137,9 @@ export const enRides = {
 
   'try.this': 'Try a table on this ride',
   'try.candidate': 'Try',
-  'try.with_draft': 'Tables and modes as edited in Tune',
-  'try.with_unit': 'Tables and modes in the unit now',
+  'try.with_draft': 'Settings as edited in Tune and Modes',
+  'try.with_unit': 'Settings in the unit now',
   'try.with_ride': 'Nothing changed: how well the replay matches the record',
-  'try.library': 'Tables that come with Spindle',
   'try.as_first':
     'It stands in for the first table; the second one and the modes are those of the ride.',
   'try.ride': 'On the ride',

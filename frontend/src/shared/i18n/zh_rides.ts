@@ -131,10 +131,9 @@ export const zhRides: Record<keyof typeof enRides, string> = {
 
   'try.this': '在此骑行上试用规则表',
   'try.candidate': '试用',
-  'try.with_draft': '调校页中编辑的规则表和模式',
-  'try.with_unit': '单元现有的规则表和模式',
+  'try.with_draft': '调校页和模式页中编辑的设置',
+  'try.with_unit': '单元现有的设置',
   'try.with_ride': '不作改动：查看重放与记录的吻合程度',
-  'try.library': 'Spindle 自带的规则表',
   'try.as_first': '它代替第一规则表；第二规则表和模式仍为该次骑行的。',
   'try.ride': '骑行',
   'try.no_rides': '这些骑行都无法试用：需要由单元记录、含骑手扭矩的骑行。',

@@ -1,36 +1,36 @@
-// The tables of the library: their names at once, their values when one is chosen.
+// What the library has: names at once, values when one is chosen.
 import { Refusal } from '$shared/api/client'
 import type { Server } from '$shared/api/server'
-import type { FuzzyTable, LibraryRow } from '$shared/api/types'
-import { tableFrom } from '$shared/config/two_tables'
+import type { LibraryRow } from '$shared/api/types'
+import type { Settings } from './candidate'
 
-export class LibraryTables {
+export class LibraryEntries {
   rows = $state.raw<LibraryRow[]>([])
   trouble = $state.raw<Refusal | null>(null)
-  private tables = $state.raw<Record<string, FuzzyTable | null>>({})
+  private known = $state.raw<Record<string, Settings>>({})
 
   constructor(private readonly server: Server) {}
 
   /** Fetches the names. A library that cannot be had leaves the other candidates. */
   async load(): Promise<void> {
     await this.noting(async () => {
-      this.rows = (await this.server.library()).filter((row) => row.kind === 'table')
+      this.rows = await this.server.library()
     })
   }
 
-  /** Fetches a table, once. */
+  /** Fetches an entry, once. */
   async fetch(id: string): Promise<void> {
-    if (id in this.tables) return
+    if (id in this.known) return
     await this.noting(async () => {
       const { parameters } = await this.server.libraryEntry(id)
-      const table = tableFrom((name) => parameters[name]?.value, 'first')
-      this.tables = { ...this.tables, [id]: table }
+      const values = Object.entries(parameters).map(([name, { value }]) => [name, value])
+      this.known = { ...this.known, [id]: Object.fromEntries(values) as Settings }
     })
   }
 
-  /** A table that was fetched; null until then. */
-  table(id: string | null): FuzzyTable | null {
-    return (id !== null && this.tables[id]) || null
+  /** The settings of an entry that was fetched; null until then. */
+  settings(id: string | null): Settings | null {
+    return (id !== null && this.known[id]) || null
   }
 
   private async noting(ask: () => Promise<void>): Promise<void> {
