@@ -6,6 +6,7 @@ from backend.control.gain import ENGINE, points, surface
 from backend.control.lint_rules import lint
 from backend.control.market import Cutoff, cutoff_of
 from backend.control.mode_curves import CADENCE_RPM, HARD_PUSH_NM, ModeCurve, mode_curves
+from backend.control.recorded_ride import KMH_PER_MS, STANDING_MS
 from backend.control.recorded_ride import recorded as recorded_ride
 from backend.control.ride_replay import (
     Replay,
@@ -19,6 +20,8 @@ from backend.control.road_figures import (
     curves_of_record,
     limits_of_record,
     places_km,
+    power_w_mean,
+    ripple_nm_per_s,
 )
 from backend.control.torque_surface import TorqueSurface, torque_surface
 from backend.control.twin import WORK_LEAST_J, Band, RoadTwin
@@ -30,8 +33,10 @@ __all__ = [
     "CADENCE_RPM",
     "ENGINE",
     "HARD_PUSH_NM",
+    "KMH_PER_MS",
     "LIMITS",
     "OF_THE_BIKE",
+    "STANDING_MS",
     "WORK_LEAST_J",
     "Band",
     "Cutoff",
@@ -55,9 +60,11 @@ __all__ = [
     "mode_curves",
     "places_km",
     "points",
+    "power_w_mean",
     "raw_counts_of",
     "recorded_ride",
     "replay",
+    "ripple_nm_per_s",
     "surface",
     "torque_surface",
     "why",

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from backend.control.recorded_ride import KMH_PER_MS, STANDING_MS, Floats, Recorded
+from backend.control.recorded_ride import KMH_PER_MS, STANDING_MS, Bools, Floats, Recorded
 from sim_device.firmware.python.law import LIMITS
 from sim_device.firmware.python.twin import Totals
 
@@ -17,6 +17,7 @@ MOTOR_WORK = "motor_work_j"
 BATTERY = "battery_j"
 RIPPLE = "ripple_nm_per_s"
 BINS_MAX = 400
+SHORTEST_S = 1e-9
 KNOWN_SHARE = 0.99
 """With less of voltage and current known the battery's energy is not."""
 
@@ -24,8 +25,8 @@ Figures = dict[str, float]
 
 
 def figures_of(totals: Totals) -> Figures:
-    """Of a twin's ride. ripple_nm_per_s: rms of how fast the motor's torque changes on the way."""
-    moving_s = max(totals.moving_s, 1e-9)
+    """Of a twin's ride, as of a recorded one."""
+    moving_s = max(totals.moving_s, SHORTEST_S)
     return {
         DURATION: totals.duration_s,
         MOTOR_WORK: totals.motor_work_j,
@@ -39,16 +40,29 @@ def figures_of(totals: Totals) -> Figures:
 def figures_of_record(ride: Recorded) -> Figures:
     """The same of a recorded ride; NaN for a battery that was not measured."""
     moving = ride.speed_ms > STANDING_MS
-    moving_s = max(float(np.count_nonzero(moving)) * ride.step_s, 1e-9)
-    rise = np.diff(ride.motor_nm, prepend=ride.motor_nm[:1]) / ride.step_s
     return {
         DURATION: ride.duration_s,
         MOTOR_WORK: ride.motor_work_j,
         "rider_work_j": float((ride.rider_nm * ride.crank_rad_s).sum() * ride.step_s),
         BATTERY: battery_j(ride),
-        "motor_power_w": ride.motor_work_j / moving_s,
-        RIPPLE: math.sqrt(float(np.mean(rise[moving] ** 2)) if moving.any() else 0.0),
+        "motor_power_w": power_w_mean(ride.motor_work_j, moving, ride.step_s),
+        RIPPLE: ripple_nm_per_s(ride.motor_nm, moving, ride.step_s),
     }
+
+
+def power_w_mean(work_j: float, moving: Bools, step_s: float) -> float:
+    """Over the time on the way. moving: (n,)."""
+    return work_j / max(float(np.count_nonzero(moving)) * step_s, SHORTEST_S)
+
+
+def ripple_nm_per_s(motor_nm: Floats, moving: Bools, step_s: float) -> float:
+    """Rms of how fast the motor's torque changes on the way, by the rises that are known.
+
+    motor_nm: at its shaft, (n,), missing as NaN. moving: (n,).
+    """
+    rises = np.diff(motor_nm, prepend=motor_nm[:1])[moving] / step_s
+    known = rises[np.isfinite(rises)]
+    return math.sqrt(float(np.mean(known**2))) if known.size else 0.0
 
 
 def battery_j(ride: Recorded) -> float:

@@ -114,6 +114,10 @@ def test_nothing_changed_gives_what_was_recorded(tuner: Desk, ride: int) -> None
     ridden, _, band = cells.all_inner_texts()
     low, high = band.split(" – ")
     assert float(low) <= float(ridden) <= float(high)
+    # Both loops tell the same of the ride as it was.
+    for name in ("motor_power_w_mean", "ripple_nm_per_s"):
+        told = again.locator(f"[data-again={name}] td").first
+        assert float(told.inner_text()) == figure(page, name)[0]
     expect(again).to_contain_text("With nothing changed the twin is off by")
     expect(again.locator("[data-again=km_per_100_wh] td")).to_have_count(3)
     expect(page.get_by_test_id("try-again-sentence")).to_contain_text("of motor work instead of")

@@ -348,6 +348,13 @@ class Replay(Answer):
         description="At the motor's shaft, as delivered; nothing is recorded where it is only "
         "`demanded`."
     )
+    motor_power_w_mean: Compared | None = Field(
+        description="At the shaft, while the bike moves; null where it never does."
+    )
+    ripple_nm_per_s: Compared | None = Field(
+        description="Rms of how fast the motor's torque changes, while the bike moves; null as "
+        "`motor_power_w_mean`."
+    )
     motor_torque_nm_difference_max: float | None
     limit_shares: dict[str, float]
     limit_shares_recorded: dict[str, float] | None = Field(

@@ -106,6 +106,12 @@ class RideReplay:
             "range_km": None,
             "motor_work_wh": compared(recorded_wh, replayed.motor_work_wh),
             "motor_torque_nm_max": compared(largest(recorded_nm), replayed.motor_torque_nm_max),
+            **on_the_way(
+                columns["speed_kmh"] / control.KMH_PER_MS > control.STANDING_MS,
+                (recorded_wh, recorded_nm),
+                (replayed.motor_work_wh, new_nm),
+                step_s,
+            ),
             "motor_torque_nm_difference_max": difference_max(recorded_nm, new_nm),
             "limit_shares": replayed.limit_shares,
             "limit_shares_recorded": recorded_shares(columns.get(LIMITS)),
@@ -205,6 +211,32 @@ def per_km(
         return None
     recorded = None if recorded_wh is None else recorded_wh / distance_km
     return compared(recorded, replayed_wh / distance_km)
+
+
+def on_the_way(
+    moving: npt.NDArray[np.bool_],
+    recorded: tuple[float | None, Values | None],
+    replayed: tuple[float, Values],
+    step_s: float,
+) -> dict[str, Any]:
+    """Mean power and ripple of the motor while the bike moves (n,), as a twin's ride tells them;
+    None where it never does. recorded, replayed: work in Wh, and torque at the shaft (n,)."""
+    if not moving.any():
+        return {"motor_power_w_mean": None, "ripple_nm_per_s": None}
+
+    def power_w(work_wh: float) -> float:
+        return control.power_w_mean(work_wh * SECONDS_PER_HOUR, moving, step_s)
+
+    def ripple(torque_nm: Values) -> float:
+        return control.ripple_nm_per_s(torque_nm, moving, step_s)
+
+    (then_wh, then_nm), (now_wh, now_nm) = recorded, replayed
+    return {
+        "motor_power_w_mean": compared(
+            None if then_wh is None else power_w(then_wh), power_w(now_wh)
+        ),
+        "ripple_nm_per_s": compared(None if then_nm is None else ripple(then_nm), ripple(now_nm)),
+    }
 
 
 def work_wh(torque_nm: Values | None, speed_rpm: Values | None, step_s: float) -> float | None:

@@ -3129,6 +3129,10 @@ export interface components {
             motor_work_wh: components["schemas"]["Compared"];
             /** @description At the motor's shaft, as delivered; nothing is recorded where it is only `demanded`. */
             motor_torque_nm_max: components["schemas"]["Compared"];
+            /** @description At the shaft, while the bike moves; null where it never does. */
+            motor_power_w_mean: components["schemas"]["Compared"] | null;
+            /** @description Rms of how fast the motor's torque changes, while the bike moves; null as `motor_power_w_mean`. */
+            ripple_nm_per_s: components["schemas"]["Compared"] | null;
             /** Motor Torque Nm Difference Max */
             motor_torque_nm_difference_max: number | null;
             /** Limit Shares */

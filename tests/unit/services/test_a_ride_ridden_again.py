@@ -18,13 +18,15 @@ import pytest
 from backend.control import law_defaults
 from backend.domain.assist_mode import AssistModes
 from backend.domain.channels import ChannelSpec, Values
-from backend.domain.ride import RideRows
+from backend.domain.ride import Ride, RideRows
 from backend.domain.rider_and_bike import RiderAndBike
 from backend.errors import InvalidRequest, RequestRefused
 from backend.ingest import ImportedRide, Outcome
 from backend.services.imports.upload import Uploads
 from backend.services.rides import ride_again
+from backend.services.rides.replay import RideReplay
 from backend.services.rides.ride_again import RideAgain
+from backend.services.tuning.preview import Preview
 from backend.store import Store, open_store
 from firmware_protocol._generated import CHANNELS, InputFlags
 from tests.fakes.known_roads import Outside, Ridden, road
@@ -83,8 +85,11 @@ def kept(store: Store, columns: dict[str, Values]) -> int:
 
 def again(store: Store, columns: dict[str, Values], **question: Any) -> dict[str, Any]:
     """The estimate for a ride of these channels, (n,) each."""
-    riding = RideAgain(store, lambda ride: (law_defaults(), "defaults"))
-    return riding(kept(store, columns), **question)
+    return RideAgain(store, config_of)(kept(store, columns), **question)
+
+
+def config_of(ride: Ride) -> tuple[dict[str, Any], str]:
+    return law_defaults(), "defaults"
 
 
 def distance_km(columns: dict[str, Values]) -> float:
@@ -119,6 +124,15 @@ def test_without_a_change_there_is_no_difference_and_the_record_lies_in_the_band
     assert closed["motor_work_wh"]["recorded"] == pytest.approx(
         watts.sum() * PERIOD_US / 1e6 / 3600.0, rel=1e-3
     )
+
+
+def test_the_open_loop_tells_of_the_record_what_the_closed_one_tells(store: Store) -> None:
+    ride_id = kept(store, sport())
+    opened = RideReplay(Preview(), config_of)(store.rides.reader(ride_id))
+    closed = RideAgain(store, config_of)(ride_id)
+
+    for name in ("wh_per_km", "motor_work_wh", "motor_power_w_mean", "ripple_nm_per_s"):
+        assert opened[name]["recorded"] == pytest.approx(closed[name]["recorded"], rel=2e-3)
 
 
 def test_less_help_takes_less_work_and_longer(store: Store) -> None:

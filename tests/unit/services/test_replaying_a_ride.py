@@ -224,8 +224,51 @@ def test_the_loop_is_open_and_what_is_compared_is_work_for_a_kilometre(store: St
     assert answer["range_km"] is None
 
 
-def test_a_ride_that_went_nowhere_has_no_work_for_a_kilometre(store: Store) -> None:
-    assert replayed(store, pushing(speed_kmh=np.zeros(ROWS)))["wh_per_km"] is None
+def test_a_ride_that_went_nowhere_has_no_work_for_a_kilometre_and_no_mean(store: Store) -> None:
+    stood = replayed(store, pushing(speed_kmh=np.zeros(ROWS)))
+
+    for name in ("wh_per_km", "motor_power_w_mean", "ripple_nm_per_s"):
+        assert stood[name] is None
+
+
+def test_mean_power_and_ripple_are_of_the_time_on_the_way(store: Store) -> None:
+    # 2 s at a stand with the motor at a steady pull, then torque as a sine of 1 Hz.
+    time_s = np.arange(ROWS) * PERIOD_US / 1e6
+    stroke = np.where(time_s < 2.0, 0.0, np.sin(2.0 * np.pi * time_s))
+    recorded_nm = 0.6 + 0.3 * stroke
+    speed_kmh = np.where(time_s < 2.0, 0.0, 12.0)
+    given = {name: recorded_nm.copy() for name in DELIVERED_BY}
+
+    answer = replayed(
+        store, pushing(speed_kmh=speed_kmh, rider_torque_raw=3000.0 + 2000.0 * stroke, **given)
+    )
+
+    # The rise of a sine has an rms of amplitude times 2 pi over the root of 2.
+    assert answer["ripple_nm_per_s"]["recorded"] == pytest.approx(
+        0.3 * 2.0 * np.pi / np.sqrt(2.0), rel=0.01
+    )
+    # What was done at the stand counts as work, as in the closed loop.
+    watts = recorded_nm * 2400.0 * np.pi / 30.0
+    assert answer["motor_power_w_mean"]["recorded"] == pytest.approx(
+        watts.sum() / np.count_nonzero(speed_kmh), rel=1e-3
+    )
+    given_nm = motor_nm(answer)
+    rises = np.diff(given_nm)[speed_kmh[1:] > 0.0] * 100.0
+    assert answer["ripple_nm_per_s"]["replayed"] == pytest.approx(
+        np.sqrt(np.mean(rises**2)), rel=0.01
+    )
+    assert answer["motor_power_w_mean"]["replayed"] == pytest.approx(
+        given_nm.sum() * 2400.0 * np.pi / 30.0 / np.count_nonzero(speed_kmh), rel=1e-3
+    )
+
+
+def test_a_torque_that_is_missing_has_no_rise(store: Store) -> None:
+    recorded_nm = np.full(ROWS, 0.5)
+    recorded_nm[HELD] = np.nan
+
+    answer = replayed(store, pushing(**{name: recorded_nm.copy() for name in DELIVERED_BY}))
+
+    assert answer["ripple_nm_per_s"]["recorded"] == 0.0
 
 
 def test_the_second_table_is_replaced_for_the_modes_that_use_it(store: Store) -> None:

@@ -31,6 +31,8 @@ function replay(changes: Partial<Replay> = {}): Replay {
     range_km: null,
     motor_work_wh: both,
     motor_torque_nm_max: both,
+    motor_power_w_mean: both,
+    ripple_nm_per_s: both,
     motor_torque_nm_difference_max: 1,
     limit_shares: { taper: 0, brake: 0.1, ramp_up: 0.3, fault: 0 },
     limit_shares_recorded: { taper: 0, brake: 0.1, ramp_up: 0, fault: 0.2 },

@@ -61,7 +61,13 @@ export function whyNoWork(replay: Replay): 'demanded' | 'torque' | 'speed' | nul
 
 /** A figure as ridden and in each loop that was run. */
 export interface FigureRow {
-  key: 'wh_per_km' | 'motor_work_wh' | 'torque_nm' | 'asked_nm'
+  key:
+    | 'wh_per_km'
+    | 'motor_work_wh'
+    | 'torque_nm'
+    | 'asked_nm'
+    | 'motor_power_w_mean'
+    | 'ripple_nm_per_s'
   unit: string
   digits: number
   recorded: number | null
@@ -75,12 +81,18 @@ export function figureRows(replay: Replay, series: Series): FigureRow[] {
   const row = (
     key: FigureRow['key'],
     unit: string,
-    { recorded, replayed }: Pick<FigureRow, 'recorded' | 'replayed'>,
-  ): FigureRow => ({ key, unit, digits: 2, recorded, replayed })
+    figure: Pick<FigureRow, 'recorded' | 'replayed'> | null,
+    digits = 2,
+  ): FigureRow => {
+    const { recorded, replayed } = figure ?? { recorded: null, replayed: null }
+    return { key, unit, digits, recorded, replayed }
+  }
   return [
-    row('wh_per_km', 'Wh/km', replay.wh_per_km ?? { recorded: null, replayed: null }),
+    row('wh_per_km', 'Wh/km', replay.wh_per_km),
     row('motor_work_wh', 'Wh', replay.motor_work_wh),
     row(isAsked(replay) ? 'asked_nm' : 'torque_nm', 'Nm', most),
+    row('motor_power_w_mean', 'W', replay.motor_power_w_mean, 0),
+    row('ripple_nm_per_s', 'Nm/s', replay.ripple_nm_per_s),
   ]
 }
 

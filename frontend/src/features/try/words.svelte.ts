@@ -25,6 +25,8 @@ export const en = {
   duration_s: 'Time',
   motor_power_w_mean: 'Motor power, mean while moving',
   ripple_nm_per_s: "Ripple: how fast the motor's torque changes",
+  torque_nm: 'Largest motor torque',
+  asked_nm: 'Largest motor torque asked',
   limits: 'Time held back by',
   no_battery: 'The ride did not record what left the battery, so there is no range.',
   no_limits: 'The ride does not tell its limits.',

@@ -20,6 +20,8 @@ export const zh: Record<TryKey, string> = {
   duration_s: '用时',
   motor_power_w_mean: '行驶中的平均电机功率',
   ripple_nm_per_s: '波动：电机扭矩变化的快慢',
+  torque_nm: '电机最大扭矩',
+  asked_nm: '请求的电机最大扭矩',
   limits: '受以下限制的时间',
   no_battery: '此骑行未记录电池输出，因此没有续航。',
   no_limits: '此骑行未记录限制。',

@@ -172,10 +172,6 @@ export const enRides = {
   'try.changes': 'What changes',
   'try.as_ridden': 'as ridden',
   'try.replayed': 'open loop',
-  'try.wh_per_km': 'Motor work by distance',
-  'try.motor_work_wh': 'Motor work',
-  'try.torque_nm': 'Largest motor torque',
-  'try.asked_nm': 'Largest motor torque asked',
   'try.at_shaft': "Work and torque are those at the motor's shaft.",
   'try.limits': 'Share of the time held back by',
   'try.why_demanded':

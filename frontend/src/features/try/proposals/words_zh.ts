@@ -26,7 +26,7 @@ export const zh: Record<ProposalKey, string> = {
   energy: '单位距离电池能耗',
   duration: '时间',
   sets: '设置',
-  band: '十之八九 {low} – {high}',
+  band: '十有九次 {low} – {high}',
   before: '现在 {value}',
   marked: '符合愿望',
   take: '试用',
