@@ -33,6 +33,7 @@ from backend.link import kind_of
 from backend.services.health import Health
 from backend.services.imports.collect import Collect
 from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
+from backend.services.rides.fault_moment import FaultMoments, RecentRows
 from backend.services.rides.ledger import EnergyLedger
 from backend.services.rides.propose import Proposals
 from backend.services.rides.record import Recorder
@@ -83,13 +84,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
         closing.callback(store.close)
         last_seen = LastSeen(store.units)
         closing.callback(last_seen.close)
-        devices = Devices(
-            flash_folder=settings.data / "units",
-            schemas=SchemaFiles(settings.data / "schemas"),
-            bike_of=store.units.bike_of,
-            last_seen=last_seen.at,
-            families=families,
-        )
+        devices = make_devices(settings, store, last_seen, families)
         certificates = KeptCertificates(store.certificates, __version__)
         revisions = CertifiedRevisions(store.revisions, certificates)
         tuning = Tuning(devices, revisions)
@@ -107,13 +102,15 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
         closing.callback(uploads.close)
 
         dashboards = Dashboards()
-        for watcher in (memory.follow, recorder.watch, dashboards.follow):
+        recent = RecentRows()
+        for watcher in (memory.follow, recorder.watch, dashboards.follow, recent.follow):
             devices.watch(watcher)
         work = partial(tidy, recorder, uploads, store, last_seen, devices)
         closing.enter_context(housekeeping(work))
         for url in settings.device:
             in_background(url, partial(devices.add, url))
         library = Library(store.library)
+        inspection = Inspection(devices)
         proposals = Proposals(store, memory.ride_config, certificates)
         closing.callback(proposals.close)
         yield Services(
@@ -121,7 +118,8 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
                 __version__, devices, recorder, store.watch, store.database.ask, store.soundness
             ),
             devices=devices,
-            inspection=Inspection(devices),
+            inspection=inspection,
+            fault_moments=FaultMoments(store.rides, recent, inspection.faults, memory.ride_context),
             watch=Watch(devices),
             dashboards=dashboards,
             tuning=tuning,
@@ -141,6 +139,19 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             uploads=uploads,
             collect=collect,
         )
+
+
+def make_devices(
+    settings: Settings, store: Store, last_seen: LastSeen, families: Families
+) -> Devices:
+    """The units there are; none is opened yet."""
+    return Devices(
+        flash_folder=settings.data / "units",
+        schemas=SchemaFiles(settings.data / "schemas"),
+        bike_of=store.units.bike_of,
+        last_seen=last_seen.at,
+        families=families,
+    )
 
 
 def make_uploads(settings: Settings, store: Store) -> Uploads:

@@ -98,3 +98,9 @@ def refusals_only(*statuses: int) -> dict[int | str, dict[str, Any]]:
         }
         for status in sorted(set(statuses))
     }
+
+
+# Whatever is made of a ride's samples is refused, whole, when they are not what was written.
+DAMAGED: dict[int | str, dict[str, Any]] = {
+    500: refusals(500)[500] | {"description": "`object_damaged`: the ride's file is not as written"}
+}

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from backend.services.health import Health
     from backend.services.imports.collect import Collect
     from backend.services.imports.upload import Uploads
+    from backend.services.rides.fault_moment import FaultMoments
     from backend.services.rides.ledger import EnergyLedger
     from backend.services.rides.propose import Proposals
     from backend.services.rides.review import Rides
@@ -39,6 +40,7 @@ class Services:
     health: Health
     devices: Devices
     inspection: Inspection
+    fault_moments: FaultMoments
     watch: Watch
     dashboards: Dashboards
     tuning: Tuning

@@ -223,6 +223,28 @@ class FaultList(Answer):
     next: str | None = None
 
 
+class FaultMoment(Answer):
+    """What the bike did from 2 s before a fault to 1 s after it, as it was recorded."""
+
+    fault: str
+    unit_t_us: int | None = Field(description="When it came last, on the unit's clock.")
+    came_at: datetime | None = Field(description="The same as wall time, where samples tell it.")
+    source: Literal["ride", "stream"] | None = Field(description="What had the samples.")
+    missing: Literal["no_frame", "not_recorded"] | None = Field(
+        description="Why there is no sample: nobody knows when the fault came, or nothing was "
+        "recorded then; null where there are some."
+    )
+    ride_id: int | None
+    ride_t_s: float | None = Field(description="The fault's place in the ride.")
+    motor_torque_meaning: Literal["delivered", "demanded"] | None
+    whole: bool = Field(description="False while samples after the fault are still to come.")
+    at_s: list[float] = Field(description="Of each sample; the fault came at 0.")
+    rider_torque_nm: list[float | None] = Field(description="At the crank; null: no reading.")
+    motor_torque_nm: list[float | None] = Field(
+        description="At the crank; null: no reading, or no gear ratio is known."
+    )
+
+
 class ConfigSlot(Answer):
     """One of the two places in the unit's flash its configuration is kept."""
 

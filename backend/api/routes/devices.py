@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter, Response, status
+from fastapi import APIRouter, Path, Response, status
 
 from backend.api.models.device import (
     Dashboard,
@@ -12,6 +12,7 @@ from backend.api.models.device import (
     DeviceList,
     DeviceRequest,
     FaultList,
+    FaultMoment,
     PortList,
     ScenarioList,
     Simulation,
@@ -20,7 +21,7 @@ from backend.api.models.device import (
     Snapshot,
     WearCounters,
 )
-from backend.api.problem import refusals
+from backend.api.problem import DAMAGED, refusals
 from backend.api.services import Provided
 from backend.services.units.asked_url import check_asked
 from backend.services.units.simulate import advance, scenarios
@@ -95,6 +96,20 @@ def get_dashboard(device_id: str, services: Provided) -> Any:
 def list_faults(device_id: str, services: Provided) -> Any:
     """The faults that are active in the unit or were, and what the bike did when they came."""
     return {"items": services.inspection.faults(device_id)}
+
+
+@router.get(
+    "/devices/{device_id}/faults/{fault_name}/moment",
+    operation_id="moment_of_fault",
+    response_model=FaultMoment,
+    responses=DAMAGED,
+)
+def moment_of_fault(
+    device_id: str, fault_name: Annotated[str, Path(max_length=80)], services: Provided
+) -> Any:
+    """The rider's and the motor's torque around a fault, from the ride it came on, else from the
+    last minutes of the stream."""
+    return services.fault_moments(device_id, fault_name)
 
 
 @router.post(

@@ -27,7 +27,7 @@ from backend.api.models.ride import (
     TableUseRequest,
 )
 from backend.api.models.why import Cuts, Ledger, Why
-from backend.api.problem import refusals
+from backend.api.problem import DAMAGED, refusals
 from backend.api.services import Provided
 
 router = APIRouter(prefix="/rides", tags=["rides"], responses=refusals(404, 409, 415))
@@ -40,10 +40,6 @@ Channels = Annotated[
 ]
 # The block described on top of backend/views/trace.py.
 BINARY_MEDIA_TYPE = "application/octet-stream"
-# Whatever is made of a ride's samples is refused, whole, when they are not what was written.
-DAMAGED: dict[int | str, dict[str, Any]] = {
-    500: refusals(500)[500] | {"description": "`object_damaged`: the ride's file is not as written"}
-}
 
 
 def dated(text: object) -> object:

@@ -171,6 +171,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/devices/{device_id}/faults/{fault_name}/moment": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Moment Of Fault
+         * @description The rider's and the motor's torque around a fault, from the ride it came on, else from the
+         *     last minutes of the stream.
+         */
+        get: operations["moment_of_fault"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/devices/{device_id}/faults/clear": {
         parameters: {
             query?: never;
@@ -2113,6 +2134,63 @@ export interface components {
             items: components["schemas"]["Fault"][];
             /** Next */
             next: string | null;
+        };
+        /**
+         * FaultMoment
+         * @description What the bike did from 2 s before a fault to 1 s after it, as it was recorded.
+         */
+        FaultMoment: {
+            /** Fault */
+            fault: string;
+            /**
+             * Unit T Us
+             * @description When it came last, on the unit's clock.
+             */
+            unit_t_us: number | null;
+            /**
+             * Came At
+             * @description The same as wall time, where samples tell it.
+             */
+            came_at: string | null;
+            /**
+             * Source
+             * @description What had the samples.
+             */
+            source: ("ride" | "stream") | null;
+            /**
+             * Missing
+             * @description Why there is no sample: nobody knows when the fault came, or nothing was recorded then; null where there are some.
+             */
+            missing: ("no_frame" | "not_recorded") | null;
+            /** Ride Id */
+            ride_id: number | null;
+            /**
+             * Ride T S
+             * @description The fault's place in the ride.
+             */
+            ride_t_s: number | null;
+            /** Motor Torque Meaning */
+            motor_torque_meaning: ("delivered" | "demanded") | null;
+            /**
+             * Whole
+             * @description False while samples after the fault are still to come.
+             */
+            whole: boolean;
+            /**
+             * At S
+             * @description Of each sample; the fault came at 0.
+             */
+            at_s: number[];
+            /**
+             * Rider Torque Nm
+             * @description At the crank; null: no reading.
+             */
+            rider_torque_nm: (number | null)[];
+            /**
+             * Motor Torque Nm
+             * @description At the crank; null: no reading, or no gear ratio is known.
+             */
+            motor_torque_nm: (number | null)[];
         };
         /**
          * Feel
@@ -5188,6 +5266,83 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    moment_of_fault: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                device_id: string;
+                fault_name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FaultMoment"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
                 headers: {
                     [name: string]: unknown;
                 };

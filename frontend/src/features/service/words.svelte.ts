@@ -3,6 +3,16 @@ import type { Values } from '$shared/i18n/locale.svelte'
 import { pageWords } from '$shared/i18n/page_words.svelte'
 
 export const en = {
+  likely: 'Likely, most first',
+  will_hold: 'Whether clearing will hold',
+  came_once: 'It came once since the unit was switched on.',
+  came: 'It came {count} times since the unit was switched on.',
+  stands: 'the bike stands, {speed}',
+  moves: 'the bike moves, {speed}',
+  cause_there: '{channel}: {value}, still as in the fault',
+  cause_gone: '{channel}: {value}, sound again',
+  comes_again: 'Cleared now, it would come again.',
+  unit_decides: 'The unit decides when it is asked.',
   checks: 'Checks',
   checks_lead: 'Read from the unit; nothing is changed by it.',
   run: 'Run the checks',

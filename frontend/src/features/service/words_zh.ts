@@ -2,6 +2,16 @@
 import type { ServiceKey } from './words.svelte'
 
 export const zh: Record<ServiceKey, string> = {
+  likely: '可能的原因，最可能者在前',
+  will_hold: '清除是否有效',
+  came_once: '开机以来出现 1 次。',
+  came: '开机以来出现 {count} 次。',
+  stands: '车静止，{speed}',
+  moves: '车在移动，{speed}',
+  cause_there: '{channel}：{value}，仍与故障时相同',
+  cause_gone: '{channel}：{value}，已恢复正常',
+  comes_again: '现在清除，故障会再次出现。',
+  unit_decides: '由驱动单元在请求时决定。',
   checks: '检查',
   checks_lead: '只从驱动单元读取，不作任何修改。',
   run: '进行检查',

@@ -14,6 +14,7 @@ import type {
   Dashboard,
   Device,
   Fault,
+  FaultMoment,
   Feel,
   FuzzyTable,
   Health,
@@ -158,6 +159,13 @@ export class Server {
 
   async faults(id: string): Promise<Fault[]> {
     return (await body(this.http.GET('/api/v1/devices/{device_id}/faults', this.unit(id)))).items
+  }
+
+  /** What the bike did around a fault, from its ride or the last minutes of the stream. */
+  faultMoment(device_id: string, fault_name: string, signal: AbortSignal): Promise<FaultMoment> {
+    const params = { path: { device_id, fault_name } }
+    const path = '/api/v1/devices/{device_id}/faults/{fault_name}/moment'
+    return body(this.http.GET(path, { params, signal }))
   }
 
   /** Forgets the faults that are over; what is left. */

@@ -292,7 +292,6 @@ export const en = {
   'service.faults': 'Faults',
   'service.active': 'active now',
   'service.over': 'over',
-  'service.times': 'came {count} times since the unit was switched on',
   'service.frozen': 'What the bike did then ({time} after switch-on)',
   'service.unknown': 'The unit does not answer; its faults are unknown.',
   'service.rider_reads': 'The rider reads: “{words}”',

@@ -263,7 +263,6 @@ export const zh: Record<Key, string> = {
   'service.faults': '故障',
   'service.active': '当前存在',
   'service.over': '已消失',
-  'service.times': '开机以来出现 {count} 次',
   'service.frozen': '故障发生时的状态（开机后 {time}）',
   'service.unknown': '单元没有应答，故障未知。',
   'service.rider_reads': '骑手看到：“{words}”',
