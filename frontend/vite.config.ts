@@ -26,7 +26,7 @@ const GROUPS = [
   chunk('settings', 'features/(service|settings)'),
   chunk('review', `shared/(certificate|config/(${REVIEW.join('|')}))`),
   chunk('config', 'shared/(config|lint)'),
-  chunk('tune', 'features/tune/(?!Rescale|Scale|Slice|Surface(Plot|Marks))'),
+  chunk('tune', 'features/tune/(?!Rescale|Scale|surface/(between|box|solid|Slice|Surface[MS]))'),
 ]
 
 export default defineConfig({

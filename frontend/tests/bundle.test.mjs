@@ -10,11 +10,9 @@ const files = built ? readdirSync(folder).filter((name) => /\.(js|css)$/.test(na
 const kb = (names) =>
   names.reduce((sum, name) => sum + gzipSync(readFileSync(`${folder}/${name}`)).length, 0) / 1000
 const lines = files.filter((name) => name.startsWith('plotly_lines'))
-const surface = files.filter((name) => name.startsWith('plotly_surface'))
-const heatmap = files.filter((name) => name.startsWith('plotly_heatmap'))
 // uPlot's chunk is named after whatever module the bundler met first; its class names give it away.
 const strips = files.filter((name) => readFileSync(`${folder}/${name}`, 'utf8').includes('u-over'))
-const charts = [...lines, ...surface, ...heatmap, ...strips]
+const charts = [...lines, ...strips]
 const chinese = files.filter((name) => /^zh(_codes)?-/.test(name))
 const pages = files.filter((name) => /^\w+Page-.*js$/.test(name))
 
@@ -68,15 +66,10 @@ describe.skipIf(!built)('the built pages', () => {
     expect(foreign).toEqual([])
   })
 
-  it('have line charts within 380 kB, heatmaps within 20 more and live strips within 30', () => {
+  it('have line charts within 380 kB and live strips within 30, both on request', () => {
     expect(lines.length).toBeGreaterThan(0)
     expect(kb(lines)).toBeLessThan(380)
-    expect(kb(heatmap)).toBeLessThan(20)
     expect(kb(strips)).toBeLessThan(30)
-  })
-
-  it('load three dimensions only on request, within 170 kB', () => {
-    expect(kb(surface)).toBeLessThan(170)
     expect(loaded(entry()).join()).not.toContain('plotly')
   })
 

@@ -22,12 +22,17 @@ EDITS = 40
 EDITS_3D = 20
 ZOOMS = 20
 WITHIN_MS = 20_000
-# Counts from the event to the frame after the next drawing of other data: an old curve that is
-# moved is none.
+# Counts from the event to the frame after the next drawing of other data: pixels of ours, or a
+# Plotly curve that is not the old one moved.
 STOPWATCH = """([kind, where]) => {
     window.taken_ms = null
     const node = document.querySelector(where)
-    const drawn = () => String(node.data[0].z ?? node.data[0].x)
+    const drawn = () => {
+        if (node.data) return String(node.data[0].x)
+        const canvas = node.querySelector('canvas')
+        const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height)
+        return new Uint32Array(data.buffer).reduce((sum, pixel) => (31 * sum + pixel) | 0, 7)
+    }
     const before = drawn()
     addEventListener(kind, (event) => {
         const begun_ms = event.timeStamp

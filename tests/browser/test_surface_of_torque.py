@@ -12,10 +12,8 @@ from playwright.sync_api import expect
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import sideways
 from tests.browser.test_pages_for_everyone import JUDGE
-from tests.browser.test_tune_page import open_tune
+from tests.browser.test_tune_page import open_tune, reading
 from tests.fakes.server import eventually
-
-GREATEST = "Math.max(...(gd.data?.[0]?.z ?? []).flat())"
 
 
 @pytest.mark.parametrize(("width", "theme"), [(1440, "dark"), (390, "light")])
@@ -30,11 +28,13 @@ def test_what_arrives_ends_at_the_rating_and_what_was_taken_is_hatched_and_named
     shown.select_option("Asked, power")
     surface.get_by_role("spinbutton").fill("60")
     page.keyboard.press("Tab")
-    eventually(lambda: desk.plot(GREATEST), lambda watts: watts > 500)
+    eventually(lambda: reading(page, 0.95, 0.05), lambda watts: watts > 500)
     expect(page.get_by_test_id("taken")).to_have_count(0)
     shown.select_option("Arrives, power")
 
-    eventually(lambda: desk.plot(GREATEST), lambda watts: watts == pytest.approx(250.0, rel=0.01))
+    most = pytest.approx(250.0, rel=0.01)
+    eventually(lambda: reading(page, 0.95, 0.05), lambda watts: watts == most)
+    expect(page.get_by_test_id("reading")).to_contain_text("market limit")
     expect(page.get_by_test_id("taken").first).to_be_attached()
     expect(page.get_by_test_id("surface-summary")).to_contain_text("taken by market limit")
     page.locator("[data-cell='2,2']").click()

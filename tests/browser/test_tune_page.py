@@ -29,6 +29,19 @@ def open_tune(desk: Desk) -> Page:
     return page
 
 
+def reading(page: Page, across: float, down: float) -> float:
+    """The value that the surface's picture tells at a place of it, each share 0 to 1."""
+    box = page.locator(f"{SURFACE} canvas").bounding_box() or {}
+    place = {"x": across * box["width"], "y": down * box["height"]}
+    page.locator(f"{SURFACE} canvas").hover(position=place)
+    told = page.get_by_test_id("reading").locator("span").nth(2).inner_text()
+    return float(told.split()[-1])
+
+
+def pixels(page: Page) -> str:
+    return str(page.evaluate("document.querySelector('[data-testid=surface] canvas').toDataURL()"))
+
+
 def all_rules_to(page: Page, key: str) -> None:
     page.focus(CELL)
     page.keyboard.press("Control+a")
@@ -203,12 +216,14 @@ def test_a_paste_that_does_not_fit_changes_nothing(desk: Desk, standing: str) ->
 
 def test_the_surface_follows_the_table(desk: Desk, standing: str) -> None:
     page = open_tune(desk)
-    before = desk.plot("gd.data[0].z.map((row) => [...row])")
-    assert len(before) == len(before[0]) == 41
+    assert reading(page, 0.02, 0.02) == pytest.approx(0.3, abs=0.0005)
+    before = pixels(page)
 
     all_rules_to(page, "5")
 
-    eventually(lambda: desk.plot("gd.data[0].z[0][0]"), lambda z: abs(z - GAIN_ALL_PB) < 1e-4)
+    eventually(lambda: reading(page, 0.02, 0.02), lambda z: abs(z - GAIN_ALL_PB) < 0.0005)
+    assert reading(page, 0.98, 0.98) == pytest.approx(GAIN_ALL_PB, abs=0.0005)
+    assert pixels(page) != before
 
 
 def test_a_peak_is_moved_by_keys_and_keeps_its_order(desk: Desk, standing: str) -> None:
@@ -243,27 +258,45 @@ def test_a_peak_is_dragged(desk: Desk, standing: str) -> None:
     expect(page.locator("input[aria-label='Gain ZO']")).to_have_value("0.3")
 
 
-def test_the_surface_turns_in_three_dimensions(desk: Desk, standing: str) -> None:
-    # Plotly picks the point under the cursor by reading its canvas back.
-    desk.allow("Canvas2D: Multiple readback|GPU stall due to ReadPixels|too many errors")
+def test_the_surface_turns_in_three_dimensions_without_a_graphics_card(
+    launch: Callable[..., Browser], open_desk: OpenDesk, standing: str
+) -> None:
+    flat = launch("--disable-3d-apis")
+    desk = open_desk(within=flat)
     page = open_tune(desk)
 
     page.click("button >> text=3D")
 
-    page.wait_for_selector(f"{SURFACE}[data-kind='3d'][data-draws] canvas", timeout=60_000)
-    assert desk.plot("gd.data[0].type") == "surface"
+    solid = page.locator(f"{SURFACE}[data-kind='3d'][data-draws]")
+    expect(solid.get_by_text("Torque rate")).to_be_attached()
+    assert 0.1 <= reading(page, 0.5, 0.5) <= 0.5
     desk.picture("tune-3d")
-
-
-def test_without_webgl_the_map_says_so(
-    launch: Callable[..., Browser], open_desk: OpenDesk, standing: str
-) -> None:
-    flat = launch("--disable-3d-apis")
-    page = open_tune(open_desk(within=flat))
-
-    expect(page.locator("button >> text=3D")).to_be_disabled()
-    expect(page.locator("text=cannot draw in three dimensions")).to_be_visible()
+    first = pixels(page)
+    solid.press("ArrowLeft")
+    by_key = pixels(page)
+    box = solid.bounding_box() or {}
+    page.mouse.move(box["x"] + 300, box["y"] + 200)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 350, box["y"] + 230)
+    page.mouse.up()
+    dragged = pixels(page)
+    assert len({first, by_key, dragged}) == 3
+    solid.dblclick()
+    assert pixels(page) == first
     flat.close()
+
+
+def test_the_last_seconds_lie_on_the_map_and_on_the_solid(desk: Desk, riding: str) -> None:
+    page = open_tune(desk)
+
+    for view in ("Map", "3D"):
+        page.get_by_role("button", name=view).click()
+        trail = page.get_by_test_id("trail")
+        expect(trail).to_be_attached()
+        expect(page.get_by_test_id("now")).to_be_attached()
+        field, way = (where.bounding_box() or {} for where in (page.locator(SURFACE), trail))
+        assert field["x"] <= way["x"] <= way["x"] + way["width"] <= field["x"] + field["width"]
+        assert field["y"] <= way["y"] <= way["y"] + way["height"] <= field["y"] + field["height"]
 
 
 def test_rules_and_surface_stand_side_by_side_and_stay_so_while_a_peak_is_dragged(

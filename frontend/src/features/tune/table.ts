@@ -4,11 +4,6 @@ import { LABELS } from '$shared/config/parameter_text'
 
 export type Rules = RuleLabel[][]
 
-/** `count` values from `from` to `to`, both included. */
-export function spread(from: number, to: number, count: number): number[] {
-  return Array.from({ length: count }, (_, i) => from + ((to - from) * i) / (count - 1))
-}
-
 /** Where a value lies along increasing points, as a fractional index clamped to them. */
 export function placeAmong(points: number[], value: number): number {
   const after = points.findIndex((point) => point >= value)

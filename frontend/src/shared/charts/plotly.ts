@@ -1,4 +1,4 @@
-// The door to Plotly: one configuration for every chart, and each chart kind in its own chunk.
+// The door to Plotly, which draws the traces of a ride: its configuration, and a chunk of its own.
 import type { Language } from '../i18n/locale.svelte'
 import type { Theme } from '../ui/theme.svelte'
 
@@ -23,14 +23,6 @@ export function loadLines() {
 
 export async function loadTraceChart() {
   return (await loadLines()).TraceChart
-}
-
-export async function loadHeatmap() {
-  return (await import('./plotly_heatmap')).default
-}
-
-export async function loadSurface() {
-  return (await import('./plotly_surface')).default
 }
 
 /** Colours and type of a chart, from the style sheet. */
@@ -60,12 +52,4 @@ export function plotLook(theme: Theme): { font: object; axis: object; base: obje
     },
   }
   return { font, axis, base }
-}
-
-/** Whether this browser can draw in three dimensions; Plotly would otherwise show an advert. */
-export function hasWebgl(): boolean {
-  const canvas = document.createElement('canvas')
-  const context = canvas.getContext('webgl2') ?? canvas.getContext('webgl')
-  context?.getExtension('WEBGL_lose_context')?.loseContext()
-  return context !== null
 }

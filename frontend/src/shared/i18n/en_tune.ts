@@ -20,7 +20,6 @@ export const enTune = {
   'tune.sets': 'Peaks of the sets',
   'tune.heatmap': 'Map',
   'tune.view': 'View of the surface',
-  'tune.no_webgl': 'This browser cannot draw in three dimensions; the map shows the same.',
   'tune.changed': 'Changed, not yet in the unit',
   'tune.factory': "the factory's; changes only with the maker's token",
   'tune.now': 'now {value}',

@@ -21,7 +21,6 @@ export const zhTune: Record<keyof typeof enTune, string> = {
   'tune.sets': '模糊集峰点',
   'tune.heatmap': '热图',
   'tune.view': '曲面视图',
-  'tune.no_webgl': '此浏览器不能绘制三维图；热图显示相同内容。',
   'tune.changed': '已修改，尚未写入单元',
   'tune.factory': '出厂设定，仅凭制造商的令牌可改',
   'tune.now': '当前 {value}',

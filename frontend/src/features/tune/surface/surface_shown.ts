@@ -2,6 +2,7 @@
 import type { TorqueSurface } from '$shared/api/types'
 import { flagNames } from '$shared/stream/flags'
 import type { GainSurface } from './surface_preview.svelte'
+import type { Place } from './trail.svelte'
 
 export const SHOWN = ['gain', 'asked_nm', 'given_nm', 'asked_w', 'given_w'] as const
 export type Shown = (typeof SHOWN)[number]
@@ -23,6 +24,20 @@ export interface Picture {
   asked: number[][] | null
   /** By which limits it is less than that; null for anything else. */
   taken_by: string[][][] | null
+}
+
+/** What draws a picture is told. */
+export interface Drawn {
+  picture: Picture
+  /** What is shown, with its unit. */
+  name: string
+  titles: { speed: string; rate: string }
+  /** What a place of the grid says, line by line. */
+  read: (row: number, column: number) => string[]
+  /** The place of the chosen rule. */
+  chosen: Place
+  point: Place | null
+  trail: Place[]
 }
 
 const OFF_THE_WAY = ['ramp_up', 'ramp_down', 'taper']
@@ -76,27 +91,4 @@ export function takers(picture: Picture): { name: string; share: number }[] {
       share: places.filter((at) => at.includes(name)).length / places.length,
     }))
     .sort((a, b) => b.share - a.share)
-}
-
-/** A row of the picture at a speed, between its lines. */
-export function rowAt(rows: number[][], speeds_kmh: number[], speed_kmh: number): number[] {
-  const { low, high, share } = between(speeds_kmh, speed_kmh)
-  const [a, b] = [rows[low] ?? [], rows[high] ?? []]
-  return a.map((value, j) => value + share * ((b[j] ?? value) - value))
-}
-
-/** A column of the picture at a torque rate, between its lines. */
-export function columnAt(rows: number[][], torque_rates: number[], rate: number): number[] {
-  const { low, high, share } = between(torque_rates, rate)
-  return rows.map((row) => (row[low] ?? NaN) + share * ((row[high] ?? NaN) - (row[low] ?? NaN)))
-}
-
-function between(points: number[], value: number): { low: number; high: number; share: number } {
-  const after = points.findIndex((point) => point >= value)
-  if (after <= 0) {
-    const end = after < 0 ? points.length - 1 : 0
-    return { low: end, high: end, share: 0 }
-  }
-  const [from = 0, to = 1] = [points[after - 1], points[after]]
-  return { low: after - 1, high: after, share: (value - from) / (to - from) }
 }

@@ -2,7 +2,7 @@
 says who took what. */
 import { expect, it } from 'vitest'
 import type { TorqueSurface } from '$shared/api/types'
-import { columnAt, pictureOf, rowAt, takers } from './surface_shown'
+import { pictureOf, takers } from './surface_shown'
 
 const MARKET = 0x4000
 const CUTOFF = 0x0002
@@ -49,10 +49,4 @@ it('tells what arrives, what was asked, and which limit took the rest', () => {
 
 it('tells power at the speed the crank turns with', () => {
   expect(pictureOf('asked_w', gain, torque, 60)?.z[0]?.[1]).toBeCloseTo(60 * 2 * Math.PI)
-})
-
-it('cuts between the lines of its grid', () => {
-  expect(rowAt(torque.given_nm, torque.speeds_kmh, 5)).toEqual([10, 20])
-  expect(columnAt(torque.given_nm, torque.torque_rates, 0.25)).toEqual([30, 0])
-  expect(columnAt(torque.given_nm, torque.torque_rates, 9)).toEqual([40, 0])
 })

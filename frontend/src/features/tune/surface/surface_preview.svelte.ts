@@ -8,7 +8,6 @@ import type {
   ParameterValue,
   TorqueSurface,
 } from '$shared/api/types'
-import { spread } from './table'
 
 const GAIN_POINTS = 41
 /** Each is a moment of the whole law: fewer, so that a drag is followed. */
@@ -40,6 +39,11 @@ export class SurfacePreview {
 
   get torque(): TorqueSurface | null {
     return this.torques.answer
+  }
+
+  /** Whether what is shown waits for the server: whatever else is asked of it would delay it. */
+  get waiting(): boolean {
+    return this.gains.running || this.torques.running
   }
 
   get lint(): LintReport | null {
@@ -83,4 +87,9 @@ function grid(table: FuzzyTable, count: number) {
     speeds_kmh: spread(0, speeds[4] ?? 25, count),
     torque_rates: spread(rates[0] ?? 0, rates[4] ?? 1, count),
   }
+}
+
+/** `count` values from `from` to `to`, both included. */
+function spread(from: number, to: number, count: number): number[] {
+  return Array.from({ length: count }, (_, i) => from + ((to - from) * i) / (count - 1))
 }
