@@ -1,8 +1,8 @@
 // Which rules fire now, asked of the unit's own law with the table that the ridden mode uses.
 import type { AssistModes, FuzzyTable, WhyRequest } from '$shared/api/types'
+import { STEADY } from '$shared/config/steady'
 import { modesFrom, tableFrom, type Read } from '$shared/config/two_tables'
 
-const HELD_S = 10 // what the law averages has settled by then
 const LOOK_BACK_S = 1
 
 /** What of a configuration decides which rules fire. */
@@ -49,9 +49,7 @@ export function questionOf(tables: Tables, at: Record<string, number>): WhyReque
     rider_torque_nm: least('rider_torque_filtered_nm'),
     cadence_rpm: least('cadence_rpm'),
     mode: at['assist_mode'] ?? null,
-    brake: false,
-    walk_button: false,
-    held_s: HELD_S,
+    ...STEADY,
     fuzzy_table: tables.first,
     second_table: tables.second,
     assist_modes: tables.modes,

@@ -100,6 +100,16 @@ export class ConfigDraft {
     return this.edits[name] ?? this.baseline[name]
   }
 
+  /** The whole configuration by name, as the unit has it. */
+  get bases(): Edits {
+    return this.baseline
+  }
+
+  /** The same as it would be. */
+  get values(): Edits {
+    return { ...this.baseline, ...this.edits }
+  }
+
   /** Changes a value. Calls of one gesture (a drag) are undone together. */
   set(name: string, value: ParameterValue, gesture: string | null = null): void {
     if (same(this.value(name), value)) return

@@ -95,6 +95,12 @@ export function impossible(draft: ConfigDraft, names: string[]): boolean {
   })
 }
 
+/** The whole configuration as edited; null while a value of it is impossible. */
+export function wholeOf(draft: ConfigDraft): Edits | null {
+  if (!draft.loaded || impossible(draft, draft.parameters.map(({ name }) => name))) return null
+  return draft.values
+}
+
 /** The table that alone has one of these parameters; null if none of them is of one table only. */
 export function tableWith(names: string[]): TableName | null {
   const own = (which: TableName, other: TableName) =>
