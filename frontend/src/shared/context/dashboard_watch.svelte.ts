@@ -1,12 +1,12 @@
 // What the server sums up of a unit's rows once a second: powers, distance and range.
-import { Refusal } from '$shared/api/client'
-import type { Server } from '$shared/api/server'
-import type { Dashboard } from '$shared/api/types'
-import { PollWhileVisible } from '$shared/context/poll_while_visible'
+import { Refusal } from '../api/client'
+import type { Server } from '../api/server'
+import type { Dashboard } from '../api/types'
+import { PollWhileVisible } from './poll_while_visible'
 
 const PERIOD_MS = 1000
 
-export class RiderNow {
+export class DashboardWatch {
   /** Null until the first answer and while there is none: nothing old is shown. */
   values = $state.raw<Dashboard | null>(null)
   private readonly polling = new PollWhileVisible(() => this.look(), PERIOD_MS)
@@ -14,6 +14,8 @@ export class RiderNow {
   constructor(
     private readonly server: Server,
     private readonly device_id: string,
+    /** Told of each look. */
+    private readonly looked: (values: Dashboard | null) => void = () => undefined,
   ) {}
 
   start(): void {
@@ -31,5 +33,6 @@ export class RiderNow {
       if (!(error instanceof Refusal)) throw error
       this.values = null
     }
+    this.looked(this.values)
   }
 }
