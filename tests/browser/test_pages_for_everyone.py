@@ -5,8 +5,6 @@ Accessibility is judged by axe-core with the WCAG 2.2 A and AA rules.
 
 from __future__ import annotations
 
-import re
-
 import pytest
 from playwright.sync_api import expect
 
@@ -61,30 +59,6 @@ SMALL_TARGETS = """() => [...document.querySelectorAll('button, select, summary,
     .map(([name, box]) => [name, box.width, box.height])"""
 
 
-@pytest.mark.parametrize("theme", ["light", "dark"])
-@pytest.mark.parametrize("path", PAGES)
-def test_axe_finds_no_fault(
-    open_desk: OpenDesk, riding: str, axe: str, path: str, theme: str
-) -> None:
-    desk = open_desk(theme=theme)
-    page = desk.open(path)
-    page.wait_for_selector(READY[path])
-
-    page.evaluate(axe)
-
-    assert page.evaluate(JUDGE) == []
-    desk.picture(f"page{path.replace('/', '-')}-{theme}")
-
-
-def test_axe_finds_no_fault_in_a_ride(desk: Desk, server: SpindleServer, axe: str) -> None:
-    page = desk.open(f"/rides/{long_ride(server)}")
-    page.wait_for_selector("[data-testid=traces][data-draws]")
-
-    page.evaluate(axe)
-
-    assert page.evaluate(JUDGE) == []
-
-
 @pytest.mark.parametrize("path", PAGES)
 def test_a_small_phone_scrolls_the_page_alone_and_never_sideways(
     open_desk: OpenDesk, riding: str, path: str
@@ -97,8 +71,7 @@ def test_a_small_phone_scrolls_the_page_alone_and_never_sideways(
     assert page.evaluate("document.documentElement.scrollHeight") == 740
     assert page.evaluate(COVERED) == []
     assert page.evaluate(SMALL_TARGETS) == []
-    if path != "/rides":  # the rides in the unit push the list down
-        assert page.evaluate(SHIFT) < 0.02
+    assert page.evaluate(SHIFT) < 0.02
 
 
 @pytest.mark.parametrize("width", [1440, 1024])
@@ -128,20 +101,6 @@ def test_a_ride_fits_a_small_phone(open_desk: OpenDesk, server: SpindleServer) -
 
     assert sideways(page) == 0
     desk.picture("ride-phone", full=True)
-
-
-@pytest.mark.parametrize("path", ["/live", "/tune", "/tune/modes", WHY])
-def test_a_phone_in_the_dark_reads_chinese(open_desk: OpenDesk, riding: str, path: str) -> None:
-    desk = open_desk(width=390, height=844, theme="dark", language="zh-CN")
-    page = desk.open(path)
-    page.wait_for_selector(READY[path])
-
-    assert page.get_attribute("html", "lang") == "zh-CN"
-    expect(page.locator("nav").first).to_contain_text("实时")
-    words = page.inner_text("main")
-    leftover = re.findall(r"\b[a-z]+\.[a-z_]+\b", words)
-    assert leftover == []
-    desk.picture(f"phone{path.replace('/', '-')}-zh-dark")
 
 
 def test_language_theme_and_units_are_chosen_and_kept(desk: Desk, riding: str) -> None:

@@ -17,6 +17,7 @@ from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk, sideways
+from tests.browser.recorded_ride import record_ride
 from tests.browser.test_pages_for_everyone import JUDGE
 from tests.browser.test_rides_page import drop_file, steady_ride
 from tests.fakes.server import SpindleServer, eventually
@@ -41,18 +42,7 @@ def workshop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer
 @pytest.fixture(scope="module")
 def ride(workshop: SpindleServer) -> int:
     """The id of a recorded ride, in the mode that the first table rules."""
-    device = workshop.ready_device()
-    legs = {"kind": "legs", "torque_nm": 20.0, "cadence_rpm_max": 90.0}
-    workshop.simulate(device, brake=False, assist_mode=3, rider=legs)
-    eventually(
-        lambda: workshop.get("/rides")["items"],
-        lambda rides: rides and rides[0]["row_count"] > 3000,
-    )
-    workshop.stand_still(device)
-    rides = eventually(
-        lambda: workshop.get("/rides")["items"], lambda rides: rides[0]["state"] == "done"
-    )
-    return int(rides[0]["id"])
+    return record_ride(workshop, workshop.ready_device())
 
 
 @pytest.fixture

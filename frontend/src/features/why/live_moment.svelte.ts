@@ -23,10 +23,9 @@ export class LiveMoment {
 
   /** Explains what was recorded last. Waits for one answer before it asks again. */
   async look(unit_key: string | null): Promise<void> {
-    const { items } = await this.server.rides()
-    const going = items.find((ride) => ride.state === 'live' && ride.unit_key === unit_key)
+    const newest = unit_key === null ? null : await this.server.lastRide(unit_key)
     this.looked = true
-    this.ride = (unit_key !== null && going) || null
+    this.ride = newest?.state === 'live' ? newest : null
     if (!this.ride) return
     const { id, row_count, period_us } = this.ride
     if (!row_count || !period_us) return
