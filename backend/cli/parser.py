@@ -178,7 +178,7 @@ def _add_which(command: argparse.ArgumentParser) -> None:
 
 
 def _add_ride(verbs: Any) -> None:
-    group = _group(verbs, "ride", "rides: import, list, show, export, replay, delete")
+    group = _group(verbs, "ride", "rides: import, list, show, export, replay, since, delete")
     command = _asking(group, "import", ride.import_files, help="FIT files and other logs")
     command.add_argument("files", nargs="+", type=Path)
     command = _asking(group, "list", ride.list_rides, help="newest first")
@@ -198,6 +198,9 @@ def _add_ride(verbs: Any) -> None:
     command.add_argument("--closed-loop", action="store_true", help="as if the bike answered")
     command.add_argument("--mass-kg", type=float, help="rider, bike and load, for the closed loop")
     command.add_argument("--drag-area-m2", type=float, help="0.4 bent low to 0.6 upright")
+    command = _asking(group, "since", ride.since, help="the rides since a change, and before it")
+    command.add_argument("revision", type=int, nargs="?", help="of the unit; its newest if absent")
+    command.add_argument("--unit", help="whose; may be left out when there is only one unit")
     _asking(group, "delete", ride.delete, help="delete a ride").add_argument("ride", type=int)
     command = _asking(group, "files", ride.list_files, help="files that came, and what became")
     command.add_argument("--limit", type=int, default=50)

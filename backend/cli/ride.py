@@ -154,7 +154,7 @@ def print_estimate(estimate: dict[str, Any]) -> None:
     figures = [
         [name, *(text_of(value[part]) for part in parts)]
         for name, value in estimate.items()
-        if isinstance(value, dict) and "replayed" in value
+        if isinstance(value, dict) and "difference" in value
     ]
     print_table(figures, ["", *parts])
     held = [
@@ -164,6 +164,30 @@ def print_estimate(estimate: dict[str, Any]) -> None:
     print_table(held, ["seconds held back by", "recorded", "replayed"])
     for name, value in estimate["trust"].items():
         print(f"{name:32} {text_of(value)}")
+
+
+def since(options: Namespace) -> int:
+    """The unit's rides since a change beside those before it."""
+    server = server_of(options)
+    path = f"/devices/{server.device_id(options.unit)}/config/revisions"
+    revision = options.revision
+    if revision is None:
+        history = server.ask("GET", path)["items"]
+        if not history:
+            raise RequestRefused("The unit has no configuration in its history yet.")
+        revision = history[0]["seq"]
+    answer = server.ask("GET", f"{path}/{revision}/since")
+    if options.json:
+        print_json(answer)
+        return 0
+    print(f"Configuration {answer['seq']} of {answer['created_at']}. {answer['meaning']}")
+    sides = [answer[side] for side in ("before", "after")]
+    rows = [["rides", *(len(side.pop("ride_ids")) for side in sides)]]
+    rows += [[name, *(side[name] for side in sides)] for name in sides[0]]
+    print_table(rows, ["", "before", "since"])
+    print(f"motor work by distance since: {answer['motor_wh_per_km_after']}")
+    print(f"other configurations meanwhile: {answer['other_changes']}")
+    return 0
 
 
 def list_files(options: Namespace) -> int:
