@@ -166,6 +166,10 @@ def test_the_first_sentence_says_how_the_bike_is_and_each_part_has_a_lamp(
     # By the unit's own law: the fixed law of mode eco has a ratio of one half.
     motor = page.get_by_role("region", name="What is set").locator("dt:has-text('eco') + dd")
     expect(motor).to_have_text("15 Nm")
+    told = page.get_by_role("region", name="What is set")
+    limits = server.get(f"/devices/{standing}/config")["parameters"]
+    cutoff, current = limits["assist_cutoff_kmh"], limits["battery_current_a_max"]
+    expect(told).to_contain_text(f"ends at {cutoff:.0f}\u00a0km/h · {current:.0f}\u00a0A")
 
     unit = server.get(f"/devices/{standing}")
     answers = [{**unit, "faults_active": ["torque_stuck"]}, {**unit, "state": "lost"}]
@@ -175,12 +179,17 @@ def test_the_first_sentence_says_how_the_bike_is_and_each_part_has_a_lamp(
     expect(headline).to_contain_text("gives no assist")
     expect(lamps.locator("li.bad")).to_contain_text("Torque sensor stuck")
     expect(page.get_by_role("region", name="Do next")).to_contain_text("Mend the fault")
+    page.keyboard.press("Enter")
+    expect(page.locator("h1")).to_have_text("Service")
+    page.go_back()
 
     listed["items"] = [answers[1]]
 
     # What was known stays; what only a unit that answers can tell is a dash.
     expect(headline).to_contain_text("was last seen at")
     expect(page.locator(PILL)).to_contain_text("read-only")
+    ways = page.get_by_role("link", name="Other ways to connect")
+    expect(ways).to_have_attribute("href", "/connect")
     expect(lamps.locator("[data-lamp=motor]")).to_contain_text("only while connected")
     expect(lamps.locator("[data-lamp=firmware]")).to_contain_text(
         unit["identity"]["firmware_version"]
@@ -201,3 +210,22 @@ def test_the_last_minute_and_the_last_ride_are_drawn_and_told(
         re.compile(r"yours up to [1-9]\d*\sW, the motor up to \d+\sW")
     )
     expect(now.locator("path").first).to_have_attribute("d", re.compile(r"^M.*L"))
+
+
+def test_while_a_ride_is_recorded_the_one_before_it_is_the_last(
+    desk: Desk, server: SpindleServer, riding: str
+) -> None:
+    key = server.get(f"/devices/{riding}")["unit_key"]
+    done = {"id": 7, "state": "done", "name": "Morning commute", "unit_key": key}
+    live = eventually(
+        lambda: server.get("/rides")["items"][0], lambda ride: ride["state"] == "live"
+    )
+    desk.page.route(
+        "**/api/v1/rides?device=*",
+        lambda route: route.fulfill(json={"items": [live, {**live, **done}], "next": None}),
+    )
+    page = desk.open("/")
+
+    expect(page.locator(".headline")).to_contain_text("sport")
+    last = page.get_by_role("region", name="Last ride")
+    expect(last.get_by_role("link", name="Morning commute")).to_have_attribute("href", "/rides/7")

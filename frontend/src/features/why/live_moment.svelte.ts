@@ -23,7 +23,7 @@ export class LiveMoment {
 
   /** Explains what was recorded last. Waits for one answer before it asks again. */
   async look(unit_key: string | null): Promise<void> {
-    const newest = unit_key === null ? null : await this.server.lastRide(unit_key)
+    const [newest] = unit_key === null ? [] : await this.server.latestRides(unit_key, 1)
     this.looked = true
     this.ride = newest?.state === 'live' ? newest : null
     if (!this.ride) return

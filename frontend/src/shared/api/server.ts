@@ -327,10 +327,10 @@ export class Server {
     return body(this.http.GET('/api/v1/rides', { params: { query } }))
   }
 
-  /** The newest ride of a unit; null while there is none. */
-  async lastRide(unit_key: string): Promise<Ride | null> {
-    const query = { device: unit_key, limit: 1 }
-    return (await body(this.http.GET('/api/v1/rides', { params: { query } }))).items[0] ?? null
+  /** The newest rides of a unit, newest first. */
+  async latestRides(unit_key: string, limit: number): Promise<Ride[]> {
+    const query = { device: unit_key, limit }
+    return (await body(this.http.GET('/api/v1/rides', { params: { query } }))).items
   }
 
   ride(id: number): Promise<Ride> {

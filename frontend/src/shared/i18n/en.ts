@@ -334,6 +334,7 @@ export const en = {
   'keys.title': 'Keyboard',
   'keys.go':
     '? lists these keys. g, then b Bike, l Live, t Tune, c Calibrate, s Service, r Rides.',
+  'keys.bike': 'Enter opens the first thing to do.',
   'keys.live': 'Space pauses the strips; then ← → move the cursor, Shift by 1 s.',
   'keys.rules':
     'Arrows move, Shift with arrows selects, 1 to 5 set NB to PB, + and − nudge, = levels, ' +
