@@ -14,11 +14,11 @@ from pathlib import PurePosixPath
 
 from backend.domain.ride import iso_utc
 from backend.errors import StoreError
-from backend.store.database import shown
-from backend.store.database_url import check_url
 from backend.store.identity import belonging
 from backend.store.look import DatabaseView, LiveRecording, look_at
 from backend.store.objects import SIDECAR_SUFFIX, FileObjects, file_sha256, open_objects
+from backend.store.sql.database import shown
+from backend.store.sql.database_url import check_url
 from backend.store.store import saying_where
 
 # A recording commits once a second; one that has not for so long has no server any more.

@@ -18,11 +18,11 @@ from functools import partial
 from sqlalchemy import Connection, delete, insert, or_, select, update
 
 from backend.errors import StoreError
-from backend.store import tables as t
-from backend.store.database import Database
 from backend.store.discard import note_discarded, with_sidecar
 from backend.store.objects import RIDE_SUFFIX, SIDECAR_SUFFIX, Objects
 from backend.store.ride_table import remove_ride
+from backend.store.sql import tables as t
+from backend.store.sql.database import Database
 
 LOG = logging.getLogger(__name__)
 

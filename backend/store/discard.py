@@ -10,8 +10,8 @@ from collections.abc import Iterable
 
 from sqlalchemy import Connection, delete, insert, select
 
-from backend.store import tables as t
 from backend.store.objects import sidecar_key
+from backend.store.sql import tables as t
 
 
 def with_sidecar(ride_key: str) -> tuple[str, str]:

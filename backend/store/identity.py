@@ -16,9 +16,9 @@ from dataclasses import dataclass
 from sqlalchemy import Connection, delete, insert, select, update
 
 from backend.errors import StoreError
-from backend.store import tables as t
 from backend.store.look import DAMAGED, FOREIGN, DatabaseView
 from backend.store.objects import FileObjects
+from backend.store.sql import tables as t
 
 WAYS_OUT = (
     "Nothing was changed. `spindle store check` says what is there; `spindle store rebuild` brings "

@@ -13,10 +13,10 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from backend.errors import StoreError
-from backend.store import advisory
-from backend.store.advisory import AdvisoryLock
-from backend.store.database import is_postgresql, sqlite_path
 from backend.store.objects import FileObjects
+from backend.store.sql import advisory
+from backend.store.sql.advisory import AdvisoryLock
+from backend.store.sql.database import is_postgresql, sqlite_path
 
 FOLDER_LOCK = ".lock"
 SUFFIX = ".lock"

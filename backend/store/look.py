@@ -15,8 +15,8 @@ from sqlalchemy.engine import make_url
 from sqlalchemy.exc import DatabaseError, OperationalError, SQLAlchemyError
 
 from backend.errors import StoreError
-from backend.store.database import shown, sqlite_path
 from backend.store.objects import content_key, sidecar_key
+from backend.store.sql.database import shown, sqlite_path
 from backend.store.trouble import reason_of
 
 MISSING, EMPTY, DAMAGED, FOREIGN, OK = "missing", "empty", "damaged", "foreign", "ok"

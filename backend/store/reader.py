@@ -19,8 +19,8 @@ from backend.domain.energy import FACTORS, derive
 from backend.domain.pyramid import STEPS, Level
 from backend.domain.ride import Ride, RideRows, TimesUs
 from backend.errors import StoreError
-from backend.store.blobs import Rows16
 from backend.store.soundness import CHANGED, damaged_samples
+from backend.store.sql.blobs import Rows16
 
 READERS_KEPT = 8
 

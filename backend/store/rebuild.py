@@ -20,10 +20,7 @@ from pathlib import Path, PurePosixPath
 from sqlalchemy import Connection, insert, select
 
 from backend.errors import StoreError
-from backend.store import tables as t
 from backend.store.check import damage_of
-from backend.store.database import Database, shown, sqlite_path
-from backend.store.database_url import check_url
 from backend.store.deletion import FILLED, MADE, join_source
 from backend.store.digest import digest
 from backend.store.facts import KeptRide, Original, kept_ride
@@ -43,6 +40,9 @@ from backend.store.objects import (
 from backend.store.parquet import RideFile, read_facts
 from backend.store.ride_table import finish_row, inserted, row_of
 from backend.store.sidecar import read_sidecar
+from backend.store.sql import tables as t
+from backend.store.sql.database import Database, shown, sqlite_path
+from backend.store.sql.database_url import check_url
 from backend.store.store import saying_where
 
 # Where a destroyed SQLite file may have left something.

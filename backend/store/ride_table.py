@@ -15,10 +15,10 @@ from backend.domain.filled import Filled
 from backend.domain.ride import Gap, Ride, RideContext, RideSummary
 from backend.domain.ride_events import RideEvent
 from backend.errors import FieldError, InvalidRequest
-from backend.store import tables as t
-from backend.store.blobs import channel_list, encode_level
 from backend.store.discard import take_back, with_sidecar
 from backend.store.finish import WrittenObject
+from backend.store.sql import tables as t
+from backend.store.sql.blobs import channel_list, encode_level
 from backend.store.units import bike_of_ride
 
 NAME_LENGTH_MAX = 200

@@ -27,9 +27,6 @@ from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.pyramid import Level
 from backend.domain.ride import Ride, RideContext, RideRows
 from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
-from backend.store import tables as t
-from backend.store.blobs import Rows16, decode_level, decode_tail, encode_tail
-from backend.store.database import Database
 from backend.store.deletion import (
     FILLED,
     MADE,
@@ -62,6 +59,9 @@ from backend.store.ride_table import (
 )
 from backend.store.sidecar import keep_words, tell_for_old_file
 from backend.store.soundness import Expected, Soundness
+from backend.store.sql import tables as t
+from backend.store.sql.blobs import Rows16, decode_level, decode_tail, encode_tail
+from backend.store.sql.database import Database
 from backend.store.units import bike_of_ride
 
 LOG = logging.getLogger(__name__)

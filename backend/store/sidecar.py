@@ -15,10 +15,10 @@ from sqlalchemy import Connection, select
 
 from backend.domain.ride import Ride
 from backend.errors import StoreError
-from backend.store import tables as t
 from backend.store.facts import WORDS, facts_of
 from backend.store.objects import Objects, sidecar_key
 from backend.store.parquet import read_facts
+from backend.store.sql import tables as t
 
 LOG = logging.getLogger(__name__)
 

@@ -14,10 +14,7 @@ from types import TracebackType
 
 from backend.domain.ride import Ride, iso_utc
 from backend.errors import StoreError
-from backend.store.advisory import fence
 from backend.store.configurations import CertificateStore, LibraryStore, RevisionLog
-from backend.store.database import Database, is_postgresql, shown
-from backend.store.database_url import check_url
 from backend.store.deletion import Deletions
 from backend.store.discard import discarded_keys
 from backend.store.identity import belonging, new_id, require, write_identity
@@ -26,6 +23,9 @@ from backend.store.look import look_at
 from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
 from backend.store.rides import Orphan, RideStore
 from backend.store.soundness import Soundness
+from backend.store.sql.advisory import fence
+from backend.store.sql.database import Database, is_postgresql, shown
+from backend.store.sql.database_url import check_url
 from backend.store.trouble import DISK_FULL, WORDS, code_of
 from backend.store.units import UnitStore
 from backend.store.uploads import UploadStore

@@ -16,8 +16,8 @@ from sqlalchemy.dialects import postgresql, sqlite
 from backend.domain.ride import RideContext
 from backend.domain.sighting import Sighting
 from backend.domain.unit_key import bike_name, tells_unit
-from backend.store import tables as t
-from backend.store.database import Database
+from backend.store.sql import tables as t
+from backend.store.sql.database import Database
 
 
 @dataclass(frozen=True)

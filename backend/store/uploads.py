@@ -22,10 +22,10 @@ from sqlalchemy import Connection, Row, insert, select, update
 
 from backend.domain.ride import iso_utc
 from backend.errors import Conflict, NotFound, StoreError
-from backend.store import tables as t
-from backend.store.database import Database
 from backend.store.deletion import BESIDE, Deletions, forget_upload, join_source
 from backend.store.objects import Objects, content_key, file_sha256
+from backend.store.sql import tables as t
+from backend.store.sql.database import Database
 
 RECEIVING = "receiving"
 TOKEN = re.compile(r"[0-9a-f]{32}")

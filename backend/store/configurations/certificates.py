@@ -7,8 +7,8 @@ import time
 from sqlalchemy import Connection, insert, select, update
 
 from backend.domain.certificate import Certificate
-from backend.store import tables as t
-from backend.store.database import Database
+from backend.store.sql import tables as t
+from backend.store.sql.database import Database
 
 
 class CertificateStore:

@@ -17,8 +17,8 @@ from backend.domain.author import proof_of
 from backend.domain.canonical_json import sha256_of
 from backend.domain.library_item import LibraryVersion
 from backend.errors import Conflict
-from backend.store import tables as t
-from backend.store.database import Database
+from backend.store.sql import tables as t
+from backend.store.sql.database import Database
 
 Body = Mapping[str, Any]
 # Called with what an item is now, before it is changed; raises to refuse the change.

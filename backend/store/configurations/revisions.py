@@ -11,8 +11,8 @@ from sqlalchemy import Connection, insert, select
 from backend.domain.author import proof_of
 from backend.domain.canonical_json import sha256_of
 from backend.domain.revision import Revision
-from backend.store import tables as t
-from backend.store.database import Database
+from backend.store.sql import tables as t
+from backend.store.sql.database import Database
 from backend.store.units import known_unit
 
 REVISIONS_MAX = 1000

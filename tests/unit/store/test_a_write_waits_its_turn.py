@@ -16,8 +16,8 @@ import pytest
 from sqlalchemy import Connection, text
 
 from backend.errors import StoreError
-from backend.store import database as module
-from backend.store.database import Database
+from backend.store.sql import database as module
+from backend.store.sql.database import Database
 
 HELD_S = 0.3
 

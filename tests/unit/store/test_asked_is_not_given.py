@@ -76,7 +76,7 @@ def test_a_database_of_before_loses_the_energy_that_was_only_asked(
     kept = motor_figures(rides[2])
     store.close()
     config = Config()
-    migrations = Path(backend.store.__file__).parent / "migrations"
+    migrations = Path(backend.store.__file__).parent / "sql" / "migrations"
     config.set_main_option("script_location", str(migrations))
     engine = create_engine(f"sqlite:///{tmp_path}/spindle.db")
     with engine.begin() as connection:

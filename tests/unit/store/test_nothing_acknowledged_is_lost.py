@@ -18,8 +18,8 @@ import pytest
 from backend.domain.ride import RideContext
 from backend.errors import StoreError
 from backend.store import Store
-from backend.store.database import Database
 from backend.store.objects import Disk, FileObjects
+from backend.store.sql.database import Database
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
 
 # Processes, compilers or hundreds of files: left out of `make test-fast`.

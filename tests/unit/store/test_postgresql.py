@@ -25,11 +25,12 @@ from sqlalchemy import create_engine
 import backend.store
 from backend.domain.ride import RideContext
 from backend.errors import StoreError
-from backend.store import Store, advisory, open_store
-from backend.store.advisory import AdvisoryLock, lock_engine
+from backend.store import Store, open_store
 from backend.store.check import check_store
 from backend.store.rebuild import rebuild_store
-from backend.store.tables import metadata
+from backend.store.sql import advisory
+from backend.store.sql.advisory import AdvisoryLock, lock_engine
+from backend.store.sql.tables import metadata
 from tests.fakes import postgres
 from tests.fakes.postgres import Postgres
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
@@ -79,7 +80,7 @@ def lose_lock_connection(cluster: Postgres, url: str) -> None:
 
 def test_migrations_and_tables_agree_both_ways(url: str) -> None:
     config = Config()
-    folder = Path(backend.store.__file__).parent / "migrations"
+    folder = Path(backend.store.__file__).parent / "sql" / "migrations"
     config.set_main_option("script_location", str(folder))
     engine = create_engine(url)
 

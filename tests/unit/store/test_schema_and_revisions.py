@@ -19,10 +19,10 @@ from sqlalchemy.schema import CreateTable
 
 import backend.store
 from backend.store import Store
-from backend.store.database import HEAD_REVISION
-from backend.store.tables import metadata
+from backend.store.sql.database import HEAD_REVISION
+from backend.store.sql.tables import metadata
 
-MIGRATIONS = Path(backend.store.__file__).parent / "migrations"
+MIGRATIONS = Path(backend.store.__file__).parent / "sql" / "migrations"
 
 
 def test_migrations_and_tables_agree_both_ways(tmp_path: Path) -> None:

@@ -28,7 +28,7 @@ from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_r
 # A store for every test, or rides of minutes: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
 
-MIGRATIONS = Path(backend.store.__file__).parent / "migrations"
+MIGRATIONS = Path(backend.store.__file__).parent / "sql" / "migrations"
 OpenStore = Callable[..., Store]
 Files = dict[str, bytes]
 

@@ -19,12 +19,12 @@ import backend.store
 from backend.domain.ride import Ride, RideContext
 from backend.domain.unit_key import bike_name, ebl_key, tells_unit, unit_key
 from backend.store import SeenUnit, Store, open_store
-from backend.store import tables as t
 from backend.store.rebuild import rebuild_store
+from backend.store.sql import tables as t
 from tests.unit.store.conftest import OpenStore
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
 
-MIGRATIONS = Path(backend.store.__file__).parent / "migrations"
+MIGRATIONS = Path(backend.store.__file__).parent / "sql" / "migrations"
 HOUR_US = 3_600_000_000
 MINE = RideContext("dev-ttyusb0", "SP-1", "mid drive", unit_key="ebl:SP-1")
 

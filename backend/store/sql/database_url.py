@@ -6,7 +6,7 @@ from sqlalchemy.engine import URL, make_url
 from sqlalchemy.exc import ArgumentError, NoSuchModuleError
 
 from backend.errors import FieldError, InvalidRequest
-from backend.store.database import sqlite_path
+from backend.store.sql.database import sqlite_path
 
 ENGINES = ("sqlite", "postgresql")
 FORMS = "sqlite:///path/to/spindle.db or postgresql+psycopg://user:password@host/name"

@@ -17,8 +17,8 @@ from sqlalchemy.exc import SQLAlchemyError
 from sqlalchemy.pool import NullPool
 
 from backend.errors import StoreError
-from backend.store import tables as t
-from backend.store.database import shown
+from backend.store.sql import tables as t
+from backend.store.sql.database import shown
 from backend.store.trouble import reason_of
 
 LOG = logging.getLogger(__name__)

@@ -2,7 +2,7 @@
 
 from alembic import context
 
-from backend.store.tables import metadata
+from backend.store.sql.tables import metadata
 
 connection = context.config.attributes["connection"]
 context.configure(
