@@ -39,7 +39,8 @@ class ProposalRequest(Question):
 
 
 class ProposalFigure(Answer):
-    """Of all rides; nine of ten simulated rides lay between `low` and `high`."""
+    """Of all rides, as recorded and with the settings, as `POST /rides/{id}/again` tells them; nine
+    of ten simulated rides lay between `low` and `high`."""
 
     before: float
     after: float

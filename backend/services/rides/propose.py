@@ -10,6 +10,7 @@ refused at once. The search is one thread's: a second job waits for the first.
 from __future__ import annotations
 
 import itertools
+import math
 import threading
 import time
 from collections.abc import Mapping, Sequence
@@ -53,7 +54,7 @@ RUNNING = ("waiting", "riding", "proving")
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """Of all rides, without the change and with it, and where nine of ten lie; all of the twin."""
+    """Of all rides, as recorded and with the change, and where nine of ten lie."""
 
     before: float
     after: float
@@ -331,34 +332,26 @@ def plain(work: _Work, found: Tried) -> Tried:
 
 
 def figures(work: _Work, config: Mapping[str, Any]) -> tuple[Figure, Figure]:
-    """Energy of the battery for a kilometre, and time. The band of the battery's energy is that of
-    the motor's work."""
-    after, before = work.road.ridden(config), work.road.before
+    """Energy of the battery for a kilometre, and time, as the same road again tells them. Energy
+    that was not measured is the twin's own, in the band of the motor's work."""
+    after = work.road.ridden(config)
     assert after is not None
     told = [twin.corrected(totals) for twin, totals in zip(work.twins, after.totals, strict=True)]
     bands = [twin.band(config) for twin in work.twins]
-    work_j, time_s = (
-        [sum(band[name][end] for band in bands) for end in (0, 1)]
-        for name in ("motor_work_j", "duration_s")
-    )
-    low, high = (end / max(sum(one["motor_work_j"] for one in told), 1.0) for end in work_j)
-    duration_s = sum(one["duration_s"] for one in told)
+
+    def summed(name: str, factor: float = 1.0) -> Figure:
+        now = factor * sum(one[name] for one in told)
+        low, high = (factor * sum(band[name][end] for band in bands) for end in (0, 1))
+        before = factor * sum(twin.recorded[name] for twin in work.twins)
+        return Figure(before, now, min(low, now), max(high, now))
+
     per_km = 1.0 / SECONDS_PER_HOUR / work.road.distance_km
-    battery = after.battery_j * per_km
-    return (
-        Figure(
-            before.battery_j * per_km,
-            battery,
-            battery * min(low, 1.0),
-            battery * max(high, 1.0),
-        ),
-        Figure(
-            sum(twin.recorded["duration_s"] for twin in work.twins),
-            duration_s,
-            min(time_s[0], duration_s),
-            max(time_s[1], duration_s),
-        ),
-    )
+    battery = summed("battery_j", per_km)
+    if math.isnan(battery.after):
+        now, of_work = after.battery_j * per_km, summed("motor_work_j")
+        low, high = (end / max(of_work.after, 1.0) for end in (of_work.low, of_work.high))
+        battery = Figure(work.road.before.battery_j * per_km, now, low * now, high * now)
+    return battery, summed("duration_s")
 
 
 def codes_of(config: Mapping[str, Any], which: str) -> set[str]:

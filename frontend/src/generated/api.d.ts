@@ -3077,7 +3077,8 @@ export interface components {
         };
         /**
          * ProposalFigure
-         * @description Of all rides; nine of ten simulated rides lay between `low` and `high`.
+         * @description Of all rides, as recorded and with the settings, as `POST /rides/{id}/again` tells them; nine
+         *     of ten simulated rides lay between `low` and `high`.
          */
         ProposalFigure: {
             /** Before */

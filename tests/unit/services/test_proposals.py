@@ -22,19 +22,15 @@ from backend.api.services import Services
 from backend.control import law_defaults
 from backend.control.front_search import GENERATIONS, POPULATION, front_of
 from backend.control.proposal import KNOBS, Space
-from backend.domain.channels import ChannelSpec
-from backend.domain.ride import RideRows
 from backend.errors import InvalidRequest, NotFound
-from backend.ingest import ImportedRide, Outcome
 from backend.ingest.library_document import library_document
-from backend.services.imports.upload import Uploads
 from backend.services.rides.propose import RUNNING, Candidate, Job, Proposals, codes_of
 from backend.services.rides.ride_again import RideAgain
 from backend.services.tuning.certify import KeptCertificates
 from backend.store import Store, open_store
 from firmware_protocol._generated import PARAMETER_BY_NAME
 from tests.fakes.known_roads import Ridden, road
-from tests.unit.services.test_a_ride_ridden_again import PERIOD_US, SPECS, SPORT, sport
+from tests.unit.services.test_a_ride_ridden_again import SPORT, kept, sport
 
 DEADLINE_S = 120.0
 EVERY_STRETCH = 601
@@ -117,20 +113,7 @@ def store(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Store]:
 
 @pytest.fixture(scope="module")
 def ride_id(store: Store) -> int:
-    columns = sport()
-    specs = tuple(SPECS[name] for name in columns)
-    counts = {spec.name: spec.to_counts(columns[spec.name]) for spec in specs}
-    return kept_ride(store, specs, counts, len(columns["speed_kmh"]))
-
-
-def kept_ride(store: Store, specs: tuple[ChannelSpec, ...], counts: Any, rows: int) -> int:
-    times_us = np.arange(rows, dtype=np.int64) * PERIOD_US
-    ride = ImportedRide(1_700_000_000_000_000, PERIOD_US, RideRows(specs, times_us, counts))
-    uploads = Uploads(store, reader=lambda path, name: Outcome("complete", (ride,)))
-    bytes_of_it = b"".join(column.tobytes() for column in counts.values())
-    (found,) = uploads.receive_file("a.csv", bytes_of_it).ride_ids
-    uploads.close()
-    return found
+    return kept(store, sport())
 
 
 @pytest.fixture
@@ -189,10 +172,32 @@ def test_a_candidate_s_band_and_filter_are_tried_and_come_to_what_was_proposed(
     assert job.candidates
     for one in job.candidates:
         assert set(one.parameters) <= {"assist_cutoff_band_kmh", "torque_filter_s"}
-        told = again(ride_id, parameters=one.parameters)["duration_s"]
-        assert (told["replayed"], told["low"], told["high"]) == pytest.approx(
-            (one.duration_s.after, one.duration_s.low, one.duration_s.high)
-        )
+        told = again(ride_id, parameters=one.parameters)
+        for figure, found in (
+            (one.duration_s, told["duration_s"]),
+            (one.battery_wh_per_km, told["battery_wh"]),
+        ):
+            per = figure.before / found["recorded"]
+            assert (figure.after, figure.low, figure.high) == pytest.approx(
+                (per * found["replayed"], per * found["low"], per * found["high"])
+            )
+        assert one.duration_s.before == told["duration_s"]["recorded"]
+
+
+@pytest.mark.slow
+def test_a_battery_that_was_not_measured_is_the_twin_s_in_the_band_of_the_work(
+    proposals: Proposals, store: Store
+) -> None:
+    unmeasured = {name: values for name, values in sport().items() if "battery" not in name}
+    ride_id = kept(store, unmeasured)
+
+    job = over(proposals, proposals.begin([ride_id], "more_range", ["ratio"]))
+
+    assert job.candidates
+    for one in job.candidates:
+        energy = one.battery_wh_per_km
+        assert 0.0 < energy.low <= energy.after <= energy.high
+        assert one.gained_pct == pytest.approx(100.0 * (energy.before / energy.after - 1.0))
 
 
 @pytest.mark.long
@@ -253,9 +258,7 @@ def test_a_job_is_cancelled_and_what_it_did_not_do_is_not_told(
 def test_a_wish_that_a_ride_cannot_tell_is_refused(proposals: Proposals, store: Store) -> None:
     columns = {name: values.copy() for name, values in sport().items()}
     columns["motor_torque_nm"] = np.zeros_like(columns["motor_torque_nm"])
-    specs = tuple(SPECS[name] for name in columns)
-    counts = {spec.name: spec.to_counts(columns[spec.name]) for spec in specs}
-    unhelped = kept_ride(store, specs, counts, len(columns["speed_kmh"]))
+    unhelped = kept(store, columns)
 
     with pytest.raises(InvalidRequest):
         proposals.begin([unhelped], "gentler_start")
