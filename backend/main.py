@@ -35,6 +35,7 @@ from backend.services.imports.collect import Collect
 from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
 from backend.services.rides.fault_moment import FaultMoments, RecentRows
 from backend.services.rides.ledger import EnergyLedger
+from backend.services.rides.mark import MarkMoment
 from backend.services.rides.propose import Proposals
 from backend.services.rides.record import Recorder
 from backend.services.rides.replay import RideReplay
@@ -122,6 +123,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             fault_moments=FaultMoments(store.rides, recent, inspection.faults, memory.ride_context),
             watch=Watch(devices),
             dashboards=dashboards,
+            mark=MarkMoment(recorder, store.marks, devices.get),
             tuning=tuning,
             live=LiveTuning(devices),
             preview=Preview(),

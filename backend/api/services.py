@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from backend.services.imports.upload import Uploads
     from backend.services.rides.fault_moment import FaultMoments
     from backend.services.rides.ledger import EnergyLedger
+    from backend.services.rides.mark import MarkMoment
     from backend.services.rides.propose import Proposals
     from backend.services.rides.review import Rides
     from backend.services.rides.ride_again import RideAgain
@@ -43,6 +44,7 @@ class Services:
     fault_moments: FaultMoments
     watch: Watch
     dashboards: Dashboards
+    mark: MarkMoment
     tuning: Tuning
     live: LiveTuning
     preview: Preview

@@ -1,7 +1,8 @@
-"""What happened on a ride: faults that came and went, modes the rider chose.
+"""What happened on a ride: faults that came and went, modes the rider chose, moments somebody
+marked.
 
-They are read from the ride's own rows, so that a ride shows them whichever way it came; a unit's
-log also tells what began and ended between two rows.
+Faults and modes are read from the ride's own rows, so that a ride shows them whichever way it came;
+a unit's log also tells what began and ended between two rows.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from backend.domain.channels import ChannelSpec, Counts
 FAULT_SET = "fault_set"
 FAULT_CLEARED = "fault_cleared"
 ASSIST_MODE = "assist_mode"
+MARK = "mark"
 # A loose plug makes thousands; they are in the rows all the same.
 EVENTS_MAX = 200
 
@@ -29,7 +31,8 @@ class RideEvent:
     """Something that happened, t_s seconds after the ride's start.
 
     kind: `fault_set` or `fault_cleared` with the faults' bits as value, `assist_mode` with the
-    slot of the rider's switch; the first of these is the mode the ride began in.
+    slot of the rider's switch; the first of these is the mode the ride began in. `mark` with its
+    number in the ride, from 1: somebody watched, and wanted to find this moment again.
     """
 
     t_s: float

@@ -2,6 +2,7 @@
 pyarrow."""
 
 from backend.store.configurations import LibraryStore, RevisionLog
+from backend.store.marks import MarkStore
 from backend.store.reader import RideReader
 from backend.store.rides import RidePage, RideStore
 from backend.store.soundness import expected_of
@@ -12,6 +13,7 @@ from backend.store.uploads import Upload, UploadStore, Verdict
 
 __all__ = [
     "LibraryStore",
+    "MarkStore",
     "RevisionLog",
     "RidePage",
     "RideReader",

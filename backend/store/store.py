@@ -20,6 +20,7 @@ from backend.store.discard import discarded_keys
 from backend.store.identity import belonging, new_id, require, write_identity
 from backend.store.locks import hold
 from backend.store.look import look_at
+from backend.store.marks import MarkStore
 from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
 from backend.store.rides import Orphan, RideStore
 from backend.store.soundness import Soundness
@@ -38,7 +39,7 @@ NAMED_MAX = 10
 
 
 class Store:
-    """Everything that is kept: `rides`, `revisions`, `library`, `certificates`, `units`,
+    """Everything that is kept: `rides`, `marks`, `revisions`, `library`, `certificates`, `units`,
     `uploads`.
 
     closing: lets go of the locks.
@@ -54,6 +55,7 @@ class Store:
         self.deletions = Deletions(database, objects)
         self.soundness = Soundness(objects.root)
         self.rides = RideStore(database, objects, self.deletions, self.soundness, server_id)
+        self.marks = MarkStore(database)
         self.revisions = RevisionLog(database)
         self.library = LibraryStore(database)
         self.certificates = CertificateStore(database)

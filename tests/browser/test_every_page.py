@@ -33,7 +33,7 @@ MOVES = """() => new Promise((told) => {
         { type: 'layout-shift', buffered: true })
     setTimeout(() => told(moves.filter((move) => !move.hadRecentInput).map(({ value, sources }) =>
         [value, sources.map(({ node, previousRect, currentRect }) =>
-            `${name(node)}: ${place(previousRect)} to ${place(currentRect)}`).join('; ')])), 100)
+            `${name(node)}: ${place(previousRect)} to ${place(currentRect)}`).join('; ')])), 500)
 })"""
 HEIGHTS = {1440: 900, 1024: 800, 390: 844}
 PHONE = 390
@@ -75,13 +75,14 @@ def faults(desk: Desk, name: str, ride: int, axe: str, themes: list[Theme]) -> l
     desk.page.emulate_media(color_scheme=themes[0])
     page = desk.open(path.format(ride=ride))
     page.wait_for_selector(ready)
+    # Before axe-core: it holds the page up for so long that live values grow old.
+    moves = page.evaluate(MOVES)
     page.evaluate(axe)
     found: list[object] = []
     for theme in themes:
         page.emulate_media(color_scheme=theme)
         desk.until(f"document.documentElement.dataset.theme === '{theme}'")
         found += page.evaluate(JUDGE)
-    moves = page.evaluate(MOVES)
     if sum(share for share, _ in moves) >= SHIFT_MAX:
         found += [f"{share:.3f} moved: {what}" for share, what in moves]
     if sideways(page):

@@ -11,6 +11,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from playwright.sync_api import expect
@@ -93,6 +94,25 @@ def test_the_crank_and_the_rules_follow_the_rider(desk: Desk, riding: str) -> No
     fired = rules.locator(".fired").first
     expect(fired).to_contain_text(re.compile(r"(NB|NS|ZO|PS|PB)\s*[01]\.\d\d"))
     expect(rules.get_by_role("link", name="why")).to_have_attribute("href", "/tune/why?state")
+
+
+def test_a_moment_is_marked_with_a_key_and_is_in_the_ride(
+    desk: Desk, server: SpindleServer, riding: str
+) -> None:
+    page = desk.open("/live")
+    eventually(lambda: server.get("/rides")["items"][0]["state"], lambda state: state == "live")
+
+    page.keyboard.press("m")
+    expect(page.get_by_text(re.compile(r"Mark \d+ at 0:\d\d\.\d of this ride"))).to_be_visible()
+    page.get_by_role("button", name="Mark this moment").click()
+
+    def marks() -> list[dict[str, Any]]:
+        ride = server.get("/rides")["items"][0]
+        return [event for event in ride["events"] if event["kind"] == "mark"]
+
+    first, second = eventually(marks, lambda found: len(found) >= 2)[-2:]
+    assert second["value"] == first["value"] + 1
+    assert second["t_s"] >= first["t_s"]
 
 
 def test_pausing_holds_the_strips_and_not_the_numbers(desk: Desk, riding: str) -> None:

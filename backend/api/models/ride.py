@@ -68,11 +68,20 @@ class Filled(Answer):
 
 
 class RideEvent(Answer):
-    """A fault that came or went (value: bits of `fault_flags`), or the mode chosen (its slot)."""
+    """A fault that came or went (value: bits of `fault_flags`), the mode chosen (its slot), or a
+    moment that somebody marked (its number)."""
 
     t_s: float
-    kind: Literal["fault_set", "fault_cleared", "assist_mode"]
+    kind: Literal["fault_set", "fault_cleared", "assist_mode", "mark"]
     value: int
+
+
+class RideMark(Answer):
+    """A moment that was marked, t_s seconds after the start of its ride."""
+
+    ride_id: int
+    t_s: float
+    number: int = Field(description="From 1, in its ride.")
 
 
 class RideChannel(Answer):

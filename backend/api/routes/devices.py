@@ -21,6 +21,7 @@ from backend.api.models.device import (
     Snapshot,
     WearCounters,
 )
+from backend.api.models.ride import RideMark
 from backend.api.problem import DAMAGED, refusals
 from backend.api.services import Provided
 from backend.services.units.asked_url import check_asked
@@ -120,6 +121,17 @@ def clear_faults(device_id: str, services: Provided) -> Any:
     forgets those that are over. Lists what is left: whatever still has its cause, and all that is
     active while the bike moves."""
     return {"items": services.inspection.clear_faults(device_id)}
+
+
+@router.post(
+    "/devices/{device_id}/marks",
+    operation_id="mark_moment",
+    response_model=RideMark,
+    status_code=status.HTTP_201_CREATED,
+)
+def mark_moment(device_id: str, services: Provided) -> Any:
+    """Marks the newest moment of the ride that is being recorded; it is among the ride's events."""
+    return services.mark(device_id)
 
 
 @router.get("/scenarios", operation_id="list_scenarios", response_model=ScenarioList)

@@ -189,6 +189,15 @@ class UnitRecorder:
                 live.tail.ride_id, rows, found.rows_saved, found.rows_lost, live.rows_missing
             )
 
+    @property
+    def newest(self) -> tuple[int, float] | None:
+        """The ride that is being recorded, and when its newest row was, s after its start."""
+        with self._lock:
+            live = self._live
+            if live is None or live.tail.ride_id is None:
+                return None
+            return live.tail.ride_id, max(0, live.tail.rows - 1) * self._period_us / 1e6
+
     def _take_block(self, block: StreamBlock) -> None:
         if block.channels != self._channels or block.period_us != self._period_us:
             self._end()
@@ -376,6 +385,11 @@ class Recorder:
         """The ride a unit is recording now, None when it records none."""
         unit = self._units.get(device_id)
         return unit.status if unit else None
+
+    def newest(self, device_id: str) -> tuple[int, float] | None:
+        """The newest moment of a unit's ride, `UnitRecorder.newest`."""
+        unit = self._units.get(device_id)
+        return unit.newest if unit else None
 
     def counts(self, device_id: str) -> RowCounts:
         """What became of a unit's rows; never waits."""

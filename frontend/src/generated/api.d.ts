@@ -214,6 +214,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/devices/{device_id}/marks": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Mark Moment
+         * @description Marks the newest moment of the ride that is being recorded; it is among the ride's events.
+         */
+        post: operations["mark_moment"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/scenarios": {
         parameters: {
             query?: never;
@@ -3441,7 +3461,8 @@ export interface components {
         };
         /**
          * RideEvent
-         * @description A fault that came or went (value: bits of `fault_flags`), or the mode chosen (its slot).
+         * @description A fault that came or went (value: bits of `fault_flags`), the mode chosen (its slot), or a
+         *     moment that somebody marked (its number).
          */
         RideEvent: {
             /** T S */
@@ -3450,7 +3471,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "fault_set" | "fault_cleared" | "assist_mode";
+            kind: "fault_set" | "fault_cleared" | "assist_mode" | "mark";
             /** Value */
             value: number;
         };
@@ -3460,6 +3481,21 @@ export interface components {
             items: components["schemas"]["Ride"][];
             /** Next */
             next: string | null;
+        };
+        /**
+         * RideMark
+         * @description A moment that was marked, t_s seconds after the start of its ride.
+         */
+        RideMark: {
+            /** Ride Id */
+            ride_id: number;
+            /** T S */
+            t_s: number;
+            /**
+             * Number
+             * @description From 1, in its ride.
+             */
+            number: number;
         };
         /** RidePatch */
         RidePatch: {
@@ -5389,6 +5425,73 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["FaultList"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    mark_moment: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RideMark"];
                 };
             };
             /** @description Not Found */

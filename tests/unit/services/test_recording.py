@@ -18,7 +18,9 @@ from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock
 from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.ride import Ride, RideContext
-from backend.errors import NotFound, StoreError
+from backend.domain.ride_events import RideEvent
+from backend.errors import Conflict, NotFound, StoreError
+from backend.services.rides.mark import MarkMoment
 from backend.services.rides.record import Recorder, RecordSettings
 from backend.store import Store, open_store
 
@@ -225,6 +227,26 @@ def test_a_unit_that_was_away_too_long_starts_a_new_ride(store: Store, recorder:
     feed(recorder, *blocks(riding(10)), *blocks(riding(10), t0_us=25_000_000))
 
     assert [ride.row_count for ride in rides(store, recorder)] == [1000, 1000]
+
+
+def test_a_moment_that_was_marked_is_found_in_the_ride(store: Store, recorder: Recorder) -> None:
+    mark = MarkMoment(recorder, store.marks, lambda device_id: None)
+    with pytest.raises(Conflict, match="No ride is being recorded"):
+        mark("u1")
+
+    feed(recorder, *blocks(riding(4)))
+    first = mark("u1")
+    feed(recorder, *blocks(riding(6, seed=2), t0_us=4_000_000))
+    second = mark("u1")
+
+    # Rows come every 10 ms from 0 on: the last of 400 is that of 3.99 s.
+    assert (first.t_s, first.number) == (3.99, 1)
+    assert (second.t_s, second.number, second.ride_id) == (9.99, 2, first.ride_id)
+    recorder.watch("u1", StateChanged(LinkState.CLOSED, "removed"))
+    (ride,) = rides(store, recorder)
+    assert ride.events == (RideEvent(3.99, "mark", 1), RideEvent(9.99, "mark", 2))
+    with pytest.raises(Conflict, match="over"):
+        store.marks.add(ride.id, 5.0)
 
 
 def test_a_silent_unit_s_ride_ends_by_the_wall_clock(store: Store, recorder: Recorder) -> None:

@@ -35,6 +35,8 @@ export const en = {
   cursor_hint: '← → or a press on a strip: values at a moment',
   pause: 'Pause',
   resume: 'Go on',
+  mark: 'Mark this moment',
+  marked: 'Mark {number} at {at} of this ride',
   why_now: 'Why now?',
   now: 'now',
   over_stroke: 'over the stroke',

@@ -34,6 +34,8 @@ export const zh: Record<LiveKey, string> = {
   cursor_hint: '按 ← → 或点按曲线：查看某一时刻的数值',
   pause: '暂停',
   resume: '继续',
+  mark: '标记此刻',
+  marked: '标记 {number}，位于此骑行的 {at}',
   why_now: '现在为何？',
   now: '瞬时',
   over_stroke: '整圈平均',

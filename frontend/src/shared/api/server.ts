@@ -39,6 +39,7 @@ import type {
   Revision,
   SinceChange,
   Ride,
+  RideMark,
   Scenario,
   Simulation,
   SimulationChange,
@@ -172,6 +173,11 @@ export class Server {
   async clearFaults(id: string): Promise<Fault[]> {
     const request = this.http.POST('/api/v1/devices/{device_id}/faults/clear', this.unit(id))
     return (await body(request)).items
+  }
+
+  /** Marks the newest moment of the ride that a unit is recorded on. */
+  mark(id: string): Promise<RideMark> {
+    return body(this.http.POST('/api/v1/devices/{device_id}/marks', this.unit(id)))
   }
 
   /** How far and how long the unit ran, and how its flash is. */

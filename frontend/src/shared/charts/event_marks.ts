@@ -10,6 +10,7 @@ type Kind = RideEvent['kind']
 const looks: Record<Kind, { symbol: string; token: string }> = {
   fault_set: { symbol: 'triangle-down', token: 'bad' },
   fault_cleared: { symbol: 'circle-open', token: 'ok' },
+  mark: { symbol: 'star', token: 'accent' },
   assist_mode: { symbol: 'diamond', token: 'ink-2' },
 }
 const kinds = Object.keys(looks) as Kind[] // the worst first

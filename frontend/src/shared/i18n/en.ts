@@ -335,7 +335,9 @@ export const en = {
   'keys.go':
     '? lists these keys. g, then b Bike, l Live, t Tune, c Calibrate, s Service, r Rides.',
   'keys.bike': 'Enter opens the first thing to do.',
-  'keys.live': 'Space pauses the strips; then ← → move the cursor, Shift by 1 s.',
+  'keys.live':
+    'M marks the moment in the ride. Space pauses the strips; then ← → move the cursor, ' +
+    'Shift by 1 s.',
   'keys.rules':
     'Arrows move, Shift with arrows selects, 1 to 5 set NB to PB, + and − nudge, = levels, ' +
     '* scales, / interpolates, S smooths, Ctrl+C and Ctrl+V copy and paste as text, Delete ' +

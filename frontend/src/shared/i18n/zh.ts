@@ -302,7 +302,7 @@ export const zh: Record<Key, string> = {
   'keys.go':
     '? 列出这些按键。先按 g，再按 b 车辆、l 实时、t 调校、c 标定、s 维修、r 骑行。',
   'keys.bike': 'Enter 打开要做的第一件事。',
-  'keys.live': '空格键暂停曲线；暂停时按 ← → 移动光标，加 Shift 每次 1 秒。',
+  'keys.live': 'M 在骑行中标记此刻。空格键暂停曲线；暂停时按 ← → 移动光标，加 Shift 每次 1 秒。',
   'keys.rules':
     '方向键移动，Shift 加方向键选择，1 至 5 设为 NB 至 PB，+ − 微调，= 取平，* 缩放，/ 插值，' +
     'S 平滑，Ctrl+C 与 Ctrl+V 复制粘贴，Delete 还原，Ctrl+Z 与 Ctrl+Y 撤销和重做。',

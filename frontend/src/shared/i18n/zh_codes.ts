@@ -97,6 +97,8 @@ const refusal = {
   too_many_samples: '数据行过多，无法重放。',
   replay_refused: '此配置无法重放。',
   no_sample: '此时刻没有记录数据，请选择有记录的时刻。',
+  no_ride: '现在没有在记录骑行；车动起来后会自动开始。',
+  marks_full: '此骑行的标记已满。',
   no_table: '没有人保留此骑行当时的配置，因此无法说明电机为何如此输出。',
   preset_read_only: '此条目为 Spindle 自带，不能修改：请另存为其他名称。',
   name_taken: '调校库中已有此名称：请另选一个。',
