@@ -9,7 +9,7 @@ const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
 // worse than they save.
 const MOST = [
   'api|context|device|stream|ui|units',
-  'charts/(plotly|strip_chart)\\.ts',
+  'charts/(plotly\\.ts|strip_chart\\.ts|[Ss]park)',
   'config/(config_draft|drafts|limits|page_draft|parameter_text|ratchet|trial|two_tables)',
   'i18n/(?!zh)',
 ]

@@ -6,14 +6,18 @@ Real server and unit; the history is made by two changes of the configuration.
 
 from __future__ import annotations
 
+import json
 import re
+import time
+from pathlib import Path
 
 from playwright.sync_api import expect
 
+from backend.ingest.backup import read_backup
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import sideways
 from tests.browser.test_pages_for_everyone import COVERED, JUDGE, SHIFT
-from tests.fakes.server import SpindleServer
+from tests.fakes.server import SpindleServer, eventually
 
 
 def test_two_of_the_history_are_compared_and_the_rules_of_one_restored(
@@ -67,3 +71,70 @@ def test_a_dark_phone_reads_the_service_in_chinese(
     assert sideways(page) == 0
     assert page.evaluate(COVERED) == []
     assert re.findall(r"\b[a-z]+\.[a-z_]+\b", page.inner_text("main")) == []
+
+
+def test_the_sheet_has_the_calibration_and_the_ride_after_the_work(
+    open_desk: OpenDesk, server: SpindleServer, standing: str
+) -> None:
+    config = server.get(f"/devices/{standing}/config")
+    offset = config["parameters"]["sensor_offset_counts"]
+    body = {"parameters": {"sensor_offset_counts": offset - 3.0}, "reason": "cold morning"}
+    server.ask("PATCH", f"/devices/{standing}/config", json=body)
+    changed_s = time.monotonic()
+    # A ride begins two seconds before the bike moves.
+    eventually(lambda: time.monotonic() - changed_s, lambda passed_s: passed_s > 3.0)
+    known = len(server.get("/rides")["items"])
+    server.simulate(standing, scenario="commute", running=True, brake=False, speed_factor=10.0)
+
+    def top_kmh() -> float:
+        return float(server.get(f"/devices/{standing}/snapshot")["channels"]["speed_kmh"] or 0.0)
+
+    eventually(top_kmh, lambda speed: speed > 15.0)
+    server.stand_still(standing)
+    eventually(
+        lambda: server.get("/rides")["items"],
+        lambda rides: len(rides) > known and rides[0]["state"] == "done",
+        within_s=60.0,
+    )
+    server.simulate(standing, speed_factor=1.0)
+    desk = open_desk(width=1440, height=900)
+    page = desk.open("/service")
+    page.get_by_role("textbox", name="Complaint").fill("No help since this afternoon")
+    expect(page.get_by_test_id("checks").locator("tbody .passed").first).to_be_visible()
+
+    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    page.emulate_media(media="print")
+
+    sheet = page.get_by_test_id("on-sheet")
+    expect(sheet).to_contain_text(re.compile(r"Ride after the work, \d+:\d\d"))
+    expect(sheet.get_by_role("img")).to_have_count(2)
+    expect(sheet).to_contain_text(re.compile(r"speed, 0 to [12]\d\skm/h"))
+    expect(sheet).to_contain_text(re.compile(r"motor power, 0 to \d+\sW"))
+    expect(sheet).to_contain_text("Held back by")
+    expect(sheet).to_contain_text(f"{offset - 3:.0f} counts")
+    expect(page.get_by_test_id("sheet-faults")).to_be_visible()
+    expect(page.get_by_test_id("faults")).to_be_hidden()
+    expect(page.locator("main")).to_contain_text("No help since this afternoon")
+    pages = page.pdf(format="A4", print_background=True)
+    assert len(re.findall(rb"/Type\s*/Page[^s]", pages)) == 1
+    desk.picture("service-sheet", full=True)
+
+
+def test_the_backup_of_the_unit_is_read_and_each_revision_has_its_certificate(
+    open_desk: OpenDesk, server: SpindleServer, standing: str
+) -> None:
+    config = server.get(f"/devices/{standing}/config")
+    desk = open_desk(width=1440, height=900)
+    page = desk.open("/service")
+
+    with page.expect_download() as downloading:
+        page.get_by_role("button", name="Backup of the unit").click()
+    saved = json.loads(Path(downloading.value.path()).read_text())
+
+    assert read_backup(saved, "saved").parameters == config["parameters"]
+    assert saved["generation"] == config["generation"]
+
+    changes = page.get_by_role("region", name="Changes of the configuration").first
+    changes.get_by_role("button", name="Certificate").last.click()
+    certificate = changes.get_by_test_id("certificate")
+    expect(certificate).to_contain_text("statements with their bounds")

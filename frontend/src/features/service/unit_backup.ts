@@ -1,0 +1,29 @@
+// A unit's configuration as a file, as `spindle device backup` writes it: `spindle device restore`,
+// `diff` and the library read it.
+import type { Config, Device, Parameter } from '$shared/api/types'
+
+/** Name and text of the file. */
+export function backupOf(
+  device: Device,
+  config: Config,
+  parameters: readonly Parameter[],
+): { file: string; text: string } {
+  const units = new Map(parameters.map(({ name, unit }) => [name, unit]))
+  const entries = Object.entries(config.parameters).map(
+    ([name, value]) => [name, { value, unit: units.get(name) ?? '' }] as const,
+  )
+  const name = device.identity?.serial_number ?? device.id
+  const saved = {
+    format: 'spindle-configuration',
+    version: 1,
+    name,
+    comment: '',
+    family: device.family,
+    parameters: Object.fromEntries(entries),
+    identity: device.identity,
+    generation: config.generation,
+    crc32: config.crc32,
+  }
+  const file = `spindle-${name.replaceAll(/[^\w-]+/g, '-')}-generation-${config.generation}.json`
+  return { file, text: `${JSON.stringify(saved, null, 2)}\n` }
+}
