@@ -21,6 +21,7 @@ from backend.domain.energy import (
     sample_seconds,
 )
 from backend.domain.filled import Filled
+from backend.domain.intake import Intake
 from backend.domain.ride_events import RideEvent
 
 TimesUs = npt.NDArray[np.int64]
@@ -114,7 +115,8 @@ class Ride:
     of the rows that should be there (0..1), None when nobody can say; a stretch filled from a log
     counts as there. filled: those stretches. events: what happened. cut_short: the recording ended
     while the bike moved, or with its server, so that nobody knows what came after. bike_id: the
-    bike its unit was on; None where nobody knows the unit.
+    bike its unit was on; None where nobody knows the unit. sport: as the file calls it, None for
+    none. intake: what became of the file's rows and fields, None for what came from no file.
     """
 
     id: int
@@ -139,6 +141,8 @@ class Ride:
     summary: RideSummary | None = None
     cut_short: bool = False
     bike_id: int | None = None
+    sport: str | None = None
+    intake: Intake | None = None
 
     @property
     def motor_torque_meaning(self) -> str | None:
@@ -174,6 +178,8 @@ class Ride:
             "events": [asdict(event) for event in self.events],
             "completeness": self.completeness,
             "cut_short": self.cut_short,
+            "sport": self.sport,
+            "intake": asdict(self.intake) if self.intake else None,
             "upload_id": self.upload_id,
             "object_bytes": self.object_bytes,
             "summary": asdict(self.summary) if self.summary else None,

@@ -1,32 +1,43 @@
 """From the columns a file happens to have to the rows of a ride, by our rules.
 
-- A row without a believable time is dropped, and counted.
-- Rows of the same second are one row: some head units write a row's parts one after the other.
+- A row without a believable time is dropped, and counted (`domain.intake`).
+- A break of hours makes two rides. A clock that jumps away and comes back makes none.
+- Rows of one time that complete each other are one row: some head units write a row's parts one
+  after the other. Rows of one time that differ are samples of their own, and stand evenly in it.
 - Missing is missing: a maker's "no value" number (65535, 255) never becomes a value, nor does what
-  no bike can do (a damaged file is full of it). Both become null, never 0.
+  no bike can do, nor a single sample far from both its neighbours (one flipped bit in an odometer
+  makes 84 km of 2.9). All become null, never 0.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
 
 from backend.domain.channels import ChannelSpec, Counts, Values
+from backend.domain.intake import CLOCK_JUMPED, CLOCK_NOT_SET, NO_TIME, NO_VALUE, Intake
 from backend.domain.ride import RideRows
 from backend.ingest.outcome import ImportedRide
 
-# FIT's zero, 1989-12-31; what lies before it is a clock that was never set.
+# FIT's zero, 1989-12-31.
 EPOCH_S = 631_065_600
+# Before it a clock was never set: FIT then counts from the device's start.
+CLOCK_MIN_S = EPOCH_S + 0x10000000
 LATEST_S = 4_102_444_800
-# No ride lasts longer; a row further from the middle one has a wrong clock.
-SPAN_S_MAX = 7 * 86_400
+# A break longer than this is between two rides: nobody rests so long within one.
+BREAK_S = 6 * 3600
+# Rows of one time lie within this, if no other time comes sooner.
+TICK_US = 1_000_000
 # Rows closer than this to equal spacing make a regular ride.
 REGULAR_TOLERANCE_US = 1000
+# A spike stands out by more than this many of its own resolution, too.
+SPIKE_STEPS = 4
 
 Seconds = npt.NDArray[np.float64]
+Places = npt.NDArray[np.intp]
 
 
 @dataclass(frozen=True)
@@ -34,7 +45,8 @@ class FieldRule:
     """How a field of a file becomes a channel.
 
     sources: names of the field, the best first. factor: file's unit -> channel's unit.
-    lowest, highest: what a bike can do; beyond it the sample is missing.
+    lowest, highest: what a bike can do; beyond it the sample is missing. rate_max: how fast it can
+    change, a second; a single sample that does so to and fro is missing.
     """
 
     channel: ChannelSpec
@@ -42,12 +54,17 @@ class FieldRule:
     lowest: float
     highest: float
     factor: float = 1.0
+    rate_max: float = np.inf
 
 
 SEMICIRCLE_DEG = 180.0 / 2**31
+LATITUDE, LONGITUDE = "latitude_deg", "longitude_deg"
 
 FIT_FIELDS: tuple[FieldRule, ...] = (
-    FieldRule(ChannelSpec("speed_kmh", "km/h", 0.0036), ("enhanced_speed", "speed"), 0, 117.9, 3.6),
+    # 2 g, which no tyre holds.
+    FieldRule(
+        ChannelSpec("speed_kmh", "km/h", 0.0036), ("enhanced_speed", "speed"), 0, 117.9, 3.6, 70.0
+    ),
     FieldRule(ChannelSpec("cadence_rpm", "rpm", 1.0), ("cadence",), 0, 254),
     FieldRule(ChannelSpec("rider_power_w", "W", 1.0), ("power",), 0, 4000),
     FieldRule(ChannelSpec("rider_torque_nm", "Nm", 0.01), ("rider_torque",), -320, 320),
@@ -62,94 +79,257 @@ FIT_FIELDS: tuple[FieldRule, ...] = (
     FieldRule(ChannelSpec("fuzzy_gain", "", 0.0001), ("fuzzy_gain",), 0, 3),
     FieldRule(ChannelSpec("heart_rate_bpm", "bpm", 1.0), ("heart_rate",), 1, 254),
     FieldRule(ChannelSpec("temperature_degc", "degC", 1.0), ("temperature",), -60, 120),
-    FieldRule(ChannelSpec("altitude_m", "m", 0.2), ("enhanced_altitude", "altitude"), -500, 6000),
-    FieldRule(ChannelSpec("grade_pct", "%", 0.01), ("grade",), -100, 100),
-    FieldRule(ChannelSpec("distance_m", "m", 0.01, wide=True), ("distance",), 0, 2e7),
     FieldRule(
-        ChannelSpec("latitude_deg", "deg", SEMICIRCLE_DEG, wide=True), ("position_lat",), -90, 90
+        ChannelSpec("altitude_m", "m", 0.2),
+        ("enhanced_altitude", "altitude"),
+        -500,
+        6000,
+        rate_max=50.0,
+    ),
+    FieldRule(ChannelSpec("grade_pct", "%", 0.01), ("grade",), -100, 100),
+    FieldRule(
+        ChannelSpec("distance_m", "m", 0.01, wide=True), ("distance",), 0, 2e7, rate_max=60.0
+    ),
+    # A thousandth of a degree of latitude is 111 m.
+    FieldRule(
+        ChannelSpec(LATITUDE, "deg", SEMICIRCLE_DEG, wide=True),
+        ("position_lat",),
+        -90,
+        90,
+        rate_max=0.001,
     ),
     FieldRule(
-        ChannelSpec("longitude_deg", "deg", SEMICIRCLE_DEG, wide=True),
-        ("position_long",),
-        -180,
-        180,
+        ChannelSpec(LONGITUDE, "deg", SEMICIRCLE_DEG, wide=True), ("position_long",), -180, 180
     ),
 )
 
 
-def ride_of_columns(
+@dataclass
+class Found:
+    """What is counted while one ride is made."""
+
+    spread: int = 0
+    moved: int = 0
+    dropped: dict[str, int] = field(default_factory=dict)
+    values: dict[str, int] = field(default_factory=dict)
+
+    def drop(self, reason: str, rows: int) -> None:
+        """Count rows that are not in the ride."""
+        if rows:
+            self.dropped[reason] = self.dropped.get(reason, 0) + rows
+
+    def leave_out(self, channel: str, samples: int) -> None:
+        """Count samples that are missing from now on."""
+        if samples:
+            self.values[channel] = self.values.get(channel, 0) + samples
+
+
+def rides_of_columns(
     time_s: Seconds,
     columns: Mapping[str, Values],
     fields: tuple[FieldRule, ...] = FIT_FIELDS,
     sport: str | None = None,
-) -> ImportedRide | None:
-    """Columns (n,) and Unix times (n,) -> a ride; None when no row has a believable time.
+    unread: Mapping[str, int] | None = None,
+) -> list[ImportedRide]:
+    """Columns (n,) and Unix times (n,) -> rides in order of time; none without a time and a value.
 
-    columns: by the file's field names, missing as NaN.
+    columns: by the file's field names, missing as NaN. unread: fields that are in no column. What
+    is in no ride is counted with the first.
     """
-    notes: list[str] = []
-    order, started_us, times_us = ordered_rows(time_s, notes)
-    if not len(order):
-        return None
+    found = Found()
+    blocks = blocks_of_time(time_s, found)
+    rides: list[tuple[ImportedRide, Found, int]] = []
+    for rows in blocks:
+        own = found if not rides else Found()
+        ride = ride_of_rows(rows, time_s, columns, fields, own, sport)
+        if ride is None:
+            found.drop(NO_VALUE, len(rows))
+            continue
+        rides.append((ride, own, len(rows)))
+    return [
+        with_intake(ride, own, rows, unread if number == 0 else None)
+        for number, (ride, own, rows) in enumerate(rides)
+    ]
+
+
+def with_intake(
+    ride: ImportedRide, found: Found, rows: int, unread: Mapping[str, int] | None
+) -> ImportedRide:
+    """The ride with what became of the rows it was made of."""
+    kept = len(ride.rows.times_us)
+    intake = Intake(
+        rows_read=rows + sum(found.dropped.values()),
+        rows_kept=kept,
+        rows_joined=rows - kept,
+        rows_spread=found.spread,
+        rows_moved=found.moved,
+        rows_dropped=dict(found.dropped),
+        values_dropped=dict(found.values),
+        fields_unread=dict(unread or {}),
+    )
+    return replace(ride, intake=intake)
+
+
+def blocks_of_time(time_s: Seconds, found: Found) -> list[Places]:
+    """Rows with believable times, a block for each ride, each in order of time."""
+    there = np.isfinite(time_s) & (time_s < LATEST_S) & (time_s > EPOCH_S)
+    found.drop(NO_TIME, int((~there).sum()))
+    is_set = there & (time_s >= CLOCK_MIN_S)
+    if is_set.any():
+        found.drop(CLOCK_NOT_SET, int((there & ~is_set).sum()))
+    rows = np.flatnonzero(is_set if is_set.any() else there)
+    if not len(rows):
+        return []
+    order = rows[np.argsort(time_s[rows], kind="stable")]
+    breaks = np.flatnonzero(np.diff(time_s[order]) > BREAK_S) + 1
+    blocks = np.split(order, breaks)
+    kept = [block for block in blocks if not jumped_away(block, blocks)]
+    found.drop(CLOCK_JUMPED, len(rows) - sum(map(len, kept)))
+    return kept
+
+
+def jumped_away(block: Places, blocks: Sequence[Places]) -> bool:
+    """Whether a block stands in the middle of a larger one in the file, though not in time."""
+    first, last = block.min(), block.max()
+    return any(
+        len(other) > len(block) and other.min() < first and other.max() > last for other in blocks
+    )
+
+
+def ride_of_rows(
+    rows: Places,
+    time_s: Seconds,
+    columns: Mapping[str, Values],
+    fields: tuple[FieldRule, ...],
+    found: Found,
+    sport: str | None,
+) -> ImportedRide | None:
+    """One block of rows, in order of time, as a ride; None when it has no value."""
+    found.moved = int((np.diff(rows) < 0).sum())
+    unix_us = np.rint(time_s[rows] * 1e6).astype(np.int64)
+    started_us = int(unix_us[0])
+    times_us = unix_us - started_us
+    read = {
+        rule: values[rows] for rule in fields if (values := rule_values(rule, columns)) is not None
+    }
+    left_out = {rule: cleaned(rule, values) for rule, values in read.items()}
     starts = np.flatnonzero(np.concatenate(([True], np.diff(times_us) > 0)))
     if len(starts) < len(times_us):
-        notes.append(f"{len(times_us) - len(starts)} rows of the same time were joined")
+        times_us, starts = spread_out(times_us, starts, read.values(), found)
+    times = times_us[starts]
     channels: list[ChannelSpec] = []
     counts: dict[str, Counts] = {}
-    for rule in fields:
-        values = rule_values(rule, columns, notes)
-        if values is None:
-            continue
-        merged = first_present(values[order], starts)
+    for rule, values in read.items():
+        merged = first_present(values, starts)
+        spikes = without_spikes(rule, merged, times)
+        found.leave_out(rule.channel.name, left_out[rule] + spikes)
         if np.isfinite(merged).any():
             channels.append(rule.channel)
             counts[rule.channel.name] = rule.channel.to_counts(merged)
-    times = times_us[starts]
-    rows = RideRows(tuple(channels), times, counts)
-    return ImportedRide(started_us, regular_period_us(times), rows, sport, tuple(notes))
-
-
-def ordered_rows(
-    time_s: Seconds, notes: list[str]
-) -> tuple[npt.NDArray[np.intp], int, npt.NDArray[np.int64]]:
-    """Rows with believable times in order of time, start in Unix us, times from it in us."""
-    believable = np.isfinite(time_s) & (time_s > EPOCH_S) & (time_s < LATEST_S)
-    if believable.any():
-        middle_s = float(np.median(time_s[believable]))
-        believable &= np.abs(np.where(believable, time_s, middle_s) - middle_s) < SPAN_S_MAX
-    keep = np.flatnonzero(believable)
-    if len(keep) < len(time_s):
-        notes.append(f"{len(time_s) - len(keep)} rows without a believable time were left out")
-    if not len(keep):
-        return keep, 0, np.empty(0, np.int64)
-    unix_us = np.rint(time_s[keep] * 1e6).astype(np.int64)
-    sorting = np.argsort(unix_us, kind="stable")
-    if (np.diff(unix_us) < 0).any():
-        notes.append("the clock went backwards; rows were put in order")
-    ordered_us = unix_us[sorting]
-    return keep[sorting], int(ordered_us[0]), ordered_us - ordered_us[0]
-
-
-def rule_values(rule: FieldRule, columns: Mapping[str, Values], notes: list[str]) -> Values | None:
-    """The rule's channel (n,), from its best source row by row; None when no source is there."""
-    found = [columns[name] for name in rule.sources if name in columns]
-    if not found:
+    no_position(counts, channels, found)
+    if not channels:
         return None
-    values = np.array(found[0], dtype=np.float64)
-    for other in found[1:]:
+    ride_rows = RideRows(tuple(channels), times, counts)
+    return ImportedRide(
+        started_us,
+        regular_period_us(times),
+        ride_rows,
+        sport,
+        start_known=started_us >= CLOCK_MIN_S * 1_000_000,
+    )
+
+
+def rule_values(rule: FieldRule, columns: Mapping[str, Values]) -> Values | None:
+    """The rule's values (n,), from its best source row by row; None when no source is there."""
+    there = [columns[name] for name in rule.sources if name in columns]
+    if not there:
+        return None
+    values = np.array(there[0], dtype=np.float64)
+    for other in there[1:]:
         values = np.where(np.isnan(values), other, values)
     values *= rule.factor
-    impossible = np.isfinite(values) & ((values < rule.lowest) | (values > rule.highest))
-    if impossible.any():
-        notes.append(f"{int(impossible.sum())} impossible values of {rule.channel.name} left out")
-    values[impossible | ~np.isfinite(values)] = np.nan
     return values
 
 
-def first_present(values: Values, starts: npt.NDArray[np.intp]) -> Values:
-    """The first sample that is there in each group of rows beginning at `starts`."""
+def cleaned(rule: FieldRule, values: Values) -> int:
+    """Take out of `values` what no bike can do; how many that were."""
+    impossible = np.isfinite(values) & ((values < rule.lowest) | (values > rule.highest))
+    values[impossible | ~np.isfinite(values)] = np.nan
+    return int(impossible.sum())
+
+
+def without_spikes(rule: FieldRule, values: Values, times_us: npt.NDArray[np.int64]) -> int:
+    """Take single samples out of `values` that leave both neighbours faster than can be.
+
+    The neighbours agree with each other, so that nothing real looks like this. How many that were.
+    """
+    there = np.flatnonzero(np.isfinite(values))
+    if not np.isfinite(rule.rate_max) or len(there) < 3:
+        return 0
+    seconds = times_us[there] / 1e6
+    least = SPIKE_STEPS * rule.channel.scale
+    with_rate = rule.rate_max * np.diff(seconds) + least
+    steps = np.diff(values[there])
+    across = np.abs(values[there][2:] - values[there][:-2])
+    fast = np.abs(steps) > with_rate
+    back = np.signbit(steps[:-1]) != np.signbit(steps[1:])
+    spikes = fast[:-1] & fast[1:] & back & (across <= with_rate[:-1] + with_rate[1:])
+    # The first and the last have one neighbour each, which the next one beyond bears out.
+    ends = np.array([fast[0] and not fast[1], fast[-1] and not fast[-2]])
+    inner = there[1:-1][spikes]
+    outer = there[[0, -1]][ends]
+    values[inner] = np.nan
+    values[outer] = np.nan
+    return len(inner) + len(outer)
+
+
+def spread_out(
+    times_us: npt.NDArray[np.int64],
+    starts: Places,
+    read: Iterable[Values],
+    found: Found,
+) -> tuple[npt.NDArray[np.int64], Places]:
+    """Give rows of one time that differ times of their own; times and beginnings of rows now."""
+    differ = np.zeros(len(starts), dtype=bool)
+    for values in read:
+        there = np.isfinite(values)
+        highest = np.maximum.reduceat(np.where(there, values, -np.inf), starts)
+        lowest = np.minimum.reduceat(np.where(there, values, np.inf), starts)
+        differ |= highest > lowest
+    sizes = np.diff(np.append(starts, len(times_us)))
+    if not differ.any():
+        return times_us, starts
+    firsts = times_us[starts]
+    room_us = np.minimum(np.diff(firsts, append=firsts[-1] + TICK_US), TICK_US)
+    group = np.repeat(np.arange(len(starts)), sizes)
+    place = np.arange(len(times_us)) - starts[group]
+    moved = np.where(differ[group], place * (room_us // sizes)[group], 0)
+    times = times_us + moved
+    found.spread += int(sizes[differ].sum())
+    return times, np.flatnonzero(np.concatenate(([True], np.diff(times) > 0)))
+
+
+def no_position(counts: dict[str, Counts], channels: list[ChannelSpec], found: Found) -> None:
+    """0, 0 is where a receiver without a fix is, and half a position is none."""
+    if LATITUDE not in counts or LONGITUDE not in counts:
+        return
+    missing = {channel.name: channel.missing for channel in channels}
+    latitude, longitude = counts[LATITUDE], counts[LONGITUDE]
+    nowhere = (latitude == 0) & (longitude == 0)
+    half = (latitude == missing[LATITUDE]) != (longitude == missing[LONGITUDE])
+    found.leave_out(LATITUDE, int(nowhere.sum()))
+    found.leave_out(LONGITUDE, int(nowhere.sum()))
+    for values, name in ((latitude, LATITUDE), (longitude, LONGITUDE)):
+        values[nowhere | half] = missing[name]
+        if (values == missing[name]).all():
+            del counts[name]
+            channels[:] = [channel for channel in channels if channel.name != name]
+
+
+def first_present(values: Values, starts: Places) -> Values:
+    """The first sample that is there in each group of rows beginning at `starts`; a copy."""
     if len(starts) == len(values):
-        return values
+        return values.copy()
     index = np.where(np.isfinite(values), np.arange(len(values)), len(values))
     first = np.minimum.reduceat(index, starts)
     return np.append(values, np.nan)[first]

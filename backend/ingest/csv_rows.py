@@ -16,7 +16,7 @@ from datetime import UTC, datetime
 import numpy as np
 
 from backend.domain.channels import ChannelSpec, Values
-from backend.ingest.columns import FIT_FIELDS, FieldRule, ride_of_columns
+from backend.ingest.columns import FIT_FIELDS, FieldRule, rides_of_columns
 from backend.ingest.outcome import COMPLETE, PARTIAL, Outcome, rejected
 
 TIME_NAMES = ("time_utc", "timestamp", "time")
@@ -74,7 +74,7 @@ def header_refusal(head: bytes) -> Outcome | None:
     return None
 
 
-def read_csv(data: bytes, _fast: bool = True) -> Outcome:
+def read_csv(data: bytes) -> Outcome:
     """A CSV file -> what came of it. Never raises on any bytes."""
     text = data.decode("utf-8-sig", errors="replace")
     if not text:
@@ -91,18 +91,20 @@ def read_csv(data: bytes, _fast: bool = True) -> Outcome:
     columns = number_columns(names, body, decimal_comma=separator == ";")
     times = row_times(names, body, columns.get(SECONDS_NAME))
     fields = rules_for(names, columns)
-    ride = ride_of_columns(times, columns, fields)
-    if ride is None:
-        return rejected("no_valid_time", f"None of the {len(body)} rows has a believable time.")
-    if not ride.rows.channels:
+    if not fields:
         return rejected("no_records", f"No column of {', '.join(names[:12])} is a known channel.")
-    kept = len(ride.rows.times_us)
+    rides = tuple(rides_of_columns(times, columns, fields))
+    if not rides:
+        return rejected(
+            "no_valid_time", f"None of the {len(body)} rows has a believable time and a value."
+        )
+    kept = sum(len(ride.rows.times_us) for ride in rides)
     short = sum(len(row) < len(names) for row in body)
     if short:
         share = 1.0 - short / max(len(body), 1)
         detail = f"{short} of {len(body)} rows are cut short; {kept} rows were saved."
-        return Outcome(PARTIAL, (ride,), "truncated", detail, None, share)
-    return Outcome(COMPLETE, (ride,), completeness=1.0)
+        return Outcome(PARTIAL, rides, "truncated", detail, None, share)
+    return Outcome(COMPLETE, rides, completeness=1.0)
 
 
 def separator_of(line: str) -> str:

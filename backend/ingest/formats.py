@@ -37,19 +37,16 @@ MARKUP: tuple[tuple[bytes, str], ...] = (
 )
 ADVICE = "Spindle reads FIT, CSV and its units' own logs; export the ride as one of these."
 
-Reader = Callable[[bytes, bool], Outcome]
+Reader = Callable[[bytes], Outcome]
 
 
-def read_file(name: str, data: bytes, fast: bool = True) -> Outcome:
-    """A file -> what came of it. Never raises on any bytes or name.
-
-    fast: False after a fast reader has died on the same bytes.
-    """
+def read_file(name: str, data: bytes) -> Outcome:
+    """A file -> what came of it. Never raises on any bytes or name."""
     if not data:
         return rejected("empty_file", "The file is empty.", 0)
     reader = reader_for(name, data)
     if reader is not None:
-        return reader(data, fast)
+        return reader(data)
     kind = known_kind(data)
     if kind is not None:
         return rejected("unsupported_format", f"This is {kind}. {ADVICE}", 0)

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from backend.domain.intake import Intake
 from backend.domain.ride import RideContext, RideRows
 from backend.domain.ride_events import RideEvent
 
@@ -26,7 +27,7 @@ class ImportedRide:
     """One ride of a file. started_us: Unix time of its first row. notes: what was put right.
 
     context: what the file knows of the bike. start_known: False where `started_us` means nothing.
-    events: what the file tells besides its rows.
+    events: what the file tells besides its rows. intake: what became of its rows and fields.
     """
 
     started_us: int
@@ -37,6 +38,7 @@ class ImportedRide:
     context: RideContext = RideContext()  # noqa: RUF009 - frozen
     start_known: bool = True
     events: tuple[RideEvent, ...] = ()
+    intake: Intake | None = None
 
 
 @dataclass(frozen=True)

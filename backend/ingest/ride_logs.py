@@ -42,7 +42,7 @@ from backend.ingest.blocks import (
     Scan,
     scan,
 )
-from backend.ingest.columns import EPOCH_S, LATEST_S, SPAN_S_MAX
+from backend.ingest.columns import EPOCH_S, LATEST_S
 from backend.ingest.outcome import COMPLETE, PARTIAL, ImportedRide, Outcome, rejected
 from firmware_protocol._generated import CHANNELS, PARAMETER_BY_NAME, LogEvent
 from firmware_protocol.layout import HALF_BITS
@@ -57,6 +57,8 @@ END_EVENTS_LOST = struct.Struct("<I")
 # A day and more of 10 Hz, and the bound of every other format.
 ROWS_MAX = 2_000_000
 LOGS_MAX = 64
+# No ride lasts longer; a clock that says so is wrong.
+SPAN_S_MAX = 7 * 86_400
 PERIOD_US_MIN = 1_000
 PERIOD_US_MAX = 60_000_000
 EVENT_KINDS: dict[int, str] = {
@@ -86,7 +88,7 @@ class LogRide:
     ended: bool
 
 
-def read_blocks(data: bytes, _fast: bool = True) -> Outcome:
+def read_blocks(data: bytes) -> Outcome:
     """A file of blocks -> what came of it. Never raises on any bytes."""
     found = scan(data)
     logs: dict[tuple[int, int], dict[int, Block]] = {}

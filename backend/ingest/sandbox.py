@@ -1,7 +1,6 @@
 """Files are read in a child process with limits on time and memory, never in the server.
 
-A file that kills its reader is tried once more with the salvaging reader alone, because the fast
-one is compiled code; then it is refused with the reason.
+A file that kills its reader is refused with the reason.
 """
 
 from __future__ import annotations
@@ -19,9 +18,10 @@ from typing import Any
 import numpy as np
 
 from backend.domain.channels import Counts, channel_from_json
+from backend.domain.intake import Intake
 from backend.domain.ride import RideContext, RideRows
 from backend.domain.ride_events import RideEvent
-from backend.ingest.outcome import REJECTED, TOO_SLOW, ImportedRide, Outcome, rejected
+from backend.ingest.outcome import TOO_SLOW, ImportedRide, Outcome, rejected
 from backend.ingest.worker import CPU_S, DATA_BYTES, OUT_OF_MEMORY
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -89,23 +89,13 @@ class Children:
 def read_in_child(
     path: Path, name: str, wall_s: float = WALL_S, children: Children | None = None
 ) -> Outcome:
-    """A file -> what came of it. Never raises on any contents.
+    """A file -> what came of it; the death of its reader is an outcome too.
 
     path: where the bytes are. name: what the file was called, which may decide the format. wall_s:
-    how long a child may take. children: whose `stop` ends it. Raises ReadingStopped after that.
+    how long the child may take. children: whose `stop` ends it. Raises ReadingStopped after that.
     """
     children = children or Children()
-    outcome = run_child(path, name, "fast", wall_s, children)
-    if outcome.state == REJECTED and outcome.code in ("parser_crashed", "too_much_memory"):
-        again = run_child(path, name, "salvage", wall_s, children)
-        if again.state != REJECTED or again.code == TOO_SLOW:
-            return again
-    return outcome
-
-
-def run_child(path: Path, name: str, way: str, wall_s: float, children: Children) -> Outcome:
-    """One run of the reader; its death is an outcome too."""
-    command = [sys.executable, "-m", "backend.ingest.worker", str(path), printable(name), way]
+    command = [sys.executable, "-m", "backend.ingest.worker", str(path), printable(name)]
     try:
         done = children.run(command, wall_s)
     except subprocess.TimeoutExpired:
@@ -170,5 +160,6 @@ def decode_ride(entry: dict[str, Any], answer: bytes, at: int) -> tuple[Imported
         context=RideContext(**entry["context"]),
         start_known=bool(entry["start_known"]),
         events=tuple(RideEvent(**event) for event in entry["events"]),
+        intake=None if entry["intake"] is None else Intake(**entry["intake"]),
     )
     return ride, at

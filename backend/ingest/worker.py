@@ -1,6 +1,6 @@
 """The child process that reads one file. What it dies of, the server survives.
 
-    python -m backend.ingest.worker PATH NAME fast|salvage
+    python -m backend.ingest.worker PATH NAME
 The answer goes to standard output: u32 header length, header JSON, then the arrays one after the
 other as the header's order tells. Exit 0 with an answer, 3 out of memory.
 """
@@ -74,6 +74,7 @@ def encode(outcome: Outcome) -> bytes:
                 "context": asdict(ride.context),
                 "start_known": ride.start_known,
                 "events": [asdict(event) for event in ride.events],
+                "intake": None if ride.intake is None else asdict(ride.intake),
                 "rows": len(ride.rows.times_us),
                 "channels": [channel_to_json(channel) for channel in ride.rows.channels],
             }
@@ -91,13 +92,13 @@ def _bare(outcome: Outcome) -> Outcome:
 
 def main(arguments: list[str]) -> int:
     """Read the file and answer."""
-    path, name, way = arguments
+    path, name = arguments
     limit_resources()
     end_with_the_server()
     from backend.ingest.formats import read_file
 
     try:
-        answer = encode(read_file(name, Path(path).read_bytes(), fast=way == "fast"))
+        answer = encode(read_file(name, Path(path).read_bytes()))
     except MemoryError:
         return OUT_OF_MEMORY
     sys.stdout.buffer.write(answer)

@@ -14,11 +14,12 @@ from typing import Any, TypeVar
 from backend.domain.channels import ChannelSpec, channel_to_json
 from backend.domain.energy import derivable
 from backend.domain.filled import Filled
+from backend.domain.intake import Intake
 from backend.domain.ride import Gap, Ride, RideContext
 from backend.domain.ride_events import RideEvent
 from backend.domain.unit_key import ebl_key
 
-Item = TypeVar("Item", Filled, Gap, RideContext, RideEvent)
+Item = TypeVar("Item", Filled, Gap, Intake, RideContext, RideEvent)
 
 # What every file of version 2 says, and what else only such a one can: a ride that was recorded
 # here came from no file and has no words but those of its sidecar.
@@ -76,6 +77,8 @@ def facts_of(ride: Ride) -> dict[str, object]:
         "summary": asdict(ride.summary) if ride.summary else None,
         "completeness": ride.completeness,
         "cut_short": ride.cut_short,
+        "sport": ride.sport,
+        "intake": asdict(ride.intake) if ride.intake else None,
     }
 
 
@@ -118,6 +121,8 @@ def kept_ride(
         completeness=known.get("completeness"),
         object_key=key,
         cut_short=bool(known.get("cut_short", False)),
+        sport=known.get("sport"),
+        intake=known_fields(Intake, known["intake"]) if known.get("intake") else None,
     )
     return KeptRide(
         ride=ride,

@@ -12,6 +12,7 @@ from sqlalchemy import Connection, Row, Select, delete, insert, select, update
 from backend.domain.channels import ChannelSpec, channel_to_json
 from backend.domain.energy import derivable
 from backend.domain.filled import Filled
+from backend.domain.intake import Intake
 from backend.domain.ride import Gap, Ride, RideContext, RideSummary
 from backend.domain.ride_events import RideEvent
 from backend.errors import FieldError, InvalidRequest
@@ -70,6 +71,8 @@ def ride_from_row(row: Row[Any]) -> Ride:
         summary=RideSummary(**figures) if figures["duration_s"] is not None else None,
         cut_short=bool(body["cut_short"]),
         bike_id=body["bike_id"],
+        sport=body["sport"],
+        intake=Intake(**body["intake"]) if body["intake"] else None,
     )
 
 
@@ -115,8 +118,13 @@ def row_of(ride: Ride) -> dict[str, object]:
     row = ride_row(
         ride.origin, ride.channels, ride.period_us, ride.started_us, ride.context, ride.name
     )
-    filled = [asdict(span) for span in ride.filled]
-    return row | {"notes": ride.notes, "filled": filled, "cut_short": ride.cut_short}
+    return row | {
+        "notes": ride.notes,
+        "filled": [asdict(span) for span in ride.filled],
+        "cut_short": ride.cut_short,
+        "sport": ride.sport,
+        "intake": asdict(ride.intake) if ride.intake else None,
+    }
 
 
 def whose(context: RideContext) -> dict[str, object]:

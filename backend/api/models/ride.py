@@ -67,6 +67,30 @@ class Filled(Answer):
     source: Literal["unit_log"]
 
 
+class Intake(Answer):
+    """What became of every row and field of the file: kept, or counted here with the reason.
+
+    rows_read = rows_kept + rows_joined + the sum of rows_dropped.
+    """
+
+    rows_read: int
+    rows_kept: int
+    rows_joined: int = Field(description="Of one time, each with a part of the values.")
+    rows_spread: int = Field(
+        description="Of one time with values of their own; they stand evenly within it."
+    )
+    rows_moved: int = Field(description="How often the clock went back.")
+    rows_dropped: dict[str, int] = Field(
+        description="By reason: no_time, clock_not_set, clock_jumped, no_value."
+    )
+    values_dropped: dict[str, int] = Field(
+        description="By channel: what no bike can do, and single samples far from both neighbours."
+    )
+    fields_unread: dict[str, int] = Field(
+        description="By name, in how many rows: text, bytes and lists of numbers."
+    )
+
+
 class RideEvent(Answer):
     """A fault that came or went (value: bits of `fault_flags`), the mode chosen (its slot), or a
     moment that somebody marked (its number)."""
@@ -134,6 +158,11 @@ class Ride(Answer):
         description="The recording ended while the bike moved, or with the server that recorded "
         "it: nobody knows what came after the last row. False for a ride that stood still at its "
         "end, was imported, is still being recorded, or was filled from the unit's own log since."
+    )
+    sport: str | None = Field(description="As the file calls it; null for none.")
+    intake: Intake | None = Field(
+        description="What became of the file's rows and fields; null for a ride that was recorded "
+        "here, and for one that was read before this was counted."
     )
     upload_id: str | None
     object_bytes: int | None

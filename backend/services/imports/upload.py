@@ -300,6 +300,8 @@ def ride_of(
         context=imported.context,
         completeness=completeness,
         events=imported.events,
+        sport=imported.sport,
+        intake=imported.intake,
     )
 
 

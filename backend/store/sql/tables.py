@@ -191,6 +191,8 @@ ride = Table(
     Column("context", JSON, nullable=False),
     Column("gaps", JSON, nullable=False),
     Column("filled", JSON, nullable=False, server_default="[]"),
+    Column("sport", String(32)),
+    Column("intake", JSON(none_as_null=True)),
     Column("events", JSON, nullable=False, server_default="[]"),
     Column("completeness", Float),
     Column("upload_id", KEY, ForeignKey("upload.id"), index=True),

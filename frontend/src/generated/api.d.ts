@@ -2454,6 +2454,54 @@ export interface components {
              */
             reset_cause: string | null;
         };
+        /**
+         * Intake
+         * @description What became of every row and field of the file: kept, or counted here with the reason.
+         *
+         *     rows_read = rows_kept + rows_joined + the sum of rows_dropped.
+         */
+        Intake: {
+            /** Rows Read */
+            rows_read: number;
+            /** Rows Kept */
+            rows_kept: number;
+            /**
+             * Rows Joined
+             * @description Of one time, each with a part of the values.
+             */
+            rows_joined: number;
+            /**
+             * Rows Spread
+             * @description Of one time with values of their own; they stand evenly within it.
+             */
+            rows_spread: number;
+            /**
+             * Rows Moved
+             * @description How often the clock went back.
+             */
+            rows_moved: number;
+            /**
+             * Rows Dropped
+             * @description By reason: no_time, clock_not_set, clock_jumped, no_value.
+             */
+            rows_dropped: {
+                [key: string]: number;
+            };
+            /**
+             * Values Dropped
+             * @description By channel: what no bike can do, and single samples far from both neighbours.
+             */
+            values_dropped: {
+                [key: string]: number;
+            };
+            /**
+             * Fields Unread
+             * @description By name, in how many rows: text, bytes and lists of numbers.
+             */
+            fields_unread: {
+                [key: string]: number;
+            };
+        };
         /** LargestDifference */
         LargestDifference: {
             /**
@@ -3379,6 +3427,13 @@ export interface components {
              * @description The recording ended while the bike moved, or with the server that recorded it: nobody knows what came after the last row. False for a ride that stood still at its end, was imported, is still being recorded, or was filled from the unit's own log since.
              */
             cut_short: boolean;
+            /**
+             * Sport
+             * @description As the file calls it; null for none.
+             */
+            sport: string | null;
+            /** @description What became of the file's rows and fields; null for a ride that was recorded here, and for one that was read before this was counted. */
+            intake: components["schemas"]["Intake"] | null;
             /** Upload Id */
             upload_id: string | null;
             /** Object Bytes */

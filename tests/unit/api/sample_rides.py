@@ -35,6 +35,8 @@ SAMPLE_RIDE: dict[str, Any] = {
     "events": [],
     "completeness": 1.0,
     "cut_short": False,
+    "sport": None,
+    "intake": None,
     "upload_id": None,
     "object_bytes": 4096,
     "damage": None,
