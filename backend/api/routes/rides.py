@@ -13,19 +13,15 @@ from pydantic import BeforeValidator
 
 from backend.api.asker import while_asked
 from backend.api.large import in_pieces, whole
-from backend.api.models.ride import (
+from backend.api.models.replay import (
     AgainRequest,
     ClosedLoop,
-    Figure,
     Replay,
     ReplayRequest,
-    Ride,
-    RideList,
-    RidePatch,
-    Series,
     TableUse,
     TableUseRequest,
 )
+from backend.api.models.ride import Figure, Ride, RideList, RidePatch, Series
 from backend.api.models.why import Cuts, Ledger, Why
 from backend.api.problem import DAMAGED, refusals
 from backend.api.services import Provided

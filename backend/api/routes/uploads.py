@@ -20,7 +20,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Header, HTTPException, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
 
-from backend.api.models.ride import Upload, UploadList
+from backend.api.models.upload import Upload, UploadList
 from backend.api.problem import problem_response, refusals
 from backend.api.services import Provided, Services
 from backend.errors import InvalidRequest

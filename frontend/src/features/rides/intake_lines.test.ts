@@ -1,0 +1,40 @@
+import { fill, type Locale } from '$shared/i18n/locale.svelte'
+import { expect, test } from 'vitest'
+import { intakeLines } from './intake_lines'
+import { en, type FileSay } from './words.svelte'
+
+const say: FileSay = (key, values) => fill(en[key], values)
+const locale = { number: String, lookup: (_key: string, name: string) => name } as unknown as Locale
+const nothing = {
+  rows_read: 60,
+  rows_kept: 60,
+  rows_joined: 0,
+  rows_spread: 0,
+  rows_moved: 0,
+  rows_dropped: {},
+  values_dropped: {},
+  fields_unread: {},
+}
+
+test('a file that is wholly in its ride has nothing to tell', () => {
+  expect(intakeLines(nothing, say, locale)).toEqual([])
+})
+
+test('what is not simply a row is told with its count and reason', () => {
+  const intake = {
+    ...nothing,
+    rows_kept: 56,
+    rows_joined: 1,
+    rows_dropped: { no_time: 1, clock_jumped: 2 },
+    values_dropped: { distance_m: 1 },
+    fields_unread: { left_power_phase: 60 },
+  }
+
+  expect(intakeLines(intake, say, locale)).toEqual([
+    '1 with another of the same time, which they complete',
+    '1 without a time',
+    '2 with a clock that jumped away',
+    '1 impossible values of distance_m are left out',
+    'left_power_phase is no single number (60 records)',
+  ])
+})

@@ -1,0 +1,26 @@
+// What of a file is not simply a row or a number of its ride, a line each.
+import type { Ride } from '$shared/api/types'
+import type { Locale } from '$shared/i18n/locale.svelte'
+import { en, type FileSay, type RideFileKey } from './words.svelte'
+
+type Intake = NonNullable<Ride['intake']>
+
+export function intakeLines(intake: Intake, say: FileSay, locale: Locale): string[] {
+  const counted: [RideFileKey, number][] = [
+    ['joined', intake.rows_joined],
+    ['spread', intake.rows_spread],
+    ['moved', intake.rows_moved],
+  ]
+  for (const [reason, count] of Object.entries(intake.rows_dropped))
+    counted.push([reason in en ? (reason as RideFileKey) : 'no_value', count])
+  const count = (many: number) => ({ count: locale.number(many) })
+  return [
+    ...counted.filter(([, many]) => many > 0).map(([key, many]) => say(key, count(many))),
+    ...Object.entries(intake.values_dropped).map(([name, many]) =>
+      say('values', { ...count(many), channel: locale.lookup(`channel.${name}`, name) }),
+    ),
+    ...Object.entries(intake.fields_unread).map(([field, many]) =>
+      say('unread', { ...count(many), field }),
+    ),
+  ]
+}
