@@ -342,7 +342,9 @@ export const en = {
     'Arrows move, Shift with arrows selects, 1 to 5 set NB to PB, + and − nudge, = levels, ' +
     '* scales, / interpolates, S smooths, Ctrl+C and Ctrl+V copy and paste as text, Delete ' +
     'restores, Ctrl+Z and Ctrl+Y undo and redo.',
-  'keys.try': 'On the road’s lines ← → move the cursor, Shift further; K shows km or time.',
+  'keys.try':
+    'O and C switch the lines of open and closed loop. On the road’s lines ← → move the cursor, ' +
+    'Shift further; K shows km or time.',
   'keys.why': '← → move the moment, Shift by 1 s, N and P go to the next and last cut.',
   'keys.numbers': 'Numbers',
   'keys.numbers_text': 'Arrow up and down nudge; with Shift five times as far.',

@@ -306,7 +306,7 @@ export const zh: Record<Key, string> = {
   'keys.rules':
     '方向键移动，Shift 加方向键选择，1 至 5 设为 NB 至 PB，+ − 微调，= 取平，* 缩放，/ 插值，' +
     'S 平滑，Ctrl+C 与 Ctrl+V 复制粘贴，Delete 还原，Ctrl+Z 与 Ctrl+Y 撤销和重做。',
-  'keys.try': '在路线曲线上用 ← → 移动光标，加 Shift 移动更多；K 切换公里或时间。',
+  'keys.try': 'O 与 C 显示或隐藏开环和闭环的曲线。在路线曲线上用 ← → 移动光标，加 Shift 移动更多；K 切换公里或时间。',
   'keys.why': '← → 移动时刻，加 Shift 移动 1 s；N 与 P 前往下一处和上一处限制。',
   'keys.numbers': '数字',
   'keys.numbers_text': '上下方向键微调；按住 Shift 为五倍。',
