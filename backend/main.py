@@ -33,6 +33,7 @@ from backend.link import kind_of
 from backend.services.health import Health
 from backend.services.imports.collect import Collect
 from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
+from backend.services.keeping import Keeping
 from backend.services.rides.fault_moment import FaultMoments, RecentRows
 from backend.services.rides.ledger import EnergyLedger
 from backend.services.rides.mark import MarkMoment
@@ -115,6 +116,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
         proposals = Proposals(store, memory.ride_config, certificates)
         closing.callback(proposals.close)
         yield Services(
+            keeping=Keeping(store, __version__),
             health=Health(
                 __version__, devices, recorder, store.watch, store.database.ask, store.soundness
             ),

@@ -8,7 +8,7 @@ const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
 // What most pages need in one file, and pages of a kind in another: dozens of tiny ones compress
 // worse than they save.
 const MOST = [
-  'api|context|device|stream|ui|units',
+  'api|context|device/(?!FaultMoment|fault_moment|moment_)|stream|ui|units',
   'charts/(plotly\\.ts|strip_chart\\.ts|[Ss]park)',
   'config/(config_draft|drafts|limits|page_draft|parameter_text|ratchet|trial|two_tables)',
   'i18n/(?!zh)',
@@ -21,9 +21,11 @@ const chunk = (name: string, pattern: string) => ({
 })
 const GROUPS = [
   chunk('unit', `shared/(${MOST.join('|')})`),
+  chunk('moment', 'shared/device/(FaultMoment|fault_moment|moment_)'),
   chunk('traces', 'shared/charts/(Traces|trace_line|trace_window|ride_view)'),
   chunk('rides', 'features/(rides|try)/(?!proposals)'),
-  chunk('settings', 'features/(service|settings)'),
+  chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet)'),
+  chunk('settings', 'features/settings'),
   chunk('review', `shared/(certificate|config/(${REVIEW.join('|')}))`),
   chunk('config', 'shared/(config|lint)'),
   chunk('tune', 'features/tune/(?!Rescale|Scale|surface/(between|box|solid|Slice|Surface[MS]))'),

@@ -21,6 +21,7 @@ from backend.api.routes import (
     logs,
     proposals,
     rides,
+    store,
     uploads,
 )
 from backend.api.safety import AllowedHosts, BodyBound, SameOriginOnly, SecurityHeaders
@@ -64,7 +65,7 @@ def create_app(settings: ApiSettings, services: Services | None = None) -> FastA
     app.state.upload_bytes_max = settings.upload_bytes_max
     app.state.author = settings.author
     api = APIRouter(prefix=PREFIX)
-    parts = (health, devices, logs, config, law, library, rides, proposals, uploads, live)
+    parts = (health, store, devices, logs, config, law, library, rides, proposals, uploads, live)
     for module in parts:
         api.include_router(module.router)
     app.include_router(api)

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from backend.services.health import Health
     from backend.services.imports.collect import Collect
     from backend.services.imports.upload import Uploads
+    from backend.services.keeping import Keeping
     from backend.services.rides.fault_moment import FaultMoments
     from backend.services.rides.ledger import EnergyLedger
     from backend.services.rides.mark import MarkMoment
@@ -39,6 +40,7 @@ class Services:
     """The use cases behind the API; each is safe to call from any thread."""
 
     health: Health
+    keeping: Keeping
     devices: Devices
     inspection: Inspection
     fault_moments: FaultMoments

@@ -1,6 +1,7 @@
 """SQL and objects: rides, revisions, the library, units, uploads; the only door to SQLAlchemy and
 pyarrow."""
 
+from backend.store.backup import StorePlace, backup_of, place_of
 from backend.store.configurations import LibraryStore, RevisionLog
 from backend.store.marks import MarkStore
 from backend.store.reader import RideReader
@@ -20,12 +21,15 @@ __all__ = [
     "RideStore",
     "SeenUnit",
     "Store",
+    "StorePlace",
     "Trouble",
     "UnitStore",
     "Upload",
     "UploadStore",
     "Verdict",
     "WriteWatch",
+    "backup_of",
     "expected_of",
     "open_store",
+    "place_of",
 ]

@@ -38,6 +38,7 @@ import type {
   ReplayRequest,
   Revision,
   SinceChange,
+  StorePlace,
   Ride,
   RideMark,
   Scenario,
@@ -68,6 +69,11 @@ export class Server {
   /** Whether everything that is to be kept is kept. */
   health(): Promise<Health> {
     return body(this.http.GET('/api/v1/health'))
+  }
+
+  /** Where everything is kept, and how large it is. */
+  store(signal: AbortSignal): Promise<StorePlace> {
+    return body(this.http.GET('/api/v1/store', { signal }))
   }
 
   async devices(): Promise<Device[]> {

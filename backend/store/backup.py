@@ -1,0 +1,180 @@
+"""The whole store as one zip, made while the server runs, and where the store is.
+
+    spindle.db         the database at one moment, checked before the first byte is sent
+    objects/...        every object that database names, and the store's identity
+    backup.json        last: what is in it, and what was missing or damaged
+
+Unpacked into an empty folder it is a data folder: `spindle store check` and `spindle serve` take it
+with `--data`. What is cut short on the way has no directory at its end and opens nowhere. A
+PostgreSQL database is not in it, since its own tools copy that; the folder alone brings every ride
+back with `spindle store rebuild`.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import shutil
+import time
+from collections.abc import Generator, Iterator, Sequence
+from dataclasses import dataclass
+from io import RawIOBase
+from pathlib import Path, PurePosixPath
+from typing import Any
+from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
+
+from sqlalchemy import func, select
+
+from backend.domain.ride import iso_utc
+from backend.errors import StoreError
+from backend.store.look import look_at
+from backend.store.objects import IDENTITY, READ_BYTES, RIDE_SUFFIX, sidecar_key
+from backend.store.sql import tables as t
+from backend.store.sql.database import shown, sqlite_path
+from backend.store.sql.snapshot import snapshot
+from backend.store.store import Store
+
+DATABASE = "spindle.db"
+FOLDER = "objects"
+MANIFEST = "backup.json"
+
+
+@dataclass(frozen=True)
+class StorePlace:
+    """Where everything is kept. database: its URL without a password.
+
+    database_bytes: of an SQLite file with its journal, None where the database is a server's.
+    object_bytes: of every file of rides and originals. free_bytes: where the objects are.
+    """
+
+    database: str
+    folder: str
+    rides: int
+    database_bytes: int | None
+    object_bytes: int
+    free_bytes: int
+
+
+def place_of(store: Store) -> StorePlace:
+    """Where a store is and how much it holds. Raises StoreError."""
+    url = url_of(store)
+    path = sqlite_path(url)
+    root = store.objects.root
+    beside = [path, path.with_name(f"{path.name}-wal")] if path else []
+    keys = store.objects.keys()
+    rides = select(func.count()).select_from(t.ride)
+    return StorePlace(
+        database=shown(url),
+        folder=str(root),
+        rides=int(store.database.read(lambda c: c.execute(rides).scalar_one())),
+        database_bytes=sum(map(size_of, beside)) if path else None,
+        object_bytes=sum(size_of(root / key) for key in keys),
+        free_bytes=shutil.disk_usage(root).free,
+    )
+
+
+def url_of(store: Store) -> str:
+    """The database's URL with everything that opens it."""
+    return store.database.engine.url.render_as_string(hide_password=False)
+
+
+def size_of(path: Path) -> int:
+    """Bytes of a file; none of one that is just going."""
+    try:
+        return path.stat().st_size
+    except OSError:
+        return 0
+
+
+def backup_of(store: Store, version: str) -> Iterator[bytes]:
+    """The zip, piece by piece; nothing is deleted from the folder until the last.
+
+    version: of this Spindle, for the list in it. Raises StoreError before the first piece, when the
+    database cannot be copied; then there is no zip.
+    """
+    pieces = written(store, version)
+    next(pieces)
+    return pieces
+
+
+def written(store: Store, version: str) -> Iterator[bytes]:
+    """As `backup_of`; the first piece is empty and comes once the database is copied."""
+    copy = store.objects.stage()
+    path = sqlite_path(url_of(store))
+    pipe = Pipe()
+    try:
+        with store.objects.holding():
+            if path is not None:
+                snapshot(path, copy)
+            yield b""
+            with ZipFile(pipe, "w") as archive:
+                if path is not None:
+                    yield from added(archive, pipe, DATABASE, copy, ZIP_DEFLATED)
+                url = url_of(store) if path is None else f"sqlite:///{copy}"
+                keys = sorted(look_at(url).object_keys)
+                lacking = yield from added_objects(archive, pipe, store, keys)
+                told = {
+                    "format": 1,
+                    "made_at": iso_utc(time.time_ns() // 1000),
+                    "spindle": version,
+                    "database": None if path is None else DATABASE,
+                    "objects": len(keys),
+                    **lacking,
+                }
+                archive.writestr(MANIFEST, json.dumps(told, indent=1))
+            yield pipe.taken()
+    finally:
+        copy.unlink(missing_ok=True)
+
+
+def added_objects(
+    archive: ZipFile, pipe: Pipe, store: Store, keys: Sequence[str]
+) -> Generator[bytes, None, dict[str, list[str]]]:
+    """Adds the folder's part; returns which objects were `missing` or `damaged`."""
+    missing, damaged = [], []
+    rides = [key for key in keys if key.endswith(RIDE_SUFFIX)]
+    # A sidecar is there for most rides; without it a ride lacks only what a person wrote.
+    for key in [IDENTITY, *keys, *map(sidecar_key, rides)]:
+        try:
+            file = store.objects.local_path(key)
+        except StoreError:
+            missing += [key] if key in keys else []
+            continue
+        sha256 = yield from added(archive, pipe, f"{FOLDER}/{key}", file, ZIP_STORED)
+        if key in keys and sha256 != PurePosixPath(key).stem:
+            damaged.append(key)
+    return {"missing": missing, "damaged": damaged}
+
+
+def added(
+    archive: ZipFile, pipe: Pipe, name: str, path: Path, method: int
+) -> Generator[bytes, None, str]:
+    """Adds one file; returns the SHA-256 of its bytes. An OSError cuts the zip short."""
+    member = ZipInfo.from_file(path, name, strict_timestamps=False)
+    member.compress_type = method
+    hashed = hashlib.sha256()
+    with path.open("rb") as file, archive.open(member, "w", force_zip64=True) as target:
+        while piece := file.read(READ_BYTES):
+            hashed.update(piece)
+            target.write(piece)
+            yield pipe.taken()
+    return hashed.hexdigest()
+
+
+class Pipe(RawIOBase):
+    """What a zip is written into and taken out of, piece by piece; it cannot go back."""
+
+    def __init__(self) -> None:
+        self._waiting = bytearray()
+
+    def writable(self) -> bool:
+        return True
+
+    def write(self, data: Any) -> int:
+        self._waiting += data
+        return len(data)
+
+    def taken(self) -> bytes:
+        """All that was written since the last call."""
+        piece, self._waiting = bytes(self._waiting), bytearray()
+        return piece

@@ -1,0 +1,32 @@
+// The words of where everything is kept. They come with the page.
+import type { Values } from '$shared/i18n/locale.svelte'
+import { pageWords } from '$shared/i18n/page_words.svelte'
+
+export const en = {
+  data: 'Data and backup',
+  folder: 'Rides and files',
+  database: 'Database',
+  holds: 'Kept',
+  holds_all: '{rides} rides · {size}',
+  free: 'Free on that disk',
+  unknown: '— the server does not answer',
+  backup: 'Save a backup',
+  backup_note:
+    'One zip of everything as it is now: rides, originals, units, settings’ history and library. ' +
+    'The database is checked before it is sent; a zip that was cut short does not open.',
+  backup_server:
+    'The database is on a server and is not in the zip: save it with pg_dump as well. ' +
+    'The zip alone brings every ride back.',
+  restore: 'How to bring it back',
+  restore_stop: 'Stop this Spindle.',
+  restore_unpack: 'Unpack the zip into an empty folder.',
+  restore_check: 'See that everything is there:',
+  restore_start: 'Start from it:',
+  restore_rebuild: 'If only the database is damaged, this makes it anew from the rides’ own files:',
+  place: 'FOLDER',
+}
+
+export type SettingsKey = keyof typeof en
+export type Say = (key: SettingsKey, values?: Values) => string
+
+export const settingsWords = await pageWords(en, async () => (await import('./words_zh')).zh)

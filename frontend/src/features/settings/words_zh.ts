@@ -1,0 +1,25 @@
+// Chinese: where everything is kept.
+import type { SettingsKey } from './words.svelte'
+
+export const zh: Record<SettingsKey, string> = {
+  data: '数据与备份',
+  folder: '骑行与文件',
+  database: '数据库',
+  holds: '已保存',
+  holds_all: '{rides} 次骑行 · {size}',
+  free: '该磁盘剩余空间',
+  unknown: '— 服务器没有应答',
+  backup: '保存备份',
+  backup_note:
+    '一个 zip 文件，包含此刻的全部内容：骑行、原始文件、驱动单元、设置历史与库。' +
+    '数据库在发送前经过检查；中断的 zip 无法打开。',
+  backup_server:
+    '数据库在另一台服务器上，不在 zip 中：请另用 pg_dump 保存。仅凭 zip 也能恢复每次骑行。',
+  restore: '如何恢复',
+  restore_stop: '停止此 Spindle。',
+  restore_unpack: '将 zip 解压到空文件夹。',
+  restore_check: '确认内容完整：',
+  restore_start: '从该文件夹启动：',
+  restore_rebuild: '若只有数据库损坏，可由骑行自身的文件重建：',
+  place: '文件夹',
+}
