@@ -57,6 +57,7 @@ export const en = {
   restore_note: 'Opens as a draft on Tune; reviewed there before anything is written.',
   restored: 'Generation {generation} is open as a draft.',
   restore_away: 'Restoring waits for the unit.',
+  in_unit: 'in the unit',
   one_only: 'There is nothing to compare yet: one configuration is known.',
   job_sheet: 'Job sheet',
   job_kept: 'kept on this computer as you type',

@@ -56,6 +56,7 @@ export const zh: Record<ServiceKey, string> = {
   restore_note: '在调校页作为草稿打开；写入前须在那里检查。',
   restored: '第 {generation} 代已作为草稿打开。',
   restore_away: '恢复须等待驱动单元连接。',
+  in_unit: '驱动单元中',
   one_only: '尚无可比较的内容：只有一份已知的设置。',
   job_sheet: '工单',
   job_kept: '输入时保存在这台电脑上',
