@@ -136,7 +136,8 @@ def test_a_unit_without_rides_shows_no_other_bike_s(
     desk: Desk, server: SpindleServer, standing: str
 ) -> None:
     identity = {**server.get(f"/devices/{standing}")["identity"], "serial_number": "0" * 24}
-    device = {**server.get(f"/devices/{standing}"), "identity": identity}
+    another = {"identity": identity, "unit_key": f"ebl:{identity['serial_number']}"}
+    device = {**server.get(f"/devices/{standing}"), **another}
     page = desk.page
     listed = {"items": [device], "next": None}
     page.route("**/api/v1/devices", lambda route: route.fulfill(json=listed))

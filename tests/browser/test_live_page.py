@@ -100,6 +100,7 @@ def test_a_moment_is_marked_with_a_key_and_is_in_the_ride(
     desk: Desk, server: SpindleServer, riding: str
 ) -> None:
     page = desk.open("/live")
+    page.wait_for_selector(f"{LIVE}[data-stale=false]")
     eventually(lambda: server.get("/rides")["items"][0]["state"], lambda state: state == "live")
 
     page.keyboard.press("m")
