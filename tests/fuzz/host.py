@@ -14,6 +14,7 @@ with atheris.instrument_imports(include=["firmware_protocol", "backend"]):
     from backend.ingest.ride_logs import read_blocks
     from firmware_protocol.codec import Malformed, decode, encode
     from firmware_protocol.framing import FrameDecoder, encode_frame
+    from tests.fakes.fit_file import definition, enclosed
 
 
 def wire(data: bytes) -> None:
@@ -42,6 +43,34 @@ def fit(data: bytes) -> None:
     """A ride, a part of it, or a reason."""
     head = b"\x0e\x10\x00\x00" + data[:4] + b".FIT"
     assert read_file("ride.fit", head + data[4:]).state
+    # Its checksum fits, so that whatever it says is taken for sound.
+    assert read_file("ride.fit", enclosed(fit_messages(atheris.FuzzedDataProvider(data)))).state
+
+
+def fit_messages(from_input: atheris.FuzzedDataProvider) -> bytes:
+    """Definitions of messages that are read, with any fields, and data for them."""
+    body, sizes = b"", {0: 0}
+    while from_input.remaining_bytes():
+        local = from_input.ConsumeIntInRange(0, 3)
+        if from_input.ConsumeIntInRange(0, 3) == 0:
+            fields = [
+                (
+                    from_input.PickValueInList([253, 0, 1, 2, 3, 5, 6, 7, 8, 69, 222]),
+                    from_input.ConsumeIntInRange(0, 9),
+                    from_input.PickValueInList(
+                        [0x00, 0x02, 0x07, 0x0D, 0x84, 0x86, 0x88, 0x90, 0xFF]
+                    ),
+                )
+                for _ in range(from_input.ConsumeIntInRange(0, 6))
+            ]
+            message = from_input.PickValueInList([20, 20, 20, 18, 206, 99])
+            body += definition(local, message, fields)
+            sizes[local] = sum(size for _, size, _ in fields)
+        else:
+            head = local if from_input.ConsumeBool() else 0x80 | local << 5 | 7
+            size = sizes.get(local, 0)
+            body += bytes([head]) + from_input.ConsumeBytes(size).ljust(size, b"\x3c")
+    return body
 
 
 def log(data: bytes) -> None:

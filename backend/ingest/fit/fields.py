@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.domain.channels import Values
-from backend.ingest.fit.layout import BASE_TYPES, TIMESTAMP, Definition, Field
+from backend.ingest.fit.layout import BASE_TYPES, TIMESTAMP, UINT32, Definition, Field
 from backend.ingest.fit.profile import COMPRESSED_SPEED_DISTANCE, RECORD_FIELDS, ProfileField
 
 Bytes = npt.NDArray[np.uint8]
@@ -111,8 +111,8 @@ def fill_times(
     time_s: Values, rows: Places, definition: Definition, at: Places, messages: Bytes
 ) -> None:
     """Times of one definition's messages: their own, or what their headers told."""
-    stamp = next((f for f in definition.fields if f.at == definition.time_at), None)
-    if definition.time_at and stamp is not None:
+    if definition.time_at:
+        stamp = Field(TIMESTAMP, BASE_TYPES[UINT32].size, UINT32, definition.time_at)
         time_s[rows] = numbers(messages, stamp, definition.little)
     for row, offset in zip(rows, at, strict=True) if definition.told_s else ():
         told = definition.told_s.get(int(offset))
@@ -177,7 +177,9 @@ def numbers(messages: Bytes, one: Field, little: bool) -> Values:
     order = "<" if little else ">"
     cells = np.ascontiguousarray(messages[:, one.at : one.at + one.size])
     raw = cells.view(f"{order}{base.code}")[:, 0]
-    values: Values = raw.astype(np.float64)
+    # A float's bits may be no number that can be converted in silence.
+    with np.errstate(invalid="ignore"):
+        values: Values = raw.astype(np.float64)
     if base.invalid is not None:
         values[raw == base.invalid] = np.nan
     else:

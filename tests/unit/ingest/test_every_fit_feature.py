@@ -105,6 +105,12 @@ def defined_anew() -> bytes:
     return enclosed(body)
 
 
+def a_field_of_no_bytes() -> bytes:
+    """Before the time, at the same byte."""
+    body = definition(0, RECORD, [(1, 0, SINT32), STAMP, POWER])
+    return enclosed(body + b"".join(struct.pack("<BIH", 0, NOW + s, 100 + s) for s in range(9)))
+
+
 FEATURES = {
     "a usual file": fit_file(commute(30)),
     "no checksum of the header": fit_file(commute(30), header_crc=False),
@@ -157,6 +163,14 @@ def test_times_in_headers_go_on_from_the_last_told_one() -> None:
     assert ride.started_us == START_S * 1_000_000
     assert (np.diff(ride.rows.times_us) == 1_000_000).all()
     assert values(ride, "rider_power_w") == pytest.approx([100.0 + s for s in range(41)])
+
+
+def test_a_field_of_no_bytes_is_no_value_and_moves_no_other() -> None:
+    """fitdecode reads nothing of such a file."""
+    ride = only_ride(a_field_of_no_bytes())
+
+    assert (np.diff(ride.rows.times_us) == 1_000_000).all()
+    assert values(ride, "rider_power_w") == pytest.approx([100.0 + s for s in range(9)])
 
 
 def test_a_distance_that_goes_round_is_added_up() -> None:
