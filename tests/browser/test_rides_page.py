@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import re
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.desk import Desk
@@ -14,6 +15,7 @@ from tests.fakes.server import SpindleServer, eventually
 
 TRACES = "[data-testid=traces]"
 GREATEST = "Math.max(...gd.data.find((d) => d.name === 'Rider torque').y.filter((v) => !isNaN(v)))"
+WIDTH_S = "gd._fullLayout.xaxis.range[1] - gd._fullLayout.xaxis.range[0]"
 
 
 def long_ride(server: SpindleServer) -> int:
@@ -78,6 +80,8 @@ def test_zooming_keeps_the_spike_until_every_sample_is_drawn(
 
         points = page.locator("[data-testid=points]")
         expect(points).not_to_have_text(before)
+        drawn_s = pytest.approx(2 * half_s, rel=0.05)
+        eventually(lambda: desk.plot(WIDTH_S), lambda width_s, want=drawn_s: width_s == want)
         eventually(lambda: desk.plot(GREATEST), lambda most: most == SPIKE_NM)
     expect(page.locator("[data-testid=points]")).to_contain_text("all")
     desk.picture("ride-zoomed", full=True)

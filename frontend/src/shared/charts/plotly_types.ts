@@ -3,7 +3,6 @@
 export interface PlotNode extends HTMLElement {
   data: Record<string, unknown>[]
   layout: Record<string, unknown>
-  on(event: string, handler: (change: Record<string, unknown>) => void): void
 }
 export interface Plotly {
   react(node: HTMLElement, data: object[], layout: object, config: object): Promise<PlotNode>

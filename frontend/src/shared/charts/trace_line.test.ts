@@ -42,4 +42,5 @@ it('marks a two-hour ride at round minutes', () => {
 it('shows tenths only where whole seconds would repeat', () => {
   expect(moment(3661.25, 1)).toBe('1:01:01')
   expect(moment(3661.2, 0.1)).toBe('1:01:01.2')
+  expect(moment(3661.97, 0.1)).toBe('1:01:02.0')
 })

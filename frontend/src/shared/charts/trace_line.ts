@@ -85,6 +85,6 @@ export function timeTicks(
 export function moment(t_s: number, step_s = 1): string {
   if (step_s >= 1) return clock(t_s)
   const digits = Math.ceil(-Math.log10(step_s))
-  const whole = Math.floor(t_s + 1e-9)
-  return `${clock(whole)}${(t_s - whole).toFixed(digits).slice(1)}`
+  const shown = t_s.toFixed(digits)
+  return `${clock(Math.floor(Number(shown) + 1e-9))}${shown.slice(shown.indexOf('.'))}`
 }

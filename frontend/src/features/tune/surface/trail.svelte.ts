@@ -12,8 +12,11 @@ export class Trail {
 
   /** The bike is at a place now; null: nobody knows, or it runs by the other table. */
   note(place: Place | null, now_ms: number): void {
-    if (place) this.seen.push({ ...place, at_ms: now_ms })
-    else this.seen = []
+    const last = this.seen[this.seen.length - 1]
+    if (!place) this.seen = []
+    else if (last?.speed_kmh === place.speed_kmh && last.torque_rate === place.torque_rate) {
+      last.at_ms = now_ms // a bike that stands adds nothing
+    } else this.seen.push({ ...place, at_ms: now_ms })
     this.seen = this.seen.filter(({ at_ms }) => now_ms - at_ms <= KEPT_MS)
     this.places = [...this.seen]
   }

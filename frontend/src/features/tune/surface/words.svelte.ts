@@ -20,7 +20,7 @@ export const en = {
   slice_rate: '{name} at torque rate {rate}',
   slice_summary: '{least} to {most}.',
   slice_asked: 'Dashed: asked, up to {most}; hatched: taken by a limit.',
-  turn: 'A drag or the arrow keys turn it, a double click turns it back',
+  turn: 'Drag or arrow keys turn it',
 }
 
 export type SurfaceKey = keyof typeof en

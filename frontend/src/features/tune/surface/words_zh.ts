@@ -19,5 +19,5 @@ export const zh: Record<SurfaceKey, string> = {
   slice_rate: '{name}，扭矩变化率 {rate}',
   slice_summary: '{least} 至 {most}。',
   slice_asked: '虚线：要求值，至多 {most}；斜线：被限制。',
-  turn: '拖动或用方向键转动，双击转回',
+  turn: '拖动或用方向键转动',
 }
