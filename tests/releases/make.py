@@ -33,6 +33,7 @@ RIDE_S, REST_S = 20, 40
 CHANGED = {"torque_filter_s": 0.33, "mode_ratios": [0.0, 0.25, 0.5, 1.0, 1.5]}
 REASON = "for the release"
 NAME = "Evening loop"
+TABLE = "Softer start"
 # What a running server needs and the next one makes anew.
 LEFT_OUT = shutil.ignore_patterns("*-wal", "*-shm", "*.lock", "collecting")
 
@@ -51,8 +52,11 @@ def lived(data: Path) -> dict[str, Any]:
     server.ask("PATCH", f"/rides/{ride['id']}", json={"name": NAME})
     answer = server.client.post("/rides/import?name=commute.fit", content=fit_file(commute(300)))
     assert answer.is_success, answer.text
+    table = server.get("/library/even") | {"name": TABLE}
+    kept = server.client.post("/library", json=table).json()
     told = {
         "device": device,
+        "library": [{"id": kept["id"], "document": server.get(f"/library/{kept['id']}")}],
         "parameters": server.get(f"/devices/{device}/config")["parameters"],
         "revisions": [
             {"generation": one["generation"], "reason": one["reason"]}

@@ -81,6 +81,8 @@ def test_the_server_starts_on_it_and_the_unit_keeps_its_settings(
     revisions = server.get(f"/devices/{device}/config/revisions")["items"]
     rides = server.get("/rides")["items"]
     series = [server.get(f"/rides/{ride['id']}/series?channels=speed_kmh") for ride in rides]
+    # Releases up to 0.4 had no library of one's own.
+    own = {one["id"]: server.get(f"/library/{one['id']}") for one in told.get("library", ())}
     server.stop()
 
     # Versions up to 0.2 spelled choices in upper case: read as today, they are the same.
@@ -99,3 +101,4 @@ def test_the_server_starts_on_it_and_the_unit_keeps_its_settings(
     }
     for one in series:
         assert one["channels"][0]["max"]
+    assert own == {one["id"]: one["document"] for one in told.get("library", ())}
