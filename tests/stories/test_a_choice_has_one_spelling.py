@@ -42,6 +42,7 @@ QUESTIONS = [
     path.removeprefix("/api/v1")
     for path, operations in DESCRIPTION["paths"].items()
     if path.startswith("/api/v1") and "get" in operations
+    if "application/json" in operations["get"]["responses"]["200"]["content"]
     if set(re.findall(r"{(\w+)}", path)) <= {"device_id"}
 ]
 MORE = [
