@@ -70,6 +70,13 @@ FIT_FIELDS: tuple[FieldRule, ...] = (
     FieldRule(ChannelSpec("rider_torque_nm", "Nm", 0.01), ("rider_torque",), -320, 320),
     FieldRule(ChannelSpec("motor_power_w", "W", 1.0), ("motor_power",), 0, 4000),
     FieldRule(ChannelSpec("motor_torque_nm", "Nm", 0.01), ("motor_torque",), -320, 320),
+    FieldRule(
+        ChannelSpec("motor_torque_demanded_nm", "Nm", 0.01), ("motor_torque_demanded",), -320, 320
+    ),
+    FieldRule(ChannelSpec("battery_current_a", "A", 0.01), ("battery_current",), -320, 320),
+    FieldRule(
+        ChannelSpec("motor_temperature_degc", "degC", 0.01), ("motor_temperature",), -60, 320
+    ),
     FieldRule(ChannelSpec("motor_current_a", "A", 0.01), ("motor_current",), -320, 320),
     FieldRule(ChannelSpec("battery_voltage_v", "V", 0.01), ("battery_voltage",), 0, 120),
     FieldRule(ChannelSpec("battery_soc_pct", "%", 1.0), ("ebike_battery_level",), 0, 100),

@@ -10,8 +10,9 @@ pyarrow is loaded on first use: it costs some 60 MB, which an idle server need n
 
 from __future__ import annotations
 
+import io
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -97,6 +98,71 @@ def write_rows(
     except pa.ArrowException as error:
         raise StoreError(f"The ride was not written to {path.name}: {error}") from error
     return written
+
+
+class Pieces(io.RawIOBase):
+    """A file that is taken away piece by piece while it is written."""
+
+    def __init__(self) -> None:
+        self._pieces: list[bytes] = []
+        self._at = 0
+
+    def writable(self) -> bool:
+        return True
+
+    def write(self, data: Any) -> int:
+        piece = bytes(data)
+        self._pieces.append(piece)
+        self._at += len(piece)
+        return len(piece)
+
+    def tell(self) -> int:
+        return self._at
+
+    def taken(self) -> bytes:
+        """What was written since the last time."""
+        pieces, self._pieces = self._pieces, []
+        return b"".join(pieces)
+
+
+def physical_chunks(
+    started_us: int, names: Mapping[str, str], rows_of_ride: Iterable[RideRows]
+) -> Iterator[bytes]:
+    """A ride for others as Parquet: `time_utc`, `t_s`, then channels in their own units as doubles.
+
+    started_us: Unix time of the first row. names: what each channel is called in the file, in
+    order. Missing is null; a column's metadata tells its unit.
+    """
+    pa, pq = arrow()
+    file, writer = Pieces(), None
+    for rows in rows_of_ride:
+        if writer is None:
+            units = {channel.name: channel.unit for channel in rows.channels}
+            schema = pa.schema(
+                [
+                    pa.field("time_utc", pa.timestamp("us", tz="UTC"), nullable=False),
+                    pa.field("t_s", pa.float64(), nullable=False, metadata={"unit": "s"}),
+                    *(
+                        pa.field(told, pa.float64(), metadata={"unit": units[name]})
+                        for name, told in names.items()
+                    ),
+                ]
+            )
+            writer = pq.ParquetWriter(
+                file, schema, compression="zstd", use_dictionary=False, write_page_checksum=True
+            )
+        values = {c.name: c.to_values(rows.counts[c.name]) for c in rows.channels}
+        columns = [
+            pa.array(started_us + rows.times_us, pa.timestamp("us", tz="UTC")),
+            pa.array(rows.times_us / 1e6),
+            *(pa.array(values[name], mask=np.isnan(values[name])) for name in names),
+        ]
+        writer.write_table(pa.Table.from_arrays(columns, schema=writer.schema))
+        yield file.taken()
+    if writer is not None:
+        writer.close()
+        yield file.taken()
+    release_memory()
 
 
 def best_encoding(channel: ChannelSpec, sample: RideRows) -> str:

@@ -14,7 +14,8 @@ import pytest
 from backend.errors import Conflict, InvalidRequest, NotFound
 from backend.ingest import Outcome
 from backend.services.imports.upload import Uploads, UploadSettings
-from backend.services.rides.review import Rides, safe_name
+from backend.services.rides.export import safe_name
+from backend.services.rides.review import Rides
 from backend.store import Store, open_store
 from tests.fakes.fit_file import START_S, commute, fit_file
 
@@ -194,7 +195,7 @@ def test_a_ride_can_be_looked_at_as_series_figure_and_json(uploads: Uploads, rid
     assert listed["items"] == [rides.get(ride_id)]
     assert rides.get(ride_id)["started_at"] == "2023-11-14T22:13:20.000Z"
     with pytest.raises(InvalidRequest, match="csv"):
-        rides.export(ride_id, "fit")
+        rides.export(ride_id, "tcx")
 
 
 @pytest.mark.parametrize(

@@ -109,6 +109,8 @@ export const enRides = {
     'This cannot be undone.',
   'export.csv': 'CSV',
   'export.parquet': 'Parquet',
+  'export.fit': 'FIT',
+  'export.gpx': 'GPX',
   'export.original': 'Original file',
   'ledger.title': 'Where the motor energy came from',
   'ledger.mode': 'Mode',

@@ -136,6 +136,8 @@ const refusal = {
   unknown_format: '无法识别的文件格式。',
   no_records: '文件中没有骑行数据。',
   no_valid_time: '文件中没有有效的时间。',
+  no_positions: '此骑行没有位置数据，而 GPX 文件是一条轨迹。',
+  no_rows: '此骑行还没有数据行。',
   too_many_rows: '文件的数据行过多。',
   too_much_memory: '读取此文件需要过多内存，已停止。',
   too_slow: '读取此文件用时过长，已停止。',

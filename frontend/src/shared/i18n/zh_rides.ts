@@ -103,6 +103,8 @@ export const zhRides: Record<keyof typeof enRides, string> = {
   'ride.delete_sure': '删除此次骑行及其全部数据？若没有其他骑行来自同一原始文件，该文件也一并删除。此操作无法撤销。',
   'export.csv': 'CSV',
   'export.parquet': 'Parquet',
+  'export.fit': 'FIT',
+  'export.gpx': 'GPX',
   'export.original': '原始文件',
   'ledger.title': '电机能量从何而来',
   'ledger.mode': '模式',
