@@ -105,7 +105,14 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
 
         dashboards = Dashboards()
         recent = RecentRows()
-        for watcher in (memory.follow, recorder.watch, dashboards.follow, recent.follow):
+        follow_sightings = last_seen.follower(devices.get)
+        for watcher in (
+            memory.follow,
+            recorder.watch,
+            dashboards.follow,
+            recent.follow,
+            follow_sightings,
+        ):
             devices.watch(watcher)
         work = partial(tidy, recorder, uploads, store, last_seen, devices)
         closing.enter_context(housekeeping(work))

@@ -1,17 +1,18 @@
 """When each connection's unit was last there, over a restart of the server too.
 
-Looked at once a second, and written when a unit goes, every half minute while it is there, and at
-the end: what a crash loses is that half minute.
+Noted as soon as a unit is there and once a second from then on; written when it goes, every half
+minute while it is there, and at the end: what a crash loses is that half minute.
 """
 
 from __future__ import annotations
 
 import logging
 import threading
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Sequence
 from typing import Protocol
 
-from backend.device.states import CONNECTED
+from backend.device.states import CONNECTED, DeviceEvent, Named, StateChanged
 from backend.domain.sighting import Sighting
 from backend.errors import SpindleError
 from backend.services.units.device_view import DeviceView
@@ -51,6 +52,15 @@ class LastSeen:
         """Note who is there now. Raises StoreError."""
         due = [self._noted(device, now_us) for device in devices]
         self._write([sighting for sighting in due if sighting is not None])
+
+    def follower(self, view_of: Callable[[str], DeviceView]) -> Callable[[str, DeviceEvent], None]:
+        """A watcher of devices that notes a unit which comes and goes between two looks."""
+
+        def follow(device_id: str, event: DeviceEvent) -> None:
+            if isinstance(event, StateChanged | Named):
+                self._noted(view_of(device_id), time.time_ns() // 1000)
+
+        return follow
 
     def close(self) -> None:
         """Write what is not written yet; a store that refuses it is told in the log."""

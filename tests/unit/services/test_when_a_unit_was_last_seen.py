@@ -94,6 +94,23 @@ def test_it_is_written_twice_a_minute_and_when_the_unit_goes(store: Store) -> No
     devices.close()
 
 
+def test_a_unit_that_comes_and_goes_between_two_looks_was_seen(store: Store) -> None:
+    opener, last_seen = UnitOpener(FakeUnit(), URL), LastSeen(store.units)
+    devices = bench(opener, last_seen)
+    devices.watch(last_seen.follower(devices.get))
+    devices.add(URL)
+    store.units.seen(SeenUnit(KEY))
+    eventually(lambda: devices.list()[0].state, lambda state: state == "ready")
+
+    opener.unplug()
+    eventually(lambda: devices.list()[0].state, lambda state: state not in ("ready", "read_only"))
+
+    assert devices.list()[0].last_seen_at is not None
+    last_seen.close()
+    assert [one.unit_key for one in store.units.sightings()] == [KEY]
+    devices.close()
+
+
 def test_a_connection_that_never_had_a_unit_knows_nothing(store: Store) -> None:
     opener = UnitOpener(FakeUnit(), URL)
     opener.unplug()
