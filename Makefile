@@ -47,10 +47,10 @@ test: setup $(STAMP)/chromium lint ## every test there is, a real browser includ
 	cd frontend && npm run --silent test
 	$(BIN)/pytest -m serial
 	$(BIN)/pytest -m "not serial and not long" $(PARALLEL) $(WORKERS) --ignore=tests/browser
-	$(BIN)/pytest $(PARALLEL) 2 tests/browser
+	$(BIN)/pytest -m "not long" $(PARALLEL) 2 tests/browser
 
 .PHONY: prove
-prove: setup ## what takes longest, and the large counts of which `make test` does a tenth, in full
+prove: setup $(STAMP)/chromium ## what takes longest, and the large counts of which `make test` does a tenth, in full
 	$(BIN)/pytest --prove -m "large_count or long" $(PARALLEL) $(WORKERS)
 
 .PHONY: test-board

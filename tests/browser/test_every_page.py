@@ -21,8 +21,8 @@ from tests.fakes.server import SpindleServer
 
 Theme = Literal["light", "dark"]
 SHIFT_MAX = 0.02
-# A name of a text that has no words would be read as it stands.
-BARE_KEY = re.compile(r"\b[a-z]+\.[a-z_]+\b")
+# A name of a text that has no words would be read as it stands; a database's file is none.
+BARE_KEY = re.compile(r"\b[a-z]+\.(?!db\b)[a-z_]+\b")
 # What moved by itself while the page came, how much of the window that was, and where from and to.
 MOVES = """() => new Promise((told) => {
     const place = ({ y, height }) => `${Math.round(y)}+${Math.round(height)}`

@@ -73,9 +73,19 @@ def test_a_dark_phone_reads_the_service_in_chinese(
     assert re.findall(r"\b[a-z]+\.[a-z_]+\b", page.inner_text("main")) == []
 
 
+def rides_over(server: SpindleServer) -> None:
+    """What an earlier test rode is over, and no ride of this one goes on from it."""
+    eventually(
+        lambda: server.get("/rides")["items"],
+        lambda rides: all(ride["state"] == "done" for ride in rides),
+        within_s=60.0,
+    )
+
+
 def test_the_sheet_has_the_calibration_and_the_ride_after_the_work(
     open_desk: OpenDesk, server: SpindleServer, standing: str
 ) -> None:
+    rides_over(server)
     config = server.get(f"/devices/{standing}/config")
     offset = config["parameters"]["sensor_offset_counts"]
     body = {"parameters": {"sensor_offset_counts": offset - 3.0}, "reason": "cold morning"}
