@@ -1,5 +1,6 @@
 """Goal: what was known of a unit is there without it, with its time, read-only: while it is away,
 after the page was loaded anew, and after the server started anew; and it all lives again with it.
+What was on trial goes back by itself.
 
 Method: a simulated unit behind a socket of its own, so that its cable can be pulled.
 """
@@ -15,6 +16,9 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import OpenDesk
+from tests.browser.test_trial_bar import BAR, OVER, SHORT_S, first_rule, try_first_rule
+from tests.browser.test_tune_page import CELL
+from tests.fakes.relay import Relay
 from tests.fakes.server import SpindleServer
 
 pytestmark = pytest.mark.slow
@@ -23,9 +27,10 @@ PILL = "[data-testid=device-pill]"
 SEEN = re.compile(r"Last seen \d\d:\d\d")
 
 
-def plug_in(port: int = 0) -> tuple[subprocess.Popen[str], int]:
+def plug_in(port: int = 0, scenario: str = "commute") -> tuple[subprocess.Popen[str], int]:
     """A unit on a port, the next free one for 0."""
     words = [sys.executable, "-m", "sim_device", "unit", "--tcp", str(port), "--seed", "7"]
+    words += ["--scenario", scenario]
     unit = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
     assert unit.stdout is not None
     return unit, int(unit.stdout.readline().split()[-1].rsplit(":", 1)[-1])
@@ -87,4 +92,37 @@ def test_what_was_known_is_there_without_the_unit(open_desk: OpenDesk, tmp_path:
     expect(page.get_by_test_id("draft-bar")).to_contain_text("Same as in the unit")
     page.context.close()
     server.stop()
+    unplug(unit)
+
+
+def test_a_trial_goes_back_by_itself_while_the_link_is_cut(
+    open_desk: OpenDesk, tmp_path: Path
+) -> None:
+    unit, port = plug_in(scenario="none")
+    cable = Relay(port)
+    server = SpindleServer(tmp_path, [f"socket://127.0.0.1:{cable.port}"]).start()
+    device = server.ready_device()
+    before = first_rule(server, device)
+    desk = open_desk(address=server.url)
+    desk.allow("status of 50[34]|WebSocket|ERR_CONNECTION")
+    page = desk.open("/tune")
+    expect(page.get_by_test_id("draft-bar")).to_contain_text("Same as in the unit")
+    try_first_rule(page, SHORT_S)
+    assert first_rule(server, device) == "NB" != before
+
+    cable.cut()
+
+    expect(page.locator(PILL)).to_contain_text(SEEN)
+    expect(page.locator(BAR).get_by_role("button", name="Keep")).to_be_disabled()
+    expect(page.locator(BAR)).to_contain_text("goes back")
+    # By the unit's own clock, which nobody hears.
+    page.wait_for_timeout(1000 * SHORT_S)
+    cable.mend()
+    expect(page.locator(PILL)).to_contain_text("Connected")
+    expect(page.locator(OVER)).to_contain_text("ran out")
+    expect(page.locator(f"{CELL} .label")).to_have_text(before)
+    assert first_rule(server, device) == before
+    page.context.close()
+    server.stop()
+    cable.cut()
     unplug(unit)
