@@ -105,14 +105,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
 
         dashboards = Dashboards()
         recent = RecentRows()
-        follow_sightings = last_seen.follower(devices.get)
-        for watcher in (
-            memory.follow,
-            recorder.watch,
-            dashboards.follow,
-            recent.follow,
-            follow_sightings,
-        ):
+        for watcher in (memory.follow, recorder.watch, dashboards.follow, recent.follow):
             devices.watch(watcher)
         work = partial(tidy, recorder, uploads, store, last_seen, devices)
         closing.enter_context(housekeeping(work))
@@ -156,13 +149,15 @@ def make_devices(
     settings: Settings, store: Store, last_seen: LastSeen, families: Families
 ) -> Devices:
     """The units there are; none is opened yet."""
-    return Devices(
+    devices = Devices(
         flash_folder=settings.data / "units",
         schemas=SchemaFiles(settings.data / "schemas"),
         bike_of=store.units.bike_of,
         last_seen=last_seen.at,
         families=families,
     )
+    devices.watch(last_seen.follower(devices.get))
+    return devices
 
 
 def make_uploads(settings: Settings, store: Store) -> Uploads:
