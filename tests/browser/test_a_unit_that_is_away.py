@@ -64,7 +64,7 @@ def is_known_and_read_only(page: Page, address: str) -> None:
     page.goto(f"{address}/live")
     expect(page.locator("[data-channel=speed_kmh]")).to_contain_text("— no data")
     page.goto(f"{address}/service")
-    expect(page.locator("main")).to_contain_text("found when the unit connected")
+    expect(page.locator("main")).to_contain_text("found when the unit was connected")
 
 
 def test_what_was_known_is_there_without_the_unit(open_desk: OpenDesk, tmp_path: Path) -> None:

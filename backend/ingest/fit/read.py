@@ -16,6 +16,7 @@ from backend.ingest.columns import EPOCH_S, Places, rides_of_columns
 from backend.ingest.fit.channels import rules_of, values_of
 from backend.ingest.fit.fields import Table, descriptions, table_of
 from backend.ingest.fit.layout import CHECKSUM_BYTES, Part
+from backend.ingest.fit.mend import mended
 from backend.ingest.fit.profile import (
     FIELD_DESCRIPTION,
     RECORD,
@@ -42,6 +43,7 @@ SESSION_FIELDS = {
 TROUBLES: dict[str, tuple[str, str]] = {
     "damaged": ("damaged", "bytes that are no message"),
     "header": ("damaged", "a file header is damaged"),
+    "flipped_bit": ("damaged", "one bit was flipped, which the checksum found and put right,"),
     "trailing": ("damaged", "bytes behind the end that are no FIT file"),
     "truncated": ("truncated", "the file ends in the middle"),
     "checksum_mismatch": ("checksum_mismatch", "the file's checksum does not match"),
@@ -57,6 +59,15 @@ def read_fit(data: bytes) -> Outcome:
 def read_damaged(data: bytes) -> Outcome:
     """A FIT file that is not sound -> what can be read of it; of a sound one everything."""
     found = Salvaging(data).run()
+    outcome = outcome_of(data, found.parts, found)
+    if found.walked and outcome.rides:
+        return outcome
+    right = mended(data, found.structure)
+    if right is None:
+        return outcome
+    data, place = right
+    found = Salvaging(data).run()
+    found.trouble("flipped_bit", place)
     return outcome_of(data, found.parts, found)
 
 

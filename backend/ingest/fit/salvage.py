@@ -36,6 +36,8 @@ from backend.ingest.fit.walk import Walk, checksum_fits
 NEAR_S = 86_400
 # A header is looked for so far into a file.
 SEARCHED_BYTES = 4096
+# The longest definition there can be.
+DEFINITION_BYTES_MAX = 6 + 2 * (1 + 255 * 3)
 # Messages in a row that show the place: at least so many, of which so many must tell a time, and so
 # many are looked at for it.
 CHAIN_MIN, CHAIN_TIMES, CHAIN_MAX = 4, 2, 24
@@ -52,6 +54,24 @@ class Salvage:
     skipped_bytes: int = 0
     expected_bytes: int = 0
     read_until: int = 0
+
+    @property
+    def walked(self) -> bool:
+        """Whether the way through the file was never lost, whatever its values are."""
+        return all(code == "checksum_mismatch" for code, _ in self.troubles)
+
+    @property
+    def structure(self) -> list[range]:
+        """The bytes of every definition when first met, and those where the way was first lost."""
+        lost = min((at for code, at in self.troubles if code == "damaged"), default=0)
+        return [
+            range(lost, lost + DEFINITION_BYTES_MAX if lost else 0),
+            *(
+                range(definition.at, definition.at + 1 + len(told))
+                for part in self.parts
+                for told, definition in part.definitions.items()
+            ),
+        ]
 
     def trouble(self, code: str, at: int) -> None:
         """Note what was met at a byte."""

@@ -213,6 +213,20 @@ def test_any_truncation_has_a_reason_or_a_ride(share: float) -> None:
         assert outcome.detail
 
 
+@pytest.mark.parametrize("bit", range(8))
+def test_one_flipped_bit_anywhere_costs_two_records_at_most(bit: int) -> None:
+    """In the only definition of the records, too: the checksum tells which bit it was."""
+    whole = fit_file(commute(60))
+    for place in range(14, len(whole) - 2, 7):
+        damaged = bytearray(whole)
+        damaged[place] ^= 1 << bit
+
+        outcome = read_fit(bytes(damaged))
+
+        assert sum(len(ride.rows.times_us) for ride in outcome.rides) >= 58, place
+        assert outcome.state == PARTIAL
+
+
 @settings(max_examples=80, deadline=None)
 @given(st.lists(st.tuples(st.integers(0, len(WHOLE) - 1), st.integers(1, 255)), max_size=12))
 def test_no_bit_flips_crash_the_reader_or_pass_as_a_sound_file(
