@@ -30,6 +30,7 @@ TIME_COLUMN = "t_us"
 # 1: start, period, gear ratio, serial number. 2: everything of `facts.facts_of`.
 SCHEMA_VERSION = 2
 FACTS_KEY = b"spindle"
+EXPORT_KEY = b"spindle-export"
 
 
 @dataclass(frozen=True)
@@ -126,12 +127,16 @@ class Pieces(io.RawIOBase):
 
 
 def physical_chunks(
-    started_us: int, names: Mapping[str, str], rows_of_ride: Iterable[RideRows]
+    started_us: int,
+    names: Mapping[str, str],
+    facts: Mapping[str, object],
+    rows_of_ride: Iterable[RideRows],
 ) -> Iterator[bytes]:
     """A ride for others as Parquet: `time_utc`, `t_s`, then channels in their own units as doubles.
 
     started_us: Unix time of the first row. names: what each channel is called in the file, in
-    order. Missing is null; a column's metadata tells its unit.
+    order. facts: plain JSON, kept under a key of its own, as this is no object of a store. Missing
+    is null; a column's metadata tells its unit.
     """
     pa, pq = arrow()
     file, writer = Pieces(), None
@@ -146,7 +151,8 @@ def physical_chunks(
                         pa.field(told, pa.float64(), metadata={"unit": units[name]})
                         for name, told in names.items()
                     ),
-                ]
+                ],
+                metadata={EXPORT_KEY: json.dumps(facts, sort_keys=True)},
             )
             writer = pq.ParquetWriter(
                 file, schema, compression="zstd", use_dictionary=False, write_page_checksum=True

@@ -9,6 +9,7 @@ from typing import BinaryIO
 from backend.domain.ride import Ride
 from backend.errors import InvalidRequest, NotFound
 from backend.store import RideReader, Store
+from backend.store.facts import facts_of
 from backend.store.parquet import ROW_GROUP_ROWS, physical_chunks
 from backend.views.export import fit, gpx
 from backend.views.export.csv import csv_chunks
@@ -55,9 +56,8 @@ def as_parquet(store: Store, ride: Ride) -> Export:
     names = told_names(ride)
     rows = verified(store, ride).chunks(list(names), ROW_GROUP_ROWS)
     media_type = "application/vnd.apache.parquet"
-    return Export(
-        f"{stem(ride)}.parquet", media_type, physical_chunks(ride.started_us, names, rows)
-    )
+    chunks = physical_chunks(ride.started_us, names, facts_of(ride), rows)
+    return Export(f"{stem(ride)}.parquet", media_type, chunks)
 
 
 def as_fit(store: Store, ride: Ride) -> Export:
