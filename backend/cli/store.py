@@ -21,7 +21,7 @@ def urls(options: Namespace) -> tuple[str, str]:
 
 def check(options: Namespace) -> int:
     """Says what is in database and folder; 1 if anything is wrong."""
-    from backend.store.check import check_store
+    from backend.store.upkeep.check import check_store
 
     found = check_store(*urls(options))
     if options.json:
@@ -71,7 +71,7 @@ def print_keys(words: str, keys: list[str]) -> None:
 
 def rebuild(options: Namespace) -> int:
     """Brings every ride of the folder into an empty database; 1 if files were not taken."""
-    from backend.store.rebuild import rebuild_store, told
+    from backend.store.upkeep.rebuild import rebuild_store, told
 
     report = rebuild_store(*urls(options))
     if options.json:

@@ -1,7 +1,6 @@
 """SQL and objects: rides, revisions, the library, units, uploads; the only door to SQLAlchemy and
 pyarrow."""
 
-from backend.store.backup import StorePlace, backup_of, place_of
 from backend.store.configurations import LibraryStore, RevisionLog
 from backend.store.marks import MarkStore
 from backend.store.reader import RideReader
@@ -10,6 +9,7 @@ from backend.store.soundness import expected_of
 from backend.store.store import Store, open_store
 from backend.store.trouble import Trouble, WriteWatch
 from backend.store.units import SeenUnit, UnitStore
+from backend.store.upkeep.backup import StorePlace, backup_of, place_of
 from backend.store.uploads import Upload, UploadStore, Verdict
 
 __all__ = [

@@ -10,7 +10,6 @@ pyarrow is loaded on first use: it costs some 60 MB, which an idle server need n
 
 from __future__ import annotations
 
-import io
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -22,6 +21,7 @@ import numpy as np
 from backend.domain.channels import ChannelSpec, Counts
 from backend.domain.ride import RideRows, TimesUs
 from backend.errors import StoreError
+from backend.store.pipe import Pipe
 
 ROW_GROUP_ROWS = 16384
 COMPRESSION_LEVEL = 9
@@ -101,31 +101,6 @@ def write_rows(
     return written
 
 
-class Pieces(io.RawIOBase):
-    """A file that is taken away piece by piece while it is written."""
-
-    def __init__(self) -> None:
-        self._pieces: list[bytes] = []
-        self._at = 0
-
-    def writable(self) -> bool:
-        return True
-
-    def write(self, data: Any) -> int:
-        piece = bytes(data)
-        self._pieces.append(piece)
-        self._at += len(piece)
-        return len(piece)
-
-    def tell(self) -> int:
-        return self._at
-
-    def taken(self) -> bytes:
-        """What was written since the last time."""
-        pieces, self._pieces = self._pieces, []
-        return b"".join(pieces)
-
-
 def physical_chunks(
     started_us: int,
     names: Mapping[str, str],
@@ -139,7 +114,7 @@ def physical_chunks(
     is null; a column's metadata tells its unit.
     """
     pa, pq = arrow()
-    file, writer = Pieces(), None
+    file, writer = Pipe(), None
     for rows in rows_of_ride:
         if writer is None:
             units = {channel.name: channel.unit for channel in rows.channels}

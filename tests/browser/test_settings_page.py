@@ -7,7 +7,7 @@ from zipfile import ZipFile
 
 from playwright.sync_api import expect
 
-from backend.store.check import check_store
+from backend.store.upkeep.check import check_store
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import sideways
 from tests.browser.test_pages_for_everyone import COVERED, JUDGE, SHIFT

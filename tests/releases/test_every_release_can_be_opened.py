@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from backend.store import open_store
-from backend.store.check import check_store
+from backend.store.upkeep.check import check_store
 from firmware_protocol.retired import with_words_of_today
 from tests.fakes.server import SpindleServer
 from tests.releases.make import BYTES_MAX, CHANGED, NAME, REASON, UNIT

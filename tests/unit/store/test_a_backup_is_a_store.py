@@ -19,7 +19,7 @@ from backend.domain.channels import ChannelSpec
 from backend.domain.ride import RideContext
 from backend.errors import StoreError
 from backend.store import Store, backup_of, open_store, place_of
-from backend.store.check import check_store
+from backend.store.upkeep.check import check_store
 
 pytestmark = pytest.mark.slow
 

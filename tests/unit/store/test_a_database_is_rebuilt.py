@@ -24,11 +24,12 @@ from backend.domain.filled import Filled
 from backend.domain.ride import Ride, RideContext, RideRows
 from backend.domain.ride_events import RideEvent
 from backend.errors import StoreError
-from backend.store import Store, Verdict, open_store, rebuild
-from backend.store.check import check_store
+from backend.store import Store, Verdict, open_store
 from backend.store.filling import Filling
 from backend.store.objects import IDENTITY, sidecar_key
-from backend.store.rebuild import Rebuilt, rebuild_store
+from backend.store.upkeep import rebuild
+from backend.store.upkeep.check import check_store
+from backend.store.upkeep.rebuild import Rebuilt, rebuild_store
 from tests.unit.store.ride_data import STARTED_US
 
 pytestmark = pytest.mark.slow

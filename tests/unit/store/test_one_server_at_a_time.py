@@ -19,7 +19,7 @@ import pytest
 from backend.domain.ride import RideContext
 from backend.errors import StoreError
 from backend.store import Store, locks, open_store
-from backend.store.check import check_store
+from backend.store.upkeep.check import check_store
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
 
 ROWS = 300

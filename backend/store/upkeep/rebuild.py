@@ -20,7 +20,6 @@ from pathlib import Path, PurePosixPath
 from sqlalchemy import Connection, insert, select
 
 from backend.errors import StoreError
-from backend.store.check import damage_of
 from backend.store.deletion import FILLED, MADE, join_source
 from backend.store.digest import digest
 from backend.store.facts import KeptRide, Original, kept_ride
@@ -44,6 +43,7 @@ from backend.store.sql import tables as t
 from backend.store.sql.database import Database, shown, sqlite_path
 from backend.store.sql.database_url import check_url
 from backend.store.store import saying_where
+from backend.store.upkeep.check import damage_of
 
 # Where a destroyed SQLite file may have left something.
 JOURNALS = ("-wal", "-shm", "-journal")

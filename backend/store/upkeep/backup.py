@@ -18,9 +18,7 @@ import shutil
 import time
 from collections.abc import Generator, Iterator, Sequence
 from dataclasses import dataclass
-from io import RawIOBase
 from pathlib import Path, PurePosixPath
-from typing import Any
 from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
 
 from sqlalchemy import func, select
@@ -29,6 +27,7 @@ from backend.domain.ride import iso_utc
 from backend.errors import StoreError
 from backend.store.look import look_at
 from backend.store.objects import IDENTITY, READ_BYTES, RIDE_SUFFIX, sidecar_key
+from backend.store.pipe import Pipe
 from backend.store.sql import tables as t
 from backend.store.sql.database import shown, sqlite_path
 from backend.store.sql.snapshot import snapshot
@@ -159,22 +158,3 @@ def added(
             target.write(piece)
             yield pipe.taken()
     return hashed.hexdigest()
-
-
-class Pipe(RawIOBase):
-    """What a zip is written into and taken out of, piece by piece; it cannot go back."""
-
-    def __init__(self) -> None:
-        self._waiting = bytearray()
-
-    def writable(self) -> bool:
-        return True
-
-    def write(self, data: Any) -> int:
-        self._waiting += data
-        return len(data)
-
-    def taken(self) -> bytes:
-        """All that was written since the last call."""
-        piece, self._waiting = bytes(self._waiting), bytearray()
-        return piece
