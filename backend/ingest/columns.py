@@ -144,11 +144,12 @@ def rides_of_columns(
     is in no ride is counted with the first.
     """
     found = Found()
-    blocks = blocks_of_time(time_s, found)
+    read = {rule: values for rule in fields if (values := rule_values(rule, columns)) is not None}
     rides: list[tuple[ImportedRide, Found, int]] = []
-    for rows in blocks:
+    for rows in blocks_of_time(time_s, found):
         own = found if not rides else Found()
-        ride = ride_of_rows(rows, time_s, columns, fields, own, sport)
+        samples = {rule: values[rows] for rule, values in read.items()}
+        ride = ride_of_rows(rows, time_s[rows], samples, own, sport)
         if ride is None:
             found.drop(NO_VALUE, len(rows))
             continue
@@ -206,19 +207,18 @@ def jumped_away(block: Places, blocks: Sequence[Places]) -> bool:
 def ride_of_rows(
     rows: Places,
     time_s: Seconds,
-    columns: Mapping[str, Values],
-    fields: tuple[FieldRule, ...],
+    read: Mapping[FieldRule, Values],
     found: Found,
     sport: str | None,
 ) -> ImportedRide | None:
-    """One block of rows, in order of time, as a ride; None when it has no value."""
+    """One block of rows, in order of time, as a ride; None when it has no value.
+
+    rows: their places in the file. time_s: of each. read: values of each, cleaned on the way.
+    """
     found.moved = int((np.diff(rows) < 0).sum())
-    unix_us = np.rint(time_s[rows] * 1e6).astype(np.int64)
+    unix_us = np.rint(time_s * 1e6).astype(np.int64)
     started_us = int(unix_us[0])
     times_us = unix_us - started_us
-    read = {
-        rule: values[rows] for rule in fields if (values := rule_values(rule, columns)) is not None
-    }
     left_out = {rule: cleaned(rule, values) for rule, values in read.items()}
     starts = np.flatnonzero(np.concatenate(([True], np.diff(times_us) > 0)))
     if len(starts) < len(times_us):

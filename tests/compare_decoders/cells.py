@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import fitdecode
 import numpy as np
 
-from backend.ingest.fit.fields import channel_name, descriptions, table_of
+from backend.ingest.fit.fields import PROFILE_NAMES, channel_name, descriptions, table_of
 from backend.ingest.fit.profile import FIELD_DESCRIPTION, RECORD, RECORD_FIELDS
 from backend.ingest.fit.salvage import Salvaging
 from backend.ingest.fit.walk import sound_parts
@@ -20,6 +20,7 @@ SEMICIRCLE_DEG = 180.0 / 2**31
 # Ours are doubles of the file's own numbers; the other rounds some of its.
 RELATIVE, ABSOLUTE = 1e-6, 1e-6
 
+POSITION = ("position_lat", "position_long")
 Row = dict[str, float]
 
 
@@ -101,7 +102,6 @@ def their_rows(data: bytes) -> list[Row]:
 
 def their_row(frame: fitdecode.FitDataMessage) -> Row:
     """One record's numbers by our names."""
-    profile = {one.name for one in RECORD_FIELDS.values()}
     row: Row = {}
     for one in frame.fields:
         if one.name == "timestamp":
@@ -119,10 +119,9 @@ def their_row(frame: fitdecode.FitDataMessage) -> Row:
         ):
             continue
         name = channel_name(one.name) if is_developer else one.name
-        if is_developer and name in profile:
+        if is_developer and name in PROFILE_NAMES:
             name = f"developer_{name}"
-        known = next((f for f in RECORD_FIELDS.values() if f.name == name), None)
-        if known is not None and known.unit == "deg" and name.startswith("position"):
+        if name in POSITION:
             value *= SEMICIRCLE_DEG
         row.setdefault(name, float(value))
     return row

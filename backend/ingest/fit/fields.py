@@ -31,7 +31,6 @@ class Column:
     values: Values
     unit: str = ""
     step: float = 1.0
-    developer: bool = False
 
 
 @dataclass(frozen=True)
@@ -78,8 +77,7 @@ def table_of(
     """Messages -> columns.
 
     data: uint8, the file. names: fields by number. described: developers' fields by owner and
-    number. Of two fields of one name in a message the first that has
-    a value counts.
+    number. Of two fields of one name in a message the first that has a value counts.
     """
     found = list(definitions)
     offsets = [np.frombuffer(d.offsets, dtype=np.int64) for d in found]
@@ -124,7 +122,7 @@ def put(table: Table, name: str, column: Column, rows: Places) -> None:
     """Write one definition's values into the column of all."""
     known = table.columns.get(name)
     if known is None:
-        known = Column(np.full(len(table), np.nan), column.unit, column.step, column.developer)
+        known = replace(column, values=np.full(len(table), np.nan))
         table.columns[name] = known
     known.values[rows] = np.where(np.isnan(known.values[rows]), column.values, known.values[rows])
 
@@ -146,7 +144,7 @@ def columns_of(
         typed = Field(one.number, one.size, told.base, one.at)
         if is_number(typed):
             values = numbers(messages, typed, little)
-            yield told.name, Column(values, told.unit, whole_step(typed), developer=True)
+            yield told.name, Column(values, told.unit, whole_step(typed))
         else:
             yield told.name, None
         return

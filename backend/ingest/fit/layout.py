@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import struct
 from array import array
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 HEADER_SIZES = (12, 14)
@@ -162,6 +162,18 @@ def read_definition(data: bytes, at: int, end: int) -> tuple[Definition, int] | 
         (f.at for f in fields if f.number == TIMESTAMP and f.size == 4 and f.developer is None), 0
     )
     return Definition(int(message), little, tuple(fields), size, time_at, at), stop
+
+
+def is_definition(head: int) -> bool:
+    """Whether a message with this header byte is a definition."""
+    return bool(head & DEFINITION) and not head & COMPRESSED
+
+
+def definition_of(head: int, known: Sequence[Definition | None]) -> Definition | None:
+    """The definition in force for a data message with this header byte. known: by local number."""
+    if head & COMPRESSED:
+        return known[head >> COMPRESSED_SHIFT & COMPRESSED_MASK]
+    return known[head & LOCAL_MASK]
 
 
 def makes_sense(definition: Definition, data: bytes) -> bool:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from fastcrc import crc16
 
-from backend.ingest.fit.layout import CHECKSUM_BYTES, declared_end
+from backend.ingest.fit.layout import CHECKSUM_BYTES, Part, declared_end
 from backend.ingest.fit.walk import sound_parts
 
 # CRC-16/ARC, its lowest bit first.
@@ -19,8 +19,9 @@ POLYNOMIAL = 0xA001
 PERIOD_BITS = 32_767
 
 
-def mended(data: bytes, where: list[range]) -> tuple[bytes, int] | None:
-    """The file with its one flipped bit put right, and the byte it is in; None for anything else.
+def mended(data: bytes, where: list[range]) -> tuple[bytes, list[Part], int] | None:
+    """The file with its one flipped bit put right, its parts, and the byte that bit is in; None for
+    anything else.
 
     data: one FIT file. where: the bytes that can be at fault.
     """
@@ -31,15 +32,15 @@ def mended(data: bytes, where: list[range]) -> tuple[bytes, int] | None:
     steps = steps_to(lacks)
     if steps is None:
         return None
-    found: list[tuple[bytes, int]] = []
+    found: list[tuple[bytes, list[Part], int]] = []
     for behind in range(steps, 8 * end + 1, PERIOD_BITS):
         place, bit = divmod(8 * end - behind, 8)
         if not any(place in told for told in where):
             continue
         other = bytearray(data)
         other[place] ^= 1 << bit
-        if sound_parts(bytes(other)) is not None:
-            found.append((bytes(other), place))
+        if (parts := sound_parts(bytes(other))) is not None:
+            found.append((bytes(other), parts, place))
     return found[0] if len(found) == 1 else None
 
 

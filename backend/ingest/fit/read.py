@@ -65,10 +65,9 @@ def read_damaged(data: bytes) -> Outcome:
     right = mended(data, found.structure)
     if right is None:
         return outcome
-    data, place = right
-    found = Salvaging(data).run()
-    found.trouble("flipped_bit", place)
-    return outcome_of(data, found.parts, found)
+    data, parts, place = right
+    found = Salvage(parts, [("flipped_bit", place)], read_until=len(data))
+    return outcome_of(data, parts, found)
 
 
 def outcome_of(data: bytes, parts: list[Part], found: Salvage | None) -> Outcome:

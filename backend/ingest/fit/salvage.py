@@ -15,9 +15,6 @@ from dataclasses import dataclass, field
 from backend.ingest.fit.layout import (
     CHECKSUM_BYTES,
     COMPRESSED,
-    COMPRESSED_MASK,
-    COMPRESSED_SHIFT,
-    DEFINITION,
     HEADER_SIZES,
     LOCAL_MASK,
     MAGIC,
@@ -26,7 +23,9 @@ from backend.ingest.fit.layout import (
     Definition,
     Part,
     declared_end,
+    definition_of,
     header_size,
+    is_definition,
     makes_sense,
     read_definition,
 )
@@ -76,10 +75,6 @@ class Salvage:
     def trouble(self, code: str, at: int) -> None:
         """Note what was met at a byte."""
         self.troubles.append((code, at))
-
-    def count(self, message: int) -> int:
-        """Messages of one kind in all parts."""
-        return sum(part.count(message) for part in self.parts)
 
 
 @dataclass(frozen=True)
@@ -168,7 +163,7 @@ class Salvaging:
     def step(self, at: int, end: int, known: Known) -> Step | None:
         """The message at `at`, None when there can be none."""
         head = self.data[at]
-        if head & DEFINITION and not head & COMPRESSED:
+        if is_definition(head):
             found = read_definition(self.data, at, end)
             if found is None or not makes_sense(found[0], self.data):
                 return None
@@ -239,10 +234,11 @@ class Salvaging:
                 definition.told_s[at] = time_s
         elif definition.time_at:
             time_s = definition.time_s(self.data, at)
-            first = (
-                self.last_s is None and time_s is not None and self.chain(step.stop, time_s, True)
-            )
-            if time_s is not None and (first or near(time_s, self.last_s or 0)):
+            if time_s is not None and (
+                self.chain(step.stop, time_s, True)
+                if self.last_s is None
+                else near(time_s, self.last_s)
+            ):
                 self.last_s = time_s
                 clock.at, clock.definition = at, definition
         definition.offsets.append(at)
@@ -273,7 +269,7 @@ class Salvaging:
         if at >= end:
             return True
         head = self.data[at]
-        if head & DEFINITION and not head & COMPRESSED:
+        if is_definition(head):
             return read_definition(self.data, at, end) is None
         definition = definition_of(head, known)
         return definition is not None and at + definition.size > end
@@ -281,9 +277,7 @@ class Salvaging:
     def could_begin(self, place: int) -> bool:
         """A quick look at a header byte, before the chain behind it is read."""
         head = self.data[place]
-        if head & DEFINITION and not head & COMPRESSED:
-            return True
-        return definition_of(head, self.walk.known) is not None
+        return is_definition(head) or definition_of(head, self.walk.known) is not None
 
     def go_on_from(self, at: int, place: int) -> int:
         """Give up the message before damage, which reaches into it: it is not trusted.
@@ -299,13 +293,6 @@ class Salvaging:
         self.latest = None
         self.found.skipped_bytes += place - begin
         return place
-
-
-def definition_of(head: int, known: Known) -> Definition | None:
-    """The definition in force for a data message with this header byte."""
-    if head & COMPRESSED:
-        return known[head >> COMPRESSED_SHIFT & COMPRESSED_MASK]
-    return known[head & LOCAL_MASK]
 
 
 def near(time_s: int, other_s: int) -> bool:

@@ -9,7 +9,9 @@ of the format and profile 21.218.
 from __future__ import annotations
 
 import struct
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from fastcrc import crc16
@@ -187,16 +189,16 @@ def summaries(ride: Ride, ridden: BySecond, start_s: int, end_s: int) -> list[by
         (1, ENUM, STOP),
         (5, ENUM, CYCLING),
         (6, ENUM, kind),
-        (14, UINT16, scaled(np.nanmean, speed, 1000 / 3.6)),
-        (15, UINT16, scaled(np.nanmax, speed, 1000 / 3.6)),
-        (16, UINT8, scaled(np.nanmean, ridden["heart_rate_bpm"])),
-        (17, UINT8, scaled(np.nanmax, ridden["heart_rate_bpm"])),
-        (18, UINT8, scaled(np.nanmean, ridden["cadence_rpm"])),
-        (19, UINT8, scaled(np.nanmax, ridden["cadence_rpm"])),
-        (20, UINT16, scaled(np.nanmean, rider)),
-        (21, UINT16, scaled(np.nanmax, rider)),
-        (129, UINT16, scaled(np.nanmean, motor)),
-        (130, UINT16, scaled(np.nanmax, motor)),
+        (14, UINT16, scaled(np.mean, speed, 1000 / 3.6)),
+        (15, UINT16, scaled(np.max, speed, 1000 / 3.6)),
+        (16, UINT8, scaled(np.mean, ridden["heart_rate_bpm"])),
+        (17, UINT8, scaled(np.max, ridden["heart_rate_bpm"])),
+        (18, UINT8, scaled(np.mean, ridden["cadence_rpm"])),
+        (19, UINT8, scaled(np.max, ridden["cadence_rpm"])),
+        (20, UINT16, scaled(np.mean, rider)),
+        (21, UINT16, scaled(np.max, rider)),
+        (129, UINT16, scaled(np.mean, motor)),
+        (130, UINT16, scaled(np.max, motor)),
     ]
     return [
         message(LAP, [*common, (0, ENUM, LAP_EVENT), (1, ENUM, STOP)]),
@@ -206,10 +208,10 @@ def summaries(ride: Ride, ridden: BySecond, start_s: int, end_s: int) -> list[by
     ]  # fmt: skip
 
 
-def scaled(of: object, values: Values, scale: float = 1.0) -> float | None:
+def scaled(of: Callable[[Values], Any], values: Values, scale: float = 1.0) -> float | None:
     """A figure of the samples that are there, None when there is none."""
     there = values[np.isfinite(values)]
-    return float(of(there)) * scale if len(there) and callable(of) else None
+    return float(of(there)) * scale if len(there) else None
 
 
 def timer(unix_s: int, event_type: int) -> bytes:
