@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 
@@ -22,6 +22,7 @@ from backend.domain.energy import (
 )
 from backend.domain.filled import Filled
 from backend.domain.intake import Intake
+from backend.domain.noted import Noted, Pause, noted_to_json
 from backend.domain.ride_events import RideEvent
 
 TimesUs = npt.NDArray[np.int64]
@@ -116,7 +117,8 @@ class Ride:
     counts as there. filled: those stretches. events: what happened. cut_short: the recording ended
     while the bike moved, or with its server, so that nobody knows what came after. bike_id: the
     bike its unit was on; None where nobody knows the unit. sport: as the file calls it, None for
-    none. intake: what became of the file's rows and fields, None for what came from no file.
+    none. intake: what became of the file's rows and fields, None for what came from no file. noted:
+    what the device that made the file told beside its rows.
     """
 
     id: int
@@ -143,6 +145,7 @@ class Ride:
     bike_id: int | None = None
     sport: str | None = None
     intake: Intake | None = None
+    noted: Noted = Noted()  # noqa: RUF009 - frozen
 
     @property
     def motor_torque_meaning(self) -> str | None:
@@ -180,6 +183,7 @@ class Ride:
             "cut_short": self.cut_short,
             "sport": self.sport,
             "intake": asdict(self.intake) if self.intake else None,
+            **noted_to_json(self.noted),
             "upload_id": self.upload_id,
             "object_bytes": self.object_bytes,
             "summary": asdict(self.summary) if self.summary else None,
@@ -201,15 +205,26 @@ def pause_us(times_us: TimesUs, period_us: int | None) -> int:
 
 
 def find_gaps(
-    times_us: TimesUs, empty: npt.NDArray[np.bool_], period_us: int | None
+    times_us: TimesUs,
+    empty: npt.NDArray[np.bool_],
+    period_us: int | None,
+    pauses: Sequence[Pause] = (),
 ) -> tuple[Gap, ...]:
     """Where samples are missing: pauses in the time, and runs of rows without any sample.
 
-    times_us: int64 (n,). empty: bool (n,), rows in which every channel is missing.
+    times_us: int64 (n,). empty: bool (n,), rows in which every channel is missing. pauses: of the
+    device's timer; a break between two rows that one of them covers is a gap however short it is.
     """
     if len(times_us) == 0:
         return ()
-    paused = np.flatnonzero(np.diff(times_us) > pause_us(times_us, period_us))
+    long = np.diff(times_us) > pause_us(times_us, period_us)
+    for pause in pauses:
+        middle_us = 5e5 * (pause.from_s + pause.to_s)
+        behind = int(np.searchsorted(times_us, middle_us))
+        if 0 < behind < len(times_us):
+            stood_us = times_us[behind] - times_us[behind - 1]
+            long[behind - 1] |= stood_us >= 1e6 * (pause.to_s - pause.from_s) > 0
+    paused = np.flatnonzero(long)
     gaps = [Gap(float(times_us[i]) / 1e6, float(times_us[i + 1]) / 1e6) for i in paused]
     edges = np.flatnonzero(np.diff(np.concatenate(([False], empty, [False])).astype(np.int8)))
     for start, stop in edges.reshape(-1, 2):

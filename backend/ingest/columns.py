@@ -68,6 +68,17 @@ FIT_FIELDS: tuple[FieldRule, ...] = (
     FieldRule(ChannelSpec("cadence_rpm", "rpm", 1.0), ("cadence",), 0, 254),
     FieldRule(ChannelSpec("rider_power_w", "W", 1.0), ("power",), 0, 4000),
     FieldRule(ChannelSpec("rider_torque_nm", "Nm", 0.01), ("rider_torque",), -320, 320),
+    FieldRule(ChannelSpec("right_leg_pct", "%", 1.0), ("right_leg",), 0, 100),
+    *(
+        FieldRule(ChannelSpec(f"{name}_pct", "%", 0.5), (name,), 0, 100)
+        for name in (
+            "left_torque_effectiveness",
+            "right_torque_effectiveness",
+            "left_pedal_smoothness",
+            "right_pedal_smoothness",
+            "combined_pedal_smoothness",
+        )
+    ),
     FieldRule(ChannelSpec("motor_power_w", "W", 1.0), ("motor_power",), 0, 4000),
     FieldRule(ChannelSpec("motor_torque_nm", "Nm", 0.01), ("motor_torque",), -320, 320),
     FieldRule(

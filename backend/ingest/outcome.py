@@ -13,6 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from backend.domain.intake import Intake
+from backend.domain.noted import Noted
 from backend.domain.ride import RideContext, RideRows
 from backend.domain.ride_events import RideEvent
 
@@ -27,7 +28,7 @@ class ImportedRide:
     """One ride of a file. started_us: Unix time of its first row. notes: what was put right.
 
     context: what the file knows of the bike. start_known: False where `started_us` means nothing.
-    events: what the file tells besides its rows. intake: what became of its rows and fields.
+    events, noted: what the file tells besides its rows. intake: what became of its rows and fields.
     """
 
     started_us: int
@@ -39,6 +40,7 @@ class ImportedRide:
     start_known: bool = True
     events: tuple[RideEvent, ...] = ()
     intake: Intake | None = None
+    noted: Noted = Noted()  # noqa: RUF009 - frozen
 
 
 @dataclass(frozen=True)

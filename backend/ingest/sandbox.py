@@ -19,6 +19,7 @@ import numpy as np
 
 from backend.domain.channels import Counts, channel_from_json
 from backend.domain.intake import Intake
+from backend.domain.noted import noted_from_json
 from backend.domain.ride import RideContext, RideRows
 from backend.domain.ride_events import RideEvent
 from backend.ingest.outcome import TOO_SLOW, ImportedRide, Outcome, rejected
@@ -161,5 +162,6 @@ def decode_ride(entry: dict[str, Any], answer: bytes, at: int) -> tuple[Imported
         start_known=bool(entry["start_known"]),
         events=tuple(RideEvent(**event) for event in entry["events"]),
         intake=None if entry["intake"] is None else Intake(**entry["intake"]),
+        noted=noted_from_json(entry["noted"]),
     )
     return ride, at

@@ -17,6 +17,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from backend.domain.channels import channel_to_json
+from backend.domain.noted import noted_to_json
 from backend.ingest.outcome import Outcome
 
 CPU_S = 20
@@ -75,6 +76,7 @@ def encode(outcome: Outcome) -> bytes:
                 "start_known": ride.start_known,
                 "events": [asdict(event) for event in ride.events],
                 "intake": None if ride.intake is None else asdict(ride.intake),
+                "noted": noted_to_json(ride.noted),
                 "rows": len(ride.rows.times_us),
                 "channels": [channel_to_json(channel) for channel in ride.rows.channels],
             }

@@ -15,6 +15,7 @@ from backend.domain.channels import ChannelSpec, channel_to_json
 from backend.domain.energy import derivable
 from backend.domain.filled import Filled
 from backend.domain.intake import Intake
+from backend.domain.noted import noted_from_json, noted_to_json
 from backend.domain.ride import Gap, Ride, RideContext
 from backend.domain.ride_events import RideEvent
 from backend.domain.unit_key import ebl_key
@@ -79,6 +80,7 @@ def facts_of(ride: Ride) -> dict[str, object]:
         "cut_short": ride.cut_short,
         "sport": ride.sport,
         "intake": asdict(ride.intake) if ride.intake else None,
+        "noted": noted_to_json(ride.noted),
     }
 
 
@@ -123,6 +125,7 @@ def kept_ride(
         cut_short=bool(known.get("cut_short", False)),
         sport=known.get("sport"),
         intake=known_fields(Intake, known["intake"]) if known.get("intake") else None,
+        noted=noted_from_json(known.get("noted")),
     )
     return KeptRide(
         ride=ride,

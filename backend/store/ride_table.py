@@ -13,6 +13,7 @@ from backend.domain.channels import ChannelSpec, channel_to_json
 from backend.domain.energy import derivable
 from backend.domain.filled import Filled
 from backend.domain.intake import Intake
+from backend.domain.noted import noted_from_json, noted_to_json
 from backend.domain.ride import Gap, Ride, RideContext, RideSummary
 from backend.domain.ride_events import RideEvent
 from backend.errors import FieldError, InvalidRequest
@@ -73,6 +74,7 @@ def ride_from_row(row: Row[Any]) -> Ride:
         bike_id=body["bike_id"],
         sport=body["sport"],
         intake=Intake(**body["intake"]) if body["intake"] else None,
+        noted=noted_from_json(body["noted"]),
     )
 
 
@@ -124,6 +126,7 @@ def row_of(ride: Ride) -> dict[str, object]:
         "cut_short": ride.cut_short,
         "sport": ride.sport,
         "intake": asdict(ride.intake) if ride.intake else None,
+        "noted": noted_to_json(ride.noted),
     }
 
 

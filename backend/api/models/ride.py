@@ -88,6 +88,39 @@ class Intake(Answer):
     )
 
 
+class Lap(Answer):
+    """A part of the ride that was marked off, in seconds after its start; null for untold."""
+
+    from_s: float
+    to_s: float
+    trigger: str | None = Field(
+        description="manual, time, distance, position, session_end, other; null for untold."
+    )
+    timer_s: float | None = Field(description="Time the device's timer ran.")
+    distance_m: float | None
+    calories_kcal: float | None
+
+
+class Pause(Answer):
+    """The timer of the device that recorded stood."""
+
+    from_s: float
+    to_s: float
+    by_rider: bool | None = Field(description="False when the device stopped by itself.")
+
+
+class Instrument(Answer):
+    """The device that recorded, or one that it heard; null for what the file does not tell."""
+
+    kind: str | None = Field(description="`recorder`, or what it measures: `bike_power`.")
+    maker: str | None
+    product: str | None
+    serial_number: str | None
+    software_version: str | None
+    battery_v: float | None = Field(description="Of its own battery.")
+    battery_status: str | None
+
+
 class RideEvent(Answer):
     """A fault that came or went (value: bits of `fault_flags`), the mode chosen (its slot), or a
     moment that somebody marked (its number)."""
@@ -161,6 +194,9 @@ class Ride(Answer):
         description="What became of the file's rows and fields; null for a ride that was recorded "
         "here, and for one that was read before this was counted."
     )
+    laps: list[Lap] = Field(description="As the file tells them; empty for none.")
+    pauses: list[Pause] = Field(description="Of the timer of the device that recorded.")
+    instruments: list[Instrument] = Field(description="What recorded the file's ride.")
     upload_id: str | None
     object_bytes: int | None
     damage: Literal["missing", "wrong_size", "changed", "unreadable"] | None = Field(

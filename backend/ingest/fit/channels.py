@@ -19,6 +19,8 @@ FLOAT_DIGITS = 8
 # Sports whose power is not what a rider gives a bike.
 ON_FOOT = frozenset({"running", "walking", "hiking", "swimming", "transition"})
 RIDER_POWER = "rider_power_w"
+# The highest bit of FIT's balance: the share is of the right leg.
+BALANCE, RIGHT_LEG, RIGHT = "left_right_balance", "right_leg", 0x80
 
 
 def rules_of(columns: Mapping[str, Column], sport: str | None) -> tuple[FieldRule, ...]:
@@ -60,6 +62,21 @@ def float_step(largest: float) -> float:
     if largest <= 0.0:
         return 1.0
     return float(10.0 ** (np.floor(np.log10(largest)) - FLOAT_DIGITS))
+
+
+def with_leg(columns: Mapping[str, Column]) -> dict[str, Column]:
+    """Columns in which the share of the right leg is a number of its own.
+
+    FIT has share and side in one number; where it does not know the side, that number stays.
+    """
+    told = columns.get(BALANCE)
+    if told is None:
+        return dict(columns)
+    raw = told.values
+    right = np.nan_to_num(raw).astype(np.int64) & RIGHT != 0
+    share = np.where(right, raw - RIGHT, np.nan)
+    found = {**columns, BALANCE: replace(told, values=np.where(right, np.nan, raw))}
+    return {**found, RIGHT_LEG: Column(share, "%")}
 
 
 def values_of(columns: Mapping[str, Column]) -> dict[str, Values]:

@@ -8,15 +8,18 @@ with records is at least one ride.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import floor
 
 import numpy as np
 
+from backend.domain.noted import within
 from backend.ingest.columns import EPOCH_S, Places, rides_of_columns
-from backend.ingest.fit.channels import rules_of, values_of
+from backend.ingest.fit.channels import rules_of, values_of, with_leg
 from backend.ingest.fit.fields import Table, descriptions, table_of
 from backend.ingest.fit.layout import CHECKSUM_BYTES, Part
 from backend.ingest.fit.mend import mended
+from backend.ingest.fit.noted import noted_of
 from backend.ingest.fit.profile import (
     FIELD_DESCRIPTION,
     RECORD,
@@ -94,17 +97,24 @@ def rides_of(data: bytes, cells: np.typing.NDArray[np.uint8], part: Part) -> lis
     """The rides of one file of the chain."""
     described = descriptions(data, part.of(FIELD_DESCRIPTION))
     records = table_of(cells, part.of(RECORD), RECORD_FIELDS, described)
+    noted = noted_of(data, cells, part)
     found: list[ImportedRide] = []
     for sport, rows in legs_of(records, table_of(cells, part.of(SESSION), SESSION_FIELDS)):
         leg = records.of_rows(rows)
+        columns = with_leg(leg.columns)
         found += rides_of_columns(
             leg.time_s + EPOCH_S,
-            values_of(leg.columns),
-            rules_of(leg.columns, sport),
+            values_of(columns),
+            rules_of(columns, sport),
             sport,
             leg.unread,
         )
-    return found
+    return [replace(ride, noted=within(noted, *span_s(ride))) for ride in found]
+
+
+def span_s(ride: ImportedRide) -> tuple[float, float]:
+    """Unix time of a ride's first row, and from there to its last."""
+    return ride.started_us / 1e6, float(ride.rows.times_us[-1]) / 1e6
 
 
 def legs_of(records: Table, sessions: Table) -> list[tuple[str | None, Places]]:

@@ -302,6 +302,7 @@ def ride_of(
         events=imported.events,
         sport=imported.sport,
         intake=imported.intake,
+        noted=imported.noted,
     )
 
 

@@ -193,6 +193,7 @@ ride = Table(
     Column("filled", JSON, nullable=False, server_default="[]"),
     Column("sport", String(32)),
     Column("intake", JSON(none_as_null=True)),
+    Column("noted", JSON(none_as_null=True)),
     Column("events", JSON, nullable=False, server_default="[]"),
     Column("completeness", Float),
     Column("upload_id", KEY, ForeignKey("upload.id"), index=True),

@@ -2496,6 +2496,32 @@ export interface components {
             reset_cause: string | null;
         };
         /**
+         * Instrument
+         * @description The device that recorded, or one that it heard; null for what the file does not tell.
+         */
+        Instrument: {
+            /**
+             * Kind
+             * @description `recorder`, or what it measures: `bike_power`.
+             */
+            kind: string | null;
+            /** Maker */
+            maker: string | null;
+            /** Product */
+            product: string | null;
+            /** Serial Number */
+            serial_number: string | null;
+            /** Software Version */
+            software_version: string | null;
+            /**
+             * Battery V
+             * @description Of its own battery.
+             */
+            battery_v: number | null;
+            /** Battery Status */
+            battery_status: string | null;
+        };
+        /**
          * Intake
          * @description What became of every row and field of the file: kept, or counted here with the reason.
          *
@@ -2542,6 +2568,30 @@ export interface components {
             fields_unread: {
                 [key: string]: number;
             };
+        };
+        /**
+         * Lap
+         * @description A part of the ride that was marked off, in seconds after its start; null for untold.
+         */
+        Lap: {
+            /** From S */
+            from_s: number;
+            /** To S */
+            to_s: number;
+            /**
+             * Trigger
+             * @description manual, time, distance, position, session_end, other; null for untold.
+             */
+            trigger: string | null;
+            /**
+             * Timer S
+             * @description Time the device's timer ran.
+             */
+            timer_s: number | null;
+            /** Distance M */
+            distance_m: number | null;
+            /** Calories Kcal */
+            calories_kcal: number | null;
         };
         /** LargestDifference */
         LargestDifference: {
@@ -3047,6 +3097,21 @@ export interface components {
             /** Next */
             next: string | null;
         };
+        /**
+         * Pause
+         * @description The timer of the device that recorded stood.
+         */
+        Pause: {
+            /** From S */
+            from_s: number;
+            /** To S */
+            to_s: number;
+            /**
+             * By Rider
+             * @description False when the device stopped by itself.
+             */
+            by_rider: boolean | null;
+        };
         /** PointGains */
         PointGains: {
             /** Gain */
@@ -3475,6 +3540,21 @@ export interface components {
             sport: string | null;
             /** @description What became of the file's rows and fields; null for a ride that was recorded here, and for one that was read before this was counted. */
             intake: components["schemas"]["Intake"] | null;
+            /**
+             * Laps
+             * @description As the file tells them; empty for none.
+             */
+            laps: components["schemas"]["Lap"][];
+            /**
+             * Pauses
+             * @description Of the timer of the device that recorded.
+             */
+            pauses: components["schemas"]["Pause"][];
+            /**
+             * Instruments
+             * @description What recorded the file's ride.
+             */
+            instruments: components["schemas"]["Instrument"][];
             /** Upload Id */
             upload_id: string | null;
             /** Object Bytes */

@@ -1,0 +1,110 @@
+"""What the device that recorded a ride's file noted beside its rows: laps, pauses, instruments.
+
+A ride that was recorded here has none of these. Times are seconds since the ride's start.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+# More than any ride has; a file may say anything.
+LAPS_MAX, PAUSES_MAX, INSTRUMENTS_MAX = 1000, 2000, 64
+# What shares less than this with a ride ended as the ride began: files tell whole seconds.
+LEAST_S = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Lap:
+    """A part of the ride that was marked off.
+
+    trigger: `manual`, `time`, `distance`, `position`, `session_end`, `other`, None for untold.
+    timer_s, distance_m, calories_kcal: as the device counted them, None where it did not.
+    """
+
+    from_s: float
+    to_s: float
+    trigger: str | None = None
+    timer_s: float | None = None
+    distance_m: float | None = None
+    calories_kcal: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Pause:
+    """The device's timer stood. by_rider: False for a device that stops by itself at a standstill,
+    None where the file does not tell."""
+
+    from_s: float
+    to_s: float
+    by_rider: bool | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Instrument:
+    """The device that recorded, or one that it heard; None for what the file does not tell.
+
+    kind: `recorder`, or what it measures (`bike_power`, `heart_rate`, `light_electric_vehicle`).
+    battery_v, battery_status: of the instrument's own battery, the last that was told.
+    """
+
+    kind: str | None = None
+    maker: str | None = None
+    product: str | None = None
+    serial_number: str | None = None
+    software_version: str | None = None
+    battery_v: float | None = None
+    battery_status: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Noted:
+    """All of it, each in the order of time or of the file."""
+
+    laps: tuple[Lap, ...] = ()
+    pauses: tuple[Pause, ...] = ()
+    instruments: tuple[Instrument, ...] = ()
+
+
+def noted_to_json(noted: Noted) -> dict[str, object]:
+    """Plain JSON, the inverse of `noted_from_json`."""
+    return asdict(noted)
+
+
+def noted_from_json(body: Mapping[str, Any] | None) -> Noted:
+    """From the members it has; a newer version may have told more. Raises TypeError, ValueError."""
+    body = body or {}
+    return Noted(
+        laps=_items(Lap, body.get("laps", ())),
+        pauses=_items(Pause, body.get("pauses", ())),
+        instruments=_items(Instrument, body.get("instruments", ())),
+    )
+
+
+def _items(kind: type[Any], bodies: Sequence[Mapping[str, Any]]) -> tuple[Any, ...]:
+    return tuple(kind(**{n: body[n] for n in kind.__slots__ if n in body}) for body in bodies)
+
+
+def within(noted: Noted, started_s: float, duration_s: float) -> Noted:
+    """What of a file's notes is of one ride of it.
+
+    noted: with times as Unix seconds. started_s: Unix time of the ride's first row. What reaches
+    beyond the ride is cut to it; what lies outside is of another ride.
+    """
+
+    def cut(item: Any) -> Any:
+        from_s = max(item.from_s - started_s, 0.0)
+        to_s = min(item.to_s - started_s, duration_s)
+        changed = {"from_s": round(from_s, 6), "to_s": round(to_s, 6)}
+        return type(item)(**{**asdict(item), **changed})
+
+    laps = [cut(lap) for lap in noted.laps if _touches(lap, started_s, duration_s)]
+    pauses = [cut(pause) for pause in noted.pauses if _touches(pause, started_s, duration_s)]
+    laps.sort(key=lambda lap: (lap.from_s, lap.to_s))
+    return Noted(tuple(laps[:LAPS_MAX]), tuple(pauses[:PAUSES_MAX]), noted.instruments)
+
+
+def _touches(item: Lap | Pause, started_s: float, duration_s: float) -> bool:
+    shared_s = min(item.to_s, started_s + duration_s) - max(item.from_s, started_s)
+    return shared_s > 0 and shared_s >= min(LEAST_S, 0.5 * (item.to_s - item.from_s))
