@@ -27,6 +27,14 @@ def sideways(page: Page) -> int:
     return int(page.evaluate(SIDEWAYS))
 
 
+# Warnings are told with the place that gave them: one that comes once in a hundred runs has to be
+# found from what that run printed.
+TRACED = """for (const kind of ['warn', 'error']) {
+    const say = console[kind]
+    console[kind] = (...words) => say.call(console, ...words, new Error().stack)
+}"""
+
+
 class Desk:
     """One page. `complaints` collects errors of scripts and requests that leave the machine."""
 
@@ -35,6 +43,7 @@ class Desk:
         self.address = address
         self.complaints: list[str] = []
         self.allowed: list[re.Pattern[str]] = []
+        page.add_init_script(TRACED)
         page.on("console", self._console)
         page.on("pageerror", lambda error: self.complaints.append(f"script: {error}"))
         page.on("request", self._request)
