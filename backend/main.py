@@ -35,6 +35,7 @@ from backend.services.imports.collect import Collect
 from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
 from backend.services.keeping import Keeping
 from backend.services.rides.fault_moment import FaultMoments, RecentRows
+from backend.services.rides.insight.questions import Insight
 from backend.services.rides.ledger import EnergyLedger
 from backend.services.rides.mark import MarkMoment
 from backend.services.rides.propose import Proposals
@@ -140,6 +141,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             why_steady=WhySteady(devices.writable),
             why_ride=WhyRide(store, memory.ride_config),
             ledger=EnergyLedger(store, memory.ride_config),
+            insight=Insight(store, memory.ride_config),
             uploads=uploads,
             collect=collect,
         )

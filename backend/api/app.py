@@ -16,6 +16,7 @@ from backend.api.routes import (
     config,
     devices,
     health,
+    insight,
     law,
     library,
     logs,
@@ -65,7 +66,9 @@ def create_app(settings: ApiSettings, services: Services | None = None) -> FastA
     app.state.upload_bytes_max = settings.upload_bytes_max
     app.state.author = settings.author
     api = APIRouter(prefix=PREFIX)
-    parts = (health, store, devices, logs, config, law, library, rides, proposals, uploads, live)
+    # Before the rides: what several rides tell together is at no ride's number.
+    told = (insight, rides, proposals)
+    parts = (health, store, devices, logs, config, law, library, *told, uploads, live)
     for module in parts:
         api.include_router(module.router)
     app.include_router(api)

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from backend.services.imports.upload import Uploads
     from backend.services.keeping import Keeping
     from backend.services.rides.fault_moment import FaultMoments
+    from backend.services.rides.insight.questions import Insight
     from backend.services.rides.ledger import EnergyLedger
     from backend.services.rides.mark import MarkMoment
     from backend.services.rides.propose import Proposals
@@ -61,6 +62,7 @@ class Services:
     why_steady: WhySteady
     why_ride: WhyRide
     ledger: EnergyLedger
+    insight: Insight
     uploads: Uploads
     collect: Collect
 

@@ -217,6 +217,22 @@ def test_a_ride_can_be_named_drawn_exported_and_deleted(workshop: SpindleServer)
     assert workshop.client.get(path).status_code == 404
 
 
+def test_a_ride_tells_where_its_energy_went(workshop: SpindleServer, ride: dict[str, Any]) -> None:
+    path = f"/rides/{ride['id']}"
+    energy = workshop.get(f"{path}/energy")
+    effort = workshop.client.get(f"{path}/effort", params={"threshold_power_w": 160}).json()
+    wrong = workshop.client.get(f"{path}/effort", params={"threshold_power_w": -1})
+
+    summary = ride["summary"]
+    for figure in ("rider_wh", "motor_wh", "battery_wh", "distance_km"):
+        assert energy["whole"][figure] == pytest.approx(summary[figure], rel=1e-3)
+    assert energy["modes"][0]["name"], "its configuration is known"
+    assert energy["range_refused"] in {"short_way", "little_used"}
+    assert effort["power"]["reference"] == 160.0
+    assert effort["power_curve"][-1]["power_w"] > 0.0
+    assert wrong.status_code == 422
+
+
 def test_a_replay_with_nothing_changed_is_what_the_motor_did(
     workshop: SpindleServer, ride: dict[str, Any]
 ) -> None:

@@ -1013,6 +1013,47 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/rides/{ride_id}/energy": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Energy Of Ride
+         * @description Rider, motor and battery apart: of the whole ride, by mode and by gradient; charge and
+         *     range.
+         */
+        get: operations["energy_of_ride"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/rides/{ride_id}/effort": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Effort Of Ride
+         * @description Time in zones and bands, and best mean powers. Without a threshold there are no zones.
+         */
+        get: operations["effort_of_ride"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/rides": {
         parameters: {
             query?: never;
@@ -1501,6 +1542,30 @@ export interface components {
             mode_at_start: number;
         };
         /**
+         * Band
+         * @description Time from `low` up to `high`; null for no end.
+         */
+        Band: {
+            /** Low */
+            low: number | null;
+            /** High */
+            high: number | null;
+            /** Seconds */
+            seconds: number;
+        };
+        /**
+         * BestMean
+         * @description The greatest mean over this long, in the stretch that begins at `from_s`.
+         */
+        BestMean: {
+            /** Duration S */
+            duration_s: number;
+            /** Power W */
+            power_w: number;
+            /** From S */
+            from_s: number;
+        };
+        /**
          * Calibration
          * @description How raw counts become newton metres, and how they are filtered.
          *
@@ -1671,6 +1736,34 @@ export interface components {
             new: number | string | (number | string)[] | (number | string)[][] | null;
         };
         /**
+         * Charge
+         * @description Charge used, and how far the rest would have gone on a ride like this one.
+         *
+         *     The band is of the reading's step, and of the thirds of the way that took most and least.
+         */
+        Charge: {
+            /** Soc Pct First */
+            soc_pct_first: number;
+            /** Soc Pct Last */
+            soc_pct_last: number;
+            /** Used Pct */
+            used_pct: number;
+            /**
+             * Step Pct
+             * @description The finest change of the reading.
+             */
+            step_pct: number;
+            /** Range Km */
+            range_km: number | null;
+            /** Range Km Least */
+            range_km_least: number | null;
+            /**
+             * Range Km Most
+             * @description Null also where a third took nothing.
+             */
+            range_km_most: number | null;
+        };
+        /**
          * Claim
          * @description A statement about every ride there can be with this configuration.
          */
@@ -1713,6 +1806,20 @@ export interface components {
             values: {
                 [key: string]: number | string;
             };
+        };
+        /**
+         * Climb
+         * @description By heights averaged over 5 m of way; a climb counts once it is 3 m high.
+         */
+        Climb: {
+            /** Ascent M */
+            ascent_m: number;
+            /** Descent M */
+            descent_m: number;
+            /** Lowest M */
+            lowest_m: number;
+            /** Highest M */
+            highest_m: number;
         };
         /**
          * ClosedLoop
@@ -2088,6 +2195,27 @@ export interface components {
              */
             name?: string | null;
         };
+        /**
+         * Distribution
+         * @description Time of a quantity, in means of a second.
+         */
+        Distribution: {
+            /** Channel */
+            channel: string;
+            /**
+             * Zones
+             * @description Zones of `reference`; else plain bands.
+             */
+            zones: boolean;
+            /** Reference */
+            reference: number | null;
+            /** Bands */
+            bands: components["schemas"]["Band"][];
+            /** Known S */
+            known_s: number;
+            /** Unknown S */
+            unknown_s: number;
+        };
         /** DocumentParameter */
         DocumentParameter: {
             /** Value */
@@ -2099,6 +2227,27 @@ export interface components {
              * @default
              */
             comment: string;
+        };
+        /**
+         * EnergyShare
+         * @description Rider, motor and battery side by side; null where it was not measured. Never added up.
+         */
+        EnergyShare: {
+            /** Seconds */
+            seconds: number;
+            /** Distance Km */
+            distance_km: number | null;
+            /** Rider Wh */
+            rider_wh: number | null;
+            /** Motor Wh */
+            motor_wh: number | null;
+            /** Battery Wh */
+            battery_wh: number | null;
+            /**
+             * Motor Per Rider
+             * @description The motor's work over the rider's, of the moments in which both are known.
+             */
+            motor_per_rider: number | null;
         };
         /** ErasedLog */
         ErasedLog: {
@@ -2438,6 +2587,31 @@ export interface components {
             to_s: number;
             /** Rows Lost */
             rows_lost: number | null;
+        };
+        /**
+         * GradientEnergy
+         * @description Of the rows whose gradient lies from `from_pct` up to `to_pct`; null for no end.
+         */
+        GradientEnergy: {
+            /** Seconds */
+            seconds: number;
+            /** Distance Km */
+            distance_km: number | null;
+            /** Rider Wh */
+            rider_wh: number | null;
+            /** Motor Wh */
+            motor_wh: number | null;
+            /** Battery Wh */
+            battery_wh: number | null;
+            /**
+             * Motor Per Rider
+             * @description The motor's work over the rider's, of the moments in which both are known.
+             */
+            motor_per_rider: number | null;
+            /** From Pct */
+            from_pct: number | null;
+            /** To Pct */
+            to_pct: number | null;
         };
         /** Health */
         Health: {
@@ -3028,6 +3202,34 @@ export interface components {
              * @description Increasing; each is held for two seconds.
              */
             speeds_kmh: number[];
+        };
+        /** ModeEnergy */
+        ModeEnergy: {
+            /** Seconds */
+            seconds: number;
+            /** Distance Km */
+            distance_km: number | null;
+            /** Rider Wh */
+            rider_wh: number | null;
+            /** Motor Wh */
+            motor_wh: number | null;
+            /** Battery Wh */
+            battery_wh: number | null;
+            /**
+             * Motor Per Rider
+             * @description The motor's work over the rider's, of the moments in which both are known.
+             */
+            motor_per_rider: number | null;
+            /**
+             * Mode
+             * @description Its slot.
+             */
+            mode: number;
+            /**
+             * Name
+             * @description Null where nobody kept the ride's configuration.
+             */
+            name: string | null;
         };
         /** ModeShare */
         ModeShare: {
@@ -3634,6 +3836,59 @@ export interface components {
             config_crc32: number | null;
             /** Gear Ratio */
             gear_ratio: number | null;
+        };
+        /**
+         * RideEffort
+         * @description What the rider gave; null without the channel.
+         */
+        RideEffort: {
+            /** Ride Id */
+            ride_id: number;
+            /** @description While pedalling. Zones after Allen and Coggan, of the threshold power. */
+            power: components["schemas"]["Distribution"] | null;
+            /** @description Zones by tenths of the greatest. */
+            heart_rate: components["schemas"]["Distribution"] | null;
+            torque: components["schemas"]["Distribution"] | null;
+            /**
+             * Torque Of Power
+             * @description Torque is power over cadence, not measured.
+             */
+            torque_of_power: boolean;
+            cadence: components["schemas"]["Distribution"] | null;
+            /**
+             * Power Curve
+             * @description A stretch with a gap in it does not count; the last is the longest without.
+             */
+            power_curve: components["schemas"]["BestMean"][];
+        };
+        /** RideEnergy */
+        RideEnergy: {
+            /** Ride Id */
+            ride_id: number;
+            whole: components["schemas"]["EnergyShare"];
+            /**
+             * Lost Km
+             * @description Way in gaps, that is in no row.
+             */
+            lost_km: number | null;
+            /** Battery Wh Per Km */
+            battery_wh_per_km: number | null;
+            /** Modes */
+            modes: components["schemas"]["ModeEnergy"][];
+            /**
+             * Gradients
+             * @description Gradient of height over way, a straight line over 100 m; null without heights.
+             */
+            gradients: components["schemas"]["GradientEnergy"][] | null;
+            /** Gradient Unknown S */
+            gradient_unknown_s: number | null;
+            climb: components["schemas"]["Climb"] | null;
+            charge: components["schemas"]["Charge"] | null;
+            /**
+             * Range Refused
+             * @description Why there is no range; null with one.
+             */
+            range_refused: ("no_charge" | "no_distance" | "short_way" | "charged" | "little_used") | null;
         };
         /**
          * RideEvent
@@ -9158,6 +9413,109 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    energy_of_ride: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                ride_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RideEnergy"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    effort_of_ride: {
+        parameters: {
+            query?: {
+                /** @description What the rider can hold for an hour. */
+                threshold_power_w?: number | null;
+                /** @description The rider's. */
+                heart_rate_bpm_max?: number | null;
+            };
+            header?: never;
+            path: {
+                ride_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RideEffort"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -1,0 +1,118 @@
+"""What a ride tells: energy, effort."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from backend.api.models.base import Answer
+
+NoRange = Literal["no_charge", "no_distance", "short_way", "charged", "little_used"]
+
+
+class EnergyShare(Answer):
+    """Rider, motor and battery side by side; null where it was not measured. Never added up."""
+
+    seconds: float
+    distance_km: float | None
+    rider_wh: float | None
+    motor_wh: float | None
+    battery_wh: float | None
+    motor_per_rider: float | None = Field(
+        description="The motor's work over the rider's, of the moments in which both are known."
+    )
+
+
+class ModeEnergy(EnergyShare):
+    mode: int = Field(description="Its slot.")
+    name: str | None = Field(description="Null where nobody kept the ride's configuration.")
+
+
+class GradientEnergy(EnergyShare):
+    """Of the rows whose gradient lies from `from_pct` up to `to_pct`; null for no end."""
+
+    from_pct: float | None
+    to_pct: float | None
+
+
+class Climb(Answer):
+    """By heights averaged over 5 m of way; a climb counts once it is 3 m high."""
+
+    ascent_m: float
+    descent_m: float
+    lowest_m: float
+    highest_m: float
+
+
+class Charge(Answer):
+    """Charge used, and how far the rest would have gone on a ride like this one.
+
+    The band is of the reading's step, and of the thirds of the way that took most and least.
+    """
+
+    soc_pct_first: float
+    soc_pct_last: float
+    used_pct: float
+    step_pct: float = Field(description="The finest change of the reading.")
+    range_km: float | None
+    range_km_least: float | None
+    range_km_most: float | None = Field(description="Null also where a third took nothing.")
+
+
+class RideEnergy(Answer):
+    ride_id: int
+    whole: EnergyShare
+    lost_km: float | None = Field(description="Way in gaps, that is in no row.")
+    battery_wh_per_km: float | None
+    modes: list[ModeEnergy]
+    gradients: list[GradientEnergy] | None = Field(
+        description="Gradient of height over way, a straight line over 100 m; null without heights."
+    )
+    gradient_unknown_s: float | None
+    climb: Climb | None
+    charge: Charge | None
+    range_refused: NoRange | None = Field(description="Why there is no range; null with one.")
+
+
+class Band(Answer):
+    """Time from `low` up to `high`; null for no end."""
+
+    low: float | None
+    high: float | None
+    seconds: float
+
+
+class Distribution(Answer):
+    """Time of a quantity, in means of a second."""
+
+    channel: str
+    zones: bool = Field(description="Zones of `reference`; else plain bands.")
+    reference: float | None
+    bands: list[Band]
+    known_s: float
+    unknown_s: float
+
+
+class BestMean(Answer):
+    """The greatest mean over this long, in the stretch that begins at `from_s`."""
+
+    duration_s: float
+    power_w: float
+    from_s: float
+
+
+class RideEffort(Answer):
+    """What the rider gave; null without the channel."""
+
+    ride_id: int
+    power: Distribution | None = Field(
+        description="While pedalling. Zones after Allen and Coggan, of the threshold power."
+    )
+    heart_rate: Distribution | None = Field(description="Zones by tenths of the greatest.")
+    torque: Distribution | None
+    torque_of_power: bool = Field(description="Torque is power over cadence, not measured.")
+    cadence: Distribution | None
+    power_curve: list[BestMean] = Field(
+        description="A stretch with a gap in it does not count; the last is the longest without."
+    )

@@ -1,0 +1,47 @@
+"""What a ride tells: energy, effort."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Query
+
+from backend.api.models.insight import RideEffort, RideEnergy
+from backend.api.problem import DAMAGED, refusals
+from backend.api.routes.rides import RideId
+from backend.api.services import Provided
+
+router = APIRouter(prefix="/rides", tags=["rides"], responses=refusals(404))
+
+ThresholdPower = Annotated[
+    float | None, Query(ge=20.0, le=1000.0, description="What the rider can hold for an hour.")
+]
+HeartRateMax = Annotated[float | None, Query(ge=80.0, le=250.0, description="The rider's.")]
+
+
+@router.get(
+    "/{ride_id}/energy",
+    operation_id="energy_of_ride",
+    response_model=RideEnergy,
+    responses=DAMAGED,
+)
+def energy_of_ride(ride_id: RideId, services: Provided) -> Any:
+    """Rider, motor and battery apart: of the whole ride, by mode and by gradient; charge and
+    range."""
+    return services.insight.energy(ride_id)
+
+
+@router.get(
+    "/{ride_id}/effort",
+    operation_id="effort_of_ride",
+    response_model=RideEffort,
+    responses=DAMAGED,
+)
+def effort_of_ride(
+    ride_id: RideId,
+    services: Provided,
+    threshold_power_w: ThresholdPower = None,
+    heart_rate_bpm_max: HeartRateMax = None,
+) -> Any:
+    """Time in zones and bands, and best mean powers. Without a threshold there are no zones."""
+    return services.insight.effort(ride_id, threshold_power_w, heart_rate_bpm_max)

@@ -1,0 +1,1 @@
+"""What a ride tells: energy, effort, pedalling, diagnosis, comparison, report."""

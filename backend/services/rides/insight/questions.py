@@ -1,0 +1,16 @@
+"""What rides tell, in one place for those who ask."""
+
+from __future__ import annotations
+
+from backend.services.rides.insight.effort import RideEffort
+from backend.services.rides.insight.energy import RideEnergy
+from backend.services.rides.replay import ConfigOf
+from backend.store import Store
+
+
+class Insight:
+    """The questions that can be asked of a ride; each is safe from any thread."""
+
+    def __init__(self, store: Store, config_of: ConfigOf) -> None:
+        self.energy = RideEnergy(store, config_of)
+        self.effort = RideEffort(store)

@@ -1,0 +1,50 @@
+"""A ride's rows as the views of insight read them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from backend.domain.channels import Values
+from backend.domain.ride import Ride
+from backend.services.rides.use_of_table import row_seconds
+from backend.store import RideReader, Store
+from backend.views.insight.way import Way, way_of
+
+WAY = ("speed_kmh", "distance_m")
+
+
+@dataclass(frozen=True)
+class RideColumns:
+    """values: the asked channels that the ride has, (n,) each, missing as NaN. start_s, seconds:
+    when each row begins, since the ride's start, and how long it holds."""
+
+    ride: Ride
+    values: dict[str, Values]
+    start_s: Values
+    seconds: Values
+
+    def __getitem__(self, name: str) -> Values | None:
+        return self.values.get(name)
+
+    @cached_property
+    def way(self) -> Way | None:
+        """Of rides that were asked for WAY."""
+        return way_of(self.values, self.start_s, self.seconds)
+
+
+def columns_of(store: Store, ride_id: int, names: Sequence[str]) -> RideColumns:
+    """The whole ride: 6 MB a channel of two hours at 100 Hz. Raises NotFound, ObjectDamaged."""
+    reader = store.rides.reader(ride_id)
+    return columns_from(reader, names)
+
+
+def columns_from(reader: RideReader, names: Sequence[str]) -> RideColumns:
+    """The rows of an open ride."""
+    count = reader.row_count
+    values = reader.values(list(dict.fromkeys(names)))
+    start_s = reader.times_us(0, count) / 1e6
+    return RideColumns(reader.ride, values, start_s, np.asarray(row_seconds(reader)))

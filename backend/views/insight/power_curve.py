@@ -1,0 +1,91 @@
+"""Mean maximal power: the greatest mean over every stretch of a length, for lengths up to the ride.
+
+Power holds from a sample until the next, so work over time is a line with corners, and the best
+stretch of a length begins or ends at one of them: looking there finds it exactly, at any sampling.
+A stretch with a missing sample or a pause in it does not count.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from backend.domain.channels import Values
+
+MINUTE_S, HOUR_S = 60, 3600
+DURATIONS_S = (
+    *(1, 2, 5, 10, 15, 20, 30),
+    *(minutes * MINUTE_S for minutes in (1, 2, 3, 5, 8, 10, 15, 20, 30, 45)),
+    *(hours * HOUR_S for hours in (1, 1.5, 2, 3, 4, 6, 8, 12, 24)),
+)
+MISSING_S = 1e-6
+"""Less than a clock's microsecond is no gap."""
+
+
+@dataclass(frozen=True)
+class BestMean:
+    """The best stretch of duration_s begins at from_s."""
+
+    duration_s: float
+    power_w: float
+    from_s: float
+
+
+def power_curve(power_w: Values, start_s: Values, seconds: Values) -> list[BestMean]:
+    """Best means of power (n,), missing as NaN, that begins at start_s and holds for `seconds`.
+
+    The last is of the longest stretch without a gap: the whole ride if it has none.
+    """
+    if not len(power_w):
+        return []
+    there = np.isfinite(power_w)
+    begins, ends = start_s, start_s + seconds
+    # Corners of two lines over time: work, and time without a sample; a pause is one more piece.
+    corner_s = np.column_stack((begins, ends)).reshape(-1).round(6)
+    work_j = np.where(there, power_w, 0.0) * seconds
+    holes = np.where(there, 0.0, seconds)
+    pauses = np.append(0.0, begins[1:] - ends[:-1])
+    work = np.cumsum(np.column_stack((np.zeros(len(work_j)), work_j)).reshape(-1))
+    missing = np.cumsum(np.column_stack((np.maximum(pauses, 0.0), holes)).reshape(-1))
+    corner_s, kept = np.unique(corner_s, return_index=True)
+    work, missing = work[kept], missing[kept]
+    longest_s = longest_run(corner_s, missing)
+    lengths = [float(length) for length in DURATIONS_S if length < longest_s - MISSING_S]
+    found = [best_mean(corner_s, work, missing, length) for length in (*lengths, longest_s)]
+    return [best for best in found if best is not None]
+
+
+def longest_run(corner_s: Values, missing_s: Values) -> float:
+    """The longest stretch between corners in which nothing is missing."""
+    whole = np.diff(missing_s) <= MISSING_S
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], whole, [False])).astype(np.int8)))
+    runs = edges.reshape(-1, 2)
+    longest = max((corner_s[stop] - corner_s[start] for start, stop in runs), default=0.0)
+    return round(float(longest), 6)
+
+
+def best_mean(
+    corner_s: Values, work_j: Values, missing_s: Values, length: float
+) -> BestMean | None:
+    """The best stretch of this length, among those that begin or end at a corner."""
+    if length <= 0.0:
+        return None
+    found = [best_from(corner_s, work_j, missing_s, length, at) for at in (0.0, length)]
+    return max((best for best in found if best), key=lambda best: best.power_w, default=None)
+
+
+def best_from(
+    corner_s: Values, work_j: Values, missing_s: Values, length: float, before_s: float
+) -> BestMean | None:
+    """The best stretch among those that begin before_s before a corner."""
+    begins = corner_s - before_s
+    inside = (begins >= corner_s[0] - MISSING_S) & (begins + length <= corner_s[-1] + MISSING_S)
+    begins = begins[inside]
+    gone = np.interp(begins + length, corner_s, missing_s) - np.interp(begins, corner_s, missing_s)
+    begins = begins[gone <= MISSING_S]
+    if not len(begins):
+        return None
+    work = np.interp(begins + length, corner_s, work_j) - np.interp(begins, corner_s, work_j)
+    best = int(np.argmax(work))
+    return BestMean(length, float(work[best]) / length, float(begins[best]))
