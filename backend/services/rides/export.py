@@ -61,8 +61,12 @@ def as_parquet(store: Store, ride: Ride) -> Export:
 
 
 def as_fit(store: Store, ride: Ride) -> Export:
-    """A record a second, for other sites."""
+    """A record a second, for other sites. Raises InvalidRequest for a ride without a sample."""
     ridden = second_by_second(store, ride, fit.CHANNELS)
+    if not len(ridden):
+        raise InvalidRequest(
+            f"Ride {ride.id} has no sample yet that a FIT file could hold.", code="no_rows"
+        )
     return whole(f"{stem(ride)}.fit", "application/vnd.ant.fit", fit.fit_file(ride, ridden))
 
 
@@ -106,10 +110,8 @@ def verified(store: Store, ride: Ride) -> RideReader:
 
 
 def second_by_second(store: Store, ride: Ride, channels: tuple[str, ...]) -> BySecond:
-    """Those of the channels that a ride has. Raises InvalidRequest for one without a row."""
+    """Those of the channels that a ride has."""
     reader = verified(store, ride)
-    if not reader.row_count:
-        raise InvalidRequest(f"Ride {ride.id} has no row yet.", code="no_rows")
     times_us = reader.times_us(0, reader.row_count)
     return by_second(ride.started_us, times_us, reader.values(channels))
 

@@ -32,13 +32,18 @@ class BySecond:
 
 
 def by_second(started_us: int, times_us: TimesUs, values: Mapping[str, Values]) -> BySecond:
-    """Rows (n,) to whole seconds: means of the samples that are there, so that energy stays."""
+    """Rows (n,) to whole seconds: means of the samples that are there, so that energy stays.
+
+    A second without any sample has no row: whoever reads the file shall see a gap, not a second
+    in which nothing was measured.
+    """
     second = (started_us + times_us) // SECOND_US
     starts = np.flatnonzero(np.diff(second, prepend=second[:1] - 1))
-    return BySecond(
-        second[starts],
-        {name: (last_of if name in LAST else mean_of)(v, starts) for name, v in values.items()},
-    )
+    means = {name: (last_of if name in LAST else mean_of)(v, starts) for name, v in values.items()}
+    some = np.zeros(len(starts), np.bool_)
+    for one in means.values():
+        some |= np.isfinite(one)
+    return BySecond(second[starts][some], {name: one[some] for name, one in means.items()})
 
 
 def mean_of(values: Values, starts: npt.NDArray[np.intp]) -> Values:

@@ -1,23 +1,29 @@
 """Goal: what leaves as a file is what was ridden, in physical units, and comes back as that ride.
 
-Method: a ride with every kind of channel is exported; CSV, Parquet and FIT are read back by Spindle
-or by a reader that is not ours, GPX by an XML parser, and compared with what went in.
+Method: a ride with every kind of channel is exported and read back: by Spindle, and each format by
+two readers that are not ours (Parquet and CSV: DuckDB, Polars; FIT: fitdecode, fit-tool; GPX:
+gpxpy, gpx). What they read is compared with what went in, within the format's resolution.
 """
 
 from __future__ import annotations
 
 import io
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from datetime import UTC, datetime
+from itertools import chain
 from pathlib import Path
-from xml.etree import ElementTree
+from typing import Any
 
+import duckdb
 import fitdecode
+import gpx
+import gpxpy
 import numpy as np
-import pyarrow as pa
+import polars
 import pyarrow.parquet as pq
 import pytest
+from fit_tool.fit_file import FitFile
 
 from backend.domain.channels import ChannelSpec, Counts
 from backend.domain.ride import Ride, RideContext, RideRows
@@ -25,6 +31,13 @@ from backend.errors import InvalidRequest
 from backend.ingest.formats import read_file
 from backend.services.rides.review import Rides
 from backend.store import Store, open_store
+
+Reader = Callable[[Path], dict[str, list[float | None]]]
+Messages = list[tuple[str, dict[str, Any]]]
+FitReader = Callable[[bytes], Messages]
+Track = tuple[str, list[list[tuple[float, float, datetime]]]]
+
+NO_SPEED = (2**32 - 1) / 1000
 
 START_S = 1_700_000_000
 SECONDS, HZ = 60, 10
@@ -100,18 +113,46 @@ def physical(name: str) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
     return values
 
 
-def test_parquet_holds_physical_units_and_time(store: Store, ride: Ride) -> None:
-    table = pq.read_table(io.BytesIO(exported(store, ride, "parquet")))
+def by_duckdb(path: Path) -> dict[str, list[float | None]]:
+    """The columns of a table, times as seconds since 1970."""
+    times = "epoch(time_utc) AS time_utc"
+    with duckdb.connect() as connection:
+        found = connection.execute(f"SELECT * REPLACE ({times}) FROM '{path}'")
+        names = [one[0] for one in found.description or ()]
+        return dict(zip(names, map(list, zip(*found.fetchall(), strict=True)), strict=True))
 
-    assert table.column_names == ["time_utc", "t_s", *(channel.name for channel in CHANNELS)]
-    assert table["time_utc"][1].as_py() == datetime.fromtimestamp(START_S + 0.1, UTC)
-    assert table["t_s"][-1].as_py() == pytest.approx(SECONDS - 0.1)
-    assert table.schema.field("rider_torque_nm").metadata == {b"unit": b"Nm"}
+
+def by_polars(path: Path) -> dict[str, list[float | None]]:
+    """The columns of a table, times as seconds since 1970."""
+    parquet = path.suffix == ".parquet"
+    table = polars.read_parquet(path) if parquet else polars.read_csv(path, try_parse_dates=True)
+    seconds = polars.col("time_utc").dt.timestamp("us") / 1e6
+    return table.with_columns(seconds).to_dict(as_series=False)
+
+
+@pytest.mark.parametrize("reader", [by_duckdb, by_polars])
+@pytest.mark.parametrize("file_format", ["parquet", "csv"])
+def test_tables_hold_physical_units_and_time(
+    store: Store, ride: Ride, tmp_path: Path, file_format: str, reader: Reader
+) -> None:
+    path = tmp_path / f"ride.{file_format}"
+    path.write_bytes(exported(store, ride, file_format))
+    found = reader(path)
+
+    assert list(found)[:2] == ["time_utc", "t_s"]
+    assert found["time_utc"][1] == pytest.approx(START_S + 0.1, abs=1e-6)
+    assert found["t_s"][-1] == pytest.approx(SECONDS - 0.1)
+    assert set(found) >= {channel.name for channel in CHANNELS}
     for channel in CHANNELS:
-        column = table[channel.name].combine_chunks()
-        assert column.null_count == int(np.isnan(physical(channel.name)).sum())
-        found = column.cast(pa.float64()).to_numpy(zero_copy_only=False)
-        np.testing.assert_array_equal(found, physical(channel.name))
+        values = np.array(found[channel.name], np.float64)
+        least = 0.0 if file_format == "parquet" else channel.scale / 2
+        np.testing.assert_allclose(values, physical(channel.name), atol=least, rtol=1e-12)
+
+
+def test_a_column_of_parquet_tells_its_unit(store: Store, ride: Ride) -> None:
+    schema = pq.read_schema(io.BytesIO(exported(store, ride, "parquet")))
+
+    assert schema.field("rider_torque_nm").metadata == {b"unit": b"Nm"}
 
 
 def test_csv_comes_back_as_the_same_samples(store: Store, ride: Ride) -> None:
@@ -124,13 +165,27 @@ def test_csv_comes_back_as_the_same_samples(store: Store, ride: Ride) -> None:
         np.testing.assert_allclose(found, physical(channel.name), atol=spec.scale)
 
 
-def records(data: bytes) -> list[dict[str, object]]:
+def by_fitdecode(data: bytes) -> Messages:
+    """Name of the message and its fields by name."""
     with fitdecode.FitReader(io.BytesIO(data)) as reader:
         return [
-            {one.name: one.value for one in frame.fields}
+            (frame.name, {one.name: one.value for one in frame.fields})
             for frame in reader
-            if isinstance(frame, fitdecode.FitDataMessage) and frame.name == "record"
+            if isinstance(frame, fitdecode.FitDataMessage)
         ]
+
+
+def by_fit_tool(data: bytes) -> Messages:
+    """The same, by another reader."""
+    found = []
+    for record in FitFile.from_bytes(data).records:
+        if not record.is_definition:
+            told = record.message
+            fields = [*told.fields, *told.developer_fields]
+            cells = {one.name: one.get_value() for one in fields if one.is_valid()}
+            # It hands out a field's "no value" where that field has a scale.
+            found.append((told.name, {k: v for k, v in cells.items() if v != NO_SPEED}))
+    return found
 
 
 def by_second(name: str) -> list[float]:
@@ -139,22 +194,47 @@ def by_second(name: str) -> list[float]:
     return [float(np.nanmean(row)) for row in rows if np.isfinite(row).any()]
 
 
-def test_fit_tells_rider_and_motor_apart_second_by_second(store: Store, ride: Ride) -> None:
-    """Power is torque times speed: 20 Nm at 75 rpm are 157 W, 0.25 Nm at 3,000 r/min 78.5 W."""
-    found = records(exported(store, ride, "fit"))
+# Field of a record -> what it holds, and half of the least it can tell apart (and a rounding).
+FIT_FIELDS: dict[str, tuple[Callable[[], list[float]], float]] = {
+    "enhanced_speed": (lambda: [v / 3.6 for v in by_second("speed_kmh")], 0.00051),
+    "cadence": (lambda: by_second("cadence_rpm"), 0.5),
+    # Torque times angular speed: 20 Nm at 75 rpm are 157 W, 0.25 Nm at 3,000 r/min 78.5 W.
+    "power": (lambda: [20.0 * 75.0 * math.pi / 30.0] * 50, 0.6),
+    "motor_power": (lambda: [0.25 * 3000.0 * math.pi / 30.0] * 50, 0.6),
+    "ebike_battery_level": (lambda: by_second("battery_soc_pct"), 0.5),
+    "rider_torque": (lambda: by_second("rider_torque_nm"), 1e-5),
+    "motor_torque": (lambda: by_second("motor_torque_nm"), 1e-5),
+    "motor_torque_demanded": (lambda: by_second("motor_torque_demanded_nm"), 1e-5),
+    "battery_voltage": (lambda: by_second("battery_voltage_v"), 1e-5),
+}
 
-    assert len(found) == SECONDS
-    seconds = [one for one in found if one["rider_torque"] is not None]
-    assert [
-        one["rider_torque"] for one in seconds if one["rider_torque"] == one["rider_torque"]
-    ] == (pytest.approx(by_second("rider_torque_nm"), abs=1e-5))
-    assert found[0]["power"] == pytest.approx(157, abs=1)
-    assert found[0]["motor_power"] == pytest.approx(78.5, abs=1)
-    assert found[0]["motor_torque"] == pytest.approx(0.25)
-    assert found[0]["motor_torque_demanded"] == pytest.approx(0.3)
-    assert found[0]["enhanced_speed"] == pytest.approx((18.0 + 0.05 * 0.45) / 3.6, abs=0.001)
-    assert found[5]["enhanced_speed"] is None
-    assert found[33]["power"] is None
+
+@pytest.mark.parametrize("reader", [by_fitdecode, by_fit_tool])
+@pytest.mark.parametrize("field", FIT_FIELDS)
+def test_fit_tells_rider_and_motor_apart_second_by_second(
+    store: Store, ride: Ride, reader: FitReader, field: str
+) -> None:
+    found = [cells for name, cells in reader(exported(store, ride, "fit")) if name == "record"]
+    told, resolution = FIT_FIELDS[field]
+
+    values = [one[field] for one in found if one.get(field) is not None]
+    assert len(found) == SECONDS - 10
+    assert values == pytest.approx(told(), abs=resolution)
+
+
+def test_a_gap_stops_the_timer_instead_of_records_without_values(store: Store, ride: Ride) -> None:
+    """Samples end at 30 s and go on at 40 s: the last second with one is the 29th."""
+    told = by_fitdecode(exported(store, ride, "fit"))
+
+    def since_start(cells: dict[str, Any]) -> float:
+        return float(cells["timestamp"].timestamp()) - START_S
+
+    events = [(cells["event_type"], since_start(cells)) for name, cells in told if name == "event"]
+    assert events == [("start", 0), ("stop_all", 29), ("start", 40), ("stop_all", 59)]
+    seconds = [since_start(cells) for name, cells in told if name == "record"]
+    assert seconds == [*range(30), *range(40, 60)]
+    (session,) = [cells for name, cells in told if name == "session"]
+    assert (session["total_elapsed_time"], session["total_timer_time"]) == (60, 50)
 
 
 def test_fit_comes_back_as_the_same_ride(store: Store, ride: Ride) -> None:
@@ -175,15 +255,36 @@ def test_fit_comes_back_as_the_same_ride(store: Store, ride: Ride) -> None:
     )
 
 
-def test_gpx_is_a_track_whose_points_are_where_the_ride_was(store: Store, ride: Ride) -> None:
-    tree = ElementTree.fromstring(exported(store, ride, "gpx"))
+def by_gpxpy(data: bytes) -> Track:
+    """Name, and the points of each segment: latitude, longitude, time."""
+    (track,) = gpxpy.parse(data).tracks
+    return track.name, [
+        [(p.latitude, p.longitude, p.time) for p in segment.points] for segment in track.segments
+    ]
 
-    space = {"g": "http://www.topografix.com/GPX/1/1"}
-    points = tree.findall(".//g:trkpt", space)
-    assert tree.findtext(".//g:name", namespaces=space) == "Over <the> hill & back"
-    assert len(points) == SECONDS - 10
-    assert float(points[0].attrib["lat"]) == pytest.approx(48.0 + 4.5e-5 * 0.9, abs=1e-6)
-    assert points[0].findtext("g:time", namespaces=space) == "2023-11-14T22:13:20Z"
+
+def by_gpx(data: bytes) -> Track:
+    """The same, by another reader."""
+    (track,) = gpx.from_string(data.decode()).trk
+    return track.name, [
+        [(float(p.lat), float(p.lon), p.time) for p in segment.trkpt] for segment in track.trkseg
+    ]
+
+
+@pytest.mark.parametrize("reader", [by_gpxpy, by_gpx])
+def test_gpx_is_a_track_whose_points_are_where_the_ride_was(
+    store: Store, ride: Ride, reader: Callable[[bytes], Track]
+) -> None:
+    name, segments = reader(exported(store, ride, "gpx"))
+
+    assert name == "Over <the> hill & back"
+    assert [len(points) for points in segments] == [30, 20]
+    seconds = [*range(30), *range(40, 60)]
+    for (latitude, longitude, at), second in zip(chain(*segments), seconds, strict=True):
+        # A second's position is its last; 7 decimals are told.
+        assert latitude == pytest.approx(48.0 + 4.5e-5 * (second + 0.9), abs=1.5e-7)
+        assert longitude == pytest.approx(11.0, abs=1.5e-7)
+        assert at == datetime.fromtimestamp(START_S + second, UTC)
 
 
 def test_a_ride_without_a_position_is_no_track(store: Store, ride: Ride) -> None:
