@@ -28,7 +28,7 @@ from backend.api.safety import AllowedHosts
 from backend.api.services import Services
 from backend.device.families import FAMILIES, Families
 from backend.errors import LinkError, SpindleError, StoreError
-from backend.ingest import Children, read_in_child
+from backend.ingest import Readers
 from backend.link import kind_of
 from backend.services.health import Health
 from backend.services.imports.collect import Collect
@@ -163,12 +163,11 @@ def make_devices(
 
 
 def make_uploads(settings: Settings, store: Store) -> Uploads:
-    """What becomes of files: each is read in a process of its own."""
+    """What becomes of files: they are read in processes of their own."""
     limit = UploadSettings(length_max=settings.upload_bytes_max)
-    children = Children()
-    quick = partial(read_in_child, wall_s=QUICK_S, children=children)
-    slow = partial(read_in_child, children=children)
-    return Uploads(store, limit, quick, slow, children.stop)
+    readers = Readers()
+    quick = partial(readers.read, wall_s=QUICK_S)
+    return Uploads(store, limit, quick, readers.read, readers.stop)
 
 
 def check(settings: Settings) -> None:

@@ -1,15 +1,18 @@
 """Log files to samples: FIT and CSV, salvage of damaged ones, in a child process."""
 
+from backend.ingest.formats import SNIFFED_BYTES, refused_by_head
 from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide, Outcome
-from backend.ingest.sandbox import Children, ReadingStopped, read_in_child
+from backend.ingest.sandbox import Readers, ReadingStopped, read_in_child
 
 __all__ = [
     "COMPLETE",
     "PARTIAL",
     "REJECTED",
-    "Children",
+    "SNIFFED_BYTES",
     "ImportedRide",
     "Outcome",
+    "Readers",
     "ReadingStopped",
     "read_in_child",
+    "refused_by_head",
 ]

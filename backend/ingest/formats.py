@@ -44,47 +44,54 @@ def read_file(name: str, data: bytes) -> Outcome:
     """A file -> what came of it. Never raises on any bytes or name."""
     if not data:
         return rejected("empty_file", "The file is empty.", 0)
-    reader = reader_for(name, data)
-    if reader is not None:
-        return reader(data)
-    kind = known_kind(data)
+    reader = reader_for(name, data[:SNIFFED_BYTES])
+    return reader(data) if reader is not None else refusal(name, data[:SNIFFED_BYTES])
+
+
+def refused_by_head(name: str, head: bytes) -> Outcome | None:
+    """Why a file is no ride, told by its first SNIFFED_BYTES; None when a reader must look."""
+    return None if reader_for(name, head) is not None else refusal(name, head)
+
+
+def refusal(name: str, head: bytes) -> Outcome:
+    """Why nobody reads a file."""
+    kind = known_kind(head)
     if kind is not None:
         return rejected("unsupported_format", f"This is {kind}. {ADVICE}", 0)
-    refusal = header_refusal(data[:SNIFFED_BYTES])
-    if refusal is not None:
-        return refusal
+    refused = header_refusal(head)
+    if refused is not None:
+        return refused
     if name.lower().endswith(".csv"):
         times = ", ".join(TIME_NAMES)
         return rejected("unknown_format", f"The first line names no time column ({times}).", 0)
     return rejected(
         "unknown_format",
-        f"The first bytes ({data[:8].hex(' ')}) are of no ride format we know. {ADVICE}",
+        f"The first bytes ({head[:8].hex(' ')}) are of no ride format we know. {ADVICE}",
         0,
     )
 
 
-def reader_for(name: str, data: bytes) -> Reader | None:
-    """The reader of a file, None when there is none."""
-    if data[8:12] == MAGIC:
+def reader_for(name: str, head: bytes) -> Reader | None:
+    """The reader of a file by its first SNIFFED_BYTES, None when there is none."""
+    if head[8:12] == MAGIC:
         return read_fit
-    head = data[:SNIFFED_BYTES]
     if looks_like_blocks(head) or name.lower().endswith(BLOCKS_SUFFIX):
         return read_blocks
-    if known_kind(data) is None:
+    if known_kind(head) is None:
         if looks_like_rows(head):
             return read_csv
         named_fit = name.lower().endswith(".fit")
-        if MAGIC in head or (named_fit and data[0] in HEADER_SIZES):
+        if MAGIC in head or (named_fit and head[0] in HEADER_SIZES):
             return read_fit
     return None
 
 
-def known_kind(data: bytes) -> str | None:
+def known_kind(head: bytes) -> str | None:
     """What the file is when it is something well known that is not a ride."""
     for signature, kind in SIGNATURES:
-        if data.startswith(signature):
+        if head.startswith(signature):
             return kind
-    head = data[:SNIFFED_BYTES].lstrip(b"\xef\xbb\xbf \t\r\n").lower()
+    head = head.lstrip(b"\xef\xbb\xbf \t\r\n").lower()
     for mark, kind in MARKUP:
         if head.startswith(b"<") and mark in head:
             return kind

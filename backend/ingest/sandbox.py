@@ -1,167 +1,246 @@
-"""Files are read in a child process with limits on time and memory, never in the server.
+"""Files are read in child processes with limits on time and memory, never in the server.
 
-A file that kills its reader is refused with the reason.
+A child reads one file after the other: starting one costs more than reading most files does. The
+limits are of each file. A file that kills its reader is refused with the reason, and the next file
+gets a new child.
 """
 
 from __future__ import annotations
 
 import json
 import os
-import signal
-import struct
 import subprocess
 import sys
 import threading
+from collections import deque
+from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
-import numpy as np
-
-from backend.domain.channels import Counts, channel_from_json
-from backend.domain.intake import Intake
-from backend.domain.noted import noted_from_json
-from backend.domain.ride import RideContext, RideRows
-from backend.domain.ride_events import RideEvent
-from backend.ingest.outcome import TOO_SLOW, ImportedRide, Outcome, rejected
-from backend.ingest.worker import CPU_S, DATA_BYTES, OUT_OF_MEMORY
+from backend.ingest.answer import decode
+from backend.ingest.formats import SNIFFED_BYTES, refused_by_head
+from backend.ingest.outcome import TOO_SLOW, Outcome, rejected
+from backend.ingest.worker import (
+    CPU_S,
+    DATA_BYTES,
+    FRAME,
+    NOBODY_ASKED,
+    OUT_OF_MEMORY,
+    OVERTIME,
+)
 
 ROOT = Path(__file__).resolve().parents[2]
+WORKER = (sys.executable, "-m", "backend.ingest.worker")
 # CPU time is what the child's own limit counts; the wall clock also covers a stuck disk.
 WALL_S = 3 * CPU_S
 STDERR_SHOWN = 300
+# An answer holds the rows of a file: more than its reader may hold in memory is none.
+ANSWER_BYTES_MAX = DATA_BYTES
+# Children that wait for the next file; each holds about 60 MB.
+WAITING_MAX = 2
 
 
 class ReadingStopped(Exception):
     """Spindle stops: the file was not read to its end, and nothing is known of it."""
 
 
-class Children:
-    """The children that read at present, so that a stop can end them; safe from any thread."""
+class Child:
+    """One process that reads files, asked by one thread at a time."""
 
-    def __init__(self) -> None:
+    def __init__(self, command: tuple[str, ...]) -> None:
+        # One thread: a pool of them would count against the memory limit without being used.
+        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "PYTHONPATH": str(ROOT)}
+        self.process = subprocess.Popen(
+            command,
+            cwd=ROOT,
+            env=environment,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            # Ctrl-C in a terminal is meant for the server: a child that died of it would look
+            # like one that its file killed.
+            start_new_session=True,
+            creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
+        )
+        self._told: deque[bytes] = deque(maxlen=50)
+        self._listener = threading.Thread(target=self._listen, daemon=True)
+        self._listener.start()
+        self.worn = False
+        self.late = False
+
+    def ask(self, request: dict[str, object], wall_s: float) -> bytes | None:
+        """The answer; None when the child died of the question, or was ended after `wall_s`."""
+        watch = threading.Timer(wall_s, self._end_late)
+        watch.daemon = True
+        watch.start()
+        try:
+            return self._exchange(json.dumps(request).encode() + b"\n")
+        finally:
+            watch.cancel()
+
+    def end(self) -> int:
+        """End it if it lives, and let go of its pipes; how it ended."""
+        self.process.kill()
+        code = self.process.wait()
+        self._listener.join()
+        for pipe in (self.process.stdin, self.process.stdout, self.process.stderr):
+            # What was not sent any more is nobody's loss.
+            with suppress(OSError):
+                pipe.close() if pipe else None
+        return code
+
+    @property
+    def last_words(self) -> str:
+        """The end of what it wrote to standard error."""
+        return b"".join(self._told).decode(errors="replace").strip()
+
+    def _exchange(self, line: bytes) -> bytes | None:
+        requests, answers = self.process.stdin, self.process.stdout
+        assert requests is not None
+        assert answers is not None
+        try:
+            requests.write(line)
+            requests.flush()
+        except OSError:
+            self._wait_dead()
+            return None
+        head = answers.read(FRAME.size)
+        if len(head) < FRAME.size:
+            self._wait_dead()
+            return None
+        length, worn = FRAME.unpack(head)
+        answer = answers.read(length) if length <= ANSWER_BYTES_MAX else b""
+        self.worn = bool(worn) or len(answer) < length
+        return answer
+
+    def _wait_dead(self) -> None:
+        """A closed pipe is the child's end, which the system tells a moment later."""
+        with suppress(subprocess.TimeoutExpired):
+            self.process.wait(5)
+
+    def _end_late(self) -> None:
+        self.late = True
+        self.process.kill()
+
+    def _listen(self) -> None:
+        assert self.process.stderr is not None
+        for line in self.process.stderr:
+            self._told.append(line)
+
+
+class Readers:
+    """Children that read, and those that wait for the next file; safe from any thread.
+
+    waiting_max: how many are kept when nothing is to be read. command: what a child runs.
+    """
+
+    def __init__(self, waiting_max: int = WAITING_MAX, command: tuple[str, ...] = WORKER) -> None:
         self._lock = threading.Lock()
-        self._running: set[subprocess.Popen[bytes]] = set()
+        self._waiting_max = waiting_max
+        self._command = command
+        self._waiting: list[Child] = []
+        self._busy: set[Child] = set()
         self._stopped = False
+        self.begun = 0
+
+    def read(self, path: Path, name: str, wall_s: float = WALL_S, cpu_s: float = CPU_S) -> Outcome:
+        """A file -> what came of it; the death of its reader is an outcome too.
+
+        path: where the bytes are. name: what the file was called, which may decide the format.
+        wall_s, cpu_s: how long a child may take, and compute. Raises ReadingStopped after `stop`.
+        """
+        if path.is_file() and (refused := refused_here(path, name)) is not None:
+            return refused
+        request: dict[str, object] = {
+            "path": str(path),
+            "name": printable(name),
+            "cpu_s": cpu_s,
+        }
+        while True:
+            child = self._taken()
+            try:
+                answer = child.ask(request, wall_s)
+            except BaseException:
+                self._lost(child)
+                raise
+            if answer is not None and not child.late:
+                self._given_back(child)
+                return decode(answer)
+            code = self._lost(child)
+            if code != NOBODY_ASKED:
+                return told_of_death(child, code, wall_s, cpu_s)
 
     def stop(self) -> None:
         """End every child, and begin no other."""
         with self._lock:
             self._stopped = True
-            for child in self._running:
-                child.kill()
+            for child in self._busy:
+                child.process.kill()
+            waiting, self._waiting = self._waiting, []
+        for child in waiting:
+            child.end()
 
-    def run(self, command: list[str], wall_s: float) -> subprocess.CompletedProcess[bytes]:
-        """A command to its end. Raises ReadingStopped, subprocess.TimeoutExpired."""
-        # One thread: a pool of them would count against the memory limit without being used.
-        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "PYTHONPATH": str(ROOT)}
+    def _taken(self) -> Child:
         with self._lock:
             self._check()
-            child = subprocess.Popen(
-                command,
-                cwd=ROOT,
-                env=environment,
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
-                # Ctrl-C in a terminal is meant for the server: a child that died of it would
-                # look like one that its file killed.
-                start_new_session=True,
-                creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
-            )
-            self._running.add(child)
-        try:
-            out, err = child.communicate(timeout=wall_s)
-        except subprocess.TimeoutExpired:
-            child.kill()
-            child.communicate()
-            raise
-        finally:
-            with self._lock:
-                self._running.discard(child)
+            while self._waiting:
+                child = self._waiting.pop()
+                if child.process.poll() is None:
+                    break
+                child.end()
+            else:
+                child = Child(self._command)
+                self.begun += 1
+            self._busy.add(child)
+            return child
+
+    def _given_back(self, child: Child) -> None:
         with self._lock:
+            self._busy.discard(child)
+            keeps = not (self._stopped or child.worn or len(self._waiting) >= self._waiting_max)
+            if keeps:
+                self._waiting.append(child)
+        if not keeps:
+            child.end()
+
+    def _lost(self, child: Child) -> int:
+        code = child.end()
+        with self._lock:
+            self._busy.discard(child)
             self._check()
-        return subprocess.CompletedProcess(command, child.returncode, out, err)
+        return code
 
     def _check(self) -> None:
         if self._stopped:
             raise ReadingStopped
 
 
-def read_in_child(
-    path: Path, name: str, wall_s: float = WALL_S, children: Children | None = None
-) -> Outcome:
-    """A file -> what came of it; the death of its reader is an outcome too.
+def refused_here(path: Path, name: str) -> Outcome | None:
+    """Why a file is no ride, where its first bytes say so: no child need be asked."""
+    with path.open("rb") as file:
+        head = file.read(SNIFFED_BYTES)
+    return refused_by_head(name, head) if head else None
 
-    path: where the bytes are. name: what the file was called, which may decide the format. wall_s:
-    how long the child may take. children: whose `stop` ends it. Raises ReadingStopped after that.
-    """
-    children = children or Children()
-    command = [sys.executable, "-m", "backend.ingest.worker", str(path), printable(name)]
-    try:
-        done = children.run(command, wall_s)
-    except subprocess.TimeoutExpired:
+
+def read_in_child(path: Path, name: str, wall_s: float = WALL_S, cpu_s: float = CPU_S) -> Outcome:
+    """As `Readers.read`, by a child of its own that ends with it."""
+    readers = Readers(waiting_max=0)
+    return readers.read(path, name, wall_s, cpu_s)
+
+
+def told_of_death(child: Child, code: int, wall_s: float, cpu_s: float) -> Outcome:
+    """Why a file has no answer, as an outcome."""
+    if child.late:
         return rejected(TOO_SLOW, f"Reading took longer than {wall_s:g} s and was stopped.")
-    if done.returncode == 0:
-        return decode(done.stdout)
-    if done.returncode == -getattr(signal, "SIGXCPU", 0):
-        return rejected(TOO_SLOW, f"Reading took more than {CPU_S} s of computing; stopped.")
-    if done.returncode == OUT_OF_MEMORY or b"memory allocation" in done.stderr:
+    if OVERTIME and code == -OVERTIME:
+        return rejected(TOO_SLOW, f"Reading took more than {cpu_s:g} s of computing; stopped.")
+    if code == OUT_OF_MEMORY or "memory allocation" in child.last_words:
         return rejected(
             "too_much_memory", f"Reading needed more than {DATA_BYTES >> 20} MB; stopped."
         )
-    told = done.stderr.decode(errors="replace").strip()[-STDERR_SHOWN:]
-    return rejected("parser_crashed", f"The reader died ({done.returncode}). {told}".strip())
+    told = child.last_words[-STDERR_SHOWN:]
+    return rejected("parser_crashed", f"The reader died ({code}). {told}".strip())
 
 
 def printable(name: str) -> str:
-    """A file name that can be an argument of a command."""
+    """A file name that can stand on a line of text."""
     return "".join(c if c.isprintable() else "_" for c in name)[-200:] or "file"
-
-
-def decode(answer: bytes) -> Outcome:
-    """The child's answer. The child read hostile bytes, so its answer is checked, not trusted."""
-    try:
-        (length,) = struct.unpack_from("<I", answer)
-        header = json.loads(answer[4 : 4 + length])
-        at = 4 + length
-        rides = []
-        for entry in header["rides"]:
-            ride, at = decode_ride(entry, answer, at)
-            rides.append(ride)
-        return Outcome(
-            state=str(header["state"]),
-            rides=tuple(rides),
-            code=header["code"],
-            detail=header["detail"],
-            offset=header["offset"],
-            completeness=header["completeness"],
-        )
-    except (struct.error, ValueError, KeyError, TypeError) as error:
-        return rejected("parser_crashed", f"The reader's answer makes no sense: {error}.")
-
-
-def decode_ride(entry: dict[str, Any], answer: bytes, at: int) -> tuple[ImportedRide, int]:
-    """One ride of the answer, and where the next begins. Raises ValueError when it is cut."""
-    rows = int(entry["rows"])
-    channels = tuple(channel_from_json(channel) for channel in entry["channels"])
-    times_us = np.frombuffer(answer, "<i8", rows, at).astype(np.int64)
-    at += 8 * rows
-    counts: dict[str, Counts] = {}
-    for channel in channels:
-        kind = channel.dtype.newbyteorder("<")
-        counts[channel.name] = np.frombuffer(answer, kind, rows, at).astype(channel.dtype)
-        at += kind.itemsize * rows
-    period_us = entry["period_us"]
-    ride = ImportedRide(
-        started_us=int(entry["started_us"]),
-        period_us=None if period_us is None else int(period_us),
-        rows=RideRows(channels, times_us, counts),
-        sport=entry["sport"],
-        notes=tuple(str(note) for note in entry["notes"]),
-        context=RideContext(**entry["context"]),
-        start_known=bool(entry["start_known"]),
-        events=tuple(RideEvent(**event) for event in entry["events"]),
-        intake=None if entry["intake"] is None else Intake(**entry["intake"]),
-        noted=noted_from_json(entry["noted"]),
-    )
-    return ride, at

@@ -1,8 +1,9 @@
-"""The child process that reads one file. What it dies of, the server survives.
+"""The child process that reads files, one after the other. What it dies of, the server survives.
 
-    python -m backend.ingest.worker PATH NAME
-The answer goes to standard output: u32 header length, header JSON, then the arrays one after the
-other as the header's order tells. Exit 0 with an answer, 3 out of memory.
+    python -m backend.ingest.worker
+A request is a line of JSON on standard input, {"path": ..., "name": ..., "cpu_s": ...}. An answer
+on standard output is its length as u64, whether the child is worn as u8, and the bytes of
+`answer.encode`. A worn child ends after it. Exit 3: out of memory; 4: nobody asked for long.
 """
 
 from __future__ import annotations
@@ -10,19 +11,24 @@ from __future__ import annotations
 import json
 import os
 import select
+import signal
 import struct
 import sys
 import threading
-from dataclasses import asdict
 from pathlib import Path
 
-from backend.domain.channels import channel_to_json
-from backend.domain.noted import noted_to_json
-from backend.ingest.outcome import Outcome
-
-CPU_S = 20
+CPU_S = 20.0
 DATA_BYTES = 512 * 1024 * 1024
 OUT_OF_MEMORY = 3
+NOBODY_ASKED = 4
+# A child holds about 60 MB: it is given back when no files come, and begun anew with the next.
+IDLE_S = 300.0
+# What was once allocated may never come back to the system: the next large file would fail for it.
+WORN_BYTES = DATA_BYTES // 2
+FILES_MAX = 500
+FRAME = struct.Struct("<QB")
+# Signal by which the system ends a child that has used its time on a file.
+OVERTIME = getattr(signal, "SIGPROF", 0)
 
 
 def end_with_the_server() -> None:
@@ -41,13 +47,12 @@ def end_with_the_server() -> None:
 
 
 def limit_resources() -> None:
-    """CPU, memory, no files written, no core dumps. A limit the system lacks is left out."""
+    """Memory, no files written, no core dumps. A limit the system lacks is left out."""
     try:
         import resource
     except ImportError:
         return
     for limit, value in (
-        (resource.RLIMIT_CPU, CPU_S),
         (resource.RLIMIT_DATA, DATA_BYTES),
         (resource.RLIMIT_FSIZE, 0),
         (resource.RLIMIT_CORE, 0),
@@ -57,55 +62,61 @@ def limit_resources() -> None:
         resource.setrlimit(limit, (soft, hard))
 
 
-def encode(outcome: Outcome) -> bytes:
-    """An outcome as bytes, the inverse of `sandbox.decode`."""
-    arrays: list[bytes] = []
-    rides = []
-    for ride in outcome.rides:
-        arrays.append(ride.rows.times_us.astype("<i8").tobytes())
-        for channel in ride.rows.channels:
-            counts = ride.rows.counts[channel.name]
-            arrays.append(counts.astype(counts.dtype.newbyteorder("<")).tobytes())
-        rides.append(
-            {
-                "started_us": ride.started_us,
-                "period_us": ride.period_us,
-                "sport": ride.sport,
-                "notes": ride.notes,
-                "context": asdict(ride.context),
-                "start_known": ride.start_known,
-                "events": [asdict(event) for event in ride.events],
-                "intake": None if ride.intake is None else asdict(ride.intake),
-                "noted": noted_to_json(ride.noted),
-                "rows": len(ride.rows.times_us),
-                "channels": [channel_to_json(channel) for channel in ride.rows.channels],
-            }
-        )
-    facts = {key: value for key, value in asdict(_bare(outcome)).items() if key != "rides"}
-    header = json.dumps({**facts, "rides": rides}).encode()
-    return struct.pack("<I", len(header)) + header + b"".join(arrays)
+def limit_time(cpu_s: float) -> None:
+    """End this process after so much computing from now on; 0 for as long as it likes.
+
+    The system does it: nothing that is being read can keep it from happening.
+    """
+    if hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_PROF, cpu_s)
 
 
-def _bare(outcome: Outcome) -> Outcome:
-    return Outcome(
-        outcome.state, (), outcome.code, outcome.detail, outcome.offset, outcome.completeness
-    )
+def is_worn() -> bool:
+    """Whether the most memory this process ever held is so much that the next file may fail."""
+    try:
+        import resource
+    except ImportError:
+        return False
+    unit = 1 if sys.platform == "darwin" else 1024
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit > WORN_BYTES
 
 
-def main(arguments: list[str]) -> int:
-    """Read the file and answer."""
-    path, name = arguments
+def requests() -> bool:
+    """Whether another request comes; False after a long time without, where that can be told."""
+    if not hasattr(select, "poll"):
+        return True
+    asked = select.poll()
+    asked.register(sys.stdin.fileno(), select.POLLIN)
+    return bool(asked.poll(IDLE_S * 1000))
+
+
+def main() -> int:
+    """Read files and answer until nobody asks."""
     limit_resources()
     end_with_the_server()
+    from backend.ingest.answer import encode
     from backend.ingest.formats import read_file
 
-    try:
-        answer = encode(read_file(name, Path(path).read_bytes()))
-    except MemoryError:
-        return OUT_OF_MEMORY
-    sys.stdout.buffer.write(answer)
+    for number in range(1, FILES_MAX + 1):
+        if not requests():
+            return NOBODY_ASKED
+        line = sys.stdin.buffer.readline()
+        if not line:
+            return 0
+        asked = json.loads(line)
+        limit_time(asked["cpu_s"])
+        try:
+            answer = encode(read_file(asked["name"], Path(asked["path"]).read_bytes()))
+        except MemoryError:
+            return OUT_OF_MEMORY
+        limit_time(0)
+        worn = number == FILES_MAX or is_worn()
+        sys.stdout.buffer.write(FRAME.pack(len(answer), worn) + answer)
+        sys.stdout.buffer.flush()
+        if worn:
+            return 0
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

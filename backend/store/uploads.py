@@ -21,13 +21,14 @@ from typing import Any
 from sqlalchemy import Connection, Row, insert, select, update
 
 from backend.domain.ride import iso_utc
-from backend.errors import Conflict, NotFound, StoreError
+from backend.errors import BadFile, Conflict, NotFound, StoreError
 from backend.store.deletion import BESIDE, Deletions, forget_upload, join_source
 from backend.store.objects import Objects, content_key, file_sha256
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
 
 RECEIVING = "receiving"
+REJECTED = "rejected"
 TOKEN = re.compile(r"[0-9a-f]{32}")
 
 
@@ -116,13 +117,16 @@ class UploadStore:
         """Add bytes at `offset`; they are on the disk when this returns.
 
         Raises Conflict when the offset is not where the upload stands or the bytes are too many,
-        StoreError when the disk refuses; then the upload stands where it stood.
+        BadFile when it was refused by its first bytes, StoreError when the disk refuses; then the
+        upload stands where it stood.
         """
         with self._appending:
             return self._append(token, offset, data)
 
     def _append(self, token: str, offset: int, data: bytes) -> Upload:
         upload = self.get(token)
+        if upload.state == REJECTED and upload.received < upload.length:
+            raise BadFile(upload.detail or "It is no ride.", code=upload.code)
         if upload.state != RECEIVING or offset != upload.received:
             raise Conflict(
                 f"Upload {token} stands at byte {upload.received}, not at {offset}.",
@@ -146,6 +150,14 @@ class UploadStore:
         received = offset + len(data)
         self._set(token, received=received)
         return self.get(token)
+
+    def head(self, token: str, size: int) -> bytes:
+        """The first bytes of an upload that is still arriving. Raises StoreError."""
+        with (
+            self._objects.watch.writing(PART, f"Upload {token} was not looked at"),
+            self._path(token).open("rb") as file,
+        ):
+            return file.read(size)
 
     def keep_original(self, token: str) -> Upload:
         """Move the whole file among the objects, and note its hash.

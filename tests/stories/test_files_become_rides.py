@@ -54,6 +54,13 @@ def test_a_fit_file_becomes_a_ride_with_the_figures_it_was_written_with(
     assert series["channels"][0]["max"][0] == pytest.approx(18.0, abs=0.01)
 
 
+def test_a_page_saved_as_a_ride_is_refused_by_its_first_bytes(server: SpindleServer) -> None:
+    upload = imported(server, "ride.fit", b"<!DOCTYPE html>" + bytes(3_000_000))
+
+    assert (upload["state"], upload["code"]) == ("rejected", "unsupported_format")
+    assert upload["received"] < 1_000_000
+
+
 def test_the_same_bytes_twice_are_one_ride(server: SpindleServer) -> None:
     content = steady_ride(minutes=3)
     first = imported(server, "first.fit", content)

@@ -14,6 +14,7 @@ import base64
 import hashlib
 import hmac
 from collections.abc import AsyncIterator
+from contextlib import suppress
 from email.utils import formatdate
 from typing import Annotated, Any
 
@@ -23,7 +24,7 @@ from fastapi.concurrency import run_in_threadpool
 from backend.api.models.upload import Upload, UploadList
 from backend.api.problem import problem_response, refusals
 from backend.api.services import Provided, Services
-from backend.errors import InvalidRequest
+from backend.errors import BadFile, InvalidRequest
 
 TUS_VERSION = "1.0.0"
 TUS_EXTENSIONS = "creation,creation-with-upload,checksum,termination,expiration"
@@ -48,7 +49,8 @@ async def import_ride(name: FileName, request: Request, services: Provided) -> A
     """A whole file as the request's body; answers when it has become a ride or been refused."""
     length = _declared_length(request)
     upload = await _begin(services, name, length)
-    await _append_stream(services, upload.id, 0, request.stream())
+    with suppress(BadFile):
+        await _append_stream(services, upload.id, 0, request.stream())
     return await run_in_threadpool(services.uploads.get, upload.id)
 
 
@@ -100,6 +102,9 @@ async def create_upload(
         except PartTooLong:
             await run_in_threadpool(services.uploads.remove, upload.id)
             return _too_long(upload_length)
+        except BadFile:
+            # The upload is there, and says why; the next part is refused.
+            offset = (await run_in_threadpool(services.uploads.get, upload.id)).received
     location = str(request.url_for("get_upload", upload_id=upload.id).path)
     return _tus_response(201, location=location, upload_offset=str(offset), **_expiry(upload))
 
@@ -123,7 +128,10 @@ async def append_upload(
     upload_checksum: UploadChecksum = None,
     tus_resumable: Annotated[str, Header()] = "",
 ) -> Response:
-    """The next part of a file. What arrived before a break is kept."""
+    """The next part of a file. What arrived before a break is kept.
+
+    422 with the upload's code when its first 4 KiB are of no ride: the rest need not be sent.
+    """
     if refusal := _version_refusal(tus_resumable):
         return refusal
     if request.headers.get("content-type") != TUS_CHUNK_MEDIA_TYPE:
@@ -297,9 +305,15 @@ async def _append_stream(
     services: Services, upload_id: str, offset: int, chunks: AsyncIterator[bytes]
 ) -> int:
     """Hands over what arrives piece by piece, so that a break loses nothing; the new offset."""
-    async for chunk in chunks:
-        if chunk:
-            offset = await _add(services, upload_id, offset, chunk)
+    try:
+        async for chunk in chunks:
+            if chunk:
+                offset = await _add(services, upload_id, offset, chunk)
+    except BadFile:
+        # Who is still sending would not hear the answer: what comes is read, and kept nowhere.
+        async for _ in chunks:
+            pass
+        raise
     return offset
 
 

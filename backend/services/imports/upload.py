@@ -9,16 +9,24 @@ threads of its own (`reading.Lanes`): `begin` and `add` never wait for it.
 
 from __future__ import annotations
 
+import io
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
 from backend.domain.ride import Ride, iso_utc
-from backend.errors import Conflict, InvalidRequest
-from backend.ingest import ImportedRide, Outcome, read_in_child
+from backend.errors import BadFile, Conflict, InvalidRequest
+from backend.ingest import (
+    SNIFFED_BYTES,
+    ImportedRide,
+    Outcome,
+    read_in_child,
+    refused_by_head,
+)
 from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, TOO_SLOW
 from backend.services.imports.fill import fill
 from backend.services.imports.reading import Lanes, TakesLong
@@ -116,24 +124,33 @@ class Uploads:
     def add(self, upload_id: str, offset: int, data: bytes) -> Arrival:
         """Add bytes at `offset` without waiting for the file to be read.
 
-        Raises NotFound, Conflict, StoreError; so may the promise.
+        Raises NotFound, Conflict, StoreError; so may the promise. BadFile when what has arrived
+        shows that it is no ride: the upload is rejected, and the rest need not be sent.
         """
         upload = self._store.uploads.append(upload_id, offset, data)
-        whole = upload.received == upload.length
-        return Arrival(upload.received, self._look(upload_id) if whole else None)
+        if upload.received == upload.length:
+            return Arrival(upload.received, self._look(upload_id))
+        if offset < SNIFFED_BYTES <= upload.received:
+            self._refuse_early(upload)
+        return Arrival(upload.received, None)
+
+    def _refuse_early(self, upload: Upload) -> None:
+        head = self._store.uploads.head(upload.id, SNIFFED_BYTES)
+        if (refused := refused_by_head(upload.name, head)) is not None:
+            self._conclude(upload.id, REJECTED, refused.code, refused.detail, 0.0)
+            raise BadFile(refused.detail or "", code=refused.code)
 
     def receive_file(self, name: str, source: bytes | Path) -> Upload:
         """A whole file at once -> what became of it."""
         length = len(source) if isinstance(source, bytes) else source.stat().st_size
         upload = self.create(name, length)
         offset = 0
-        if isinstance(source, bytes):
-            for start in range(0, length, PIECE_BYTES):
-                offset = self.append(upload.id, offset, source[start : start + PIECE_BYTES])
-        else:
-            with source.open("rb") as file:
-                while piece := file.read(PIECE_BYTES):
-                    offset = self.append(upload.id, offset, piece)
+        with (
+            suppress(BadFile),
+            io.BytesIO(source) if isinstance(source, bytes) else source.open("rb") as file,
+        ):
+            while piece := file.read(PIECE_BYTES):
+                offset = self.append(upload.id, offset, piece)
         return self.get(upload.id)
 
     def get(self, upload_id: str) -> Upload:

@@ -1409,6 +1409,8 @@ export interface paths {
         /**
          * Append Upload
          * @description The next part of a file. What arrived before a break is kept.
+         *
+         *     422 with the upload's code when its first 4 KiB are of no ride: the rest need not be sent.
          */
         patch: operations["append_upload"];
         trace?: never;

@@ -194,3 +194,33 @@ def test_an_unfinished_upload_says_until_when_it_is_waited_for(bench: Bench) -> 
     assert {int(parsedate_to_datetime(text).timestamp()) for text in told} == {seven_days_s}
     assert all(text.endswith(" GMT") for text in told)
     assert "upload-expires" not in ended.headers
+
+
+PAGE = b"<!DOCTYPE html><html><body>502 Bad Gateway</body></html>".ljust(5000)
+LARGE = {"tus-resumable": "1.0.0", "upload-length": "200000000"}
+
+
+def test_what_is_no_ride_is_refused_with_its_first_part(bench: Bench) -> None:
+    name = base64.b64encode(b"ride.fit").decode()
+    described = LARGE | {"upload-metadata": f"filename {name}"}
+    address = bench.client.post("/api/v1/uploads", headers=described).headers["location"]
+
+    answers = [
+        bench.client.patch(address, headers={**CHUNK, "upload-offset": offset}, content=part)
+        for offset, part in (("0", PAGE[:3000]), ("3000", PAGE[3000:]), ("5000", b"more"))
+    ]
+
+    assert [answer.status_code for answer in answers] == [204, 422, 422]
+    assert {answer.json()["code"] for answer in answers[1:]} == {"unsupported_format"}
+    upload = bench.client.get(address).json()
+    told = (upload["state"], upload["code"], upload["received"])
+    assert told == ("rejected", "unsupported_format", 5000)
+    assert "HTML" in upload["detail"]
+    assert bench.client.delete(address).status_code == 204
+
+
+def test_a_first_part_of_no_ride_begins_an_upload_that_says_why(bench: Bench) -> None:
+    created = bench.client.post("/api/v1/uploads", headers={**CHUNK, **LARGE}, content=PAGE)
+
+    assert (created.status_code, created.headers["upload-offset"]) == (201, "5000")
+    assert bench.client.get(created.headers["location"]).json()["state"] == "rejected"

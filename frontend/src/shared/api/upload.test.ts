@@ -7,7 +7,7 @@ import { uploadFile, type UploadSteps } from './upload'
 class TusServer {
   received = new Uint8Array()
   polls = 0
-  constructor(private readonly faults: ('network' | 'lost_answer' | 503 | 413)[]) {}
+  constructor(private readonly faults: ('network' | 'lost_answer' | 503 | 413 | 422)[]) {}
 
   readonly steps: UploadSteps = {
     wait: async () => undefined,
@@ -41,6 +41,15 @@ class TusServer {
 
 const bytes = Uint8Array.from({ length: 3_000_000 }, (_, i) => i % 251)
 const file = new File([bytes], 'ride 骑行.fit')
+
+it('stops sending what its first part shows to be no ride', async () => {
+  const server = new TusServer([422])
+
+  const upload = await uploadFile(file, () => undefined, server.steps)
+
+  expect(server.received.length).toBe(0)
+  expect(upload.id).toBe('1')
+})
 
 it.each([
   ['a network that drops out', ['network' as const]],

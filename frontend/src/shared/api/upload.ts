@@ -32,6 +32,8 @@ export async function uploadFile(
       failures = 0
       progress(offset / file.size)
     } catch (error) {
+      // Its first bytes showed that it is no ride: the verdict is there, and the rest stays here.
+      if (error instanceof Refusal && error.status === 422) break
       if (!mayResume(error) || ++failures > RETRIES_MAX) throw error
       await steps.wait(200 * 2 ** failures)
       offset = await offsetOf(address, offset, steps)
