@@ -34,7 +34,9 @@ from backend.services.health import Health
 from backend.services.imports.collect import Collect
 from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
 from backend.services.keeping import Keeping
+from backend.services.rides.cards import RideCards
 from backend.services.rides.fault_moment import FaultMoments, RecentRows
+from backend.services.rides.home import RiderHome
 from backend.services.rides.insight.questions import Insight
 from backend.services.rides.ledger import EnergyLedger
 from backend.services.rides.mark import MarkMoment
@@ -103,12 +105,11 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
         closing.callback(collect.close)
         # Closes before those who wait for a file to be read.
         closing.callback(uploads.close)
-
         dashboards = Dashboards()
         recent = RecentRows()
         for watcher in (memory.follow, recorder.watch, dashboards.follow, recent.follow):
             devices.watch(watcher)
-        work = partial(tidy, recorder, uploads, store, last_seen, devices)
+        work = partial(tidy, recorder, uploads, store, last_seen, devices, RideCards(store))
         closing.enter_context(housekeeping(work))
         for url in settings.device:
             in_background(url, partial(devices.add, url))
@@ -134,6 +135,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             compare=Compare(library, tuning),
             certify=Certify(certificates, devices, tuning, library),
             rides=Rides(store, RideReplay(Preview(), memory.ride_config), devices.unit_at),
+            home=RiderHome(store),
             ride_again=RideAgain(store, memory.ride_config),
             proposals=proposals,
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
@@ -189,7 +191,12 @@ def make_data_folder(folder: Path) -> None:
 
 
 def tidy(
-    recorder: Recorder, uploads: Uploads, store: Store, last_seen: LastSeen, devices: Devices
+    recorder: Recorder,
+    uploads: Uploads,
+    store: Store,
+    last_seen: LastSeen,
+    devices: Devices,
+    cards: RideCards,
 ) -> None:
     """Ends what has been silent too long; fills rides that are over; removes what has expired."""
     now_us = time.time_ns() // 1000
@@ -199,6 +206,7 @@ def tidy(
     store.sweep(now_us)
     store.scrub(now_us)
     last_seen.look(devices.list(), now_us)
+    cards.tick()
 
 
 def in_background(name: str, work: Callable[[], object]) -> None:

@@ -19,6 +19,7 @@ from backend.api.routes import (
     insight,
     law,
     library,
+    logbook,
     logs,
     proposals,
     rides,
@@ -67,7 +68,7 @@ def create_app(settings: ApiSettings, services: Services | None = None) -> FastA
     app.state.author = settings.author
     api = APIRouter(prefix=PREFIX)
     # Before the rides: what several rides tell together is at no ride's number.
-    told = (insight, rides, proposals)
+    told = (logbook, insight, rides, proposals)
     parts = (health, store, devices, logs, config, law, library, *told, uploads, live)
     for module in parts:
         api.include_router(module.router)

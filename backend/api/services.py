@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from backend.services.imports.upload import Uploads
     from backend.services.keeping import Keeping
     from backend.services.rides.fault_moment import FaultMoments
+    from backend.services.rides.home import RiderHome
     from backend.services.rides.insight.questions import Insight
     from backend.services.rides.ledger import EnergyLedger
     from backend.services.rides.mark import MarkMoment
@@ -55,6 +56,7 @@ class Services:
     compare: Compare
     certify: Certify
     rides: Rides
+    home: RiderHome
     ride_again: RideAgain
     proposals: Proposals
     use_of_table: UseOfTable

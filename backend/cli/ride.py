@@ -5,12 +5,25 @@ from __future__ import annotations
 import shutil
 import sys
 from argparse import Namespace
+from contextlib import suppress
+from datetime import datetime
 from pathlib import Path
 from typing import Any
+from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 
 from backend.cli.client import print_json, print_table, text_of
 from backend.cli.device import backup_at, read_json, server_of
 from backend.errors import RequestRefused
+
+# From which hour on a ride is called what, as on the page.
+PARTS_OF_DAY = (
+    (0, "Night ride"),
+    (5, "Morning ride"),
+    (11, "Midday ride"),
+    (14, "Afternoon ride"),
+    (18, "Evening ride"),
+    (22, "Night ride"),
+)
 
 
 def import_files(options: Namespace) -> int:
@@ -58,8 +71,19 @@ def print_upload(answer: dict[str, Any]) -> None:
 
 
 def list_rides(options: Namespace) -> int:
-    """Rides, newest first."""
-    answer = server_of(options).ask("GET", "/rides", params={"limit": options.limit})
+    """Rides, newest first: all, or those that are asked for."""
+    asked = {
+        "limit": options.limit,
+        "bike": options.bike,
+        "from": options.since,
+        "longer_km": options.longer_km,
+        "motor": options.motor or None,
+        "events": options.events or None,
+        "tag": options.tag,
+        "q": " ".join(options.words) or None,
+    }
+    params = {name: value for name, value in asked.items() if value is not None}
+    answer = server_of(options).ask("GET", "/rides", params=params)
     if options.json:
         print_json(answer)
         return 0
@@ -67,11 +91,36 @@ def list_rides(options: Namespace) -> int:
     for ride in answer["items"]:
         figures = ride["summary"] or {}
         rows.append(
-            [ride["id"], ride["started_at"], ride["state"], ride["name"]]
+            [ride["id"], ride["started_at"], ride["state"], title_of(ride)]
             + [figures.get(key) for key in ("distance_km", "moving_s", "rider_wh", "motor_wh")]
+            + [", ".join(ride["tags"])]
         )
     headings = ["ride", "started", "state", "name", "km", "moving s", "rider Wh", "motor Wh"]
+    headings.append("tags")
     print_table(rows, headings)
+    return 0
+
+
+def title_of(ride: dict[str, Any]) -> str:
+    """Its name, else the time of day and the place it began at, by the clock there or here."""
+    if ride["name"]:
+        return str(ride["name"])
+    place = ride["place"] or {}
+    began = datetime.fromisoformat(ride["started_at"])
+    local = began.astimezone()
+    with suppress(ZoneInfoNotFoundError):
+        local = began.astimezone(ZoneInfo(place["zone"])) if place.get("zone") else local
+    part = next(name for hour, name in reversed(PARTS_OF_DAY) if local.hour >= hour)
+    return ", ".join(filter(None, [part, place.get("name")]))
+
+
+def tag(options: Namespace) -> int:
+    """Adds tags to rides, or takes them away."""
+    change = {"remove" if options.remove else "add": options.tags}
+    body = {"ride_ids": options.rides, **change}
+    server_of(options).ask("POST", "/rides/tags", json=body)
+    if options.json:
+        print_json(body)
     return 0
 
 

@@ -107,6 +107,19 @@ class RideContext:
     unit_key: str | None = None
 
 
+@dataclass(frozen=True, slots=True)
+class RidePlace:
+    """Where a ride began. name: the nearest town's, country: ISO 3166 code of two letters.
+
+    zone: of the IANA database. is_loop: it ended where it began. None for what nobody knows.
+    """
+
+    name: str | None = None
+    country: str | None = None
+    zone: str | None = None
+    is_loop: bool | None = None
+
+
 @dataclass(frozen=True)
 class Ride:
     """One ride as the store knows it.
@@ -118,7 +131,8 @@ class Ride:
     while the bike moved, or with its server, so that nobody knows what came after. bike_id: the
     bike its unit was on; None where nobody knows the unit. sport: as the file calls it, None for
     none. intake: what became of the file's rows and fields, None for what came from no file. noted:
-    what the device that made the file told beside its rows.
+    what the device that made the file told beside its rows. tags: words its rider gave it. place,
+    speed_line_kmh: of its card, once that is made.
     """
 
     id: int
@@ -146,6 +160,9 @@ class Ride:
     sport: str | None = None
     intake: Intake | None = None
     noted: Noted = Noted()  # noqa: RUF009 - frozen
+    tags: tuple[str, ...] = ()
+    place: RidePlace | None = None
+    speed_line_kmh: tuple[float | None, ...] = ()
 
     @property
     def motor_torque_meaning(self) -> str | None:
@@ -187,6 +204,9 @@ class Ride:
             "upload_id": self.upload_id,
             "object_bytes": self.object_bytes,
             "summary": asdict(self.summary) if self.summary else None,
+            "tags": list(self.tags),
+            "place": asdict(self.place) if self.place else None,
+            "speed_line_kmh": list(self.speed_line_kmh),
         }
 
 

@@ -2,9 +2,13 @@
 pyarrow."""
 
 from backend.store.configurations import LibraryStore, RevisionLog
+from backend.store.logbook.book import Home, Logbook
+from backend.store.logbook.cards import CardStore
+from backend.store.logbook.find import RidePage, Sought
+from backend.store.logbook.totals import Totals
 from backend.store.marks import MarkStore
 from backend.store.reader import RideReader
-from backend.store.rides import RidePage, RideStore
+from backend.store.rides import RideStore
 from backend.store.soundness import expected_of
 from backend.store.store import Store, open_store
 from backend.store.trouble import Trouble, WriteWatch
@@ -13,15 +17,20 @@ from backend.store.upkeep.backup import StorePlace, backup_of, place_of
 from backend.store.uploads import Upload, UploadStore, Verdict
 
 __all__ = [
+    "CardStore",
+    "Home",
     "LibraryStore",
+    "Logbook",
     "MarkStore",
     "RevisionLog",
     "RidePage",
     "RideReader",
     "RideStore",
     "SeenUnit",
+    "Sought",
     "Store",
     "StorePlace",
+    "Totals",
     "Trouble",
     "UnitStore",
     "Upload",

@@ -15,6 +15,7 @@ from backend.domain.channels import ChannelSpec, channel_to_json
 from backend.domain.energy import derivable
 from backend.domain.filled import Filled
 from backend.domain.intake import Intake
+from backend.domain.logbook.tags import clean_tags
 from backend.domain.noted import noted_from_json, noted_to_json
 from backend.domain.ride import Gap, Ride, RideContext
 from backend.domain.ride_events import RideEvent
@@ -126,6 +127,7 @@ def kept_ride(
         sport=known.get("sport"),
         intake=known_fields(Intake, known["intake"]) if known.get("intake") else None,
         noted=noted_from_json(known.get("noted")),
+        tags=clean_tags(sidecar.get("tags", ())),
     )
     return KeptRide(
         ride=ride,

@@ -13,8 +13,9 @@ from backend.domain.channels import ChannelSpec, channel_to_json
 from backend.domain.energy import derivable
 from backend.domain.filled import Filled
 from backend.domain.intake import Intake
+from backend.domain.logbook.card import line_kmh
 from backend.domain.noted import noted_from_json, noted_to_json
-from backend.domain.ride import Gap, Ride, RideContext, RideSummary
+from backend.domain.ride import Gap, Ride, RideContext, RidePlace, RideSummary
 from backend.domain.ride_events import RideEvent
 from backend.errors import FieldError, InvalidRequest
 from backend.store.discard import take_back, with_sidecar
@@ -26,6 +27,7 @@ from backend.store.units import bike_of_ride
 NAME_LENGTH_MAX = 200
 # The largest whole number SQL holds.
 INTEGER_MAX = 2**63 - 1
+CARD = ("place", "country", "zone", "is_loop", "speed_line")
 
 
 def whole_ride(ride_id: int | None = None) -> Select[Any]:
@@ -36,16 +38,36 @@ def whole_ride(ride_id: int | None = None) -> Select[Any]:
             t.upload.c.token.label("upload_token"),
             t.upload.c.sha256.label("source_sha256"),
             *(column for column in t.ride_summary.c if column.name != "ride_id"),
+            *(t.ride_card.c[name] for name in CARD),
         )
         .outerjoin(t.ride_summary, t.ride_summary.c.ride_id == t.ride.c.id)
         .outerjoin(t.upload, t.upload.c.id == t.ride.c.upload_id)
+        .outerjoin(t.ride_card, t.ride_card.c.ride_id == t.ride.c.id)
     )
     return query if ride_id is None else query.where(t.ride.c.id == ride_id)
 
 
-def ride_from_row(row: Row[Any]) -> Ride:
+def rides_whole(connection: Connection, ride_ids: Sequence[int]) -> tuple[Ride, ...]:
+    """Rides by their ids, in that order; those that are not there are left out."""
+    found = connection.execute(whole_ride().where(t.ride.c.id.in_(ride_ids))).all()
+    tags = tags_of(connection, ride_ids)
+    rides = {row.id: ride_from_row(row, tags.get(row.id, ())) for row in found}
+    return tuple(rides[ride_id] for ride_id in ride_ids if ride_id in rides)
+
+
+def tags_of(connection: Connection, ride_ids: Sequence[int]) -> dict[int, tuple[str, ...]]:
+    """The tags of those rides that have any."""
+    query = select(t.ride_tag).where(t.ride_tag.c.ride_id.in_(ride_ids)).order_by(t.ride_tag.c.tag)
+    found: dict[int, tuple[str, ...]] = {}
+    for row in connection.execute(query):
+        found[row.ride_id] = (*found.get(row.ride_id, ()), row.tag)
+    return found
+
+
+def ride_from_row(row: Row[Any], tags: tuple[str, ...]) -> Ride:
     """A row of `whole_ride` -> ride."""
     body = row._mapping
+    place = RidePlace(body["place"], body["country"], body["zone"], body["is_loop"])
     channels = channel_list(body["channels"])
     context = RideContext(**body["context"] | {"unit_key": body["unit_key"]})
     figures = {field.name: body[field.name] for field in fields(RideSummary)}
@@ -75,6 +97,9 @@ def ride_from_row(row: Row[Any]) -> Ride:
         sport=body["sport"],
         intake=Intake(**body["intake"]) if body["intake"] else None,
         noted=noted_from_json(body["noted"]),
+        tags=tags,
+        place=None if place == RidePlace() else place,
+        speed_line_kmh=line_kmh(body["speed_line"] or b""),
     )
 
 
@@ -214,6 +239,6 @@ def refill_row(connection: Connection, ride: Ride, object_key: str) -> bool:
 
 def remove_ride(connection: Connection, ride_id: int) -> None:
     """Delete a ride and all that hangs on it."""
-    for table in (t.ride_tail, t.ride_lod, t.ride_summary):
+    for table in (t.ride_tail, t.ride_lod, t.ride_summary, t.ride_card, t.ride_tag):
         connection.execute(delete(table).where(table.c.ride_id == ride_id))
     connection.execute(delete(t.ride).where(t.ride.c.id == ride_id))

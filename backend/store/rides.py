@@ -24,6 +24,7 @@ import numpy as np
 from sqlalchemy import Connection, Select, case, delete, insert, select, update
 
 from backend.domain.channels import MISSING_INT16, ChannelSpec
+from backend.domain.logbook.tags import clean_tags
 from backend.domain.pyramid import Level
 from backend.domain.ride import Ride, RideContext, RideRows
 from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
@@ -39,22 +40,23 @@ from backend.store.deletion import (
 from backend.store.discard import note_discarded, with_sidecar
 from backend.store.filling import Filling, filled_chunks, grown
 from backend.store.finish import RowsInMemory, drafted, write_object
+from backend.store.logbook.book import set_tags
+from backend.store.logbook.cards import note_words
+from backend.store.logbook.find import RidePage, Sought, page_of
 from backend.store.objects import Objects
 from backend.store.parquet import RideFile, read_facts
 from backend.store.reader import LiveRows, ReaderCache, RideReader
 from backend.store.ride_table import (
     NAME_LENGTH_MAX,
-    cursor_parts,
     finish_row,
     inserted,
     refill_row,
     remove_ride,
-    ride_from_row,
     ride_row,
+    rides_whole,
     row_of,
     upload_file,
     upload_key,
-    whole_ride,
     whose,
 )
 from backend.store.sidecar import keep_words, tell_for_old_file
@@ -66,7 +68,6 @@ from backend.store.units import bike_of_ride
 
 LOG = logging.getLogger(__name__)
 
-PAGE_MAX = 500
 NOTES_LENGTH_MAX = 20_000
 TAILS_AT_ONCE = 64
 # How often a server says of a recording that it lives, when no rows come that say it.
@@ -82,14 +83,6 @@ class Orphan:
     heartbeat_us: int | None
 
 
-@dataclass(frozen=True)
-class RidePage:
-    """One page of a list; next: the cursor of the following page, None at the end."""
-
-    items: tuple[Ride, ...]
-    next: str | None
-
-
 class RideStore:
     """Every ride there is."""
 
@@ -103,6 +96,8 @@ class RideStore:
     ) -> None:
         self._server_id = server_id
         self._recording: set[int] = set()
+        # How often a ride got its rows: their cards are due.
+        self.finishes = 0
         self._beaten_us = 0
         self._database = database
         self._objects = objects
@@ -198,6 +193,7 @@ class RideStore:
                 keep_words(connection, self._objects, ride.id)
 
             self._database.write(work)
+        self.finishes += 1
         return self.get(ride.id)
 
     def end(self, ride_id: int, cut_short: bool) -> None:
@@ -257,7 +253,9 @@ class RideStore:
                     join_source(connection, ride_id, key, MADE)
                 return ride_id
 
-            return self.get(self._database.write(work))
+            ride_id = self._database.write(work)
+        self.finishes += 1
+        return self.get(ride_id)
 
     def fill(self, ride: Ride, filling: Filling, upload_id: str | None = None) -> Ride:
         """Put rows from elsewhere into a finished ride; name, notes and number stay.
@@ -293,6 +291,7 @@ class RideStore:
 
             self._database.write(work)
         self._readers.forget(ride.id)
+        self.finishes += 1
         return self.get(ride.id)
 
     def live_ids(self) -> list[int]:
@@ -309,45 +308,26 @@ class RideStore:
 
     def get(self, ride_id: int) -> Ride:
         """One ride. Raises NotFound."""
-        row = self._database.read(lambda c: c.execute(whole_ride(ride_id)).first())
-        if row is None:
-            raise NotFound(f"There is no ride {ride_id}.")
-        return ride_from_row(row)
+        for ride in self._database.read(lambda c: rides_whole(c, [ride_id])):
+            return ride
+        raise NotFound(f"There is no ride {ride_id}.")
 
     def list(
-        self,
-        from_us: int | None = None,
-        to_us: int | None = None,
-        device: str | None = None,
-        limit: int = 50,
-        cursor: str | None = None,
+        self, sought: Sought | None = None, limit: int = 50, cursor: str | None = None
     ) -> RidePage:
-        """Rides by start, newest first; `cursor` is the `next` of the page before.
+        """Rides by start, newest first; `cursor` is the `next` of the page before."""
+        what = sought or Sought()
+        return self._database.read(lambda c: page_of(c, what, limit, cursor))
 
-        device: a unit's key, or its serial number.
-        """
-        if not 1 <= limit <= PAGE_MAX:
-            raise InvalidRequest(f"limit is {limit}: it must be from 1 to {PAGE_MAX}.")
-        query = whole_ride().order_by(t.ride.c.started_us.desc(), t.ride.c.id.desc())
-        if from_us is not None:
-            query = query.where(t.ride.c.started_us >= from_us)
-        if to_us is not None:
-            query = query.where(t.ride.c.started_us < to_us)
-        if device is not None:
-            query = query.where((t.ride.c.unit_key == device) | (t.ride.c.device_serial == device))
-        if cursor is not None:
-            started_us, ride_id = cursor_parts(cursor)
-            query = query.where(
-                (t.ride.c.started_us < started_us)
-                | ((t.ride.c.started_us == started_us) & (t.ride.c.id < ride_id))
-            )
-        rows = self._database.read(lambda c: c.execute(query.limit(limit + 1)).all())
-        items = tuple(ride_from_row(row) for row in rows[:limit])
-        more = len(rows) > limit
-        return RidePage(items, f"{items[-1].started_us}.{items[-1].id}" if more else None)
-
-    def patch(self, ride_id: int, name: str | None = None, notes: str | None = None) -> Ride:
+    def patch(
+        self,
+        ride_id: int,
+        name: str | None = None,
+        notes: str | None = None,
+        tags: Sequence[str] | None = None,
+    ) -> Ride:
         """Change what people wrote about a ride. Raises NotFound, InvalidRequest."""
+        cleaned = None if tags is None else clean_tags(tags)
         # PostgreSQL has no text with a NUL in it.
         words = {"name": name, "notes": notes}
         changes = {key: text.replace("\0", "") for key, text in words.items() if text is not None}
@@ -359,10 +339,14 @@ class RideStore:
         self.get(ride_id)
 
         def work(connection: Connection) -> None:
-            connection.execute(update(t.ride).where(t.ride.c.id == ride_id).values(changes))
+            if changes:
+                connection.execute(update(t.ride).where(t.ride.c.id == ride_id).values(changes))
+                note_words(connection, ride_id)
+            if cleaned is not None:
+                set_tags(connection, ride_id, cleaned)
             keep_words(connection, self._objects, ride_id, even_if_empty=True)
 
-        if changes:
+        if changes or cleaned is not None:
             self._database.write(work)
         self._readers.forget(ride_id)
         return self.get(ride_id)

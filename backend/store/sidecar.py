@@ -1,6 +1,6 @@
 """What a person wrote about a ride, beside its object: `rides/ab/<sha256>.json`.
 
-    {"schema_version": 1, "name": "...", "notes": "...", "facts": {...}}
+    {"schema_version": 1, "name": "...", "notes": "...", "tags": ["..."], "facts": {...}}
 
 It is written in the transaction that changes the ride, so that SQL and file say the same, and only
 for rides that have something to say. `facts` is there for an object from before files told them.
@@ -9,6 +9,7 @@ for rides that have something to say. `facts` is there for an object from before
 from __future__ import annotations
 
 import logging
+from collections.abc import Sequence
 from typing import Any
 
 from sqlalchemy import Connection, select
@@ -18,6 +19,7 @@ from backend.errors import StoreError
 from backend.store.facts import WORDS, facts_of
 from backend.store.objects import Objects, sidecar_key
 from backend.store.parquet import read_facts
+from backend.store.ride_table import tags_of
 from backend.store.sql import tables as t
 
 LOG = logging.getLogger(__name__)
@@ -31,8 +33,10 @@ def read_sidecar(objects: Objects, ride_key: str) -> dict[str, Any]:
     """The sidecar of a ride's object, empty if it has none. Raises StoreError if it is damaged."""
     key = sidecar_key(ride_key)
     body = objects.read_json(key) or {}
-    if not isinstance(body.get("facts", {}), dict) or not all(
-        is_text(body[name]) for name in WORDS if name in body
+    if (
+        not isinstance(body.get("facts", {}), dict)
+        or not all(is_text(body[name]) for name in WORDS if name in body)
+        or not (isinstance(tags := body.get("tags", []), list) and all(map(is_text, tags)))
     ):
         raise StoreError(f"{key} cannot be read: it is no sidecar of a ride.")
     return body
@@ -47,7 +51,12 @@ def is_text(value: object) -> bool:
 
 
 def write_sidecar(
-    objects: Objects, ride_key: str, name: str, notes: str, facts: dict[str, Any] | None = None
+    objects: Objects,
+    ride_key: str,
+    name: str,
+    notes: str,
+    tags: Sequence[str],
+    facts: dict[str, Any] | None = None,
 ) -> None:
     """Write what a person wrote; facts that are there stay. Raises StoreError."""
     try:
@@ -55,7 +64,7 @@ def write_sidecar(
     except StoreError as error:
         LOG.warning("%s It is written anew.", error.message)
         body = {}
-    body |= {"schema_version": SIDECAR_VERSION, "name": name, "notes": notes}
+    body |= {"schema_version": SIDECAR_VERSION, "name": name, "notes": notes, "tags": list(tags)}
     if facts is not None:
         body["facts"] = facts
     objects.publish_json(sidecar_key(ride_key), body)
@@ -75,7 +84,7 @@ def tell_for_old_file(objects: Objects, ride: Ride, original: dict[str, str] | N
         return
     if version < FACTS_VERSION and not is_told:
         facts = facts_of(ride) | ({"original": original} if original else {})
-        write_sidecar(objects, key, ride.name, ride.notes, facts)
+        write_sidecar(objects, key, ride.name, ride.notes, ride.tags, facts)
 
 
 def keep_words(
@@ -84,5 +93,6 @@ def keep_words(
     """Write a finished ride's sidecar as the transaction has it, when there is something to say."""
     columns = (t.ride.c.name, t.ride.c.notes, t.ride.c.object_key)
     row = connection.execute(select(*columns).where(t.ride.c.id == ride_id)).first()
-    if row is not None and row.object_key and (row.name or row.notes or even_if_empty):
-        write_sidecar(objects, row.object_key, row.name, row.notes)
+    tags = tags_of(connection, [ride_id]).get(ride_id, ())
+    if row is not None and row.object_key and (row.name or row.notes or tags or even_if_empty):
+        write_sidecar(objects, row.object_key, row.name, row.notes, tags)

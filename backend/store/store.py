@@ -19,6 +19,8 @@ from backend.store.deletion import Deletions
 from backend.store.discard import discarded_keys
 from backend.store.identity import belonging, new_id, require, write_identity
 from backend.store.locks import hold
+from backend.store.logbook.book import Logbook
+from backend.store.logbook.cards import CardStore
 from backend.store.look import look_at
 from backend.store.marks import MarkStore
 from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
@@ -39,8 +41,8 @@ NAMED_MAX = 10
 
 
 class Store:
-    """Everything that is kept: `rides`, `marks`, `revisions`, `library`, `certificates`, `units`,
-    `uploads`.
+    """Everything that is kept: `rides`, `cards`, `logbook`, `marks`, `revisions`, `library`,
+    `certificates`, `units`, `uploads`.
 
     closing: lets go of the locks.
     """
@@ -60,6 +62,8 @@ class Store:
         self.library = LibraryStore(database)
         self.certificates = CertificateStore(database)
         self.units = UnitStore(database)
+        self.cards = CardStore(database)
+        self.logbook = Logbook(database, objects)
         self.uploads = UploadStore(database, objects, objects.root / SPOOL, self.deletions)
         # Rides that the start could not finish.
         self.unfinished: list[int] = []

@@ -15,7 +15,7 @@ import pytest
 
 from firmware_protocol.parameters import default_config
 from tests.fakes.fit_file import fit_ride
-from tests.fakes.server import SpindleServer
+from tests.fakes.server import SpindleServer, eventually
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -191,7 +191,18 @@ def test_a_file_is_imported_listed_and_exported(server: SpindleServer, tmp_path:
     shown = spindle(server, "ride", "show", str(ride))
     exported = spindle(server, "ride", "export", str(ride), "--output", csv)
     listed = spindle(server, "ride", "list")
+    card = eventually(lambda: server.get(f"/rides/{ride}")["speed_line_kmh"], bool)
+    tagged = spindle(server, "ride", "tag", "winter", "--rides", str(ride))
+    found = spindle(server, "ride", "list", "--tag", "Winter", "--json")
+    none = spindle(server, "ride", "list", "--motor", "--json")
+    home = server.get("/rides/home", params={"zone": "Asia/Tokyo"})
 
+    assert tagged.returncode == 0, tagged.stderr
+    assert card == [20.0] * 64
+    assert [item["id"] for item in json.loads(found.stdout)["items"]] == [ride]
+    assert json.loads(none.stdout)["items"] == []
+    assert home["tags"] == [{"tag": "winter", "rides": 1}]
+    assert [len(home[spans]) for spans in ("weeks", "months")] == [12, 12]
     assert result.returncode == exported.returncode == 0
     assert "distance_km" in shown.stdout
     assert "lunch" in listed.stdout

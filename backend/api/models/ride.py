@@ -159,6 +159,15 @@ class RideDevice(Answer):
     gear_ratio: float | None
 
 
+class RidePlace(Answer):
+    """Where a ride began: the nearest town of GeoNames. Null for what nobody knows."""
+
+    name: str | None
+    country: str | None = Field(description="ISO 3166 code of two letters.")
+    zone: str | None = Field(description="Of the IANA database: a local time is told by it.")
+    is_loop: bool | None = Field(description="It ended where it began.")
+
+
 class Ride(Answer):
     id: int
     state: Literal["live", "closing", "done", "bad"]
@@ -204,16 +213,25 @@ class Ride(Answer):
         "series, figure, replay and exports answer 500 `object_damaged`. The figures here stay."
     )
     summary: RideSummary | None
+    tags: list[str]
+    place: RidePlace | None = Field(
+        description="Null without positions, and until a moment after the ride came."
+    )
+    speed_line_kmh: list[float | None] = Field(
+        description="Mean speeds over 64 equal times; empty without a speed."
+    )
 
 
 class RideList(Answer):
     items: list[Ride]
     next: str | None
+    total: int | None = Field(description="Rides of this kind in all; with the first page only.")
 
 
 class RidePatch(Question):
     name: str | None = Field(default=None, max_length=200)
     notes: str | None = Field(default=None, max_length=20_000)
+    tags: list[str] | None = Field(default=None, max_length=100, description="All of them, anew.")
 
 
 class SeriesChannel(Answer):

@@ -7,12 +7,13 @@ from collections.abc import Callable, Iterator
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Path, Query, Request, Response, status
+from fastapi import APIRouter, Depends, Path, Query, Request, Response, status
 from fastapi.responses import JSONResponse, StreamingResponse
 from pydantic import BeforeValidator
 
 from backend.api.asker import while_asked
 from backend.api.large import in_pieces, whole
+from backend.api.models.home import RideKind
 from backend.api.models.replay import (
     AgainRequest,
     ClosedLoop,
@@ -58,6 +59,7 @@ def channel_names(text: str | None) -> list[str] | None:
 @router.get("", operation_id="list_rides", response_model=RideList)
 def list_rides(
     services: Provided,
+    kind: Annotated[RideKind, Depends()],
     begin: Annotated[Moment | None, Query(alias="from")] = None,
     end: Annotated[Moment | None, Query(alias="to")] = None,
     device: Annotated[
@@ -68,7 +70,8 @@ def list_rides(
     cursor: Annotated[str | None, Query(max_length=200)] = None,
 ) -> Any:
     """Newest first; `next` is the cursor of the following page, or null."""
-    return whole(RideList, services.rides.list(begin, end, device, limit, cursor))
+    page = services.rides.list(begin, end, limit, cursor, device=device, **kind.told())
+    return whole(RideList, page)
 
 
 @router.get("/{ride_id}", operation_id="get_ride", response_model=Ride)

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from backend.domain.ride import Ride
 from backend.ingest import ImportedRide
-from backend.store import RideStore
+from backend.store import RideStore, Sought
 
 # A log and a recording that have so much of the unit's time in common, or half of the log, are of
 # one ride. Less is the end of the ride before, which a recorder may end a little later.
@@ -45,7 +45,7 @@ def rides_of_boot(rides: RideStore, key: str, boot_id: int) -> Iterator[Ride]:
     """Rides of one start of a unit, the newest first."""
     cursor: str | None = None
     for _ in range(PAGES_MAX):
-        page = rides.list(device=key, limit=PAGE, cursor=cursor)
+        page = rides.list(Sought(device=key), limit=PAGE, cursor=cursor)
         yield from (ride for ride in page.items if ride.context.boot_id == boot_id)
         cursor = page.next
         if cursor is None:

@@ -24,7 +24,7 @@ from backend.domain.channels import MISSING_INT16, Values
 from backend.domain.energy import MOTOR_TORQUE, motor_torque_meaning
 from backend.domain.ride import Ride, RideContext
 from backend.errors import NotFound
-from backend.store import RideStore
+from backend.store import RideStore, Sought
 
 RIDER_TORQUE = "rider_torque_nm"
 TORQUES = (RIDER_TORQUE, MOTOR_TORQUE)
@@ -172,7 +172,7 @@ class FaultMoments:
         """The ride of the unit's present start that has a row at a unit time."""
         if now.unit_key is None or now.boot_id is None:
             return None
-        for ride in self._rides.list(device=now.unit_key, limit=RIDES_MAX).items:
+        for ride in self._rides.list(Sought(device=now.unit_key), RIDES_MAX).items:
             told, period_us = ride.context, ride.period_us
             if told.boot_id != now.boot_id or told.unit_t0_us is None or period_us is None:
                 continue

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from datetime import UTC, datetime
 from typing import Any
 
 from backend.domain.ride import Ride
-from backend.errors import InvalidRequest
+from backend.errors import InvalidRequest, NotFound
 from backend.services.rides.export import Export, export
-from backend.store import Store, expected_of
+from backend.store import Sought, Store, expected_of
 from backend.views.figure import figure
 from backend.views.trace import Trace, trace
 
@@ -37,27 +38,47 @@ class Rides:
         self,
         begin: datetime | None = None,
         end: datetime | None = None,
-        device: str | None = None,
         limit: int = 50,
         cursor: str | None = None,
+        **what: Any,
     ) -> dict[str, object]:
-        """One page, newest first: {items, next}.
+        """One page, newest first: {items, next, total}; total: with the first page only.
+
+        what: as `sought`.
+        """
+        sought = self.sought(begin, end, **what)
+        page = self._store.rides.list(sought, limit, cursor)
+        items = [self._told(ride) for ride in page.items]
+        total = self._store.logbook.count(sought) if cursor is None else None
+        return {"items": items, "next": page.next, "total": total}
+
+    def sought(
+        self,
+        begin: datetime | None = None,
+        end: datetime | None = None,
+        device: str | None = None,
+        **what: Any,
+    ) -> Sought:
+        """What is looked for, as of `Sought`.
 
         device: a unit's key or serial number, or the id of a device that is connected now.
         """
         unit = None if device is None else self._unit_at(device) or device
-        page = self._store.rides.list(microseconds(begin), microseconds(end), unit, limit, cursor)
-        return {"items": [self._told(ride) for ride in page.items], "next": page.next}
+        return Sought(microseconds(begin), microseconds(end), unit, **what)
 
     def get(self, ride_id: int) -> dict[str, object]:
         """One ride. Raises NotFound."""
         return self._told(self._store.rides.get(ride_id))
 
     def patch(
-        self, ride_id: int, name: str | None = None, notes: str | None = None
+        self,
+        ride_id: int,
+        name: str | None = None,
+        notes: str | None = None,
+        tags: Sequence[str] | None = None,
     ) -> dict[str, object]:
         """Change what people wrote about a ride. Raises NotFound, InvalidRequest."""
-        return self._told(self._store.rides.patch(ride_id, name, notes))
+        return self._told(self._store.rides.patch(ride_id, name, notes, tags))
 
     def delete(self, ride_id: int) -> None:
         """Delete a ride; with the last ride of an original file this goes too, on the disk as well.
@@ -66,6 +87,12 @@ class Rides:
         """
         with self._store.deciding:
             self._store.rides.delete(ride_id)
+
+    def delete_all(self, ride_ids: Sequence[int]) -> None:
+        """Delete rides in order; those that are gone are passed over. Raises Conflict."""
+        for ride_id in ride_ids:
+            with suppress(NotFound):
+                self.delete(ride_id)
 
     def series(
         self,

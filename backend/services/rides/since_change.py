@@ -14,7 +14,7 @@ from backend.domain.energy import SECONDS_PER_HOUR
 from backend.domain.revision import Revision
 from backend.domain.ride import Ride
 from backend.errors import NotFound
-from backend.store import Store
+from backend.store import Sought, Store
 
 RIDES_MAX = 20
 RIDES_FEW = 3
@@ -61,7 +61,7 @@ class SinceChange:
         self, unit_key: str, from_us: int | None = None, to_us: int | None = None
     ) -> list[Ride]:
         """The latest that are over and went somewhere."""
-        page = self._store.rides.list(from_us, to_us, unit_key, RIDES_MAX)
+        page = self._store.rides.list(Sought(from_us, to_us, unit_key), RIDES_MAX)
         return [ride for ride in page.items if ride.state == "done" and distance_km(ride) > 0.0]
 
 

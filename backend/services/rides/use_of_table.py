@@ -18,7 +18,7 @@ from backend.domain.fuzzy_table import PARAMETERS_OF, point_faults
 from backend.domain.ride import Ride, iso_utc, pause_us
 from backend.errors import InvalidRequest, ObjectDamaged
 from backend.services.rides.replay import ConfigOf
-from backend.store import RideReader, Store
+from backend.store import RideReader, Sought, Store
 from backend.views.table_use import ASKED, FUZZY_GAIN, NEEDED, TableUse, acting, table_use
 
 RIDES_MAX = 20
@@ -93,7 +93,7 @@ class UseOfTable:
             return sorted(named, key=lambda ride: ride.started_us, reverse=True), False
         unit = None if device is None else self._unit_at(device) or device
         # One more, because the newest may still be going on.
-        page = self._store.rides.list(device=unit, limit=RIDES_MAX + 1)
+        page = self._store.rides.list(Sought(device=unit), RIDES_MAX + 1)
         over = [ride for ride in page.items if ride.state == "done"]
         return over[:RIDES_MAX], page.next is not None or len(over) > RIDES_MAX
 

@@ -27,7 +27,7 @@ LOG = logging.getLogger(__name__)
 Result = TypeVar("Result")
 
 # The newest migration; a test holds it against the files in migrations/versions.
-HEAD_REVISION = "0012"
+HEAD_REVISION = "0013"
 # Bounds the memory of writes that wait for a slow disk: about 256 one-second tails.
 WRITES_WAITING_MAX = 256
 BUSY_TIMEOUT_MS = 10_000
@@ -207,6 +207,7 @@ def prepare_sqlite(connection: Any, _record: object) -> None:
 
     Auto-commit off in the driver: SQLAlchemy sends BEGIN itself, so DDL is transactional too.
     Incremental vacuum has to be chosen before the first table; it lets the file shrink.
+    Deleted rows are written over: what a person deletes is not to be read off the file.
     """
     connection.isolation_level = None
     for pragma in (
@@ -215,6 +216,7 @@ def prepare_sqlite(connection: Any, _record: object) -> None:
         "synchronous=FULL",
         "foreign_keys=ON",
         f"busy_timeout={BUSY_TIMEOUT_MS}",
+        "secure_delete=ON",
     ):
         connection.execute(f"PRAGMA {pragma}")
 

@@ -14,6 +14,7 @@ from sqlalchemy import (
     Column,
     Float,
     ForeignKey,
+    Index,
     Integer,
     LargeBinary,
     MetaData,
@@ -184,7 +185,7 @@ ride = Table(
     Column("device_serial", String(64), index=True),
     Column("unit_key", Text, index=True),
     Column("bike_id", KEY, ForeignKey("bike.id"), index=True),
-    Column("started_us", BigInteger, nullable=False, index=True),
+    Column("started_us", BigInteger, nullable=False),
     Column("row_count", BigInteger, nullable=False),
     Column("period_us", BigInteger),
     Column("channels", JSON, nullable=False),
@@ -204,6 +205,37 @@ ride = Table(
     Column("server_id", String(32)),
     Column("heartbeat_us", BigInteger),
     Column("cut_short", Boolean),
+    # A list goes by it, newest first; with the bike in it totals need no row of this wide table.
+    Index(None, "started_us", "id", "bike_id"),
+)
+
+ride_tag = Table(
+    "ride_tag",
+    metadata,
+    Column("ride_id", KEY, ForeignKey("ride.id"), primary_key=True, autoincrement=False),
+    Column("tag", String(40), primary_key=True, index=True),
+)
+
+# domain.logbook.card.RideCard: derived, worked out anew by a newer method or for another object.
+# words: all that a search looks at, in lower case, a line each, tags as #tag.
+ride_card = Table(
+    "ride_card",
+    metadata,
+    Column("ride_id", KEY, ForeignKey("ride.id"), primary_key=True, autoincrement=False),
+    Column("method", Integer, nullable=False),
+    Column("object_key", String(128), nullable=False),
+    Column("speed_line", LargeBinary, nullable=False),
+    Column("notable", Integer, nullable=False),
+    Column("ascent_m", Float, index=True),
+    Column("power_w_best_5s", Float, index=True),
+    Column("power_w_best_60s", Float, index=True),
+    Column("power_w_best_300s", Float, index=True),
+    Column("power_w_best_1200s", Float, index=True),
+    Column("place", Text),
+    Column("country", String(2)),
+    Column("zone", String(64)),
+    Column("is_loop", Boolean),
+    Column("words", Text, nullable=False),
 )
 
 # One row: the last number a ride was given. SQLite by itself would give the highest one again after
@@ -255,6 +287,10 @@ ride_summary = Table(
         )
     ),
 )
+
+# Records are looked up from the top.
+Index(None, ride_summary.c.distance_km)
+Index(None, ride_summary.c.speed_kmh_mean)
 
 ride_tail = Table(
     "ride_tail",

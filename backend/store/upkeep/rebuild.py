@@ -26,6 +26,7 @@ from backend.store.facts import KeptRide, Original, kept_ride
 from backend.store.finish import WrittenObject
 from backend.store.identity import new_id, write_identity
 from backend.store.locks import hold
+from backend.store.logbook.book import set_tags
 from backend.store.look import DAMAGED, EMPTY, MISSING, OK, DatabaseView, look_at
 from backend.store.objects import (
     RIDE_SUFFIX,
@@ -213,6 +214,7 @@ def add_kept(database: Database, objects: FileObjects, kept: KeptRide) -> tuple[
             upload_id = upload_of(connection, objects, kept.original, state, completeness)
         ride_id = inserted(connection, row_of(ride) | {"upload_id": upload_id}, ride.context)
         finish_row(connection, ride_id, written)
+        set_tags(connection, ride_id, ride.tags)
         if upload_id is not None:
             join_source(connection, ride_id, upload_id, MADE)
         for file in kept.filled_from:

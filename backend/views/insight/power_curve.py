@@ -7,6 +7,7 @@ A stretch with a missing sample or a pause in it does not count.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,7 +33,12 @@ class BestMean:
     from_s: float
 
 
-def power_curve(power_w: Values, start_s: Values, seconds: Values) -> list[BestMean]:
+def power_curve(
+    power_w: Values,
+    start_s: Values,
+    seconds: Values,
+    durations_s: Sequence[float] = DURATIONS_S,
+) -> list[BestMean]:
     """Best means of power (n,), missing as NaN, that begins at start_s and holds for `seconds`.
 
     The last is of the longest stretch without a gap: the whole ride if it has none.
@@ -51,7 +57,7 @@ def power_curve(power_w: Values, start_s: Values, seconds: Values) -> list[BestM
     corner_s, kept = np.unique(corner_s, return_index=True)
     work, missing = work[kept], missing[kept]
     longest_s = longest_run(corner_s, missing)
-    lengths = [float(length) for length in DURATIONS_S if length < longest_s - MISSING_S]
+    lengths = [float(length) for length in durations_s if length < longest_s - MISSING_S]
     found = [best_mean(corner_s, work, missing, length) for length in (*lengths, longest_s)]
     return [best for best in found if best is not None]
 

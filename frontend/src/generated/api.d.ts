@@ -1013,6 +1013,68 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/rides/home": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Rider Home
+         * @description Weeks, months, records and faults of all rides or a bike's; days begin at the zone's
+         *     midnight, whatever its clocks do. 422 `unknown_zone` for a zone that is none.
+         */
+        get: operations["rider_home"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/rides/tags": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Tag Rides
+         * @description Adds tags to rides and takes others from them, all or none.
+         */
+        post: operations["tag_rides"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/rides/delete": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Delete Rides
+         * @description Deletes rides as `delete_ride` does each, in order. One that is gone already is passed over;
+         *     409 at one that is being recorded, behind which nothing was deleted.
+         */
+        post: operations["delete_rides"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/rides/{ride_id}/energy": {
         parameters: {
             query?: never;
@@ -1566,6 +1628,25 @@ export interface components {
             power_w: number;
             /** From S */
             from_s: number;
+        };
+        /**
+         * BikeTotals
+         * @description A bike that was ridden.
+         */
+        BikeTotals: {
+            /** Bike Id */
+            bike_id: number;
+            /** Name */
+            name: string;
+            /**
+             * Last Ride At
+             * Format: date-time
+             */
+            last_ride_at: string;
+            /** Rides */
+            rides: number;
+            /** Distance Km */
+            distance_km: number | null;
         };
         /**
          * Calibration
@@ -3316,6 +3397,43 @@ export interface components {
              */
             by_rider: boolean | null;
         };
+        /**
+         * PeriodTotals
+         * @description A week or a month in the rider's time zone: [from, to).
+         */
+        PeriodTotals: {
+            /** Rides */
+            rides: number;
+            /** With Rider */
+            with_rider: number;
+            /** With Motor */
+            with_motor: number;
+            /** Distance Km */
+            distance_km: number | null;
+            /** Moving S */
+            moving_s: number | null;
+            /** Rider Wh */
+            rider_wh: number | null;
+            /** Rider Power W Mean */
+            rider_power_w_mean: number | null;
+            /** Motor Wh */
+            motor_wh: number | null;
+            /**
+             * First Day
+             * Format: date
+             */
+            first_day: string;
+            /**
+             * From
+             * Format: date-time
+             */
+            from: string;
+            /**
+             * To
+             * Format: date-time
+             */
+            to: string;
+        };
         /** PointGains */
         PointGains: {
             /** Gain */
@@ -3769,6 +3887,15 @@ export interface components {
              */
             damage: ("missing" | "wrong_size" | "changed" | "unreadable") | null;
             summary: components["schemas"]["RideSummary"] | null;
+            /** Tags */
+            tags: string[];
+            /** @description Null without positions, and until a moment after the ride came. */
+            place: components["schemas"]["RidePlace"] | null;
+            /**
+             * Speed Line Kmh
+             * @description Mean speeds over 64 equal times; empty without a speed.
+             */
+            speed_line_kmh: (number | null)[];
         };
         /**
          * RideChannel
@@ -3908,12 +4035,35 @@ export interface components {
             /** Value */
             value: number;
         };
+        /**
+         * RideFault
+         * @description Faults that came on a ride.
+         */
+        RideFault: {
+            /** Ride Id */
+            ride_id: number;
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+            /**
+             * Flags
+             * @description Bits of `fault_flags`.
+             */
+            flags: number;
+        };
         /** RideList */
         RideList: {
             /** Items */
             items: components["schemas"]["Ride"][];
             /** Next */
             next: string | null;
+            /**
+             * Total
+             * @description Rides of this kind in all; with the first page only.
+             */
+            total: number | null;
         };
         /**
          * RideMark
@@ -3936,6 +4086,54 @@ export interface components {
             name?: string | null;
             /** Notes */
             notes?: string | null;
+            /**
+             * Tags
+             * @description All of them, anew.
+             */
+            tags?: string[] | null;
+        };
+        /**
+         * RidePlace
+         * @description Where a ride began: the nearest town of GeoNames. Null for what nobody knows.
+         */
+        RidePlace: {
+            /** Name */
+            name: string | null;
+            /**
+             * Country
+             * @description ISO 3166 code of two letters.
+             */
+            country: string | null;
+            /**
+             * Zone
+             * @description Of the IANA database: a local time is told by it.
+             */
+            zone: string | null;
+            /**
+             * Is Loop
+             * @description It ended where it began.
+             */
+            is_loop: boolean | null;
+        };
+        /**
+         * RideRecord
+         * @description The ride that has most of a figure. Powers are the rider's own.
+         */
+        RideRecord: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "distance_km" | "speed_kmh_mean" | "ascent_m" | "power_w_best_5s" | "power_w_best_60s" | "power_w_best_300s" | "power_w_best_1200s";
+            /** Value */
+            value: number;
+            /** Ride Id */
+            ride_id: number;
+            /**
+             * Started At
+             * Format: date-time
+             */
+            started_at: string;
         };
         /**
          * RideSummary
@@ -3992,6 +4190,24 @@ export interface components {
             motor_temperature_degc_max: number | null;
         };
         /**
+         * RideTags
+         * @description Tags to add to rides and to take from them, all or none.
+         */
+        RideTags: {
+            /** Ride Ids */
+            ride_ids: number[];
+            /**
+             * Add
+             * @default []
+             */
+            add: string[];
+            /**
+             * Remove
+             * @default []
+             */
+            remove: string[];
+        };
+        /**
          * RideWithout
          * @description A ride that says nothing about the table, and why.
          *
@@ -4008,6 +4224,29 @@ export interface components {
             code: "missing_channel" | "not_assisted" | "object_damaged";
             /** Message */
             message: string;
+        };
+        /**
+         * RiderHome
+         * @description Twelve weeks and twelve months up to now, the oldest first; bikes, the last ridden first.
+         */
+        RiderHome: {
+            /** Weeks */
+            weeks: components["schemas"]["PeriodTotals"][];
+            /** Months */
+            months: components["schemas"]["PeriodTotals"][];
+            /** Bikes */
+            bikes: components["schemas"]["BikeTotals"][];
+            /** Records */
+            records: components["schemas"]["RideRecord"][];
+            /** Faults */
+            faults: components["schemas"]["RideFault"][];
+            /** Tags */
+            tags: components["schemas"]["TagInUse"][];
+        };
+        /** RidesGone */
+        RidesGone: {
+            /** Ride Ids */
+            ride_ids: number[];
         };
         /**
          * RidesTogether
@@ -4592,6 +4831,13 @@ export interface components {
             speed_points_kmh: number[];
             /** Torque Rate Points */
             torque_rate_points: number[];
+        };
+        /** TagInUse */
+        TagInUse: {
+            /** Tag */
+            tag: string;
+            /** Rides */
+            rides: number;
         };
         /**
          * TimeAtLimit
@@ -9424,6 +9670,202 @@ export interface operations {
             };
         };
     };
+    rider_home: {
+        parameters: {
+            query?: {
+                /** @description The rider's time zone, of the IANA database. */
+                zone?: string;
+                /** @description 1 Monday to 7 Sunday. */
+                week_begins?: number;
+                bike?: number | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RiderHome"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unsupported Media Type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    tag_rides: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RideTags"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unsupported Media Type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    delete_rides: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RidesGone"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unsupported Media Type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     energy_of_ride: {
         parameters: {
             query?: never;
@@ -9536,6 +9978,16 @@ export interface operations {
                 device?: string | null;
                 limit?: number;
                 cursor?: string | null;
+                bike?: number | null;
+                /** @description At least so far. */
+                longer_km?: number | null;
+                /** @description The motor's energy is known. */
+                motor?: boolean;
+                /** @description With faults or marks. */
+                events?: boolean;
+                tag?: string | null;
+                /** @description Words, all in name, notes, tags or place. */
+                q?: string | null;
             };
             header?: never;
             path?: never;

@@ -43,5 +43,8 @@ SAMPLE_RIDE: dict[str, Any] = {
     "upload_id": None,
     "object_bytes": 4096,
     "damage": None,
+    "tags": ["winter"],
+    "place": {"name": "Dublin", "country": "IE", "zone": "Europe/Dublin", "is_loop": False},
+    "speed_line_kmh": [20.0, None] * 32,
     "summary": {**dict.fromkeys(RideSummary.model_fields), "duration_s": 7200.0},
 }

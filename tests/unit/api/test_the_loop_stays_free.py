@@ -24,7 +24,7 @@ from tests.unit.api.sample_rides import SAMPLE_RIDE
 pytestmark = pytest.mark.slow
 
 ASKED = {
-    "/api/v1/rides?limit=500": {"items": [SAMPLE_RIDE] * 500, "next": None},
+    "/api/v1/rides?limit=500": {"items": [SAMPLE_RIDE] * 500, "next": None, "total": 500},
     "/api/v1/rides/1": SAMPLE_RIDE,
     "/api/v1/rides/1/figure": {"data": [{"y": [1.0] * 20_000}], "layout": {}},
 }
@@ -39,7 +39,7 @@ class HeldRides:
         self.let_go = threading.Event()
         self.thread = ""
 
-    def held(self, *_: Any) -> Any:
+    def held(self, *_: Any, **__: Any) -> Any:
         self.thread = threading.current_thread().name
         self.asked.set()
         assert self.let_go.wait(30)

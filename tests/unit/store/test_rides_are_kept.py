@@ -14,7 +14,7 @@ import pytest
 from backend.domain.channels import MISSING_INT16
 from backend.domain.ride import Ride, RideContext
 from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
-from backend.store import Store
+from backend.store import Sought, Store
 from backend.views.trace import trace
 from tests.unit.store.conftest import OpenStore
 from tests.unit.store.ride_data import (
@@ -124,9 +124,9 @@ def test_rides_are_found_by_time_and_by_unit(store: Store) -> None:
     old = finished(store, honest_ride(100), STARTED_US)
     new = finished(store, honest_ride(100), STARTED_US + 10)
 
-    assert [ride.id for ride in store.rides.list(from_us=STARTED_US + 1).items] == [new.id]
-    assert [ride.id for ride in store.rides.list(to_us=STARTED_US + 10).items] == [old.id]
-    assert store.rides.list(device="SP-2").items == ()
+    assert [ride.id for ride in store.rides.list(Sought(from_us=STARTED_US + 1)).items] == [new.id]
+    assert [ride.id for ride in store.rides.list(Sought(to_us=STARTED_US + 10)).items] == [old.id]
+    assert store.rides.list(Sought(device="SP-2")).items == ()
     with pytest.raises(InvalidRequest):
         store.rides.list(cursor="nonsense")
 

@@ -18,7 +18,7 @@ from sqlalchemy import create_engine, insert, update
 import backend.store
 from backend.domain.ride import Ride, RideContext
 from backend.domain.unit_key import bike_name, ebl_key, tells_unit, unit_key
-from backend.store import SeenUnit, Store, open_store
+from backend.store import SeenUnit, Sought, Store, open_store
 from backend.store.sql import tables as t
 from backend.store.upkeep.rebuild import rebuild_store
 from tests.unit.store.conftest import OpenStore
@@ -94,7 +94,7 @@ def test_a_unit_that_only_its_url_is_known_of_is_on_no_bike(store: Store) -> Non
 
     assert store.units.bike_of(key) is None
     assert (ride.context.unit_key, ride.bike_id) == (key, None)
-    assert store.rides.list(device=key).items == (ride,)
+    assert store.rides.list(Sought(device=key)).items == (ride,)
 
 
 def test_a_ride_is_of_the_bike_its_unit_is_on_and_found_by_key_and_by_number(store: Store) -> None:
@@ -103,8 +103,8 @@ def test_a_ride_is_of_the_bike_its_unit_is_on_and_found_by_key_and_by_number(sto
     ridden(store, replace(MINE, unit_key="ebl:SP-2", device_serial="SP-2"))
 
     assert ride.bike_id == store.units.bike_of("ebl:SP-1")
-    assert store.rides.list(device="ebl:SP-1").items == (ride,)
-    assert store.rides.list(device="SP-1").items == (ride,)
+    assert store.rides.list(Sought(device="ebl:SP-1")).items == (ride,)
+    assert store.rides.list(Sought(device="SP-1")).items == (ride,)
 
 
 def test_a_ride_of_a_unit_nobody_saw_makes_its_bike(store: Store) -> None:

@@ -1,0 +1,40 @@
+"""All rides at once: the rider's home, tags and deletion of many."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Query, status
+
+from backend.api.models.home import RiderHome, RidesGone, RideTags
+from backend.api.problem import refusals
+from backend.api.services import Provided
+
+router = APIRouter(prefix="/rides", tags=["rides"], responses=refusals(404, 409, 415))
+
+
+@router.get("/home", operation_id="rider_home", response_model=RiderHome)
+def rider_home(
+    services: Provided,
+    zone: Annotated[
+        str, Query(max_length=64, description="The rider's time zone, of the IANA database.")
+    ] = "UTC",
+    week_begins: Annotated[int, Query(ge=1, le=7, description="1 Monday to 7 Sunday.")] = 1,
+    bike: Annotated[int | None, Query(ge=1, le=2**63 - 1)] = None,
+) -> Any:
+    """Weeks, months, records and faults of all rides or a bike's; days begin at the zone's
+    midnight, whatever its clocks do. 422 `unknown_zone` for a zone that is none."""
+    return services.home(zone, week_begins, bike)
+
+
+@router.post("/tags", operation_id="tag_rides", status_code=status.HTTP_204_NO_CONTENT)
+def tag_rides(body: RideTags, services: Provided) -> None:
+    """Adds tags to rides and takes others from them, all or none."""
+    services.home.tag(body.ride_ids, body.add, body.remove)
+
+
+@router.post("/delete", operation_id="delete_rides", status_code=status.HTTP_204_NO_CONTENT)
+def delete_rides(body: RidesGone, services: Provided) -> None:
+    """Deletes rides as `delete_ride` does each, in order. One that is gone already is passed over;
+    409 at one that is being recorded, behind which nothing was deleted."""
+    services.rides.delete_all(body.ride_ids)

@@ -1,0 +1,1 @@
+"""What a rider keeps of all rides: cards, weeks and months, tags."""

@@ -1,0 +1,96 @@
+"""What a list shows of a ride beside its figures: a line of its speed, where it was, its bests.
+
+Worked out from the rows once, kept beside the ride, and worked out anew by a newer METHOD.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from backend.domain.channels import Values
+
+METHOD = 1
+LINE_POINTS = 64
+# The line is in steps of half a km/h: it is 26 pixels high.
+LINE_STEP_KMH = 0.5
+LINE_MISSING = 255
+# Lengths of the rider's best power, as bike computers tell them.
+BEST_S = (5, 60, 300, 1200)
+# A ride that ends this near to its start, and went further away, is a loop.
+LOOP_END_M = 500.0
+EARTH_M = 6_371_000.0
+
+
+@dataclass(frozen=True, slots=True)
+class RideCard:
+    """speed_line: LINE_POINTS means over equal times, in LINE_STEP_KMH; LINE_MISSING for none.
+
+    power_w_best: the rider's best mean over each of BEST_S. notable: faults and marks it has.
+    begin_deg: latitude and longitude of its first position.
+    """
+
+    speed_line: bytes = b""
+    ascent_m: float | None = None
+    power_w_best: tuple[float | None, ...] = (None,) * len(BEST_S)
+    notable: int = 0
+    begin_deg: tuple[float, float] | None = None
+    is_loop: bool | None = None
+
+
+def speed_line(start_s: Values, speed_kmh: Values | None) -> bytes:
+    """Means of rows (n,) over LINE_POINTS equal times, as RideCard has them; empty without a speed.
+
+    start_s: when each row begins, since the ride's start.
+    """
+    if speed_kmh is None or not np.isfinite(speed_kmh).any():
+        return b""
+    there = np.isfinite(speed_kmh)
+    points = (start_s * (LINE_POINTS / (start_s[-1] + 1e-6))).astype(np.intp)
+    sums = np.bincount(points[there], speed_kmh[there], LINE_POINTS)
+    counts = np.bincount(points[there], minlength=LINE_POINTS)
+    steps = np.full(LINE_POINTS, LINE_MISSING, np.uint8)
+    some = counts > 0
+    means = sums[some] / counts[some] / LINE_STEP_KMH
+    steps[some] = np.clip(np.rint(means), 0, LINE_MISSING - 1).astype(np.uint8)
+    return steps.tobytes()
+
+
+def line_kmh(speed_line: bytes) -> tuple[float | None, ...]:
+    """A stored line as speeds; None where there is none."""
+    return tuple(
+        None if step == LINE_MISSING else step * LINE_STEP_KMH for step in bytes(speed_line)
+    )
+
+
+def ends_of(
+    latitude_deg: Values | None, longitude_deg: Values | None
+) -> tuple[tuple[float, float] | None, bool | None]:
+    """The first position, and whether the ride came back to it; None without positions."""
+    if latitude_deg is None or longitude_deg is None:
+        return None, None
+    there = np.isfinite(latitude_deg) & np.isfinite(longitude_deg)
+    if not there.any():
+        return None, None
+    away_m = metres_from(
+        float(latitude_deg[there][0]),
+        float(longitude_deg[there][0]),
+        latitude_deg[there],
+        longitude_deg[there],
+    )
+    begin = float(latitude_deg[there][0]), float(longitude_deg[there][0])
+    is_loop = bool(away_m[-1] <= LOOP_END_M < np.max(away_m) / 2)
+    return begin, is_loop
+
+
+def metres_from(
+    latitude_deg: float, longitude_deg: float, latitudes_deg: Values, longitudes_deg: Values
+) -> Values:
+    """Great-circle distance from one place to places (n,), in m, by the haversine formula."""
+    here, there = np.radians(latitude_deg), np.radians(latitudes_deg)
+    half_lat = (there - here) / 2
+    half_lon = np.radians(longitudes_deg - longitude_deg) / 2
+    chord = np.sin(half_lat) ** 2 + np.cos(here) * np.cos(there) * np.sin(half_lon) ** 2
+    metres: Values = 2 * EARTH_M * np.arcsin(np.sqrt(np.clip(chord, 0.0, 1.0)))
+    return metres

@@ -1,0 +1,97 @@
+"""The door of the logbook: what the rider's home shows, and tags on many rides at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from sqlalchemy import Connection, delete, func, insert, select
+
+from backend.domain.logbook.calendar import Period
+from backend.domain.logbook.tags import clean_tags
+from backend.errors import NotFound
+from backend.store.logbook import totals
+from backend.store.logbook.cards import note_words
+from backend.store.logbook.find import Sought, count_of, ids_of
+from backend.store.objects import Objects
+from backend.store.ride_table import tags_of
+from backend.store.sidecar import keep_words
+from backend.store.sql import tables as t
+from backend.store.sql.database import Database
+
+
+@dataclass(frozen=True)
+class Home:
+    """What the rider's home shows, of all rides or a bike's; the bikes are always all."""
+
+    by_period: tuple[tuple[totals.Totals, ...], ...]
+    bikes: tuple[totals.BikeTotals, ...]
+    records: tuple[totals.Best, ...]
+    faults: tuple[totals.RideFault, ...]
+    tags: tuple[tuple[str, int], ...]
+
+
+class Logbook:
+    """Sums, records and tags of all rides."""
+
+    def __init__(self, database: Database, objects: Objects) -> None:
+        self._database = database
+        self._objects = objects
+
+    def home(self, spans: Sequence[Sequence[Period]], bike_id: int | None = None) -> Home:
+        """Totals for each of the spans of periods, and all else, at one moment."""
+
+        def work(connection: Connection) -> Home:
+            return Home(
+                tuple(totals.totals_by(connection, span, bike_id) for span in spans),
+                totals.bikes(connection),
+                totals.records(connection, bike_id),
+                totals.last_faults(connection, bike_id),
+                tags_in_use(connection),
+            )
+
+        return self._database.read(work)
+
+    def count(self, sought: Sought) -> int:
+        """How many rides there are of these."""
+        return self._database.read(lambda c: count_of(c, sought))
+
+    def ids(self, sought: Sought) -> list[int]:
+        """Every one of these rides that is over, the oldest first."""
+        return self._database.read(lambda c: ids_of(c, sought))
+
+    def tag(self, ride_ids: Sequence[int], add: Sequence[str], remove: Sequence[str]) -> None:
+        """Add and remove tags of rides, all or none. Raises NotFound, InvalidRequest."""
+        gone = {tag.casefold() for tag in clean_tags(remove)}
+
+        def work(connection: Connection) -> None:
+            for ride_id in ride_ids:
+                here = connection.execute(select(t.ride.c.id).where(t.ride.c.id == ride_id))
+                if here.first() is None:
+                    raise NotFound(f"There is no ride {ride_id}.")
+                kept = [
+                    tag
+                    for tag in tags_of(connection, [ride_id]).get(ride_id, ())
+                    if tag.casefold() not in gone
+                ]
+                set_tags(connection, ride_id, clean_tags([*kept, *add]))
+                keep_words(connection, self._objects, ride_id, even_if_empty=True)
+
+        self._database.write(work)
+
+
+def set_tags(connection: Connection, ride_id: int, tags: Sequence[str]) -> None:
+    """Give a ride these tags and no other."""
+    connection.execute(delete(t.ride_tag).where(t.ride_tag.c.ride_id == ride_id))
+    if tags:
+        rows = [{"ride_id": ride_id, "tag": tag} for tag in tags]
+        connection.execute(insert(t.ride_tag), rows)
+    note_words(connection, ride_id)
+
+
+def tags_in_use(connection: Connection) -> tuple[tuple[str, int], ...]:
+    """Every tag with how many rides have it, the commonest first."""
+    count = func.count()
+    query = select(t.ride_tag.c.tag, count).group_by(t.ride_tag.c.tag)
+    rows = connection.execute(query.order_by(count.desc(), t.ride_tag.c.tag).limit(100))
+    return tuple((row[0], row[1]) for row in rows)

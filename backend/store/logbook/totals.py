@@ -1,0 +1,177 @@
+"""What rides come to: by period, by bike, and the best of them.
+
+A sum tells of how many rides it is: a ride without motor data adds nothing to the motor's energy,
+and is counted as lacking. Rider and motor are never added.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sqlalchemy import Connection, Row, Select, case, func, or_, select
+
+from backend.domain.logbook.calendar import Period
+from backend.domain.logbook.card import BEST_S
+from backend.domain.ride_events import FAULT_SET
+from backend.store.sql import tables as t
+
+# A mean over less is a sprint, not a ride.
+FASTEST_KM_MIN = 5.0
+FAULTS_SHOWN = 5
+# A run's or a car's best is not the bike's.
+CYCLING = ("%cycl%", "%bik%")
+
+
+@dataclass(frozen=True)
+class Totals:
+    """Sums over rides; None where none of them has it. with_rider, with_motor: rides that have."""
+
+    rides: int = 0
+    with_rider: int = 0
+    with_motor: int = 0
+    distance_km: float | None = None
+    moving_s: float | None = None
+    rider_wh: float | None = None
+    rider_s: float | None = None
+    motor_wh: float | None = None
+
+
+@dataclass(frozen=True)
+class BikeTotals:
+    """A bike, and what its rides come to."""
+
+    bike_id: int
+    name: str
+    last_us: int
+    rides: int
+    distance_km: float | None
+
+
+@dataclass(frozen=True)
+class Best:
+    """The ride that holds a record. kind: `distance_km`, `speed_kmh_mean`, ..."""
+
+    kind: str
+    value: float
+    ride_id: int
+    started_us: int
+
+
+@dataclass(frozen=True)
+class RideFault:
+    """Faults that came on a ride, as bits of `fault_flags`."""
+
+    ride_id: int
+    at_us: int
+    flags: int
+
+
+def sums() -> tuple[Any, ...]:
+    """The columns of Totals, over rides with figures."""
+    s = t.ride_summary.c
+    rider_s = case((s.rider_power_w_mean > 0, s.rider_wh * 3600.0 / s.rider_power_w_mean))
+    return (
+        func.count(),
+        func.count(s.rider_wh),
+        func.count(s.motor_wh),
+        func.sum(s.distance_km),
+        func.sum(s.moving_s),
+        func.sum(s.rider_wh),
+        func.sum(rider_s),
+        func.sum(s.motor_wh),
+    )
+
+
+def of_bike(query: Select[Any], bike_id: int | None) -> Select[Any]:
+    """Finished rides with their figures, all or a bike's."""
+    query = query.select_from(t.ride.join(t.ride_summary, t.ride_summary.c.ride_id == t.ride.c.id))
+    if bike_id is None:
+        return query
+    # As a sum it is no term of an index: SQLite would gather every ride of the bike by it and sort
+    # them, instead of reading from the top of a record or the newest on.
+    return query.where(t.ride.c.bike_id + 0 == bike_id)
+
+
+def totals_by(
+    connection: Connection, periods: Sequence[Period], bike_id: int | None
+) -> tuple[Totals, ...]:
+    """Totals of each of some periods that follow one another."""
+    began = t.ride.c.started_us
+    which = case(*((began < period.to_us, index) for index, period in enumerate(periods)))
+    query = of_bike(select(which, *sums()), bike_id)
+    inside = (began >= periods[0].from_us) & (began < periods[-1].to_us)
+    found = {
+        row[0]: Totals(*row[1:]) for row in connection.execute(query.where(inside).group_by(which))
+    }
+    return tuple(found.get(index, Totals()) for index in range(len(periods)))
+
+
+def bikes(connection: Connection) -> tuple[BikeTotals, ...]:
+    """Every bike that was ridden, the one ridden last first."""
+    # As a sum for the same reason as in `of_bike`.
+    bike_id = t.ride.c.bike_id + 0
+    query = select(
+        bike_id,
+        func.max(t.ride.c.started_us),
+        func.count(),
+        func.sum(t.ride_summary.c.distance_km),
+    )
+    query = of_bike(query, None).where(bike_id.is_not(None)).group_by(bike_id)
+    rows = connection.execute(query).all()
+    names = {row.id: row.name for row in connection.execute(select(t.bike.c.id, t.bike.c.name))}
+    found = [BikeTotals(row[0], names[row[0]], *row[1:]) for row in rows]
+    return tuple(sorted(found, key=lambda bike: -bike.last_us))
+
+
+def records(connection: Connection, bike_id: int | None) -> tuple[Best, ...]:
+    """The best of each kind that any ride has."""
+    summary, card = t.ride_summary.c, t.ride_card.c
+    long_enough = summary.distance_km >= FASTEST_KM_MIN
+    kinds: list[tuple[str, Any, Any]] = [
+        ("distance_km", summary.distance_km, None),
+        ("speed_kmh_mean", summary.speed_kmh_mean, long_enough),
+        ("ascent_m", card.ascent_m, None),
+    ]
+    kinds += [(f"power_w_best_{s}s", card[f"power_w_best_{s}s"], None) for s in BEST_S]
+    found = []
+    for kind, column, also in kinds:
+        row = best_by(connection, column, also, bike_id)
+        if row is not None:
+            found.append(Best(kind, float(row[0]), row.id, row.started_us))
+    return tuple(found)
+
+
+def best_by(connection: Connection, column: Any, also: Any, bike_id: int | None) -> Row[Any] | None:
+    """Value, id and start of the ride that has most of a figure; None where none has any."""
+    query = of_bike(select(column, t.ride.c.id, t.ride.c.started_us), bike_id)
+    if column.table is t.ride_card:
+        query = query.join(t.ride_card, t.ride_card.c.ride_id == t.ride.c.id)
+    sport = t.ride.c.sport
+    query = query.where(column > 0).where(
+        or_(sport.is_(None), *(func.lower(sport).like(word) for word in CYCLING))
+    )
+    if also is not None:
+        query = query.where(also)
+    return connection.execute(query.order_by(column.desc()).limit(1)).first()
+
+
+def last_faults(connection: Connection, bike_id: int | None) -> tuple[RideFault, ...]:
+    """The faults that came last on a ride, the newest first."""
+    query = (
+        select(t.ride.c.id, t.ride.c.started_us, t.ride.c.events)
+        .join(t.ride_card, t.ride_card.c.ride_id == t.ride.c.id)
+        .where(t.ride_card.c.notable > 0)
+        .order_by(t.ride.c.started_us.desc())
+        .limit(4 * FAULTS_SHOWN)
+    )
+    if bike_id is not None:
+        query = query.where(t.ride.c.bike_id + 0 == bike_id)
+    found = [
+        RideFault(row.id, row.started_us + round(event["t_s"] * 1e6), event["value"])
+        for row in connection.execute(query)
+        for event in row.events
+        if event["kind"] == FAULT_SET
+    ]
+    return tuple(sorted(found, key=lambda fault: -fault.at_us)[:FAULTS_SHOWN])
