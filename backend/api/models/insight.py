@@ -1,4 +1,4 @@
-"""What a ride tells: energy, effort."""
+"""What a ride tells: energy, effort, diagnosis."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pydantic import Field
 
 from backend.api.models.base import Answer
 
+Severity = Literal["note", "warning", "serious"]
 NoRange = Literal["no_charge", "no_distance", "short_way", "charged", "little_used"]
 
 
@@ -116,3 +117,50 @@ class RideEffort(Answer):
     power_curve: list[BestMean] = Field(
         description="A stretch with a gap in it does not count; the last is the longest without."
     )
+
+
+class DiagnosisFinding(Answer):
+    """Something that is not as it should be, with its evidence."""
+
+    kind: Literal[
+        "zero_drift",
+        "saturation",
+        "rows_lost",
+        "sensor_silent",
+        "torque_late",
+        "brown_out",
+        "derating",
+        "speed_jump",
+        "speed_silent",
+        "wheel",
+    ]
+    severity: Severity
+    from_s: float = Field(description="Where to look first.")
+    to_s: float
+    numbers: dict[str, float] = Field(description="By name with its unit, the threshold with it.")
+    channel: str | None
+
+
+class DiagnosisCheck(Answer):
+    """One question; `impossible` where the ride lacks what it needs, named in `missing`: channels,
+    values of the configuration, or a rest, fast rows, a straight way."""
+
+    name: Literal[
+        "zero_drift",
+        "saturation",
+        "drop_outs",
+        "brown_out",
+        "derating",
+        "implausible_speed",
+        "wheel",
+    ]
+    state: Literal["clean", "found", "impossible"]
+    findings: list[DiagnosisFinding]
+    missing: list[str]
+
+
+class RideDiagnosis(Answer):
+    ride_id: int
+    method: int = Field(description="Counted up whenever a threshold or a method changes.")
+    worst: Severity | None
+    checks: list[DiagnosisCheck]

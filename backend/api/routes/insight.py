@@ -1,4 +1,4 @@
-"""What a ride tells: energy, effort."""
+"""What a ride tells: energy, effort, diagnosis."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Query
 
-from backend.api.models.insight import RideEffort, RideEnergy
+from backend.api.models.insight import RideDiagnosis, RideEffort, RideEnergy
 from backend.api.problem import DAMAGED, refusals
 from backend.api.routes.rides import RideId
 from backend.api.services import Provided
@@ -45,3 +45,14 @@ def effort_of_ride(
 ) -> Any:
     """Time in zones and bands, and best mean powers. Without a threshold there are no zones."""
     return services.insight.effort(ride_id, threshold_power_w, heart_rate_bpm_max)
+
+
+@router.get(
+    "/{ride_id}/diagnosis",
+    operation_id="diagnosis_of_ride",
+    response_model=RideDiagnosis,
+    responses=DAMAGED,
+)
+def diagnosis_of_ride(ride_id: RideId, services: Provided) -> Any:
+    """What the ride shows of the bike's health, with the evidence; and what it cannot show."""
+    return services.insight.diagnosis(ride_id)

@@ -1116,6 +1116,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/rides/{ride_id}/diagnosis": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Diagnosis Of Ride
+         * @description What the ride shows of the bike's health, with the evidence; and what it cannot show.
+         */
+        get: operations["diagnosis_of_ride"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/rides": {
         parameters: {
             query?: never;
@@ -2277,6 +2297,59 @@ export interface components {
              * @description What you call the unit. A unit without a serial number is known by it, and nothing is written to it before it has one (409 `name_first`): give the same name each time. Adding the same url again with another name names it anew.
              */
             name?: string | null;
+        };
+        /**
+         * DiagnosisCheck
+         * @description One question; `impossible` where the ride lacks what it needs, named in `missing`: channels,
+         *     values of the configuration, or a rest, fast rows, a straight way.
+         */
+        DiagnosisCheck: {
+            /**
+             * Name
+             * @enum {string}
+             */
+            name: "zero_drift" | "saturation" | "drop_outs" | "brown_out" | "derating" | "implausible_speed" | "wheel";
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "clean" | "found" | "impossible";
+            /** Findings */
+            findings: components["schemas"]["DiagnosisFinding"][];
+            /** Missing */
+            missing: string[];
+        };
+        /**
+         * DiagnosisFinding
+         * @description Something that is not as it should be, with its evidence.
+         */
+        DiagnosisFinding: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "zero_drift" | "saturation" | "rows_lost" | "sensor_silent" | "torque_late" | "brown_out" | "derating" | "speed_jump" | "speed_silent" | "wheel";
+            /**
+             * Severity
+             * @enum {string}
+             */
+            severity: "note" | "warning" | "serious";
+            /**
+             * From S
+             * @description Where to look first.
+             */
+            from_s: number;
+            /** To S */
+            to_s: number;
+            /**
+             * Numbers
+             * @description By name with its unit, the threshold with it.
+             */
+            numbers: {
+                [key: string]: number;
+            };
+            /** Channel */
+            channel: string | null;
         };
         /**
          * Distribution
@@ -3965,6 +4038,20 @@ export interface components {
             config_crc32: number | null;
             /** Gear Ratio */
             gear_ratio: number | null;
+        };
+        /** RideDiagnosis */
+        RideDiagnosis: {
+            /** Ride Id */
+            ride_id: number;
+            /**
+             * Method
+             * @description Counted up whenever a threshold or a method changes.
+             */
+            method: number;
+            /** Worst */
+            worst: ("note" | "warning" | "serious") | null;
+            /** Checks */
+            checks: components["schemas"]["DiagnosisCheck"][];
         };
         /**
          * RideEffort
@@ -9938,6 +10025,55 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RideEffort"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    diagnosis_of_ride: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                ride_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RideDiagnosis"];
                 };
             };
             /** @description Not Found */

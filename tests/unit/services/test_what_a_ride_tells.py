@@ -70,3 +70,20 @@ def test_zones_need_the_riders_threshold(store: Store) -> None:
     assert told["torque"]["bands"][0]["seconds"] == pytest.approx(10.0)
     assert told["power_curve"][-1]["power_w"] == pytest.approx(RIDER_W, rel=1e-3)
     assert told["heart_rate"] is None
+
+
+def test_the_diagnosis_uses_the_rides_own_limits(store: Store) -> None:
+    def nobody_kept(ride: Ride) -> tuple[dict[str, object], str]:
+        return law_defaults(), "defaults"
+
+    sagging = np.where(np.arange(ROWS) < 800, 36.0, 26.0)
+    ride_id = kept(store, battery_voltage_v=sagging, rider_torque_nm=PUSH)
+
+    told = Insight(store, config_of).diagnosis(ride_id)
+    unknown = Insight(store, nobody_kept).diagnosis(ride_id)
+
+    by_name = {check["name"]: check for check in told["checks"]}
+    (finding,) = by_name["brown_out"]["findings"]
+    assert (finding["from_s"], finding["to_s"]) == pytest.approx((8.0, 10.0))
+    assert (told["worst"], told["method"]) == ("serious", 1)
+    assert (unknown["worst"], unknown["checks"][3]["state"]) == (None, "impossible")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from backend.services.rides.insight.diagnosis import Diagnosis
 from backend.services.rides.insight.effort import RideEffort
 from backend.services.rides.insight.energy import RideEnergy
 from backend.services.rides.replay import ConfigOf
@@ -14,3 +15,4 @@ class Insight:
     def __init__(self, store: Store, config_of: ConfigOf) -> None:
         self.energy = RideEnergy(store, config_of)
         self.effort = RideEffort(store)
+        self.diagnosis = Diagnosis(store, config_of)
