@@ -22,8 +22,11 @@ const chunk = (name: string, pattern: string) => ({
 const GROUPS = [
   chunk('unit', `shared/(${MOST.join('|')})`),
   chunk('moment', 'shared/device/(FaultMoment|fault_moment|moment_)'),
-  chunk('traces', 'shared/charts/(Traces|trace_line|trace_window|ride_view)'),
-  chunk('rides', 'features/(rides|try)/(?!proposals)'),
+  chunk('traces', 'shared/charts/(Traces|SeriesTable|trace_line|trace_window|ride_view)'),
+  // One ride's page and the list of rides show it, and neither needs the other.
+  chunk('completeness', 'features/rides/ride/Completeness'),
+  chunk('rides', 'features/(rides/(?!ride/)|try/(?!proposals))'),
+  chunk('ride', 'features/rides/ride'),
   chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet)'),
   chunk('settings', 'features/settings'),
   chunk('review', `shared/(certificate|config/(${REVIEW.join('|')}))`),

@@ -125,7 +125,7 @@ def test_rider_and_motor_are_told_apart(desk: Desk, server: SpindleServer) -> No
     page = open_ride(desk, server)
 
     summary = page.locator("[data-testid=summary]")
-    expect(summary).to_contain_text("Rider energy")
+    expect(summary).to_contain_text("Your energy")
     expect(summary).to_contain_text("Motor energy")
     assert desk.plot("gd.data.map((d) => d.name)") == [
         "Speed", "Rider torque", "Motor torque asked, at the crank", "Motor torque at the crank",
@@ -193,5 +193,5 @@ def test_a_ride_is_renamed(desk: Desk, server: SpindleServer) -> None:
     page.fill("input[name=name]", "Along the river")
     page.get_by_role("button", name="Keep", exact=True).click()
 
-    expect(page.locator("h2", has_text="Along the river")).to_be_visible()
+    expect(page.get_by_role("heading", name="Along the river", level=1)).to_be_visible()
     assert "Along the river" in [ride["name"] for ride in server.get("/rides")["items"]]

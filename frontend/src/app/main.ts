@@ -11,6 +11,7 @@ import { Help } from '$shared/context/help.svelte'
 import { Locale } from '$shared/i18n/locale.svelte'
 import '$shared/ui/base.css'
 import { Foot } from '$shared/ui/foot.svelte'
+import { Heading } from '$shared/ui/heading.svelte'
 import { Theme } from '$shared/ui/theme.svelte'
 import { Toasts } from '$shared/ui/toasts.svelte'
 import { Units } from '$shared/units/units.svelte'
@@ -40,6 +41,7 @@ const context: AppContext = {
   theme,
   toasts: new Toasts(),
   foot: new Foot(),
+  heading: new Heading(),
   help: new Help(),
   first_steps: new FirstSteps(chosen.first_steps),
   go: router.go,

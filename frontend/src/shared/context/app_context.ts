@@ -4,6 +4,7 @@ import type { Author } from '../api/author.svelte'
 import type { Server } from '../api/server'
 import type { Locale } from '../i18n/locale.svelte'
 import type { Foot } from '../ui/foot.svelte'
+import type { Heading } from '../ui/heading.svelte'
 import type { Theme } from '../ui/theme.svelte'
 import type { Toasts } from '../ui/toasts.svelte'
 import type { Units } from '../units/units.svelte'
@@ -22,6 +23,7 @@ export interface AppContext {
   theme: Theme
   toasts: Toasts
   foot: Foot
+  heading: Heading
   help: Help
   first_steps: FirstSteps
   /** Goes to another page of this application. */

@@ -47,22 +47,13 @@ export const enRides = {
     'The recording ended while the bike moved, or with its server: what came after is not here',
   'ride.started': 'Started',
   'ride.time': 'Time',
-  'ride.moving': 'Moving',
   'ride.distance': 'Distance',
   'ride.mean_speed': 'Mean speed',
-  'ride.max_speed': 'Top speed',
   'ride.rider_energy': 'Rider energy',
   'ride.motor_energy': 'Motor energy',
-  'ride.battery_energy': 'Battery energy',
-  'ride.rider_power': 'Mean rider power',
-  'ride.motor_power': 'Mean motor power',
   'ride.only_asked':
     'What the motor gave was not measured on this ride: its torque is what was asked of it, ' +
     'and no energy is made of that.',
-  'ride.max_power': 'Top rider power',
-  'ride.mean_torque': 'Mean rider torque',
-  'ride.max_torque': 'Top rider torque',
-  'ride.mean_cadence': 'Mean cadence',
   'ride.traces': 'Traces',
   'ride.zoom': 'Zoom',
   'ride.zoom_in': 'Zoom in',
@@ -103,7 +94,6 @@ export const enRides = {
   'ride.damage_what_to_do':
     'The figures below were computed before and are right; samples are not shown nor exported. ' +
     'Restore the file from a backup, or delete the ride and import its file again.',
-  'ride.delete': 'Delete',
   'ride.delete_sure':
     'Delete this ride with all its samples, and its file if no other ride came from it? ' +
     'This cannot be undone.',

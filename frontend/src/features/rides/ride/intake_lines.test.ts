@@ -1,7 +1,7 @@
 import { fill, type Locale } from '$shared/i18n/locale.svelte'
 import { expect, test } from 'vitest'
 import { intakeLines } from './intake_lines'
-import { en, type FileSay } from './words.svelte'
+import { en, type FileSay } from './file_words.svelte'
 
 const say: FileSay = (key, values) => fill(en[key], values)
 const locale = { number: String, lookup: (_key: string, name: string) => name } as unknown as Locale

@@ -1,7 +1,7 @@
 // What of a file is not simply a row or a number of its ride, a line each.
 import type { Ride } from '$shared/api/types'
 import type { Locale } from '$shared/i18n/locale.svelte'
-import { en, type FileSay, type RideFileKey } from './words.svelte'
+import { en, type FileSay, type RideFileKey } from './file_words.svelte'
 
 type Intake = NonNullable<Ride['intake']>
 

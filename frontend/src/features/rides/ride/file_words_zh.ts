@@ -1,4 +1,4 @@
-import type { RideFileKey } from './words.svelte'
+import type { RideFileKey } from './file_words.svelte'
 
 export const zh: Record<RideFileKey, string> = {
   file: '文件中的内容',

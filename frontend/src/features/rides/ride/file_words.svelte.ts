@@ -21,4 +21,4 @@ export const en = {
 export type RideFileKey = keyof typeof en
 export type FileSay = (key: RideFileKey, values?: Values) => string
 
-export const words = await pageWords(en, async () => (await import('./words_zh')).zh)
+export const words = await pageWords(en, async () => (await import('./file_words_zh')).zh)

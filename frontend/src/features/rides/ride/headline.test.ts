@@ -1,0 +1,48 @@
+/* Goal: a ride is told by eight figures, and one that is missing says why. */
+import { expect, it } from 'vitest'
+import type { Ride } from '$shared/api/types'
+import { Locale, fill } from '$shared/i18n/locale.svelte'
+import { Units } from '$shared/units/units.svelte'
+import { headline } from './headline'
+import { en, type RideSay } from './words.svelte'
+
+const locale = new Locale()
+const say: RideSay = (key, values) => fill(en[key], values)
+const speech = { say, locale, units: new Units(locale, 'metric') }
+const ride = (channels: string[], summary: object, meaning: string | null = null) =>
+  ({
+    channels: channels.map((name) => ({ name })),
+    summary: { duration_s: 600, ...summary },
+    motor_torque_meaning: meaning,
+  }) as unknown as Ride
+const told = (one: Ride) =>
+  Object.fromEntries(headline(one, speech).map(({ name, value, note }) => [name, { value, note }]))
+
+it('gives the ratio of two energies and never their sum', () => {
+  const figures = told(ride([], { rider_wh: 40, motor_wh: 30 }))
+
+  expect(figures['your_energy']?.value).toEqual(['40.0', 'Wh'])
+  expect(figures['motor_energy']?.value).toEqual(['30.0', 'Wh'])
+  expect(figures['per_yours']?.value).toEqual(['0.75', ''])
+})
+
+it('has a reason for each of eight figures of a ride with a heart rate only', () => {
+  const figures = headline(ride(['heart_rate_bpm'], {}), speech)
+
+  expect(figures).toHaveLength(8)
+  expect(figures.every(({ value }) => value === null)).toBe(true)
+  expect(figures.every(({ note }) => note !== '' && !note.includes('—'))).toBe(true)
+})
+
+it('tells a motor torque that was only asked for from one that nobody recorded', () => {
+  expect(told(ride([], {}, 'demanded'))['motor_energy']?.note).toBe('only asked, not measured')
+  expect(told(ride([], {}))['motor_energy']?.note).toBe('no motor power recorded')
+})
+
+it('spreads what the battery gave over the way', () => {
+  const figures = told(ride([], { battery_wh: 50, distance_km: 10, battery_soc_pct_used: 9 }))
+
+  expect(figures['from_battery']?.note.replaceAll('\u00a0', ' ')).toBe(
+    '9 % of its charge, 5.00 Wh/km',
+  )
+})

@@ -1,0 +1,96 @@
+// The eight figures a ride is told by. A figure that is missing is a dash with its reason.
+import type { Ride } from '$shared/api/types'
+import type { Locale } from '$shared/i18n/locale.svelte'
+import type { Units } from '$shared/units/units.svelte'
+import type { RideKey, RideSay } from './words.svelte'
+
+export interface Figure {
+  name: RideKey
+  token?: 'rider' | 'motor' | 'battery' | 'cadence'
+  /** Number and unit; null where the ride does not tell it. */
+  value: [number: string, unit: string] | null
+  /** What it rests on, or why it is missing. */
+  note: string
+}
+
+interface Speech {
+  say: RideSay
+  locale: Locale
+  units: Units
+}
+
+/** Rider and motor stand side by side and are never added; their ratio may be given. */
+export function headline(ride: Ride, { say, locale, units }: Speech): Figure[] {
+  const s = ride.summary
+  const has = (name: string) => ride.channels.some((channel) => channel.name === name)
+  const figure = (value: number | null | undefined, unit: string): Figure['value'] =>
+    value == null ? null : [units.number(value, unit), units.label(unit)]
+  const told = (value: unknown, note: string, missing: RideKey) =>
+    value == null ? say(missing) : note
+  const meanTop = (mean: number | null | undefined, top: number | null | undefined) =>
+    say('mean_top', { mean: units.text(mean, 'W'), top: units.text(top, 'W') })
+  const motorless = ride.motor_torque_meaning === 'demanded' ? 'not_asked' : 'none_motor'
+  const ratio = s?.rider_wh && s.motor_wh != null ? s.motor_wh / s.rider_wh : null
+  return [
+    {
+      name: 'distance',
+      value: figure(s?.distance_km, 'km'),
+      note: told(s?.distance_km, say(has('distance_m') ? 'odometer' : 'from_speed'), 'none_speed'),
+    },
+    {
+      name: 'moving',
+      value: s?.moving_s == null ? null : [locale.duration(s.moving_s), ''],
+      note: told(
+        s?.moving_s,
+        say('of_time', { time: locale.duration(s?.duration_s) }),
+        'none_speed',
+      ),
+    },
+    {
+      name: 'mean_speed',
+      value: figure(s?.speed_kmh_mean, 'km/h'),
+      note: told(
+        s?.speed_kmh_mean,
+        say('top', { value: units.text(s?.speed_kmh_max, 'km/h') }),
+        has('speed_kmh') ? 'none_moving' : 'none_speed',
+      ),
+    },
+    {
+      name: 'cadence',
+      token: 'cadence',
+      value: figure(s?.cadence_rpm_mean, 'rpm'),
+      note: told(s?.cadence_rpm_mean, say('cranks_turning'), 'none_cadence'),
+    },
+    {
+      name: 'your_energy',
+      token: 'rider',
+      value: figure(s?.rider_wh, 'Wh'),
+      note: told(s?.rider_wh, meanTop(s?.rider_power_w_mean, s?.rider_power_w_max), 'none_rider'),
+    },
+    {
+      name: 'motor_energy',
+      token: 'motor',
+      value: figure(s?.motor_wh, 'Wh'),
+      note: told(s?.motor_wh, meanTop(s?.motor_power_w_mean, s?.motor_power_w_max), motorless),
+    },
+    {
+      name: 'from_battery',
+      token: 'battery',
+      value: figure(s?.battery_wh, 'Wh'),
+      note: told(s?.battery_wh, batteryNote(ride, { say, locale, units }), 'none_battery'),
+    },
+    {
+      name: 'per_yours',
+      value: ratio === null ? null : [locale.number(ratio, 2), ''],
+      note: told(ratio, say('wh_for_each'), 'none_ratio'),
+    },
+  ]
+}
+
+function batteryNote({ summary }: Ride, { say, units }: Speech): string {
+  const [wh, km] = [summary?.battery_wh ?? 0, summary?.distance_km ?? 0]
+  const per_km = units.text(km > 0.1 ? wh / km : null, 'Wh/km')
+  const used = summary?.battery_soc_pct_used
+  if (used == null) return say('per_km', { per_km })
+  return say('battery_used', { share: units.text(used, '%'), per_km })
+}
