@@ -30,6 +30,8 @@ TimesUs = npt.NDArray[np.int64]
 # A break in irregular rows longer than this many usual spacings, and than this time, is a pause.
 PAUSE_SPACINGS = 5
 PAUSE_MIN_US = 10_000_000
+# Mean radius of the ellipsoid WGS 84.
+EARTH_RADIUS_KM = 6371.0088
 
 
 @dataclass(frozen=True)
@@ -270,6 +272,9 @@ def summarise(
     duration_s = float(times_us[-1] - times_us[0]) / 1e6 if len(times_us) else 0.0
     figures: dict[str, float | None] = {}
     figures |= movement_figures(values, seconds)
+    if "distance_km" not in figures and "latitude_deg" in values and "longitude_deg" in values:
+        positions = values["latitude_deg"], values["longitude_deg"]
+        figures["distance_km"] = track_km(*positions, times_us, pause_us(times_us, period_us))
     for owner, channel in (("rider", RIDER_POWER), ("motor", MOTOR_POWER)):
         figures |= power_figures(owner, values.get(channel.name), seconds)
     if BATTERY_POWER.name in values:
@@ -302,6 +307,27 @@ def movement_figures(values: Mapping[str, Values], seconds: Values) -> dict[str,
     if len(odometer):
         figures["distance_km"] = float(np.max(odometer) - np.min(odometer)) / 1000.0
     return figures
+
+
+def track_km(
+    latitude_deg: Values, longitude_deg: Values, times_us: TimesUs, break_us: int
+) -> float | None:
+    """Length of a track (n,) over the ground, by the haversine formula on a sphere.
+
+    What lies between two positions further apart in time than break_us is not counted: nobody
+    knows the way. None where no two positions follow each other.
+    """
+    there = np.isfinite(latitude_deg) & np.isfinite(longitude_deg)
+    latitude, longitude = np.radians(latitude_deg[there]), np.radians(longitude_deg[there])
+    follows = np.diff(times_us[there]) <= break_us
+    if not follows.any():
+        return None
+    half = (
+        np.sin(np.diff(latitude) / 2.0) ** 2
+        + np.cos(latitude[:-1]) * np.cos(latitude[1:]) * np.sin(np.diff(longitude) / 2.0) ** 2
+    )
+    steps_km = 2.0 * EARTH_RADIUS_KM * np.arcsin(np.sqrt(np.minimum(half, 1.0)))
+    return float(np.sum(steps_km[follows]))
 
 
 def power_figures(owner: str, power_w: Values | None, seconds: Values) -> dict[str, float | None]:

@@ -1,4 +1,4 @@
-"""Log files to samples: FIT and CSV, salvage of damaged ones, in a child process."""
+"""Log files to samples: FIT, GPX, TCX and CSV, salvage of damaged ones, in a child process."""
 
 from backend.ingest.formats import SNIFFED_BYTES, refused_by_head
 from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide, Outcome

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
 from backend.ingest.blocks import BLOCKS_SUFFIX, looks_like_blocks
@@ -9,6 +10,8 @@ from backend.ingest.csv_rows import TIME_NAMES, header_refusal, looks_like_rows,
 from backend.ingest.fit import HEADER_SIZES, MAGIC, read_fit
 from backend.ingest.outcome import Outcome, rejected
 from backend.ingest.ride_logs import read_blocks
+from backend.ingest.tracks import read_gpx, read_tcx
+from backend.ingest.tracks.walk import as_utf8
 
 SNIFFED_BYTES = 4096
 
@@ -29,13 +32,17 @@ SIGNATURES: tuple[tuple[bytes, str], ...] = (
     (b"ULog", "a ULog flight log"),
 )
 MARKUP: tuple[tuple[bytes, str], ...] = (
-    (b"<gpx", "a GPX track"),
-    (b"<trainingcenterdatabase", "a TCX activity"),
     (b"<!doctype html", "an HTML page: perhaps an error page saved instead of the file"),
     (b"<html", "an HTML page: perhaps an error page saved instead of the file"),
     (b"<?xml", "an XML document"),
 )
-ADVICE = "Spindle reads FIT, CSV and its units' own logs; export the ride as one of these."
+ADVICE = (
+    "Spindle reads FIT, GPX, TCX, CSV and its units' own logs; export the ride as one of these."
+)
+
+# A track by its root element, whatever prefix that has.
+GPX_ROOT = re.compile(rb"<(?:[\w.-]+:)?gpx[\s>]")
+TCX_ROOT = re.compile(rb"<(?:[\w.-]+:)?TrainingCenterDatabase[\s>]")
 
 Reader = Callable[[bytes], Outcome]
 
@@ -77,6 +84,9 @@ def reader_for(name: str, head: bytes) -> Reader | None:
         return read_fit
     if looks_like_blocks(head) or name.lower().endswith(BLOCKS_SUFFIX):
         return read_blocks
+    track = track_reader(head)
+    if track is not None:
+        return track
     if known_kind(head) is None:
         if looks_like_rows(head):
             return read_csv
@@ -84,6 +94,16 @@ def reader_for(name: str, head: bytes) -> Reader | None:
         if MAGIC in head or (named_fit and head[0] in HEADER_SIZES):
             return read_fit
     return None
+
+
+def track_reader(head: bytes) -> Reader | None:
+    """The reader of an XML file of points, by its root element; None for other files."""
+    text = as_utf8(head).lstrip()
+    if not text.startswith(b"<"):
+        return None
+    if GPX_ROOT.search(text):
+        return read_gpx
+    return read_tcx if TCX_ROOT.search(text) else None
 
 
 def known_kind(head: bytes) -> str | None:

@@ -3,7 +3,7 @@
 state     `complete` everything the file holds was read; `partial` rows are missing or unproven;
           `rejected` nothing could be used
 codes     empty_file, unknown_format, unsupported_format, no_records, no_valid_time, too_many_rows,
-          too_slow, too_much_memory, parser_crashed         nothing was saved
+          too_slow, too_much_memory, parser_crashed, unsafe_content    nothing was saved
           truncated, damaged, checksum_mismatch, part_unreadable    something was saved
 Programs rely on the words; the detail is for people and says where and how much.
 """

@@ -1,7 +1,7 @@
-"""atheris on what the host reads: the wire, CSV and FIT files, ride logs of units.
+"""atheris on what the host reads: the wire, CSV, FIT, GPX and TCX files, ride logs of units.
 
-Usage: python -m tests.fuzz.host wire|csv|fit|log [libFuzzer options]. Only what is promised may be
-raised: nothing at all by decoders, an Outcome by readers.
+Usage: python -m tests.fuzz.host wire|csv|fit|track|log [libFuzzer options]. Only what is promised
+may be raised: nothing at all by decoders, an Outcome by readers.
 """
 
 import sys
@@ -15,6 +15,33 @@ with atheris.instrument_imports(include=["firmware_protocol", "backend"]):
     from firmware_protocol.codec import Malformed, decode, encode
     from firmware_protocol.framing import FrameDecoder, encode_frame
     from tests.fakes.fit_file import definition, enclosed
+
+
+TRACK_PIECES = [
+    *(b"<trk>", b"</trk>", b"<trkseg>", b"</trkseg>", b"</trkpt>", b"<trkpt/>", b"</gpx>"),
+    *(b'<trkpt lat="48.1" lon="', b'11.5">', b"<time>2023-11-14T22:13:20Z</time>", b"<ele>"),
+    *(
+        b"<time>2023-11-14T22:13:2",
+        b"1Z</time>",
+        b"500</ele>",
+        b"<hr>120</hr>",
+        b"<type>Run</type>",
+    ),
+    *(b'<Activity Sport="Biking">', b"</Activity>", b"<Course>", b"</Course>", b"<Creator>"),
+    *(b'<Lap StartTime="2023-11-14T22:13:20Z">', b"</Lap>", b"<TotalTimeSeconds>", b"</Creator>"),
+    *(b"<Trackpoint>", b"</Trackpoint>", b"<Time>2023-11-14T22:13:20Z</Time>", b"<Value>", b"<x:y"),
+    *(
+        b"<Watts>150</Watts>",
+        b"9e99",
+        b"-1",
+        b"\xff\xfe",
+        b"<!DOCTYPE a [",
+        b"]>",
+        b"&a;",
+        b"<![CDATA[",
+    ),
+    *(b"<?xml version='1.0' encoding='", b"utf-16'?>", b"rot13'?>", b"<!--", b"-->", b"\0"),
+]
 
 
 def wire(data: bytes) -> None:
@@ -45,6 +72,18 @@ def fit(data: bytes) -> None:
     assert read_file("ride.fit", head + data[4:]).state
     # Its checksum fits, so that whatever it says is taken for sound.
     assert read_file("ride.fit", enclosed(fit_messages(atheris.FuzzedDataProvider(data)))).state
+
+
+def track(data: bytes) -> None:
+    """A track of any pieces that tracks have, in any order, with anything between: a ride, a part
+    of it, or a reason."""
+    from_input = atheris.FuzzedDataProvider(data)
+    file = from_input.PickValueInList([b"<gpx>", b"<TrainingCenterDatabase>"])
+    while from_input.remaining_bytes():
+        file += from_input.PickValueInList(TRACK_PIECES)
+        if from_input.ConsumeIntInRange(0, 3) == 0:
+            file += from_input.ConsumeBytes(from_input.ConsumeIntInRange(0, 12))
+    assert read_file("ride", file).state
 
 
 def fit_messages(from_input: atheris.FuzzedDataProvider) -> bytes:
@@ -96,7 +135,7 @@ def any_block(from_input: atheris.FuzzedDataProvider) -> Block:
 
 
 def main() -> None:
-    target = {"wire": wire, "csv": csv, "fit": fit, "log": log}[sys.argv[1]]
+    target = {"wire": wire, "csv": csv, "fit": fit, "track": track, "log": log}[sys.argv[1]]
     atheris.Setup([sys.argv[0], *sys.argv[2:]], target)
     atheris.Fuzz()
 

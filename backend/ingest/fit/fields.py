@@ -12,25 +12,17 @@ import numpy.typing as npt
 from backend.domain.channels import Values
 from backend.ingest.fit.layout import BASE_TYPES, TIMESTAMP, UINT32, Definition, Field
 from backend.ingest.fit.profile import COMPRESSED_SPEED_DISTANCE, RECORD_FIELDS, ProfileField
+from backend.ingest.own_channels import Column
 
 Bytes = npt.NDArray[np.uint8]
 Places = npt.NDArray[np.int64]
-Columns = dict[str, "Column"]
+Columns = dict[str, Column]
 PROFILE_NAMES = frozenset(field.name for field in RECORD_FIELDS.values())
 
 # Twelve bits of speed and twelve of a distance, as three bytes have them.
 TWELVE_BITS = 1 << 12
 SPEED_SCALE, ROUNDS_SCALE = 100, 16
 ROUNDS = "compressed_distance"
-
-
-@dataclass(frozen=True)
-class Column:
-    """One field of all messages. values: float64 (n,), missing as NaN. step: its resolution."""
-
-    values: Values
-    unit: str = ""
-    step: float = 1.0
 
 
 @dataclass(frozen=True)

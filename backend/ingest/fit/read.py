@@ -15,7 +15,7 @@ import numpy as np
 
 from backend.domain.noted import within
 from backend.ingest.columns import EPOCH_S, Places, rides_of_columns
-from backend.ingest.fit.channels import rules_of, values_of, with_leg
+from backend.ingest.fit.balance import with_leg
 from backend.ingest.fit.fields import Table, descriptions, table_of
 from backend.ingest.fit.layout import CHECKSUM_BYTES, Part
 from backend.ingest.fit.mend import mended
@@ -31,6 +31,7 @@ from backend.ingest.fit.profile import (
 from backend.ingest.fit.salvage import Salvage, Salvaging
 from backend.ingest.fit.walk import sound_parts
 from backend.ingest.outcome import COMPLETE, PARTIAL, ImportedRide, Outcome, rejected
+from backend.ingest.own_channels import rules_of, values_of
 
 # 24 h at 10 Hz and more: beyond this a file is not a ride, or not meant well.
 ROWS_MAX = 2_000_000

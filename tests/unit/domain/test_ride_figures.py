@@ -193,3 +193,17 @@ def test_what_does_not_fit_a_channel_is_missing_and_not_wrapped() -> None:
     counts = channel.to_counts(np.array([400.0, -400.0, np.inf, 1.0]))
 
     assert counts.tolist() == [MISSING_INT16, MISSING_INT16, MISSING_INT16, 100]
+
+
+def test_a_track_without_speed_or_odometer_is_as_long_as_the_way_over_the_ground() -> None:
+    """A degree along the equator is 111.195 km, along the parallel at 60 degrees half of that. What
+    lies across a break is not counted, nor what has no position."""
+    times_us = np.array([0, 60, 120, 180, 7200, 7260], dtype=np.int64) * 1_000_000
+    longitude = np.array([10.0, 10.5, 11.0, np.nan, 50.0, 51.0])
+
+    for latitude_deg, share in ((0.0, 1.0), (60.0, 0.5)):
+        latitude = np.where(np.isnan(longitude), np.nan, latitude_deg)
+        values = {"latitude_deg": latitude, "longitude_deg": longitude}
+        distance_km = summarise(values, times_us, None).distance_km
+
+        assert distance_km == pytest.approx(2 * 111.195 * share, rel=1e-4)

@@ -256,7 +256,8 @@ def test_random_bytes_never_crash_the_reader(noise: bytes, name: str) -> None:
     [
         (b"", "empty_file", "empty"),
         (b"<!DOCTYPE html><html>Not found</html>", "unsupported_format", "HTML"),
-        (b'<?xml version="1.0"?><gpx></gpx>', "unsupported_format", "GPX"),
+        (b'<?xml version="1.0"?><gpx></gpx>', "no_records", "no point"),
+        (b'<?xml version="1.0"?><kml></kml>', "unsupported_format", "XML"),
         (b"PK\x03\x04" + bytes(60), "unsupported_format", "ZIP"),
         (b"\x1f\x8b\x08" + bytes(60), "unsupported_format", "gzip"),
         (b"\x7fELF" + bytes(60), "unsupported_format", "ELF"),

@@ -15,11 +15,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from backend.ingest.answer import decode, encode
 from backend.ingest.blocks import HOST_SEQ, find_blocks, scan, sync_block
 from backend.ingest.formats import read_file
 from backend.ingest.ride_logs import read_blocks
-from backend.ingest.sandbox import decode
-from backend.ingest.worker import encode
 from firmware_protocol._generated import SCHEMA_HASH
 from firmware_protocol.parameters import default_config, pack_image
 

@@ -287,6 +287,16 @@ def test_gpx_is_a_track_whose_points_are_where_the_ride_was(
         assert at == datetime.fromtimestamp(START_S + second, UTC)
 
 
+def test_a_gpx_file_comes_back_as_the_track_it_was(store: Store, ride: Ride) -> None:
+    (back,) = read_file("track", exported(store, ride, "gpx")).rides
+
+    assert back.started_us == START_S * 1_000_000
+    assert len(back.rows.times_us) == SECONDS - 10
+    latitude = next(c for c in back.rows.channels if c.name == "latitude_deg")
+    told = latitude.to_values(back.rows.counts["latitude_deg"])
+    assert told[0] == pytest.approx(48.0 + 4.5e-5 * 0.9, abs=1e-6)
+
+
 def test_a_ride_without_a_position_is_no_track(store: Store, ride: Ride) -> None:
     times_us = np.arange(10, dtype=np.int64) * 1_000_000
     counts = {"speed_kmh": np.full(10, 1800, np.int16)}

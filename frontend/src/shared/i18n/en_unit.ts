@@ -129,6 +129,12 @@ export const enUnit = {
   'channel.motor_torque_available_nm': 'Motor torque available',
   'channel.rider_power_w': 'rider',
   'channel.motor_power_w': 'motor',
+  'channel.right_leg_pct': 'Right leg',
+  'channel.left_torque_effectiveness_pct': 'Left torque effectiveness',
+  'channel.right_torque_effectiveness_pct': 'Right torque effectiveness',
+  'channel.left_pedal_smoothness_pct': 'Left pedal smoothness',
+  'channel.right_pedal_smoothness_pct': 'Right pedal smoothness',
+  'channel.combined_pedal_smoothness_pct': 'Pedal smoothness',
   'channel.heart_rate_bpm': 'Heart rate',
   'channel.altitude_m': 'Altitude',
 

@@ -146,6 +146,7 @@ const refusal = {
   method_not_allowed: '此地址不支持这种请求。',
   unsupported_media_type: '不支持此内容类型。',
   too_large: '文件过大。',
+  unsafe_content: '文件声明了 XML 实体，轨迹文件不需要这些内容；没有读取。',
   unsupported_format: '不支持此文件格式。',
   unknown_msg: '单元不认识此请求：其固件可能较旧。',
   length: '请求的长度不对。',

@@ -122,6 +122,12 @@ export const zhUnit: Record<keyof typeof enUnit, string> = {
   'channel.motor_torque_available_nm': '可用的电机扭矩',
   'channel.rider_power_w': '骑手',
   'channel.motor_power_w': '电机',
+  'channel.right_leg_pct': '右腿占比',
+  'channel.left_torque_effectiveness_pct': '左侧扭矩效率',
+  'channel.right_torque_effectiveness_pct': '右侧扭矩效率',
+  'channel.left_pedal_smoothness_pct': '左侧踩踏平滑度',
+  'channel.right_pedal_smoothness_pct': '右侧踩踏平滑度',
+  'channel.combined_pedal_smoothness_pct': '踩踏平滑度',
   'channel.heart_rate_bpm': '心率',
   'channel.altitude_m': '海拔',
 

@@ -1,15 +1,14 @@
-"""Which channel each field of a record becomes: a bike's by our rules, others by their name."""
+"""Which channel each field of a file becomes: a bike's by our rules, others by their name."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from backend.domain.channels import MISSING_INT16, MISSING_INT32, ChannelSpec, Values
 from backend.ingest.columns import FIT_FIELDS, FieldRule
-from backend.ingest.fit.fields import Column
 
 NARROW_MAX, WIDE_MAX = -MISSING_INT16 - 1, -MISSING_INT32 - 1
 # A number so many times above 99 of 100 others was not measured.
@@ -19,8 +18,15 @@ FLOAT_DIGITS = 8
 # Sports whose power is not what a rider gives a bike.
 ON_FOOT = frozenset({"running", "walking", "hiking", "swimming", "transition"})
 RIDER_POWER = "rider_power_w"
-# The highest bit of FIT's balance: the share is of the right leg.
-BALANCE, RIGHT_LEG, RIGHT = "left_right_balance", "right_leg", 0x80
+
+
+@dataclass(frozen=True)
+class Column:
+    """One field of all rows. values: float64 (n,), missing as NaN. step: its resolution."""
+
+    values: Values
+    unit: str = ""
+    step: float = 1.0
 
 
 def rules_of(columns: Mapping[str, Column], sport: str | None) -> tuple[FieldRule, ...]:
@@ -62,21 +68,6 @@ def float_step(largest: float) -> float:
     if largest <= 0.0:
         return 1.0
     return float(10.0 ** (np.floor(np.log10(largest)) - FLOAT_DIGITS))
-
-
-def with_leg(columns: Mapping[str, Column]) -> dict[str, Column]:
-    """Columns in which the share of the right leg is a number of its own.
-
-    FIT has share and side in one number; where it does not know the side, that number stays.
-    """
-    told = columns.get(BALANCE)
-    if told is None:
-        return dict(columns)
-    raw = told.values
-    right = np.nan_to_num(raw).astype(np.int64) & RIGHT != 0
-    share = np.where(right, raw - RIGHT, np.nan)
-    found = {**columns, BALANCE: replace(told, values=np.where(right, np.nan, raw))}
-    return {**found, RIGHT_LEG: Column(share, "%")}
 
 
 def values_of(columns: Mapping[str, Column]) -> dict[str, Values]:

@@ -1,0 +1,116 @@
+"""Columns of a track to its rides, and what is told of the file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from math import floor
+
+from backend.domain.noted import Noted, within
+from backend.ingest.cells import Growing, as_written, iso_moment, unix_seconds
+from backend.ingest.columns import rides_of_columns
+from backend.ingest.outcome import COMPLETE, PARTIAL, ImportedRide, Outcome, rejected
+from backend.ingest.own_channels import Column, rules_of
+from backend.ingest.tracks.walk import TRUNCATED, Texts, UnsafeXml, Walked
+
+ROWS_MAX = 2_000_000
+TIME = "unix_s"
+# Names of elements, in lower case -> our names of fields, which say the unit. Speed is in m/s and
+# the rest as in FIT, by the schemas GPX 1.0, TrackPointExtension v1 and v2, and ActivityExtension.
+FIELDS = {
+    "lat": "position_lat",
+    "lon": "position_long",
+    "latitudedegrees": "position_lat",
+    "longitudedegrees": "position_long",
+    "ele": "altitude",
+    "altitudemeters": "altitude",
+    "hr": "heart_rate",
+    "heartrate": "heart_rate",
+    "heartratebpm": "heart_rate",
+    "cad": "cadence",
+    "atemp": "temperature",
+    "temp": "temperature",
+    "watts": "power",
+    "powerinwatts": "power",
+    "distancemeters": "distance",
+}
+UNITS = {"runcadence": "rpm", "course": "deg", "bearing": "deg", "wtemp": "degC", "depth": "m"}
+
+
+@dataclass
+class Track:
+    """One ride's points as they come."""
+
+    sport: str | None = None
+    points: Growing = field(default_factory=Growing)
+    noted: Noted = field(default_factory=Noted)
+
+    def add(self, texts: Texts) -> float:
+        """A point; its Unix time, NaN for none."""
+        cells, time_s = {}, float("nan")
+        for told, text in texts.items():
+            name = told.lower()
+            if name == "time":
+                time_s = unix_seconds(iso_moment(text))
+                cells[TIME] = repr(time_s)
+            else:
+                cells.setdefault(FIELDS.get(name, channel_name(name)), text)
+        self.points.add(cells)
+        return time_s
+
+
+def channel_name(told: str) -> str:
+    """A name as our channels have them."""
+    name = "".join(c if c.isascii() and c.isalnum() else "_" for c in told.lower()).strip("_")
+    return name[:40] if name[:1].isalpha() else f"field_{name}"[:40]
+
+
+def rides_of(track: Track) -> list[ImportedRide]:
+    """The rides of a track: one, unless it breaks off for hours."""
+    columns = track.points.values()
+    times = columns.pop(TIME, None)
+    if times is None:
+        return []
+    named = {name: Column(values, UNITS.get(name, ""), 0.0) for name, values in columns.items()}
+    fields = tuple(as_written(rule, columns) for rule in rules_of(named, track.sport))
+    found = rides_of_columns(times, columns, fields, track.sport, track.points.unread)
+    return [replace(ride, noted=within(track.noted, *span_s(ride))) for ride in found]
+
+
+def span_s(ride: ImportedRide) -> tuple[float, float]:
+    """Unix time of a ride's first row, and from there to its last."""
+    return ride.started_us / 1e6, float(ride.rows.times_us[-1]) / 1e6
+
+
+def outcome_of(tracks: Sequence[Track], walked: Walked, length: int, what: str) -> Outcome:
+    """Rides, reason and completeness. what: how people call the file, without a time it is none."""
+    rows = sum(track.points.rows for track in tracks)
+    if rows > ROWS_MAX:
+        return rejected("too_many_rows", f"{rows} points; at most {ROWS_MAX} are read.")
+    rides = tuple(ride for track in tracks for ride in rides_of(track))
+    where = "" if walked.offset is None else f" at byte {walked.offset} of {length}"
+    reason = "The file ends in the middle" if walked.trouble == TRUNCATED else "No XML"
+    if not rides:
+        if rows:
+            told = f"None of the {rows} points has a believable time and a value: {what}."
+            return rejected("no_valid_time", told, walked.offset)
+        told = f"{reason}{where}, and no" if walked.trouble else "There is no"
+        return rejected("no_records", f"{told} point of a track was found.", walked.offset)
+    if walked.trouble is None:
+        return Outcome(COMPLETE, rides, completeness=1.0)
+    share = walked.points / max(walked.points_begun, walked.points, 1)
+    about = f"{floor(1000.0 * share) / 10.0} % of the points"
+    detail = f"{reason}{where}. {walked.points} points were saved, {about}."
+    return Outcome(PARTIAL, rides, walked.trouble, detail, walked.offset, share)
+
+
+def refused() -> Outcome:
+    """A file that was written to harm."""
+    return rejected(
+        "unsafe_content",
+        "The file declares XML entities, which no track has: it was not read.",
+        0,
+    )
+
+
+__all__ = ["Track", "UnsafeXml", "outcome_of", "refused", "rides_of"]
