@@ -178,7 +178,9 @@ def _add_which(command: argparse.ArgumentParser) -> None:
 
 
 def _add_ride(verbs: Any) -> None:
-    group = _group(verbs, "ride", "rides: import, list, show, export, replay, since, delete")
+    group = _group(
+        verbs, "ride", "rides: import, list, show, export, report, replay, since, delete"
+    )
     command = _asking(group, "import", ride.import_files, help="FIT files and other logs")
     command.add_argument("files", nargs="+", type=Path)
     command = _asking(group, "list", ride.list_rides, help="newest first")
@@ -200,6 +202,14 @@ def _add_ride(verbs: Any) -> None:
     formats = ["csv", "parquet", "fit", "gpx", "original"]
     command.add_argument("--format", choices=formats, default="csv")
     command.add_argument("--output", "-o", type=Path, help="a file; standard output if absent")
+    command = _asking(
+        group, "report", ride.report, help="a ride as one HTML file, to keep or print"
+    )
+    command.add_argument("ride", type=int)
+    command.add_argument("--output", "-o", type=Path, help="a file; standard output if absent")
+    command.add_argument("--language", choices=["en", "zh"], default="en")
+    command.add_argument("--threshold-power-w", type=float, help="of the rider, for power zones")
+    command.add_argument("--heart-rate-bpm-max", type=float, help="of the rider, for its zones")
     command = _asking(group, "replay", ride.replay, help="the ride with another table")
     command.add_argument("ride", type=int)
     command.add_argument("--table", type=Path, help="a fuzzy_table as JSON")

@@ -139,9 +139,19 @@ def show(options: Namespace) -> int:
 
 def export(options: Namespace) -> int:
     """A ride as a file."""
-    response = server_of(options).response(
-        "GET", f"/rides/{options.ride}/export", params={"format": options.format}
-    )
+    return save(options, "export", {"format": options.format})
+
+
+def report(options: Namespace) -> int:
+    """A ride as one HTML file."""
+    asked = ("language", "threshold_power_w", "heart_rate_bpm_max")
+    told = {name: getattr(options, name) for name in asked}
+    return save(options, "report", {name: value for name, value in told.items() if value})
+
+
+def save(options: Namespace, what: str, params: dict[str, Any]) -> int:
+    """What the server makes of a ride, as a file or to standard output."""
+    response = server_of(options).response("GET", f"/rides/{options.ride}/{what}", params=params)
     if options.output is None:
         sys.stdout.buffer.write(response.content)
         return 0

@@ -190,6 +190,9 @@ def test_a_file_is_imported_listed_and_exported(server: SpindleServer, tmp_path:
     (ride,) = json.loads(result.stdout)["ride_ids"] or [result.stdout]
     shown = spindle(server, "ride", "show", str(ride))
     exported = spindle(server, "ride", "export", str(ride), "--output", csv)
+    page = tmp_path / "lunch.html"
+    told = ("--language", "zh", "--threshold-power-w", "160")
+    reported = spindle(server, "ride", "report", str(ride), "-o", page, *told)
     listed = spindle(server, "ride", "list")
     card = eventually(lambda: server.get(f"/rides/{ride}")["speed_line_kmh"], bool)
     tagged = spindle(server, "ride", "tag", "winter", "--rides", str(ride))
@@ -197,6 +200,8 @@ def test_a_file_is_imported_listed_and_exported(server: SpindleServer, tmp_path:
     none = spindle(server, "ride", "list", "--motor", "--json")
     home = server.get("/rides/home", params={"zone": "Asia/Tokyo"})
 
+    assert reported.returncode == 0, reported.stderr
+    assert "骑行" in page.read_text(encoding="utf-8")
     assert tagged.returncode == 0, tagged.stderr
     assert card == [20.0] * 64
     assert [item["id"] for item in json.loads(found.stdout)["items"]] == [ride]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Query
+from fastapi.responses import StreamingResponse
 
 from backend.api.models.insight import RideDiagnosis, RideEffort, RideEnergy
 from backend.api.problem import DAMAGED, refusals
-from backend.api.routes.rides import RideId
+from backend.api.routes.rides import RideId, as_file
 from backend.api.services import Provided
 
 router = APIRouter(prefix="/rides", tags=["rides"], responses=refusals(404))
@@ -56,3 +57,22 @@ def effort_of_ride(
 def diagnosis_of_ride(ride_id: RideId, services: Provided) -> Any:
     """What the ride shows of the bike's health, with the evidence; and what it cannot show."""
     return services.insight.diagnosis(ride_id)
+
+
+@router.get(
+    "/{ride_id}/report",
+    operation_id="report_of_ride",
+    response_class=StreamingResponse,
+    responses={**DAMAGED, 200: {"content": {"text/html": {}}}},
+)
+def report_of_ride(
+    ride_id: RideId,
+    services: Provided,
+    language: Literal["en", "zh"] = "en",
+    threshold_power_w: ThresholdPower = None,
+    heart_rate_bpm_max: HeartRateMax = None,
+) -> StreamingResponse:
+    """The ride as one HTML file that needs nothing else: figures, traces, energy, zones, health."""
+    return as_file(
+        services.insight.report(ride_id, language, threshold_power_w, heart_rate_bpm_max)
+    )

@@ -26,6 +26,7 @@ from backend.api.models.ride import Figure, Ride, RideList, RidePatch, Series
 from backend.api.models.why import Cuts, Ledger, Why
 from backend.api.problem import DAMAGED, refusals
 from backend.api.services import Provided
+from backend.services.rides.export import Export
 
 router = APIRouter(prefix="/rides", tags=["rides"], responses=refusals(404, 409, 415))
 
@@ -143,7 +144,11 @@ def export_ride(
     file_format: Annotated[ExportFormat, Query(alias="format")] = "csv",
 ) -> StreamingResponse:
     """The ride as a file, verified before its first byte; `original` is what was uploaded."""
-    export = services.rides.export(ride_id, file_format)
+    return as_file(services.rides.export(ride_id, file_format))
+
+
+def as_file(export: Export) -> StreamingResponse:
+    """A file to be saved."""
     chunks: Iterator[bytes] = iter(export.chunks)
     headers = {"content-disposition": f'attachment; filename="{export.file_name}"'}
     if export.size_bytes is not None:

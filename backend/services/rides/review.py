@@ -109,7 +109,9 @@ class Rides:
         self, ride_id: int, channels: Sequence[str] | None = None, pixels: int = 1000
     ) -> dict[str, object]:
         """The ride as a Plotly figure; see `backend.views.figure`."""
-        return figure(self._store.rides.reader(ride_id), channels, pixels)
+        drawn = figure(self._store.rides.reader(ride_id), channels, pixels)
+        told: dict[str, object] = drawn.to_plotly_json()
+        return told
 
     def export(self, ride_id: int, file_format: str) -> Export:
         """The ride as a file. Raises NotFound, InvalidRequest for what cannot be made of it."""

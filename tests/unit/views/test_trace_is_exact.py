@@ -257,12 +257,12 @@ def test_a_ride_without_rows_has_an_empty_trace() -> None:
 
 
 @pytest.mark.slow
-def test_the_figure_is_one_that_plotly_accepts() -> None:
-    graph_objects = pytest.importorskip("plotly.graph_objects")
-
-    drawn = graph_objects.Figure(figure(RIDE, None, 1500))
+def test_the_figure_draws_every_extreme_and_leaves_gaps_open() -> None:
+    drawn = figure(RIDE, None, 1500)
 
     (curve,) = drawn.data
     assert curve.name == "rider_torque_nm"
     assert None in curve.y
+    assert curve.connectgaps is False
     assert drawn.layout.meta["shown"].endswith("(min/max)")
+    assert isinstance(drawn.to_plotly_json()["data"][0]["y"], list | tuple), "no base64"

@@ -1,0 +1,82 @@
+"""One ride as one file to keep, send or print."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict
+from typing import Any
+
+from backend import __version__
+from backend.domain.ride import Ride, iso_utc
+from backend.services.rides.export import Export, stem
+from backend.services.rides.insight.diagnosis import Diagnosis
+from backend.services.rides.insight.effort import RideEffort
+from backend.services.rides.insight.energy import RideEnergy
+from backend.store import RideReader, Store
+from backend.views.figure import figure
+from backend.views.report.page import Told, page
+
+PIXELS = 900
+ROW_PX = 160
+
+
+class RideReport:
+    """Puts a ride's answers together. Holds nothing of them; safe from any thread."""
+
+    def __init__(
+        self, store: Store, energy: RideEnergy, effort: RideEffort, diagnosis: Diagnosis
+    ) -> None:
+        self._store = store
+        self._energy, self._effort, self._diagnosis = energy, effort, diagnosis
+
+    def __call__(
+        self,
+        ride_id: int,
+        language: str = "en",
+        threshold_power_w: float | None = None,
+        heart_rate_bpm_max: float | None = None,
+    ) -> Export:
+        """The report as a file. language: `en` or `zh`. Raises NotFound, ObjectDamaged."""
+        reader = self._store.rides.reader(ride_id)
+        energy = self._energy(ride_id)
+        told = Told(
+            title=reader.ride.name,
+            facts=facts(reader.ride),
+            version=__version__,
+            figures=figures(reader.ride, energy),
+            traces=traces(reader),
+            energy=energy,
+            effort=self._effort(ride_id, threshold_power_w, heart_rate_bpm_max),
+            diagnosis=self._diagnosis(ride_id),
+        )
+        chunks = encoded(page(told, language))
+        return Export(f"{stem(reader.ride)}.html", "text/html; charset=utf-8", chunks)
+
+
+def facts(ride: Ride) -> str:
+    """When it was and what it was made with, as far as anybody knows."""
+    context = ride.context
+    known = [iso_utc(ride.started_us), context.device_model, context.device_serial]
+    known.append(ride.notes or None)
+    return " · ".join(fact for fact in known if fact)
+
+
+def figures(ride: Ride, energy: dict[str, Any]) -> dict[str, float | None]:
+    """The headline: the summary and the ascent."""
+    summary = asdict(ride.summary) if ride.summary else {}
+    return {**summary, "ascent_m": energy["climb"]["ascent_m"] if energy["climb"] else None}
+
+
+def traces(reader: RideReader) -> Any:
+    """The usual rows; None for a ride that has none of them."""
+    drawn = figure(reader, None, PIXELS)
+    if not drawn.data:
+        return None
+    rows = sum(1 for _ in drawn.select_yaxes())
+    return drawn.update_layout(height=ROW_PX * rows + 60, margin={"t": 20, "r": 10})
+
+
+def encoded(pieces: Iterator[str]) -> Iterator[bytes]:
+    """As bytes."""
+    for piece in pieces:
+        yield piece.encode()
