@@ -169,7 +169,7 @@ def make_uploads(settings: Settings, store: Store) -> Uploads:
     limit = UploadSettings(length_max=settings.upload_bytes_max)
     readers = Readers()
     quick = partial(readers.read, wall_s=QUICK_S)
-    return Uploads(store, limit, quick, readers.read, readers.stop)
+    return Uploads(store, limit, quick, readers.read, readers.stop, readers.unpack)
 
 
 def check(settings: Settings) -> None:

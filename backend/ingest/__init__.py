@@ -1,6 +1,8 @@
 """Log files to samples: FIT, GPX, TCX and CSV, salvage of damaged ones, in a child process."""
 
-from backend.ingest.formats import SNIFFED_BYTES, refused_by_head
+from backend.ingest.containers.archive import BrokenArchive, Entry, Left, entries
+from backend.ingest.containers.bulk import Titles
+from backend.ingest.formats import SNIFFED_BYTES, is_archive, refused_by_head
 from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide, Outcome
 from backend.ingest.sandbox import Readers, ReadingStopped, read_in_child
 
@@ -9,10 +11,16 @@ __all__ = [
     "PARTIAL",
     "REJECTED",
     "SNIFFED_BYTES",
+    "BrokenArchive",
+    "Entry",
     "ImportedRide",
+    "Left",
     "Outcome",
     "Readers",
     "ReadingStopped",
+    "Titles",
+    "entries",
+    "is_archive",
     "read_in_child",
     "refused_by_head",
 ]

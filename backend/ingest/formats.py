@@ -4,21 +4,30 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 
 from backend.ingest.blocks import BLOCKS_SUFFIX, looks_like_blocks
+from backend.ingest.containers.gz import (
+    GZIP,
+    INFLATED_BYTES_MAX,
+    TooLarge,
+    inflate,
+    inflated_head,
+    inner_name,
+)
 from backend.ingest.csv_rows import TIME_NAMES, header_refusal, looks_like_rows, read_csv
 from backend.ingest.fit import HEADER_SIZES, MAGIC, read_fit
-from backend.ingest.outcome import Outcome, rejected
+from backend.ingest.outcome import PARTIAL, REJECTED, Outcome, rejected
 from backend.ingest.ride_logs import read_blocks
 from backend.ingest.tracks import read_gpx, read_tcx
 from backend.ingest.tracks.walk import as_utf8
 
 SNIFFED_BYTES = 4096
 
+ZIP_STARTS = (b"PK\x03\x04", b"PK\x05\x06")
 # First bytes -> what people call it.
 SIGNATURES: tuple[tuple[bytes, str], ...] = (
     (b"PK\x03\x04", "a ZIP archive"),
-    (b"\x1f\x8b", "a gzip archive"),
     (b"7z\xbc\xaf", "a 7z archive"),
     (b"\x28\xb5\x2f\xfd", "a zstd archive"),
     (b"\x89PNG", "a PNG image"),
@@ -51,12 +60,39 @@ def read_file(name: str, data: bytes) -> Outcome:
     """A file -> what came of it. Never raises on any bytes or name."""
     if not data:
         return rejected("empty_file", "The file is empty.", 0)
+    if data.startswith(GZIP):
+        return read_gzip(name, data)
     reader = reader_for(name, data[:SNIFFED_BYTES])
     return reader(data) if reader is not None else refusal(name, data[:SNIFFED_BYTES])
 
 
+def read_gzip(name: str, data: bytes) -> Outcome:
+    """The one file within a gzip file; `partial` where not all of it came out."""
+    try:
+        found = inflate(data)
+    except TooLarge:
+        told = f"It becomes more than {INFLATED_BYTES_MAX >> 20} MB, which no ride has."
+        return rejected("expands_too_much", told)
+    if found.data.startswith(GZIP):
+        return rejected("nested_too_deep", "A gzip file within a gzip file: unpack it first.", 0)
+    if not found.data and found.trouble:
+        return rejected("container_damaged", found.trouble)
+    outcome = read_file(inner_name(name), found.data)
+    if found.trouble is None or outcome.state == REJECTED:
+        return outcome
+    detail = f"{found.trouble} {outcome.detail or ''}".strip()
+    code = outcome.code or "container_damaged"
+    return replace(outcome, state=PARTIAL, code=code, detail=detail)
+
+
 def refused_by_head(name: str, head: bytes) -> Outcome | None:
     """Why a file is no ride, told by its first SNIFFED_BYTES; None when a reader must look."""
+    if is_archive(head):
+        return None
+    if head.startswith(GZIP):
+        inner = inflated_head(head, SNIFFED_BYTES)
+        known = bool(inner) and not inner.startswith(GZIP)
+        return refused_by_head(inner_name(name), inner) if known else None
     return None if reader_for(name, head) is not None else refusal(name, head)
 
 
@@ -76,6 +112,11 @@ def refusal(name: str, head: bytes) -> Outcome:
         f"The first bytes ({head[:8].hex(' ')}) are of no ride format we know. {ADVICE}",
         0,
     )
+
+
+def is_archive(head: bytes) -> bool:
+    """Whether a file begins as a ZIP does, with files or without any."""
+    return head.startswith(ZIP_STARTS)
 
 
 def reader_for(name: str, head: bytes) -> Reader | None:

@@ -13,25 +13,32 @@ import subprocess
 import sys
 import threading
 from collections import deque
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
 from backend.ingest.answer import decode
+from backend.ingest.containers.archive import BrokenArchive, Entry, Left
+from backend.ingest.containers.frames import decode_frame
 from backend.ingest.formats import SNIFFED_BYTES, refused_by_head
 from backend.ingest.outcome import TOO_SLOW, Outcome, rejected
 from backend.ingest.worker import (
     CPU_S,
     DATA_BYTES,
     FRAME,
+    MORE,
     NOBODY_ASKED,
     OUT_OF_MEMORY,
     OVERTIME,
+    WORN,
 )
 
 ROOT = Path(__file__).resolve().parents[2]
 WORKER = (sys.executable, "-m", "backend.ingest.worker")
 # CPU time is what the child's own limit counts; the wall clock also covers a stuck disk.
 WALL_S = 3 * CPU_S
+# Computing for all files of an archive: 4 GB are inflated in about 20 s.
+UNPACK_CPU_S = 3 * CPU_S
 STDERR_SHOWN = 300
 # An answer holds the rows of a file: more than its reader may hold in memory is none.
 ANSWER_BYTES_MAX = DATA_BYTES
@@ -66,16 +73,27 @@ class Child:
         self._listener.start()
         self.worn = False
         self.late = False
+        self.has_more = False
 
     def ask(self, request: dict[str, object], wall_s: float) -> bytes | None:
-        """The answer; None when the child died of the question, or was ended after `wall_s`."""
+        """The answer, or its first part; as `more`."""
+        assert self.process.stdin is not None
+        # What it did not take, it has no answer to either.
+        with suppress(OSError):
+            self.process.stdin.write(json.dumps(request).encode() + b"\n")
+            self.process.stdin.flush()
+        return self.more(wall_s)
+
+    def more(self, wall_s: float) -> bytes | None:
+        """The next answer; None when the child died of it, or was ended after `wall_s`."""
         watch = threading.Timer(wall_s, self._end_late)
         watch.daemon = True
         watch.start()
         try:
-            return self._exchange(json.dumps(request).encode() + b"\n")
+            answer = self._received()
         finally:
             watch.cancel()
+        return None if self.late else answer
 
     def end(self) -> int:
         """End it if it lives, and let go of its pipes; how it ended."""
@@ -93,23 +111,17 @@ class Child:
         """The end of what it wrote to standard error."""
         return b"".join(self._told).decode(errors="replace").strip()
 
-    def _exchange(self, line: bytes) -> bytes | None:
-        requests, answers = self.process.stdin, self.process.stdout
-        assert requests is not None
+    def _received(self) -> bytes | None:
+        answers = self.process.stdout
         assert answers is not None
-        try:
-            requests.write(line)
-            requests.flush()
-        except OSError:
-            self._wait_dead()
-            return None
         head = answers.read(FRAME.size)
         if len(head) < FRAME.size:
             self._wait_dead()
             return None
-        length, worn = FRAME.unpack(head)
+        length, flags = FRAME.unpack(head)
+        self.has_more = bool(flags & MORE)
         answer = answers.read(length) if length <= ANSWER_BYTES_MAX else b""
-        self.worn = bool(worn) or len(answer) < length
+        self.worn = bool(flags & WORN) or len(answer) < length
         return answer
 
     def _wait_dead(self) -> None:
@@ -162,12 +174,39 @@ class Readers:
             except BaseException:
                 self._lost(child)
                 raise
-            if answer is not None and not child.late:
+            if answer is not None:
                 self._given_back(child)
                 return decode(answer)
             code = self._lost(child)
             if code != NOBODY_ASKED:
                 return told_of_death(child, code, wall_s, cpu_s)
+
+    def unpack(self, path: Path, wall_s: float = WALL_S) -> Iterator[Entry | Left]:
+        """The files of an archive, one at a time, as whoever asks takes them; then what is left.
+
+        wall_s: how long the child may take for each. Raises BrokenArchive when nothing more can be
+        read, also for the death of the child; ReadingStopped.
+        """
+        request: dict[str, object] = {"path": str(path), "unpack": True, "cpu_s": UNPACK_CPU_S}
+        child = self._taken()
+        whole = False
+        try:
+            frame = child.ask(request, wall_s)
+            while frame is not None:
+                whole = not child.has_more
+                yield decode_frame(frame)
+                if whole:
+                    return
+                frame = child.more(wall_s)
+        finally:
+            if whole:
+                self._given_back(child)
+            else:
+                code = self._lost(child)
+        if code == NOBODY_ASKED:
+            yield from self.unpack(path, wall_s)
+        else:
+            raise BrokenArchive(told_of_death(child, code, wall_s, UNPACK_CPU_S))
 
     def stop(self) -> None:
         """End every child, and begin no other."""

@@ -2,8 +2,10 @@
 
     python -m backend.ingest.worker
 A request is a line of JSON on standard input, {"path": ..., "name": ..., "cpu_s": ...}. An answer
-on standard output is its length as u64, whether the child is worn as u8, and the bytes of
-`answer.encode`. A worn child ends after it. Exit 3: out of memory; 4: nobody asked for long.
+on standard output is its length as u64, WORN and MORE as u8, and the bytes of `answer.encode`; for
+a request with "unpack" it is a frame for each file within the archive, as `containers.frames` has
+them, all but the last with MORE. A worn child ends. Exit 3: out of memory; 4: nobody asked for
+long.
 """
 
 from __future__ import annotations
@@ -15,7 +17,9 @@ import signal
 import struct
 import sys
 import threading
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 CPU_S = 20.0
 DATA_BYTES = 512 * 1024 * 1024
@@ -27,6 +31,7 @@ IDLE_S = 300.0
 WORN_BYTES = DATA_BYTES // 2
 FILES_MAX = 500
 FRAME = struct.Struct("<QB")
+WORN, MORE = 1, 2
 # Signal by which the system ends a child that has used its time on a file.
 OVERTIME = getattr(signal, "SIGPROF", 0)
 
@@ -72,13 +77,16 @@ def limit_time(cpu_s: float) -> None:
 
 
 def is_worn() -> bool:
-    """Whether the most memory this process ever held is so much that the next file may fail."""
+    """Whether the most memory this process ever held is so much that the next file may fail.
+
+    Not by getrusage: what it tells after a start is what the server held. False where only that is.
+    """
     try:
-        import resource
-    except ImportError:
+        told = Path("/proc/self/status").read_text()
+    except OSError:
         return False
-    unit = 1 if sys.platform == "darwin" else 1024
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit > WORN_BYTES
+    peaks_kb = [line.split()[1] for line in told.splitlines() if line.startswith("VmHWM:")]
+    return any(int(peak_kb) * 1024 > WORN_BYTES for peak_kb in peaks_kb)
 
 
 def requests() -> bool:
@@ -90,12 +98,30 @@ def requests() -> bool:
     return bool(asked.poll(IDLE_S * 1000))
 
 
+def answers(asked: dict[str, Any]) -> Iterator[bytes]:
+    """What a request is answered with: one answer for a file, one a file for an archive."""
+    from backend.ingest.answer import encode
+    from backend.ingest.containers.frames import frames
+    from backend.ingest.formats import read_file
+
+    path = Path(asked["path"])
+    if asked.get("unpack"):
+        yield from frames(path)
+    else:
+        yield encode(read_file(asked["name"], path.read_bytes()))
+
+
+def say(answer: bytes, flags: int) -> None:
+    """Write one answer."""
+    sys.stdout.buffer.write(FRAME.pack(len(answer), flags) + answer)
+    sys.stdout.buffer.flush()
+
+
 def main() -> int:
     """Read files and answer until nobody asks."""
     limit_resources()
     end_with_the_server()
-    from backend.ingest.answer import encode
-    from backend.ingest.formats import read_file
+    import backend.ingest.formats  # noqa: F401 - while nobody waits for it
 
     for number in range(1, FILES_MAX + 1):
         if not requests():
@@ -105,14 +131,17 @@ def main() -> int:
             return 0
         asked = json.loads(line)
         limit_time(asked["cpu_s"])
+        last = None
         try:
-            answer = encode(read_file(asked["name"], Path(asked["path"]).read_bytes()))
+            for answer in answers(asked):
+                if last is not None:
+                    say(last, MORE)
+                last = answer
         except MemoryError:
             return OUT_OF_MEMORY
         limit_time(0)
         worn = number == FILES_MAX or is_worn()
-        sys.stdout.buffer.write(FRAME.pack(len(answer), worn) + answer)
-        sys.stdout.buffer.flush()
+        say(last or b"", WORN if worn else 0)
         if worn:
             return 0
     return 0

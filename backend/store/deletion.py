@@ -29,6 +29,8 @@ LOG = logging.getLogger(__name__)
 MADE = "made"
 FILLED = "filled"
 BESIDE = "beside"
+# The folder, among the objects, of uploads that still arrive.
+SPOOL = ".spool"
 # States of an upload whose contents nobody has judged yet; its bytes are needed.
 UNJUDGED = ("receiving", "queued")
 # A ride's object that was replaced may still be read by somebody who asked before.
@@ -131,6 +133,7 @@ def forget_original(connection: Connection, upload_id: int, now_us: int) -> None
     ).scalar()
     with_rides = select(t.ride_source.c.upload_id)
     copies = t.upload.c.object_key == key
+    forget_parts(connection, upload_id, now_us)
     connection.execute(
         delete(t.upload).where(
             or_(t.upload.c.id == upload_id, copies),
@@ -142,11 +145,22 @@ def forget_original(connection: Connection, upload_id: int, now_us: int) -> None
         note_discarded(connection, [key], now_us)
 
 
-def forget_upload(connection: Connection, upload_id: int, spooled: str, now_us: int) -> None:
+def forget_parts(connection: Connection, upload_id: int, now_us: int) -> None:
+    """Delete what was within a container without rides; files that live on are on their own."""
+    within = t.upload.c.part_of == upload_id
+    with_rides = select(t.ride_source.c.upload_id)
+    gone = select(t.upload.c.id).where(within, t.upload.c.id.not_in(with_rides))
+    for part_id in connection.execute(gone).scalars().all():
+        forget_upload(connection, part_id, now_us)
+    connection.execute(update(t.upload).where(within).values(part_of=None))
+
+
+def forget_upload(connection: Connection, upload_id: int, now_us: int) -> None:
     """Delete one upload that no ride came from, and its bytes unless another has them too."""
-    key = connection.execute(
-        select(t.upload.c.object_key).where(t.upload.c.id == upload_id)
-    ).scalar()
+    forget_parts(connection, upload_id, now_us)
+    columns = (t.upload.c.object_key, t.upload.c.token)
+    row = connection.execute(select(*columns).where(t.upload.c.id == upload_id)).first()
+    key, spooled = (row.object_key, f"{SPOOL}/{row.token}") if row else (None, "")
     connection.execute(delete(t.ride_source).where(t.ride_source.c.upload_id == upload_id))
     connection.execute(delete(t.upload).where(t.upload.c.id == upload_id))
     if key is None:

@@ -32,10 +32,11 @@ ORIGINS = ("recorded", "imported")
 
 @dataclass(frozen=True)
 class Original:
-    """The file a ride came from."""
+    """The file a ride came from, and the one that this came in."""
 
     sha256: str
     name: str
+    container: Original | None = None
 
 
 @dataclass(frozen=True)
@@ -153,4 +154,6 @@ def items(kind: type[Item], bodies: Any) -> tuple[Item, ...] | None:
 
 
 def original_of(body: Mapping[str, Any] | None) -> Original | None:
-    return None if body is None else Original(str(body["sha256"]), str(body["name"]))
+    if body is None:
+        return None
+    return Original(str(body["sha256"]), str(body["name"]), original_of(body.get("container")))

@@ -184,11 +184,17 @@ def upload_key(connection: Connection, token: str | None) -> int | None:
     return connection.execute(select(t.upload.c.id).where(t.upload.c.token == token)).scalar()
 
 
-def upload_file(connection: Connection, token: str | None) -> dict[str, str] | None:
-    """Hash and name of the file that an upload brought."""
-    columns = (t.upload.c.sha256, t.upload.c.name)
+def upload_file(connection: Connection, token: str | None) -> dict[str, object] | None:
+    """Hash and name of the file that an upload brought, and of the container that it came in."""
+    columns = (t.upload.c.sha256, t.upload.c.name, t.upload.c.part_of)
     row = connection.execute(select(*columns).where(t.upload.c.token == token)).first()
-    return None if row is None or row.sha256 is None else {"sha256": row.sha256, "name": row.name}
+    if row is None or row.sha256 is None:
+        return None
+    file: dict[str, object] = {"sha256": row.sha256, "name": row.name}
+    if row.part_of is not None:
+        whole = select(t.upload.c.token).where(t.upload.c.id == row.part_of)
+        file["container"] = upload_file(connection, connection.execute(whole).scalar())
+    return file
 
 
 def finish_row(connection: Connection, ride_id: int, written: WrittenObject) -> None:

@@ -70,7 +70,7 @@ def write_sidecar(
     objects.publish_json(sidecar_key(ride_key), body)
 
 
-def tell_for_old_file(objects: Objects, ride: Ride, original: dict[str, str] | None) -> None:
+def tell_for_old_file(objects: Objects, ride: Ride, original: dict[str, object] | None) -> None:
     """Write what the database knows of a finished ride and its object, of version 1, does not tell.
 
     An object that is newer, gone or damaged is left alone. Raises StoreError.

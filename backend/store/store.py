@@ -15,7 +15,7 @@ from types import TracebackType
 from backend.domain.ride import Ride, iso_utc
 from backend.errors import StoreError
 from backend.store.configurations import CertificateStore, LibraryStore, RevisionLog
-from backend.store.deletion import Deletions
+from backend.store.deletion import SPOOL, Deletions
 from backend.store.discard import discarded_keys
 from backend.store.identity import belonging, new_id, require, write_identity
 from backend.store.locks import hold
@@ -35,7 +35,6 @@ from backend.store.uploads import UploadStore
 
 LOG = logging.getLogger(__name__)
 
-SPOOL = ".spool"
 # So many files put aside are named in the log; the rest is counted.
 NAMED_MAX = 10
 

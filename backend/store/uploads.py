@@ -18,12 +18,13 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import Connection, Row, insert, select, update
+from sqlalchemy import Connection, Row, func, insert, select, update
 
 from backend.domain.ride import iso_utc
 from backend.errors import BadFile, Conflict, NotFound, StoreError
-from backend.store.deletion import BESIDE, Deletions, forget_upload, join_source
+from backend.store.deletion import BESIDE, MADE, Deletions, forget_upload, join_source
 from backend.store.objects import Objects, content_key, file_sha256
+from backend.store.ride_table import upload_key
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
 
@@ -33,10 +34,22 @@ TOKEN = re.compile(r"[0-9a-f]{32}")
 
 
 @dataclass(frozen=True)
+class Parts:
+    """How many files within a container are in which state; `here`: known before it came."""
+
+    waiting: int = 0
+    complete: int = 0
+    partial: int = 0
+    rejected: int = 0
+    here: int = 0
+
+
+@dataclass(frozen=True)
 class Upload:
     """One upload. state: `receiving`, `queued`, `complete`, `partial` or `rejected`.
 
-    ride_ids: the rides it became; of a duplicate, the ride that was there before.
+    ride_ids: the rides it became; of a duplicate, the ride that was there before. part_of: the
+    container it is within. parts: of a container, how many files within became what.
     """
 
     id: str
@@ -54,6 +67,8 @@ class Upload:
     created_us: int
     expires_us: int | None
     ride_ids: tuple[int, ...]
+    part_of: str | None = None
+    parts: Parts | None = None
 
     @property
     def expires_at(self) -> str | None:
@@ -91,7 +106,14 @@ class UploadStore:
         self._appending = threading.Lock()
         spool.mkdir(parents=True, exist_ok=True)
 
-    def create(self, name: str, size: int, declared_sha256: str | None, expires_s: int) -> Upload:
+    def create(
+        self,
+        name: str,
+        size: int,
+        declared_sha256: str | None,
+        expires_s: int,
+        part_of: str | None = None,
+    ) -> Upload:
         """Begin an upload of `size` bytes; nothing has arrived yet, and all must in `expires_s`."""
         token = secrets.token_hex(16)
         with (
@@ -110,7 +132,12 @@ class UploadStore:
             "created_us": now_us,
             "expires_us": now_us + expires_s * 1_000_000,
         }
-        self._database.write(lambda c: c.execute(insert(t.upload).values(values)))
+
+        def work(connection: Connection) -> None:
+            whole = upload_key(connection, part_of)
+            connection.execute(insert(t.upload).values(values | {"part_of": whole}))
+
+        self._database.write(work)
         return self.get(token)
 
     def append(self, token: str, offset: int, data: bytes) -> Upload:
@@ -185,8 +212,14 @@ class UploadStore:
             self._set(token, sha256=sha256, object_key=key, state="queued")
         return self.get(token)
 
-    def conclude(self, token: str, verdict: Verdict, beside: Sequence[int] = ()) -> Upload:
-        """Say what became of an upload, and which rides it is beside of.
+    def conclude(
+        self,
+        token: str,
+        verdict: Verdict,
+        beside: Sequence[int] = (),
+        made: Sequence[int] = (),
+    ) -> Upload:
+        """Say what became of an upload, which rides were made from it, and which it is beside of.
 
         One without any ride to live with goes by itself when its time is over.
         """
@@ -196,9 +229,10 @@ class UploadStore:
             key = connection.execute(select(t.upload.c.id).where(mine)).scalar()
             if key is None:
                 raise NotFound(f"There is no upload {token}.")
-            there = select(t.ride.c.id).where(t.ride.c.id.in_(beside))
-            for ride_id in connection.execute(there).scalars().all():
-                join_source(connection, ride_id, key, BESIDE)
+            for rides, part in ((beside, BESIDE), (made, MADE)):
+                there = select(t.ride.c.id).where(t.ride.c.id.in_(rides))
+                for ride_id in connection.execute(there).scalars().all():
+                    join_source(connection, ride_id, key, part)
             links = select(t.ride_source.c.id).where(t.ride_source.c.upload_id == key).limit(1)
             stays = connection.execute(links).first() is not None or verdict.state == "queued"
             body = {
@@ -215,18 +249,20 @@ class UploadStore:
     def get(self, token: str) -> Upload:
         """One upload by its id. Raises NotFound."""
 
-        def work(connection: Connection) -> tuple[Row[Any] | None, tuple[int, ...]]:
-            row = connection.execute(select(t.upload).where(t.upload.c.token == token)).first()
-            if row is None:
-                return None, ()
-            mine = (t.ride.c.upload_id == row.id) | (t.ride.c.id == row.duplicate_of)
-            rides = select(t.ride.c.id).where(mine).order_by(t.ride.c.id)
-            return row, tuple(connection.execute(rides).scalars())
-
-        row, ride_ids = self._database.read(work)
-        if row is None:
+        upload = self._database.read(lambda c: found_upload(c, token))
+        if upload is None:
             raise NotFound(f"There is no upload {token}.")
-        return upload_from_row(row, ride_ids)
+        return upload
+
+    def parts(self, token: str) -> tuple[Upload, ...]:
+        """The files within a container, in its order."""
+
+        def work(connection: Connection) -> list[str]:
+            whole = upload_key(connection, token)
+            query = select(t.upload.c.token).where(t.upload.c.part_of == whole)
+            return list(connection.execute(query.order_by(t.upload.c.id)).scalars())
+
+        return tuple(self.get(part) for part in self._database.read(work))
 
     def first_with(self, sha256: str) -> Upload | None:
         """The first upload of the same bytes that became rides, None when there is none."""
@@ -267,7 +303,7 @@ class UploadStore:
             rides = connection.execute(query.order_by(link.ride_id)).scalars().all()
             if rides:
                 raise Conflict(told_of_rides(token, rides), code="has_rides")
-            forget_upload(connection, key, f"{self._spool.name}/{token}", now_us)
+            forget_upload(connection, key, now_us)
 
         self._database.write(work)
         self._deletions.sweep(now_us)
@@ -290,9 +326,25 @@ class UploadStore:
                 removed += 1
         return removed
 
-    def list(self, limit: int = 50, before: str | None = None) -> tuple[Upload, ...]:
-        """Uploads, the latest first, from the one before `before` on. Raises NotFound."""
+    def list(
+        self,
+        limit: int = 50,
+        before: str | None = None,
+        part_of: str | None = None,
+        sha256: str | None = None,
+    ) -> tuple[Upload, ...]:
+        """Uploads, the latest first, from the one before `before` on. Raises NotFound.
+
+        part_of: those within this one, else those within none. sha256: of these bytes only.
+        """
         query = select(t.upload.c.token).order_by(t.upload.c.id.desc()).limit(limit)
+        if part_of is not None:
+            whole = self._database.read(lambda c: upload_key(c, part_of))
+            query = query.where(t.upload.c.part_of == whole)
+        elif sha256 is None:
+            query = query.where(t.upload.c.part_of.is_(None))
+        if sha256 is not None:
+            query = query.where(t.upload.c.sha256 == sha256)
         if before is not None:
             last = select(t.upload.c.id).where(t.upload.c.token == before)
             key = self._database.read(lambda c: c.execute(last).scalar())
@@ -342,8 +394,39 @@ def told_of_rides(token: str, rides: Sequence[int]) -> str:
     return f"Rides {named} came from upload {token}: delete them, and the file goes with the last."
 
 
-def upload_from_row(row: Row[Any], ride_ids: tuple[int, ...]) -> Upload:
-    """A row of the table and its rides -> upload."""
+def found_upload(connection: Connection, token: str) -> Upload | None:
+    """An upload by its public token, None when there is none."""
+    row = connection.execute(select(t.upload).where(t.upload.c.token == token)).first()
+    if row is None:
+        return None
+    made = select(t.ride_source.c.ride_id).where(
+        t.ride_source.c.upload_id == row.id, t.ride_source.c.part == MADE
+    )
+    mine = (
+        (t.ride.c.upload_id == row.id) | (t.ride.c.id == row.duplicate_of) | t.ride.c.id.in_(made)
+    )
+    rides = connection.execute(select(t.ride.c.id).where(mine).order_by(t.ride.c.id)).scalars()
+    whole = select(t.upload.c.token).where(t.upload.c.id == row.part_of)
+    part_of = None if row.part_of is None else connection.execute(whole).scalar()
+    return upload_from_row(row, tuple(rides), part_of, counted_parts(connection, row.id))
+
+
+def counted_parts(connection: Connection, upload_id: int) -> Parts | None:
+    """What became of the files within an upload, None where there are none."""
+    here = t.upload.c.code.in_(("duplicate", "filled"))
+    query = select(t.upload.c.state, here, func.count()).group_by(t.upload.c.state, here)
+    counted: dict[str, int] = {}
+    for state, is_here, count in connection.execute(query.where(t.upload.c.part_of == upload_id)):
+        judged = state if state in ("complete", "partial", REJECTED) else "waiting"
+        name = "here" if is_here else judged
+        counted[name] = counted.get(name, 0) + count
+    return Parts(**counted) if counted else None
+
+
+def upload_from_row(
+    row: Row[Any], ride_ids: tuple[int, ...], part_of: str | None, parts: Parts | None
+) -> Upload:
+    """A row of the table, its rides, and what is within -> upload."""
     return Upload(
         id=row.token,
         name=row.name,
@@ -360,4 +443,6 @@ def upload_from_row(row: Row[Any], ride_ids: tuple[int, ...]) -> Upload:
         created_us=row.created_us,
         expires_us=row.expires_us,
         ride_ids=ride_ids,
+        part_of=part_of,
+        parts=parts,
     )

@@ -10,6 +10,16 @@ from pydantic import Field
 from backend.api.models.base import Answer
 
 
+class UploadParts(Answer):
+    """How many of the files within a container are in which state."""
+
+    waiting: int
+    complete: int
+    partial: int
+    rejected: int
+    here: int = Field(description="Rides that were known before the container came.")
+
+
 class Upload(Answer):
     """Where a file stands. `code` and `detail` say why it is not a whole ride.
 
@@ -29,6 +39,8 @@ class Upload(Answer):
     expires_at: datetime | None = Field(
         description="When it goes by itself; null while a ride lives on it or it waits to be read."
     )
+    part_of: str | None = Field(description="The upload of the container it came within.")
+    parts: UploadParts | None = Field(description="Of a container; null for any other file.")
 
 
 class UploadList(Answer):

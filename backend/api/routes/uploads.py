@@ -162,9 +162,15 @@ def list_uploads(
     services: Provided,
     limit: Annotated[int, Query(ge=1, le=500)] = 50,
     cursor: Annotated[str | None, Query(max_length=64)] = None,
+    part_of: Annotated[str | None, Query(max_length=64)] = None,
+    sha256: Annotated[str | None, Query(pattern="^[0-9a-f]{64}$")] = None,
 ) -> Any:
-    """Every file that came, the latest first: also those that were refused and can be removed."""
-    return services.uploads.list(limit, cursor)
+    """Every file that came, the latest first: also those that were refused and can be removed.
+
+    Those within a container are listed with `part_of`, its upload. With `sha256` only files of
+    these bytes: whether one is here already is known before it is sent.
+    """
+    return services.uploads.list(limit, cursor, part_of, sha256)
 
 
 @router.get("/uploads/{upload_id}", operation_id="get_upload", response_model=Upload)

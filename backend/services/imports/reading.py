@@ -1,7 +1,8 @@
-"""Who reads which upload: threads of its own, a quick lane and a slow one.
+"""Who reads which upload: threads of its own, a quick lane, a slow one, and one for containers.
 
 A file that takes longer than the quick lane allows is read again, from its start, in the slow lane.
-So whatever waits there, the quick lane goes on; and no request waits on a thread of the server.
+So whatever waits there, the quick lane goes on; and no request waits on a thread of the server. A
+container waits for the files within it, which are read in the other lanes.
 """
 
 from __future__ import annotations
@@ -18,33 +19,37 @@ from backend.store import Upload
 
 LOG = logging.getLogger(__name__)
 
-# Child processes that read files at once; each may take half a gigabyte.
-QUICK_AT_ONCE = 2
-SLOW_AT_ONCE = 1
+# The lanes, and how many read at once in each: child processes that may take half a gigabyte.
+QUICK, SLOW, UNPACKING = "quick", "slow", "unpacking"
+AT_ONCE = {QUICK: 2, SLOW: 1, UNPACKING: 1}
 
 
-class TakesLong(Exception):
-    """A file that the quick lane could not read in its time."""
+class GoesElsewhere(Exception):
+    """A file that is for another lane."""
+
+    def __init__(self, lane: str) -> None:
+        super().__init__(lane)
+        self.lane = lane
 
 
 class Lanes:
     """Uploads being read or waiting for it, each once; safe to call from any thread.
 
-    work(upload_id, slow): reads and concludes an upload; raises TakesLong in the quick lane.
+    work(upload_id, lane): reads and concludes an upload; raises GoesElsewhere in the quick lane.
     unread: how an upload stands whose reading was stopped.
     """
 
-    def __init__(
-        self, work: Callable[[str, bool], Upload], unread: Callable[[str], Upload]
-    ) -> None:
+    def __init__(self, work: Callable[[str, str], Upload], unread: Callable[[str], Upload]) -> None:
         self._work = work
         self._unread = unread
-        self._quick = ThreadPoolExecutor(QUICK_AT_ONCE, thread_name_prefix="import")
-        self._slow = ThreadPoolExecutor(SLOW_AT_ONCE, thread_name_prefix="slow-import")
+        self._lanes = {
+            lane: ThreadPoolExecutor(at_once, thread_name_prefix=f"{lane}-import")
+            for lane, at_once in AT_ONCE.items()
+        }
         self._lock = threading.RLock()
         self._going: dict[str, Future[Upload]] = {}
-        # What is done in a lane for each of them, and whether that is the slow one.
-        self._tasks: dict[str, tuple[Future[None], bool]] = {}
+        # What is done for each of them, and in which lane.
+        self._tasks: dict[str, tuple[Future[None], str]] = {}
         self._closed = False
         self._told: set[str] = set()
 
@@ -64,7 +69,7 @@ class Lanes:
         except Exception as error:
             self._fail(upload_id, promise, error)
         else:
-            self._submit(upload_id, promise, slow=False)
+            self._submit(upload_id, promise, QUICK)
         return promise
 
     @contextmanager
@@ -76,7 +81,7 @@ class Lanes:
         """
         with self._lock:
             promise = self._going.get(upload_id)
-            task, slow = self._tasks.get(upload_id, (None, False))
+            task, lane = self._tasks.get(upload_id, (None, QUICK))
             if promise is not None and not (task is not None and task.cancel()):
                 raise Conflict(
                     f"Upload {upload_id} is being read: remove it when that is over.",
@@ -86,7 +91,7 @@ class Lanes:
                 yield
             except BaseException:
                 if promise is not None:
-                    self._submit(upload_id, promise, slow=slow)
+                    self._submit(upload_id, promise, lane)
                 raise
             removed = promise is not None and self._end(upload_id)
         if promise is not None and removed:
@@ -97,27 +102,32 @@ class Lanes:
         with self._lock:
             self._closed = True
         stop_readers()
-        for lane in (self._quick, self._slow):
-            lane.shutdown(cancel_futures=True)
+        # Containers last: they wait for what is within them.
+        for lane in (QUICK, SLOW, UNPACKING):
+            if lane == UNPACKING:
+                self._leave_all()
+            self._lanes[lane].shutdown(cancel_futures=True)
+        self._leave_all()
+
+    def _leave_all(self) -> None:
         with self._lock:
             left = list(self._going.items())
         for upload_id, promise in left:
             self._leave(upload_id, promise)
 
-    def _submit(self, upload_id: str, promise: Future[Upload], *, slow: bool) -> None:
+    def _submit(self, upload_id: str, promise: Future[Upload], lane: str) -> None:
         with self._lock:
             if not self._closed:
-                lane = self._slow if slow else self._quick
-                task = lane.submit(self._run, upload_id, promise, slow)
-                self._tasks[upload_id] = (task, slow)
+                task = self._lanes[lane].submit(self._run, upload_id, promise, lane)
+                self._tasks[upload_id] = (task, lane)
                 return
         self._leave(upload_id, promise)
 
-    def _run(self, upload_id: str, promise: Future[Upload], slow: bool) -> None:
+    def _run(self, upload_id: str, promise: Future[Upload], lane: str) -> None:
         try:
-            upload = self._work(upload_id, slow)
-        except TakesLong:
-            self._submit(upload_id, promise, slow=True)
+            upload = self._work(upload_id, lane)
+        except GoesElsewhere as goes:
+            self._submit(upload_id, promise, goes.lane)
         except ReadingStopped:
             self._leave(upload_id, promise)
         except Exception as error:

@@ -24,12 +24,16 @@ from backend.ingest import (
     SNIFFED_BYTES,
     ImportedRide,
     Outcome,
+    entries,
+    is_archive,
     read_in_child,
     refused_by_head,
 )
 from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, TOO_SLOW
+from backend.services.imports.container import Container, Unpacker
 from backend.services.imports.fill import fill
-from backend.services.imports.reading import Lanes, TakesLong
+from backend.services.imports.naming import ride_name
+from backend.services.imports.reading import SLOW, UNPACKING, GoesElsewhere, Lanes
 from backend.services.imports.same_ride import same_rides
 from backend.store import Store, Upload, Verdict
 from backend.store.soundness import Expected, damaged_upload
@@ -71,6 +75,7 @@ class Uploads:
 
     reader: has little time, and says `too_slow` when it was not enough; then slow_reader (the same,
     if none is given) reads the file. stop_readers: ends both at once, wherever they are.
+    unpack: the files within an archive.
     """
 
     def __init__(
@@ -80,12 +85,14 @@ class Uploads:
         reader: Reader = read_in_child,
         slow_reader: Reader | None = None,
         stop_readers: Callable[[], None] = lambda: None,
+        unpack: Unpacker = entries,
     ) -> None:
         self._store = store
         self._settings = settings or UploadSettings()
         self._reader = reader
         self._slow_reader = slow_reader or reader
         self._stop_readers = stop_readers
+        self._unpack = unpack
         self._lanes = Lanes(self._process, self.get)
 
     def close(self) -> None:
@@ -97,10 +104,13 @@ class Uploads:
         upload = self.begin(name, length, sha256)
         return self._look(upload.id).result() if length == 0 else upload
 
-    def begin(self, name: str, length: int, sha256: str | None = None) -> Upload:
+    def begin(
+        self, name: str, length: int, sha256: str | None = None, part_of: str | None = None
+    ) -> Upload:
         """Begin an upload of `length` bytes. Raises InvalidRequest when it is too large.
 
         sha256: what the whole file will hash to, if the client knows; it is checked at the end.
+        part_of: the container it is within.
         """
         if not 0 <= length <= self._settings.length_max:
             raise InvalidRequest(
@@ -108,7 +118,7 @@ class Uploads:
                 code="too_large",
             )
         told = name.replace("\0", "")[:NAME_LENGTH_MAX] or "upload"
-        return self._store.uploads.create(told, length, sha256, self._settings.expires_s)
+        return self._store.uploads.create(told, length, sha256, self._settings.expires_s, part_of)
 
     def append(self, upload_id: str, offset: int, data: bytes) -> int:
         """Add bytes at `offset`; returns the new offset, which is safe on the disk.
@@ -134,6 +144,13 @@ class Uploads:
             self._refuse_early(upload)
         return Arrival(upload.received, None)
 
+    def resume(self, upload: Upload, data: bytes) -> Future[Upload]:
+        """All bytes of an upload, of which some may be here; the promise of what becomes of it."""
+        if upload.received < upload.length:
+            left = data[upload.received :]
+            self._store.uploads.append(upload.id, upload.received, left)
+        return self._look(upload.id)
+
     def _refuse_early(self, upload: Upload) -> None:
         head = self._store.uploads.head(upload.id, SNIFFED_BYTES)
         if (refused := refused_by_head(upload.name, head)) is not None:
@@ -157,9 +174,19 @@ class Uploads:
         """Where an upload stands. Raises NotFound."""
         return self._store.uploads.get(upload_id)
 
-    def list(self, limit: int = 50, before: str | None = None) -> dict[str, object]:
-        """One page, the latest first: {items, next}. before: `next` of the page before."""
-        found = self._store.uploads.list(limit + 1, before)
+    def list(
+        self,
+        limit: int = 50,
+        before: str | None = None,
+        part_of: str | None = None,
+        sha256: str | None = None,
+    ) -> dict[str, object]:
+        """One page, the latest first: {items, next}. before: `next` of the page before.
+
+        part_of: of the files within this upload, else of those that are in none. sha256: of these
+        bytes only.
+        """
+        found = self._store.uploads.list(limit + 1, before, part_of, sha256)
         more = len(found) > limit
         return {"items": found[:limit], "next": found[limit - 1].id if more else None}
 
@@ -189,18 +216,23 @@ class Uploads:
         """Keep a whole file, and have it read in its turn."""
         return self._lanes.begin(upload_id, self._store.uploads.keep_original)
 
-    def _process(self, upload_id: str, slow: bool) -> Upload:
+    def _process(self, upload_id: str, lane: str) -> Upload:
         upload = self.get(upload_id)
-        return upload if upload.state in CONCLUDED else self._process_next(upload, slow)
+        return upload if upload.state in CONCLUDED else self._process_next(upload, lane)
 
-    def _process_next(self, upload: Upload, slow: bool) -> Upload:
+    def _process_next(self, upload: Upload, lane: str) -> Upload:
         if upload.declared_sha256 and upload.declared_sha256 != upload.sha256:
             told = f"The bytes that arrived hash to {upload.sha256}, not to what was declared."
             return self._conclude(upload.id, REJECTED, "hash_mismatch", told, 0.0)
         with self._store.deciding:
             if (twin := self._twin(upload)) is not None:
                 return twin
-        outcome = self._read(upload, slow)
+        path = self._path(upload)
+        with path.open("rb") as file:
+            holds_files = is_archive(file.read(SNIFFED_BYTES))
+        if holds_files:
+            return self._unpacked(upload, path, lane)
+        outcome = self._read(upload, path, lane)
         # Where this fails the original is kept and the upload waits for the next start.
         with self._store.deciding:
             # The same bytes may have become a ride while these were read.
@@ -265,18 +297,26 @@ class Uploads:
         detail = f"This is ride {live.id}, which is being recorded; what it lacks is filled later."
         return self._conclude(upload.id, "queued", WAITS, detail, None, live.id)
 
-    def _read(self, upload: Upload, slow: bool) -> Outcome:
+    def _unpacked(self, upload: Upload, path: Path, lane: str) -> Upload:
+        if lane != UNPACKING:
+            raise GoesElsewhere(UNPACKING)
+        over_us = now_us() + self._settings.expires_s * 1_000_000
+        return Container(self._store, self, upload, over_us).read(self._unpack(path))
+
+    def _path(self, upload: Upload) -> Path:
         if upload.object_key is None:
             raise Conflict(f"Upload {upload.id} has not arrived.")
         expected = Expected(upload.object_key, upload.received)
         if found := self._store.soundness.damage(expected):
             raise damaged_upload(upload.name, upload.object_key, found)
-        path = self._store.objects.local_path(upload.object_key)
-        if slow:
+        return self._store.objects.local_path(upload.object_key)
+
+    def _read(self, upload: Upload, path: Path, lane: str) -> Outcome:
+        if lane == SLOW:
             return self._slow_reader(path, upload.name)
         outcome = self._reader(path, upload.name)
         if outcome.code == TOO_SLOW:
-            raise TakesLong
+            raise GoesElsewhere(SLOW)
         return outcome
 
     def _twin(self, upload: Upload) -> Upload | None:
@@ -300,7 +340,7 @@ def ride_of(
     upload: Upload, imported: ImportedRide, number: int, count: int, completeness: float | None
 ) -> Ride:
     """The ride of one part of a file, not yet in the store."""
-    name = upload.name.rsplit(".", 1)[0] if "." in upload.name else upload.name
+    name = ride_name(upload.name)
     # A unit without a clock: the ride was over when its log came.
     over_us = upload.created_us - int(imported.rows.times_us[-1])
     return Ride(

@@ -154,6 +154,7 @@ certificate = Table(
     Column("created_us", BigInteger, nullable=False),
 )
 
+# part_of: the container it came in, which is an upload too.
 upload = Table(
     "upload",
     metadata,
@@ -172,6 +173,7 @@ upload = Table(
     Column("object_key", String(128)),
     Column("created_us", BigInteger, nullable=False),
     Column("expires_us", BigInteger),
+    Column("part_of", KEY, index=True),
 )
 
 ride = Table(

@@ -169,13 +169,21 @@ def bring_back(
             report.rides += 1
             if lacks:
                 report.lacking[key] = lacks
-    named = {one.sha256 for ride in kept for one in (ride.original, *ride.filled_from) if one}
+    named = {one.sha256 for ride in kept for one in files_of(ride)}
     here = {PurePosixPath(key).name: key for key in keys if key.startswith("originals/")}
     known = {key for key in here.values() if key in view.known_keys}
     report.originals_without_ride = sorted(
         key for sha256, key in here.items() if sha256 not in named and key not in known
     )
     report.originals_missing = sorted(content_key("originals", s) for s in named - here.keys())
+
+
+def files_of(kept: KeptRide) -> Iterable[Original]:
+    """Every file a ride lives on, also those that held others."""
+    for one in (kept.original, *kept.filled_from):
+        while one is not None:
+            yield one
+            one = one.container
 
 
 def read_kept(objects: FileObjects, key: str) -> KeptRide:
@@ -215,8 +223,9 @@ def add_kept(database: Database, objects: FileObjects, kept: KeptRide) -> tuple[
         ride_id = inserted(connection, row_of(ride) | {"upload_id": upload_id}, ride.context)
         finish_row(connection, ride_id, written)
         set_tags(connection, ride_id, ride.tags)
-        if upload_id is not None:
-            join_source(connection, ride_id, upload_id, MADE)
+        for file in files_of(replace(kept, filled_from=())):
+            held = upload_of(connection, objects, file, state, completeness)
+            join_source(connection, ride_id, held, MADE)
         for file in kept.filled_from:
             log_id = upload_of(connection, objects, file, "complete", None, filled=ride_id)
             join_source(connection, ride_id, log_id, FILLED)
@@ -253,6 +262,9 @@ def upload_of(
         "duplicate_of": filled,
         "object_key": key if path.is_file() else None,
         "created_us": created_us,
+        "part_of": None
+        if file.container is None
+        else upload_of(connection, objects, file.container, "complete", None),
     }
     added = insert(t.upload).values(values).returning(t.upload.c.id)
     return int(connection.execute(added).scalar_one())

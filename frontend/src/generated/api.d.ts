@@ -1460,6 +1460,9 @@ export interface paths {
         /**
          * List Uploads
          * @description Every file that came, the latest first: also those that were refused and can be removed.
+         *
+         *     Those within a container are listed with `part_of`, its upload. With `sha256` only files of
+         *     these bytes: whether one is here already is known before it is sent.
          */
         get: operations["list_uploads"];
         put?: never;
@@ -5142,6 +5145,13 @@ export interface components {
              * @description When it goes by itself; null while a ride lives on it or it waits to be read.
              */
             expires_at: string | null;
+            /**
+             * Part Of
+             * @description The upload of the container it came within.
+             */
+            part_of: string | null;
+            /** @description Of a container; null for any other file. */
+            parts: components["schemas"]["UploadParts"] | null;
         };
         /** UploadList */
         UploadList: {
@@ -5149,6 +5159,25 @@ export interface components {
             items: components["schemas"]["Upload"][];
             /** Next */
             next: string | null;
+        };
+        /**
+         * UploadParts
+         * @description How many of the files within a container are in which state.
+         */
+        UploadParts: {
+            /** Waiting */
+            waiting: number;
+            /** Complete */
+            complete: number;
+            /** Partial */
+            partial: number;
+            /** Rejected */
+            rejected: number;
+            /**
+             * Here
+             * @description Rides that were known before the container came.
+             */
+            here: number;
         };
         /**
          * UseOfCells
@@ -11316,6 +11345,8 @@ export interface operations {
             query?: {
                 limit?: number;
                 cursor?: string | null;
+                part_of?: string | null;
+                sha256?: string | null;
             };
             header?: never;
             path?: never;

@@ -259,7 +259,7 @@ def test_random_bytes_never_crash_the_reader(noise: bytes, name: str) -> None:
         (b'<?xml version="1.0"?><gpx></gpx>', "no_records", "no point"),
         (b'<?xml version="1.0"?><kml></kml>', "unsupported_format", "XML"),
         (b"PK\x03\x04" + bytes(60), "unsupported_format", "ZIP"),
-        (b"\x1f\x8b\x08" + bytes(60), "unsupported_format", "gzip"),
+        (b"\x1f\x8b\x08" + bytes(60), "container_damaged", "gzip"),
         (b"\x7fELF" + bytes(60), "unsupported_format", "ELF"),
         (b"\xff\xd8\xff\xe0" + bytes(60), "unsupported_format", "JPEG"),
         (b'{"error": "denied"}', "unsupported_format", "JSON"),
