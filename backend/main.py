@@ -87,8 +87,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
     with contextlib.ExitStack() as closing:
         store = open_store(settings.db, settings.objects)
         closing.callback(store.close)
-        last_seen = LastSeen(store.units)
-        closing.callback(last_seen.close)
+        last_seen = closing.enter_context(contextlib.closing(LastSeen(store.units)))
         devices = make_devices(settings, store, last_seen, families)
         certificates = KeptCertificates(store.certificates, __version__)
         revisions = CertifiedRevisions(store.revisions, certificates)
@@ -113,6 +112,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
         closing.enter_context(housekeeping(work))
         for url in settings.device:
             in_background(url, partial(devices.add, url))
+        replay = RideReplay(Preview(), memory.ride_config)
         library = Library(store.library)
         inspection = Inspection(devices)
         proposals = Proposals(store, memory.ride_config, certificates)
@@ -134,7 +134,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             library=library,
             compare=Compare(library, tuning),
             certify=Certify(certificates, devices, tuning, library),
-            rides=Rides(store, RideReplay(Preview(), memory.ride_config), devices.unit_at),
+            rides=Rides(store, replay, devices.unit_at, recorder.running),
             home=RiderHome(store),
             ride_again=RideAgain(store, memory.ride_config),
             proposals=proposals,

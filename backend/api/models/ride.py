@@ -212,7 +212,9 @@ class Ride(Answer):
         description="What is wrong with the file of its samples, as far as it was looked at; then "
         "series, figure, replay and exports answer 500 `object_damaged`. The figures here stay."
     )
-    summary: RideSummary | None
+    summary: RideSummary | None = Field(
+        description="Of a ride that is being recorded: so far, where this server records it."
+    )
     tags: list[str]
     place: RidePlace | None = Field(
         description="Null without positions, and until a moment after the ride came."

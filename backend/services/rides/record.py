@@ -24,7 +24,7 @@ from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.stream import StreamBlock
 from backend.domain._generated import MOVING_KMH, MOVING_RPM, STANDING_S
 from backend.domain.channels import MISSING_INT16, ChannelSpec
-from backend.domain.ride import Ride, RideContext
+from backend.domain.ride import Ride, RideContext, RideSummary
 from backend.errors import SpindleError, StoreError
 from backend.services.rides.ride_bounds import (
     Indices,
@@ -34,6 +34,7 @@ from backend.services.rides.ride_bounds import (
     still_rows,
 )
 from backend.services.rides.ride_tail import RideTail, RowCounts
+from backend.services.rides.running import RunningTotals
 from backend.store import RideStore
 
 LOG = logging.getLogger(__name__)
@@ -89,6 +90,7 @@ class LiveRide:
 
     tail: RideTail
     t0_us: int
+    totals: RunningTotals
     rows_missing: int = 0
     still_rows: int = 0
     context: RideContext = field(default_factory=RideContext)
@@ -198,6 +200,12 @@ class UnitRecorder:
                 return None
             return live.tail.ride_id, max(0, live.tail.rows - 1) * self._period_us / 1e6
 
+    def running(self, ride_id: int) -> RideSummary | None:
+        """What the ride that is being recorded comes to so far; None for another."""
+        with self._lock:
+            live = self._live
+            return live.totals.summary() if live and live.tail.ride_id == ride_id else None
+
     def _take_block(self, block: StreamBlock) -> None:
         if block.channels != self._channels or block.period_us != self._period_us:
             self._end()
@@ -255,11 +263,13 @@ class UnitRecorder:
             return self._rides.start_live(channels, period_us, started_us, context)
 
         tail = RideTail(self._rides, begin, self._count)
-        self._live = LiveRide(tail, t0_us, last_wall_us=block.wall_us, context=context)
+        totals = RunningTotals(channels, period_us)
+        self._live = LiveRide(tail, t0_us, totals, last_wall_us=block.wall_us, context=context)
         self.lost_lately = 0
         if skipped < lead_rows:
             rows = np.concatenate([lead.values for lead in self._lead])
             tail.add(rows[skipped:])
+            totals.add(rows[skipped:])
         self._lead.clear()
         # The ride is there as soon as it has begun, not only with its first second.
         tail.push()
@@ -287,6 +297,7 @@ class UnitRecorder:
         if lost > 0:
             missing = np.full((lost, block.values.shape[1]), MISSING_INT16, np.int16)
             live.tail.add(missing, taken=False)
+            live.totals.skip(lost)
             live.rows_missing += lost
         row_count = len(block.values)
         still_max = max(1, round(self._settings.idle_s * 1e6 / self._period_us))
@@ -295,6 +306,7 @@ class UnitRecorder:
         taken = min(row_count, room, row_count if until_still is None else until_still)
         live.still_rows = still_rows(moving[moving < taken], taken, live.still_rows)
         live.tail.add(block.values[:taken])
+        live.totals.add(block.values[:taken])
         live.last_wall_us = block.wall_us
         if live.tail.rows_unsent * self._period_us >= self._settings.tail_s * 1e6:
             live.tail.send()
@@ -390,6 +402,11 @@ class Recorder:
         """The newest moment of a unit's ride, `UnitRecorder.newest`."""
         unit = self._units.get(device_id)
         return unit.newest if unit else None
+
+    def running(self, ride_id: int) -> RideSummary | None:
+        """What a ride that is being recorded comes to so far; None for any other."""
+        found = (unit.running(ride_id) for unit in self._all())
+        return next((summary for summary in found if summary), None)
 
     def counts(self, device_id: str) -> RowCounts:
         """What became of a unit's rows; never waits."""

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from datetime import UTC, datetime
 from typing import Any
 
-from backend.domain.ride import Ride
+from backend.domain.ride import Ride, RideSummary
 from backend.errors import InvalidRequest, NotFound
 from backend.services.rides.export import Export, export
 from backend.store import Sought, Store, expected_of
@@ -21,7 +22,8 @@ Replay = Callable[..., Any]
 class Rides:
     """The rides' use cases; safe to call from any thread.
 
-    unit_at: the key of the unit that a device has now; None for one that is not there.
+    unit_at: the key of the unit that a device has now; None for one that is not there. running:
+    what a ride that is being recorded comes to so far.
     """
 
     def __init__(
@@ -29,10 +31,12 @@ class Rides:
         store: Store,
         replay: Replay | None = None,
         unit_at: Callable[[str], str | None] = lambda device_id: None,
+        running: Callable[[int], RideSummary | None] = lambda ride_id: None,
     ) -> None:
         self._store = store
         self._replay = replay
         self._unit_at = unit_at
+        self._running = running
 
     def list(
         self,
@@ -126,6 +130,8 @@ class Rides:
     def _told(self, ride: Ride) -> dict[str, object]:
         """A ride as the API tells it, with what is known to be wrong with its samples."""
         damage = None
+        if ride.state == "live":
+            ride = replace(ride, summary=self._running(ride.id))
         if ride.object_key is not None:
             damage = self._store.soundness.known_damage(expected_of(ride))
         return {**ride.as_json(), "damage": damage}

@@ -249,6 +249,25 @@ def test_a_moment_that_was_marked_is_found_in_the_ride(store: Store, recorder: R
         store.marks.add(ride.id, 5.0)
 
 
+def test_a_ride_tells_what_it_comes_to_while_it_is_recorded(
+    store: Store, recorder: Recorder
+) -> None:
+    heard = blocks(riding(30.0))
+    feed(recorder, *heard[:10], *heard[12:])
+    (ride_id,) = store.rides.live_ids()
+
+    so_far = recorder.running(ride_id)
+    (ride,) = rides(store, recorder)
+
+    assert so_far is not None
+    assert ride.summary is not None
+    assert so_far.duration_s == pytest.approx(ride.summary.duration_s, abs=0.1)
+    for name in ("distance_km", "moving_s", "rider_wh", "speed_kmh_mean"):
+        assert getattr(so_far, name) == pytest.approx(getattr(ride.summary, name), rel=1e-3), name
+    assert so_far.motor_wh is ride.summary.motor_wh is None
+    assert recorder.running(ride_id) is None
+
+
 def test_a_silent_unit_s_ride_ends_by_the_wall_clock(store: Store, recorder: Recorder) -> None:
     feed(recorder, *blocks(riding(10)))
 
