@@ -23,9 +23,8 @@ const GROUPS = [
   chunk('unit', `shared/(${MOST.join('|')})`),
   chunk('moment', 'shared/device/(FaultMoment|fault_moment|moment_)'),
   chunk('traces', 'shared/charts/(Traces|SeriesTable|trace_line|trace_window|ride_view)'),
-  // One ride's page and the list of rides show it, and neither needs the other.
-  chunk('completeness', 'features/rides/ride/Completeness'),
-  chunk('rides', 'features/(rides/(?!ride/)|try/(?!proposals))'),
+  chunk('rides', 'features/rides/(?!ride/|home/(ManyRides|Standing))'),
+  chunk('try', 'features/try/(?!proposals)'),
   chunk('ride', 'features/rides/ride'),
   chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet)'),
   chunk('settings', 'features/settings'),

@@ -195,3 +195,35 @@ def test_a_ride_is_renamed(desk: Desk, server: SpindleServer) -> None:
 
     expect(page.get_by_role("heading", name="Along the river", level=1)).to_be_visible()
     assert "Along the river" in [ride["name"] for ride in server.get("/rides")["items"]]
+
+
+def test_rides_are_found_tagged_and_deleted_many_at_once(desk: Desk, server: SpindleServer) -> None:
+    for number in (1, 2, 3):
+        rows = 600 + number
+        began = 1_500_000_000 + 9_000 * number
+        body = fit_ride(began, [18.0] * rows, [80] * rows, [180] * rows)
+        name = {"name": f"Delta {number}.fit"}
+        sent = {"content-type": "application/octet-stream"}
+        server.ask("POST", "/rides/import", params=name, content=body, headers=sent)
+    page = desk.open("/rides")
+    listed = page.locator("[data-testid=ride-table] tbody tr")
+    expect(page.locator("[data-testid=rider-totals] tbody tr")).to_have_count(12)
+
+    page.fill("input[type=search]", "delta")
+    expect(listed).to_have_count(3)
+    expect(page.locator("text=3 of 3 shown")).to_be_visible()
+    page.get_by_label("Choose all that are shown").check()
+    page.click("[data-testid=many-rides] >> text=Tag…")
+    page.fill("#new-tag", "flat")
+    page.click("dialog >> text=Add")
+    page.click("dialog >> text=Done")
+    expect(listed.first).to_contain_text("flat")
+    page.get_by_label("Choose Delta 1").uncheck()
+    page.click("[data-testid=many-rides] >> text=Delete…")
+    page.click("dialog >> text=Delete (2)")
+
+    expect(listed).to_have_count(1)
+    expect(listed.first).to_contain_text("Delta 1")
+    page.click("button >> text=#flat")
+    expect(listed).to_have_count(1)
+    desk.picture("rides", full=True)

@@ -3982,6 +3982,7 @@ export interface components {
              * @description What is wrong with the file of its samples, as far as it was looked at; then series, figure, replay and exports answer 500 `object_damaged`. The figures here stay.
              */
             damage: ("missing" | "wrong_size" | "changed" | "unreadable") | null;
+            /** @description Of a ride that is being recorded: so far, where this server records it. */
             summary: components["schemas"]["RideSummary"] | null;
             /** Tags */
             tags: string[];

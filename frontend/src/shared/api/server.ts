@@ -40,7 +40,10 @@ import type {
   SinceChange,
   StorePlace,
   Ride,
+  RideKind,
+  RideList,
   RideMark,
+  RiderHome,
   Scenario,
   Simulation,
   SimulationChange,
@@ -334,9 +337,25 @@ export class Server {
     return body(this.http.POST('/api/v1/library/compare', { body: question, signal }))
   }
 
-  async rides(cursor?: string): Promise<{ items: Ride[]; next: string | null }> {
-    const query = cursor ? { limit: 50, cursor } : { limit: 50 }
+  /** A page of rides, newest first; kind: which of them. */
+  rides(cursor?: string, kind: RideKind = {}): Promise<RideList> {
+    const query = { limit: 50, ...kind, ...(cursor ? { cursor } : {}) }
     return body(this.http.GET('/api/v1/rides', { params: { query } }))
+  }
+
+  /** Weeks, months, bikes, records and faults; zone: the rider's. */
+  riderHome(zone: string, week_begins: number, bike?: number): Promise<RiderHome> {
+    const query = { zone, week_begins, ...(bike ? { bike } : {}) }
+    return body(this.http.GET('/api/v1/rides/home', { params: { query } }))
+  }
+
+  async tagRides(ride_ids: number[], change: { add?: string[]; remove?: string[] }) {
+    const request = { body: { ride_ids, add: [], remove: [], ...change } }
+    await body(this.http.POST('/api/v1/rides/tags', request))
+  }
+
+  async deleteRides(ride_ids: number[]): Promise<void> {
+    await body(this.http.POST('/api/v1/rides/delete', { body: { ride_ids } }))
   }
 
   /** The newest rides of a unit, newest first. */

@@ -1,5 +1,5 @@
 // Short names for what the server sends; the shapes are generated from its OpenAPI description.
-import type { components } from '$generated/api'
+import type { components, operations } from '$generated/api'
 
 type Schemas = components['schemas']
 
@@ -34,6 +34,14 @@ export type Finding = Schemas['Finding']
 export type TableUse = Schemas['TableUse']
 export type TableUseRequest = Schemas['TableUseRequest']
 export type Ride = Schemas['Ride']
+export type RideList = Schemas['RideList']
+/** Which rides a list shows. */
+export type RideKind = Omit<
+  NonNullable<operations['list_rides']['parameters']['query']>,
+  'cursor' | 'limit'
+>
+export type RiderHome = Schemas['RiderHome']
+export type PeriodTotals = Schemas['PeriodTotals']
 export type RideMark = Schemas['RideMark']
 export type RideEvent = Schemas['RideEvent']
 export type Replay = Schemas['Replay']

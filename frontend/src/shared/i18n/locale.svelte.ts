@@ -64,6 +64,13 @@ export class Locale {
     return new Intl.DateTimeFormat(tags[this.language], format).format(Date.parse(iso))
   }
 
+  /** A date such as 2026-07-13, short; by_month: its month alone. */
+  day(date: string, by_month = false): string {
+    const format = { month: 'short', timeZone: 'UTC' } as const
+    const shown = by_month ? format : ({ ...format, day: 'numeric' } as const)
+    return new Intl.DateTimeFormat(tags[this.language], shown).format(Date.parse(date))
+  }
+
   /** Time of day of a time in ms; with its day where that is not today. */
   timeOfDay(at_ms: number): string {
     const tag = tags[this.language]
