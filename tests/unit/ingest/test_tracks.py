@@ -19,7 +19,6 @@ from tcxreader.tcxreader import TCXReader
 from backend.domain.noted import Instrument, Pause
 from backend.ingest.formats import read_file
 from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide
-from tests.counts import of
 from tests.fakes.track_files import (
     GPX_HEAD,
     START_S,
@@ -184,7 +183,7 @@ def test_a_file_cut_anywhere_keeps_every_whole_point(file: bytes) -> None:
     times = (START_S + np.r_[0:30, 40:60] if file is GPX else START_S + np.arange(60)).tolist()
     last = file.rindex(b"</gpx>" if file is GPX else b"</TrainingCenterDatabase>")
 
-    for length in range(600, last, max(1, 7 * of(10) // 10)):
+    for length in range(600, last, 61):
         cut = file[:length]
         whole = cut.count(close)
         outcome = read_file("ride", cut)
