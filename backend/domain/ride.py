@@ -133,8 +133,9 @@ class Ride:
     while the bike moved, or with its server, so that nobody knows what came after. bike_id: the
     bike its unit was on; None where nobody knows the unit. sport: as the file calls it, None for
     none. intake: what became of the file's rows and fields, None for what came from no file. noted:
-    what the device that made the file told beside its rows. tags: words its rider gave it. place,
-    speed_line_kmh: of its card, once that is made.
+    what the device that made the file told beside its rows. same_ride_as: another device's
+    recording of the same ride. tags: words its rider gave it. place, speed_line_kmh: of its card,
+    once that is made.
     """
 
     id: int
@@ -162,6 +163,7 @@ class Ride:
     sport: str | None = None
     intake: Intake | None = None
     noted: Noted = Noted()  # noqa: RUF009 - frozen
+    same_ride_as: int | None = None
     tags: tuple[str, ...] = ()
     place: RidePlace | None = None
     speed_line_kmh: tuple[float | None, ...] = ()
@@ -206,6 +208,7 @@ class Ride:
             "upload_id": self.upload_id,
             "object_bytes": self.object_bytes,
             "summary": asdict(self.summary) if self.summary else None,
+            "same_ride_as": self.same_ride_as,
             "tags": list(self.tags),
             "place": asdict(self.place) if self.place else None,
             "speed_line_kmh": list(self.speed_line_kmh),

@@ -115,6 +115,8 @@ def forget_ride(connection: Connection, ride_id: int, now_us: int) -> None:
     connection.execute(
         update(t.upload).where(t.upload.c.duplicate_of == ride_id).values(duplicate_of=None)
     )
+    twins = t.ride.c.same_ride_as == ride_id
+    connection.execute(update(t.ride).where(twins).values(same_ride_as=None))
     remove_ride(connection, ride_id)
     for upload_id in uploads:
         rides = select(link.id).where(link.upload_id == upload_id).limit(1)

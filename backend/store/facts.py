@@ -7,7 +7,7 @@ its columns. A sidecar may hold the facts that a file of version 1 lacks.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from typing import Any, TypeVar
 
@@ -43,8 +43,8 @@ class Original:
 class KeptRide:
     """A ride as its file and sidecar tell it.
 
-    lacks: what neither says. filled_from: files that filled it. replaces: hashes of the objects it
-    is a fuller version of.
+    lacks: what neither says. filled_from: files that filled it. earlier: files it was made of
+    before a fuller one came. replaces: hashes of the objects it is a fuller version of.
     """
 
     ride: Ride
@@ -53,6 +53,7 @@ class KeptRide:
     events: tuple[RideEvent, ...] | None
     original: Original | None
     filled_from: tuple[Original, ...]
+    earlier: tuple[Original, ...]
     replaces: tuple[str, ...]
 
 
@@ -136,9 +137,8 @@ def kept_ride(
         gaps=items(Gap, known.get("gaps")),
         events=items(RideEvent, known.get("events")),
         original=original_of(known.get("original")),
-        filled_from=tuple(
-            found for found in map(original_of, known.get("filled_from", ())) if found
-        ),
+        filled_from=originals_of(known.get("filled_from", ())),
+        earlier=originals_of(known.get("earlier", ())),
         replaces=tuple(str(sha256) for sha256 in known.get("replaces", ())),
     )
 
@@ -151,6 +151,10 @@ def known_fields(kind: type[Item], body: Mapping[str, Any]) -> Item:
 
 def items(kind: type[Item], bodies: Any) -> tuple[Item, ...] | None:
     return None if bodies is None else tuple(known_fields(kind, body) for body in bodies)
+
+
+def originals_of(bodies: Iterable[Mapping[str, Any]]) -> tuple[Original, ...]:
+    return tuple(found for found in map(original_of, bodies) if found)
 
 
 def original_of(body: Mapping[str, Any] | None) -> Original | None:

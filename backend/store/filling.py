@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from pathlib import PurePosixPath
 
 import numpy as np
 import numpy.typing as npt
+from sqlalchemy import Connection
 
 from backend.domain.channels import Counts
 from backend.domain.filled import Filled
 from backend.domain.ride import Ride, RideRows
 from backend.domain.ride_events import RideEvent
-from backend.store.parquet import ROW_GROUP_ROWS, RideFile
+from backend.store.deletion import MADE
+from backend.store.objects import Objects
+from backend.store.parquet import ROW_GROUP_ROWS, RideFile, read_facts
+from backend.store.ride_table import upload_file
 
 
 @dataclass(frozen=True)
@@ -82,3 +87,23 @@ def _put_recorded(
     place = first + rows_before - at
     for name, recorded in file.counts(list(counts), first, last).items():
         counts[name][place : place + last - first] = recorded
+
+
+def told_before(
+    connection: Connection, objects: Objects, ride: Ride, upload_id: str | None, part: str
+) -> dict[str, object]:
+    """Facts of a ride whose rows become others which neither it nor its rows tell.
+
+    upload_id: whose rows these are. part: what this upload is to the ride.
+    """
+    key = str(ride.object_key)
+    facts, _, _ = read_facts(objects.local_path(key))
+    original, file = upload_file(connection, ride.upload_id), upload_file(connection, upload_id)
+    came = {name: list(facts.get(name, ())) for name in ("filled_from", "earlier")}
+    if part == MADE:
+        came["earlier"] += [original] if original else []
+        original = file
+    else:
+        came["filled_from"] += [file] if file else []
+    replaces = [PurePosixPath(key).stem, *facts.get("replaces", [])]
+    return came | {"replaces": replaces} | ({"original": original} if original else {})

@@ -25,6 +25,8 @@ from backend.store.sql.blobs import channel_list, encode_level
 from backend.store.units import bike_of_ride
 
 NAME_LENGTH_MAX = 200
+# Columns that a ride keeps when its rows become others.
+STAYS = frozenset({"state", "origin", "name", "notes", "created_us", "row_count", "gaps"})
 # The largest whole number SQL holds.
 INTEGER_MAX = 2**63 - 1
 CARD = ("place", "country", "zone", "is_loop", "speed_line")
@@ -97,6 +99,7 @@ def ride_from_row(row: Row[Any], tags: tuple[str, ...]) -> Ride:
         sport=body["sport"],
         intake=Intake(**body["intake"]) if body["intake"] else None,
         noted=noted_from_json(body["noted"]),
+        same_ride_as=body["same_ride_as"],
         tags=tags,
         place=None if place == RidePlace() else place,
         speed_line_kmh=line_kmh(body["speed_line"] or b""),
@@ -152,6 +155,7 @@ def row_of(ride: Ride) -> dict[str, object]:
         "sport": ride.sport,
         "intake": asdict(ride.intake) if ride.intake else None,
         "noted": noted_to_json(ride.noted),
+        "same_ride_as": ride.same_ride_as,
     }
 
 
@@ -228,17 +232,18 @@ def finish_row(connection: Connection, ride_id: int, written: WrittenObject) -> 
     )
 
 
-def refill_row(connection: Connection, ride: Ride, object_key: str) -> bool:
-    """Note when a ride began and what it was filled with; False when it has another object."""
+def refill_row(
+    connection: Connection, ride: Ride, object_key: str, upload_id: int | None = None
+) -> bool:
+    """Note what a ride is now; False when it has another object. upload_id: what it is made of now.
+
+    What people wrote stays, and what `finish_row` says.
+    """
+    said = {key: value for key, value in row_of(ride).items() if key not in STAYS}
+    if upload_id is not None:
+        said["upload_id"] = upload_id
     changed = connection.execute(
-        update(t.ride)
-        .where(t.ride.c.id == ride.id, t.ride.c.object_key == object_key)
-        .values(
-            started_us=ride.started_us,
-            **whose(ride.context),
-            filled=[asdict(span) for span in ride.filled],
-            cut_short=ride.cut_short,
-        )
+        update(t.ride).where(t.ride.c.id == ride.id, t.ride.c.object_key == object_key).values(said)
     )
     return changed.rowcount == 1
 

@@ -15,9 +15,8 @@ import time
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
-from pathlib import PurePosixPath
 from typing import Any
 
 import numpy as np
@@ -38,14 +37,14 @@ from backend.store.deletion import (
     join_source,
 )
 from backend.store.discard import note_discarded, with_sidecar
-from backend.store.filling import Filling, filled_chunks, grown
+from backend.store.filling import Filling, filled_chunks, grown, told_before
 from backend.store.finish import RowsInMemory, drafted, write_object
 from backend.store.logbook.book import set_tags
 from backend.store.logbook.cards import note_words
 from backend.store.logbook.find import RidePage, Sought, page_of
 from backend.store.objects import Objects
-from backend.store.parquet import RideFile, read_facts
-from backend.store.reader import LiveRows, ReaderCache, RideReader
+from backend.store.parquet import RideFile
+from backend.store.reader import LiveRows, ReaderCache, RideReader, RowSource
 from backend.store.ride_table import (
     NAME_LENGTH_MAX,
     finish_row,
@@ -270,21 +269,39 @@ class RideStore:
         key = ride.object_key
         self._soundness.open_ride(ride).close()
         file = RideFile(self._objects.local_path(key), ride.channels)
-        new = grown(ride, filling)
-        more = self._told_before(ride, key, upload_id)
-        with (
-            drafted(self._objects, ride.channels, filled_chunks(file, ride, filling)) as rows,
-            self._objects.holding(),
-        ):
-            written = write_object(self._objects, new, rows, counted=True, more=more)
+        chunks = filled_chunks(file, ride, filling)
+        with drafted(self._objects, ride.channels, chunks) as rows:
+            return self._put_anew(ride, grown(ride, filling), rows, upload_id, FILLED)
+
+    def replace(self, ride: Ride, fuller: Ride, rows: RideRows, upload_id: str) -> Ride:
+        """Make a finished ride what a fuller file says of it; its number and words stay.
+
+        The file that it was made of stays beside the new one. As `fill` otherwise.
+        """
+        new = replace(fuller, id=ride.id, name=ride.name, same_ride_as=ride.same_ride_as)
+        return self._put_anew(ride, new, RowsInMemory(rows), upload_id, MADE)
+
+    def _put_anew(
+        self, ride: Ride, new: Ride, rows: RowSource, upload_id: str | None, part: str
+    ) -> Ride:
+        """Let a ride point to a new object, and note what its upload gave."""
+        key = str(ride.object_key)
+        with self._objects.holding():
+            more = self._database.read(
+                lambda c: told_before(c, self._objects, ride, upload_id, part)
+            )
+            counted = part == FILLED
+            written = write_object(self._objects, new, rows, counted=counted, more=more)
 
             def work(connection: Connection) -> None:
-                if not refill_row(connection, new, key):
+                source = upload_key(connection, upload_id)
+                made_of = source if part == MADE else None
+                if not refill_row(connection, new, key, made_of):
                     raise Conflict(f"Ride {ride.id} is another since it was looked at.")
                 finish_row(connection, ride.id, written)
                 keep_words(connection, self._objects, ride.id)
-                if (source := upload_key(connection, upload_id)) is not None:
-                    join_source(connection, ride.id, source, FILLED)
+                if source is not None:
+                    join_source(connection, ride.id, source, part)
                 if not is_needed(connection, key):
                     due_us = time.time_ns() // 1000 + READING_US
                     note_discarded(connection, with_sidecar(key), due_us, ride.id)
@@ -404,19 +421,6 @@ class RideStore:
         query = select(t.ride.c.object_key).where(t.ride.c.object_key.is_not(None))
         keys = self._database.read(lambda c: c.execute(query).scalars().all())
         return {part for key in keys for part in with_sidecar(key)}
-
-    def _told_before(self, ride: Ride, key: str, upload_id: str | None) -> dict[str, object]:
-        """Facts of a ride that is filled which neither it nor its rows tell."""
-        facts, _, _ = read_facts(self._objects.local_path(key))
-        more: dict[str, object] = {
-            "filled_from": facts.get("filled_from", []),
-            "replaces": [PurePosixPath(key).stem, *facts.get("replaces", [])],
-        }
-        if original := self._database.read(lambda c: upload_file(c, ride.upload_id)):
-            more["original"] = original
-        if file := self._database.read(lambda c: upload_file(c, upload_id)):
-            more["filled_from"] = [*facts.get("filled_from", []), file]
-        return more
 
     def _open_reader(self, ride: Ride) -> RideReader:
         if ride.object_key is not None:

@@ -46,7 +46,9 @@ def drop_file(page: Page, name: str, content: bytes) -> None:
 
 def steady_ride(minutes: int) -> bytes:
     seconds = 60 * minutes
-    return fit_ride(1_700_000_000, [18.0] * seconds, [80] * seconds, [180] * seconds)
+    return fit_ride(
+        1_700_000_000 + minutes * 86_400, [18.0] * seconds, [80] * seconds, [180] * seconds
+    )
 
 
 def test_the_whole_ride_shows_its_one_spike(desk: Desk, server: SpindleServer) -> None:

@@ -23,9 +23,11 @@ CHUNK = {**TUS, "content-type": "application/offset+octet-stream"}
 
 
 def steady_ride(minutes: int = 10, power_w: int = 180) -> bytes:
-    """Steady pedalling at 18 km/h."""
+    """Steady pedalling at 18 km/h, each length on a day of its own."""
     seconds = 60 * minutes
-    return fit_ride(START_S, [18.0] * seconds, [80] * seconds, [power_w] * seconds)
+    return fit_ride(
+        START_S + (10 - minutes) * 86_400, [18.0] * seconds, [80] * seconds, [power_w] * seconds
+    )
 
 
 def imported(server: SpindleServer, name: str, content: bytes) -> dict[str, Any]:

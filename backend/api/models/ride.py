@@ -215,6 +215,9 @@ class Ride(Answer):
     summary: RideSummary | None = Field(
         description="Of a ride that is being recorded: so far, where this server records it."
     )
+    same_ride_as: int | None = Field(
+        description="Another device's recording of the same ride, which is kept beside it."
+    )
     tags: list[str]
     place: RidePlace | None = Field(
         description="Null without positions, and until a moment after the ride came."

@@ -14,7 +14,7 @@ import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
@@ -32,9 +32,11 @@ from backend.ingest import (
 from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, TOO_SLOW
 from backend.services.imports.container import Container, Unpacker
 from backend.services.imports.fill import fill
+from backend.services.imports.kinship import Kind, kin_of
 from backend.services.imports.naming import ride_name
 from backend.services.imports.reading import SLOW, UNPACKING, GoesElsewhere, Lanes
 from backend.services.imports.same_ride import same_rides
+from backend.services.imports.telling import Came, told_of
 from backend.store import Store, Upload, Verdict
 from backend.store.soundness import Expected, damaged_upload
 
@@ -241,42 +243,49 @@ class Uploads:
             return self._keep(self.get(upload.id), outcome)
 
     def _keep(self, upload: Upload, outcome: Outcome) -> Upload:
-        """Make rides of what was read, or fill those that are here, and say so."""
-        rides = self._store.rides
-        fresh: list[ImportedRide] = []
-        known: list[Ride] = []
-        rows_filled = 0
+        """Make rides of what was read, or fill, replace or leave those that are here; say so."""
+        came = Came()
         for imported in outcome.rides:
-            twins = same_rides(rides, imported, upload.id)
+            twins = same_rides(self._store.rides, imported, upload.id)
             if live := next((ride for ride in twins if ride.state == "live"), None):
                 return self._wait_for(upload, live)
-            rows_filled += fill(rides, twins, imported, upload.id)
-            known += twins
-            fresh += [] if twins else [imported]
-        for number, imported in enumerate(fresh):
+            if twins:
+                came.rows_filled += fill(self._store.rides, twins, imported, upload.id)
+                came.known += twins
+            else:
+                self._settle(upload, imported, outcome, came)
+        for number, (imported, beside) in enumerate(came.fresh):
             if number < len(upload.ride_ids):
                 # A crash came between this ride and the conclusion.
                 continue
-            ride = ride_of(upload, imported, number, len(fresh), outcome.completeness)
-            rides.add(ride, imported.rows, upload.id)
-        if known and not fresh:
-            return self._conclude(
-                upload.id,
-                outcome.state,
-                "filled" if rows_filled else "duplicate",
-                told_of_known(known, rows_filled),
-                outcome.completeness,
-                known[0].id,
-                [ride.id for ride in known],
-            )
+            ride = ride_of(upload, imported, number, len(came.fresh), outcome.completeness)
+            same_as = None if beside is None else beside.id
+            self._store.rides.add(replace(ride, same_ride_as=same_as), imported.rows, upload.id)
+        code, detail = told_of(came, outcome)
+        only_known = came.known and not (came.fresh or came.made_whole)
         return self._conclude(
             upload.id,
             outcome.state,
-            outcome.code,
-            outcome.detail,
+            code,
+            detail,
             outcome.completeness,
-            beside=[ride.id for ride in known],
+            came.known[0].id if only_known else None,
+            [ride.id for ride in came.known],
         )
+
+    def _settle(self, upload: Upload, imported: ImportedRide, outcome: Outcome, came: Came) -> None:
+        """A ride that no unit's clock tells from others: whether its recording is here already."""
+        kin = kin_of(self._store.rides, imported, outcome.state == COMPLETE, upload.id)
+        if kin is None:
+            came.fresh.append((imported, None))
+        elif kin.kind is Kind.KNOWN:
+            came.known.append(kin.ride)
+        elif kin.kind is Kind.FULLER:
+            fuller = ride_of(upload, imported, 0, 1, outcome.completeness)
+            self._store.rides.replace(kin.ride, fuller, imported.rows, upload.id)
+            came.made_whole.append(kin.ride)
+        else:
+            came.fresh.append((imported, kin.ride))
 
     def _conclude(
         self,
@@ -361,12 +370,3 @@ def ride_of(
         intake=imported.intake,
         noted=imported.noted,
     )
-
-
-def told_of_known(known: Sequence[Ride], rows_filled: int) -> str:
-    """What became of a file whose ride is here, in words."""
-    first = known[0]
-    found = f"This is ride {first.id} of {iso_utc(first.started_us)[:10]}, which is here already"
-    if rows_filled:
-        return f"{found}; {rows_filled} rows it lacked were filled from the file, which is kept."
-    return f"{found}; the file is kept beside it and nothing is stored twice."

@@ -195,6 +195,7 @@ ride = Table(
     Column("gaps", JSON, nullable=False),
     Column("filled", JSON, nullable=False, server_default="[]"),
     Column("sport", String(32)),
+    Column("same_ride_as", KEY),
     Column("intake", JSON(none_as_null=True)),
     Column("noted", JSON(none_as_null=True)),
     Column("events", JSON, nullable=False, server_default="[]"),

@@ -180,7 +180,7 @@ def bring_back(
 
 def files_of(kept: KeptRide) -> Iterable[Original]:
     """Every file a ride lives on, also those that held others."""
-    for one in (kept.original, *kept.filled_from):
+    for one in (kept.original, *kept.earlier, *kept.filled_from):
         while one is not None:
             yield one
             one = one.container

@@ -3984,6 +3984,11 @@ export interface components {
             damage: ("missing" | "wrong_size" | "changed" | "unreadable") | null;
             /** @description Of a ride that is being recorded: so far, where this server records it. */
             summary: components["schemas"]["RideSummary"] | null;
+            /**
+             * Same Ride As
+             * @description Another device's recording of the same ride, which is kept beside it.
+             */
+            same_ride_as: number | null;
             /** Tags */
             tags: string[];
             /** @description Null without positions, and until a moment after the ride came. */

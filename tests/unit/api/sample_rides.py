@@ -43,6 +43,7 @@ SAMPLE_RIDE: dict[str, Any] = {
     "upload_id": None,
     "object_bytes": 4096,
     "damage": None,
+    "same_ride_as": None,
     "tags": ["winter"],
     "place": {"name": "Dublin", "country": "IE", "zone": "Europe/Dublin", "is_loop": False},
     "speed_line_kmh": [20.0, None] * 32,

@@ -18,7 +18,7 @@ from backend.ingest.formats import read_file
 from backend.ingest.outcome import rejected
 from backend.services.imports.upload import WAITS, Uploads
 from backend.store import Store, Verdict, open_store
-from tests.fakes.fit_file import commute, fit_file
+from tests.fakes.fit_file import START_S, commute, fit_file
 
 SOUND = fit_file(commute(100))
 TOO_SLOW = rejected("too_slow", "It took too long.")
@@ -84,7 +84,11 @@ def arrived(uploads: Uploads, name: str, content: bytes) -> str:
 
 
 def rides_of_length(*seconds: int) -> list[bytes]:
-    return [fit_file(commute(length)) for length in seconds]
+    days = range(1, len(seconds) + 1)
+    return [
+        fit_file(commute(length, START_S + day * 86_400))
+        for day, length in zip(days, seconds, strict=True)
+    ]
 
 
 def test_while_one_file_is_read_another_becomes_a_ride(store: Store) -> None:

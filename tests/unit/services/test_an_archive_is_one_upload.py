@@ -24,7 +24,7 @@ from backend.store.upkeep.rebuild import rebuild_store
 from tests.fakes.fit_file import START_S, commute, fit_file
 
 DAY_S = 86_400
-FIRST, SECOND = (fit_file(commute(120, START_S + day * DAY_S)) for day in range(2))
+FIRST, SECOND, THIRD = (fit_file(commute(120, START_S + day * DAY_S)) for day in range(3))
 PAGE = b"<html>502</html>"
 
 
@@ -60,7 +60,7 @@ def test_each_file_within_has_its_state_and_the_archive_one_summary(
 
     sent = uploads.receive_file(
         "rides.zip",
-        zipped({"a.fit": FIRST, "b.fit.gz": gzip.compress(FIRST[:-400]), "c": PAGE, "d": SECOND}),
+        zipped({"a.fit": FIRST, "b.fit.gz": gzip.compress(THIRD[:-400]), "c": PAGE, "d": SECOND}),
     )
 
     parts = {part.name: part for part in store.uploads.parts(sent.id)}

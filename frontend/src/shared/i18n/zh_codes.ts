@@ -149,6 +149,8 @@ const refusal = {
   unsafe_content: '文件声明了 XML 实体，轨迹文件不需要这些内容；没有读取。',
   unsupported_format: '不支持此文件格式。',
   container_damaged: '压缩文件已损坏；请重新发送。',
+  made_whole: '此骑行此前只有一部分；现已补全，名称、备注与编号不变。',
+  same_ride: '同一时间已有另一记录，可能来自另一设备；两者都已保留。',
   encrypted: '压缩文件有密码；请解压后发送其中的文件。',
   expands_too_much: '解压后的数据过多，已停止。',
   nested_too_deep: '压缩文件嵌套层数过多；请先解压。',

@@ -1,0 +1,61 @@
+"""What became of a file's rides, as a code and a sentence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from backend.domain.ride import Ride, iso_utc
+from backend.ingest import ImportedRide, Outcome
+
+
+@dataclass
+class Came:
+    """The rides of a file, by what became of them.
+
+    fresh: new ones, each with the ride that another device recorded meanwhile. known: those that
+    are here. made_whole: those of which the file had more. rows_filled: by a log.
+    """
+
+    fresh: list[tuple[ImportedRide, Ride | None]] = field(default_factory=list)
+    known: list[Ride] = field(default_factory=list)
+    made_whole: list[Ride] = field(default_factory=list)
+    rows_filled: int = 0
+
+
+def told_of(came: Came, outcome: Outcome) -> tuple[str | None, str | None]:
+    """Code and sentence of an upload; the reader's own where the file is a new ride."""
+    if came.made_whole:
+        return "made_whole", told_of_whole(came.made_whole[0])
+    if came.fresh:
+        beside = next((ride for _, ride in came.fresh if ride is not None), None)
+        if beside is None or outcome.code is not None:
+            return outcome.code, outcome.detail
+        return "same_ride", told_of_beside(beside)
+    if came.known:
+        code = "filled" if came.rows_filled else "duplicate"
+        return code, told_of_known(came.known[0], came.rows_filled)
+    return outcome.code, outcome.detail
+
+
+def told_of_known(ride: Ride, rows_filled: int) -> str:
+    """What became of a file whose ride is here."""
+    found = f"This is ride {ride.id} of {iso_utc(ride.started_us)[:10]}, which is here already"
+    if rows_filled:
+        return f"{found}; {rows_filled} rows it lacked were filled from the file, which is kept."
+    return f"{found}; the file is kept beside it and nothing is stored twice."
+
+
+def told_of_whole(ride: Ride) -> str:
+    """What became of a ride of which only a part was here."""
+    return (
+        f"This is ride {ride.id} of {iso_utc(ride.started_us)[:10]}, of which less was here: it "
+        "has everything of this file now. Its name, notes and number stay, and both files are kept."
+    )
+
+
+def told_of_beside(ride: Ride) -> str:
+    """What became of a ride that was recorded twice."""
+    return (
+        f"Ride {ride.id} was recorded at the same time on the same road, perhaps by another "
+        "device. Neither has all of the other, so both are kept."
+    )
