@@ -1,8 +1,8 @@
 """The ride's figure: speed, torque, power and gain above one another on one time axis.
 
 Made with plotly, which is imported when the first figure is asked for: it takes a quarter of a
-second and 30 MB, and a server may never be asked. The colours keep one meaning everywhere: the
-rider is green, the motor orange.
+second and 30 MB, and a server may never be asked. The colours are those of the pages: the rider is
+orange, the motor blue.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ import numpy as np
 from backend.domain.channels import ChannelSpec
 from backend.views.trace import RideReader, Trace, trace
 
-RIDER_COLOUR = "#2e9e6b"
-MOTOR_COLOUR = "#e07b2a"
-NEUTRAL_COLOUR = "#4a7ebb"
+RIDER_COLOUR = "#c4470a"
+MOTOR_COLOUR = "#0868a8"
+NEUTRAL_COLOUR = "#00795a"
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ def curve(shown: Trace, channel: ChannelSpec) -> Any:
 
 
 def colour(name: str) -> str:
-    """Green for the rider, orange for the motor, blue for the rest."""
-    if name.startswith(("rider_", "cadence")):
+    """Orange for the rider, blue for the motor, green for the rest."""
+    if name.startswith("rider_"):
         return RIDER_COLOUR
     return MOTOR_COLOUR if name.startswith("motor_") else NEUTRAL_COLOUR

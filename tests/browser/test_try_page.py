@@ -272,7 +272,7 @@ def test_a_moment_says_who_took_what_and_the_next_cut_is_a_key_away(
 ) -> None:
     cuts = workshop.get(f"/rides/{ride}/cuts")["items"]
     page = tuner.open(f"/rides/{ride}")
-    expect(page.get_by_test_id("ledger")).to_contain_text("sport")
+    expect(page.get_by_test_id("energy")).to_contain_text("sport")
     page.get_by_role("link", name="Why").click()
     page.wait_for_selector("[data-testid=waterfall]")
 

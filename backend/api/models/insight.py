@@ -103,6 +103,18 @@ class BestMean(Answer):
     from_s: float
 
 
+class LapFigures(Answer):
+    """A lap of the device that recorded the ride."""
+
+    from_s: float
+    to_s: float
+    seconds: float
+    distance_km: float | None
+    rider_power_w_mean: float | None
+    motor_power_w_mean: float | None
+    heart_rate_bpm_mean: float | None
+
+
 class RideEffort(Answer):
     """What the rider gave; null without the channel."""
 
@@ -117,6 +129,7 @@ class RideEffort(Answer):
     power_curve: list[BestMean] = Field(
         description="A stretch with a gap in it does not count; the last is the longest without."
     )
+    laps: list[LapFigures]
 
 
 class DiagnosisFinding(Answer):

@@ -8,6 +8,7 @@ import { DeviceWatch } from '$shared/context/device_watch.svelte'
 import { FirstSteps } from '$shared/context/first_steps.svelte'
 import { HealthWatch } from '$shared/context/health_watch.svelte'
 import { Help } from '$shared/context/help.svelte'
+import { Rider } from '$shared/context/rider.svelte'
 import { Locale } from '$shared/i18n/locale.svelte'
 import '$shared/ui/base.css'
 import { Foot } from '$shared/ui/foot.svelte'
@@ -34,6 +35,7 @@ const health = new HealthWatch(server)
 const context: AppContext = {
   server,
   author,
+  rider: new Rider(chosen.threshold_power_w, chosen.heart_rate_bpm_max),
   devices,
   health,
   locale,

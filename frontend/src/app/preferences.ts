@@ -9,6 +9,8 @@ export interface Preferences {
   units: System
   device_id: string | null
   author: string
+  threshold_power_w: number | null
+  heart_rate_bpm_max: number | null
   /** As `FirstSteps` reads it. */
   first_steps: unknown
 }
@@ -27,6 +29,8 @@ export function readPreferences(): Preferences {
     units: oneOf(systems, kept.units) ?? 'metric',
     device_id: typeof kept.device_id === 'string' ? kept.device_id : null,
     author: typeof kept.author === 'string' ? kept.author : '',
+    threshold_power_w: positive(kept.threshold_power_w),
+    heart_rate_bpm_max: positive(kept.heart_rate_bpm_max),
     first_steps: kept.first_steps,
   }
 }
@@ -46,4 +50,8 @@ function parse(text: string | null): Record<string, unknown> {
 
 function oneOf<T>(choices: readonly T[], value: unknown): T | undefined {
   return choices.find((choice) => choice === value)
+}
+
+function positive(value: unknown): number | null {
+  return typeof value === 'number' && value > 0 ? value : null
 }

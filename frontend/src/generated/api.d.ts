@@ -2946,6 +2946,26 @@ export interface components {
             /** Calories Kcal */
             calories_kcal: number | null;
         };
+        /**
+         * LapFigures
+         * @description A lap of the device that recorded the ride.
+         */
+        LapFigures: {
+            /** From S */
+            from_s: number;
+            /** To S */
+            to_s: number;
+            /** Seconds */
+            seconds: number;
+            /** Distance Km */
+            distance_km: number | null;
+            /** Rider Power W Mean */
+            rider_power_w_mean: number | null;
+            /** Motor Power W Mean */
+            motor_power_w_mean: number | null;
+            /** Heart Rate Bpm Mean */
+            heart_rate_bpm_mean: number | null;
+        };
         /** LargestDifference */
         LargestDifference: {
             /**
@@ -4105,6 +4125,8 @@ export interface components {
              * @description A stretch with a gap in it does not count; the last is the longest without.
              */
             power_curve: components["schemas"]["BestMean"][];
+            /** Laps */
+            laps: components["schemas"]["LapFigures"][];
         };
         /** RideEnergy */
         RideEnergy: {

@@ -17,6 +17,7 @@ from backend.views.insight.effort import (
     power_time,
     torque_time,
 )
+from backend.views.insight.laps import lap_figures
 from backend.views.insight.power_curve import power_curve
 
 
@@ -125,3 +126,15 @@ def test_a_ride_without_a_gap_ends_its_curve_with_its_mean() -> None:
     assert (curve[-1].duration_s, curve[-1].power_w) == pytest.approx((120.0, 200.0))
     assert next(best for best in curve if best.duration_s == 30).power_w == 300.0
     assert power_curve(np.full(5, np.nan), np.arange(5.0), np.ones(5)) == []
+
+
+def test_a_lap_is_the_mean_of_its_own_rows() -> None:
+    power = np.repeat([100.0, 300.0, np.nan], 10)
+    seconds, start_s = np.ones(30), np.arange(30.0)
+    laps = [(0.0, 10.0), (10.0, 30.0), (20.0, 30.0)]
+    told = lap_figures({"rider_power_w": power}, start_s, seconds, np.full(30, 5.0), laps)
+
+    assert [lap.rider_power_w_mean for lap in told] == [100.0, 300.0, None]
+    assert [lap.distance_km for lap in told] == pytest.approx([0.05, 0.1, 0.05])
+    assert [lap.seconds for lap in told] == [10.0, 20.0, 10.0]
+    assert told[0].heart_rate_bpm_mean is None

@@ -3,6 +3,12 @@ import type { Values } from '$shared/i18n/locale.svelte'
 import { pageWords } from '$shared/i18n/page_words.svelte'
 
 export const en = {
+  rider: 'Rider',
+  threshold: 'Threshold power, W',
+  heart_rate: 'Greatest heart rate, bpm',
+  rider_note:
+    'What you can hold for an hour, and your pulse at your limit. Zones of a ride are shares of ' +
+    'them. Kept in this browser; empty if you do not know.',
   data: 'Data and backup',
   folder: 'Rides and files',
   database: 'Database',

@@ -20,6 +20,9 @@ import type {
   Health,
   LastKnown,
   Ledger,
+  RideDiagnosis,
+  RideEffort,
+  RideEnergy,
   LibraryDocument,
   LibraryEntry,
   LibraryRow,
@@ -402,6 +405,26 @@ export class Server {
   /** Which mode and which rule carried which share of a ride's motor energy. */
   ledger(id: number): Promise<Ledger> {
     return body(this.http.GET('/api/v1/rides/{ride_id}/ledger', this.rideAt(id)))
+  }
+
+  /** Rider, motor and battery apart: of a ride, its modes and its gradients; charge and range. */
+  energy(id: number, signal: AbortSignal): Promise<RideEnergy> {
+    return body(this.http.GET('/api/v1/rides/{ride_id}/energy', { ...this.rideAt(id), signal }))
+  }
+
+  /** Zones, bands and best mean powers; zones only of what the rider told. */
+  effort(
+    id: number,
+    rider: { threshold_power_w: number | null; heart_rate_bpm_max: number | null },
+    signal: AbortSignal,
+  ): Promise<RideEffort> {
+    const params = { path: { ride_id: id }, query: rider }
+    return body(this.http.GET('/api/v1/rides/{ride_id}/effort', { params, signal }))
+  }
+
+  /** What a ride shows of the bike's health. */
+  diagnosis(id: number, signal: AbortSignal): Promise<RideDiagnosis> {
+    return body(this.http.GET('/api/v1/rides/{ride_id}/diagnosis', { ...this.rideAt(id), signal }))
   }
 
   /** Where limits held the motor back on a ride, in order of time. */

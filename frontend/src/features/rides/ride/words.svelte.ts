@@ -33,6 +33,7 @@ export const en = {
   export: 'Export…',
   export_title: 'Take this ride away',
   close: 'Close',
+  report: 'Report (HTML)',
 }
 
 export type RideKey = keyof typeof en

@@ -31,4 +31,5 @@ export const zh: Record<RideKey, string> = {
   export: '导出…',
   export_title: '取走这次骑行',
   close: '关闭',
+  report: '报告 (HTML)',
 }
