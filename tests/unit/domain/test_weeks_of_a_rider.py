@@ -5,7 +5,8 @@ Method: known changes of the IANA database; lengths of periods count hours that 
 
 from __future__ import annotations
 
-from datetime import UTC, date, datetime
+import zoneinfo
+from datetime import UTC, date, datetime, timedelta
 from itertools import pairwise
 from zoneinfo import ZoneInfo
 
@@ -74,3 +75,14 @@ def test_twelve_months_reach_over_new_year() -> None:
 def test_no_other_name_is_a_zone(name: str) -> None:
     with pytest.raises(InvalidRequest, match="IANA"):
         zone_of(name)
+
+
+def test_time_zones_come_with_spindle_where_the_system_has_none(
+    request: pytest.FixtureRequest,
+) -> None:
+    """As on Windows, and in images without a time zone database."""
+    request.addfinalizer(zoneinfo.reset_tzpath)
+    zoneinfo.reset_tzpath(to=())
+    zoneinfo.ZoneInfo.clear_cache()
+
+    assert zone_of("Asia/Kolkata").utcoffset(datetime(2026, 1, 1)) == timedelta(hours=5.5)
