@@ -32,6 +32,7 @@ from backend.ingest import Readers
 from backend.link import kind_of
 from backend.services.health import Health
 from backend.services.imports.collect import Collect
+from backend.services.imports.mapping import TableMapping
 from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
 from backend.services.keeping import Keeping
 from backend.services.rides.cards import RideCards
@@ -104,8 +105,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
         closing.callback(collect.close)
         # Closes before those who wait for a file to be read.
         closing.callback(uploads.close)
-        dashboards = Dashboards()
-        recent = RecentRows()
+        dashboards, recent = Dashboards(), RecentRows()
         for watcher in (memory.follow, recorder.watch, dashboards.follow, recent.follow):
             devices.watch(watcher)
         work = partial(tidy, recorder, uploads, store, last_seen, devices, RideCards(store))
@@ -145,6 +145,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             ledger=EnergyLedger(store, memory.ride_config),
             insight=Insight(store, memory.ride_config),
             uploads=uploads,
+            tables=TableMapping(store, uploads),
             collect=collect,
         )
 

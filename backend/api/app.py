@@ -24,6 +24,7 @@ from backend.api.routes import (
     proposals,
     rides,
     store,
+    tables,
     uploads,
 )
 from backend.api.safety import AllowedHosts, BodyBound, SameOriginOnly, SecurityHeaders
@@ -69,7 +70,7 @@ def create_app(settings: ApiSettings, services: Services | None = None) -> FastA
     api = APIRouter(prefix=PREFIX)
     # Before the rides: what several rides tell together is at no ride's number.
     told = (logbook, insight, rides, proposals)
-    parts = (health, store, devices, logs, config, law, library, *told, uploads, live)
+    parts = (health, store, devices, logs, config, law, library, *told, uploads, tables, live)
     for module in parts:
         api.include_router(module.router)
     app.include_router(api)

@@ -11,6 +11,7 @@ from starlette.requests import HTTPConnection
 if TYPE_CHECKING:
     from backend.services.health import Health
     from backend.services.imports.collect import Collect
+    from backend.services.imports.mapping import TableMapping
     from backend.services.imports.upload import Uploads
     from backend.services.keeping import Keeping
     from backend.services.rides.fault_moment import FaultMoments
@@ -66,6 +67,7 @@ class Services:
     ledger: EnergyLedger
     insight: Insight
     uploads: Uploads
+    tables: TableMapping
     collect: Collect
 
 

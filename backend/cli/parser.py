@@ -183,6 +183,10 @@ def _add_ride(verbs: Any) -> None:
     )
     command = _asking(group, "import", ride.import_files, help="FIT files and other logs")
     command.add_argument("files", nargs="+", type=Path)
+    command.add_argument("--time-zone", metavar="ZONE", help="of times without one: Europe/Dublin")
+    for name in ("speed", "distance", "altitude", "temperature", "torque"):
+        command.add_argument(f"--{name}-unit", metavar="UNIT", help=f"of a table's {name}")
+    command.add_argument("--rows-per-second", type=float, help="of a log without times")
     command = _asking(group, "list", ride.list_rides, help="newest first")
     command.add_argument("words", nargs="*", help="in name, notes, tags or place")
     command.add_argument("--limit", type=int, default=50)
@@ -202,13 +206,6 @@ def _add_ride(verbs: Any) -> None:
     formats = ["csv", "parquet", "fit", "gpx", "original"]
     command.add_argument("--format", choices=formats, default="csv")
     command.add_argument("--output", "-o", type=Path, help="a file; standard output if absent")
-    blur = "for strangers: leave out what is so near to start and end (fit, gpx, csv)"
-    command.add_argument("--blur", type=float, metavar="METRES", help=blur)
-    command = _asking(group, "archive", ride.archive, help="rides as one ZIP with a list of them")
-    command.add_argument("rides", type=int, nargs="*", help="all if absent")
-    command.add_argument("--formats", default="fit", help="of csv,parquet,fit,gpx,original (fit)")
-    command.add_argument("--output", "-o", type=Path, help="a file; standard output if absent")
-    command.add_argument("--blur", type=float, metavar="METRES", help=blur)
     command = _asking(
         group, "report", ride.report, help="a ride as one HTML file, to keep or print"
     )

@@ -31,7 +31,7 @@ def import_files(options: Namespace) -> int:
     server = server_of(options)
     answers = []
     for file in options.files:
-        answer = {"file": str(file), **import_file(server, file)}
+        answer = {"file": str(file), **said_of_table(server, options, import_file(server, file))}
         answers.append(answer)
         if not options.json:
             print_upload(answer)
@@ -56,6 +56,49 @@ def import_file(server: Any, file: Path) -> dict[str, Any]:
         )
     except RequestRefused as error:
         return {"state": "rejected", "code": error.code, "detail": error.message, "ride_ids": []}
+    return answer
+
+
+def said_of_table(server: Any, options: Namespace, upload: dict[str, Any]) -> dict[str, Any]:
+    """What became of a table once the options say what it does not; other files as they are."""
+    if upload.get("code") != "needs_mapping":
+        return upload
+    path = f"/uploads/{upload['id']}/mapping"
+    asked = server.ask("GET", path)
+    by_channel = {
+        "speed_kmh": options.speed_unit,
+        "distance_m": options.distance_unit,
+        "altitude_m": options.altitude_unit,
+        "temperature_degc": options.temperature_unit,
+        "motor_temperature_degc": options.temperature_unit,
+        "rider_torque_nm": options.torque_unit,
+        "motor_torque_nm": options.torque_unit,
+    }
+    lacks, units = [], {}
+    for column in asked["columns"]:
+        if not column["units"]:
+            continue
+        option = by_channel.get(column["channel"])
+        if option is None:
+            name = column["channel"].split("_")[-2]
+            lacks.append(f"--{name}-unit ({', '.join(column['units'])}) of {column['name']}")
+        else:
+            units[column["name"]] = option
+    if asked["time_zone"] and options.time_zone is None:
+        lacks.append("--time-zone of its times")
+    if asked["rows_per_second"] and options.rows_per_second is None:
+        lacks.append("--rows-per-second")
+    if lacks:
+        return {**upload, "detail": f"{upload['detail']} Lacking: {'; '.join(lacks)}."}
+    said = {
+        "time_zone": options.time_zone,
+        "units": units,
+        "rows_per_second": options.rows_per_second,
+    }
+    try:
+        answer: dict[str, Any] = server.ask("PUT", path, json=said)
+    except RequestRefused as error:
+        return {**upload, "code": error.code, "detail": error.message}
     return answer
 
 
@@ -139,32 +182,19 @@ def show(options: Namespace) -> int:
 
 def export(options: Namespace) -> int:
     """A ride as a file."""
-    blur = {} if options.blur is None else {"blur_m": options.blur}
-    return save(options, f"{options.ride}/export", {"format": options.format, **blur})
-
-
-def archive(options: Namespace) -> int:
-    """Rides as one ZIP: those that are named, or all."""
-    params: dict[str, Any] = {"formats": options.formats.split(",")}
-    if options.rides:
-        params["ids"] = ",".join(map(str, options.rides))
-    if options.blur is not None:
-        params["blur_m"] = options.blur
-    return save(options, "archive", params)
+    return save(options, "export", {"format": options.format})
 
 
 def report(options: Namespace) -> int:
     """A ride as one HTML file."""
     asked = ("language", "threshold_power_w", "heart_rate_bpm_max")
     told = {name: getattr(options, name) for name in asked}
-    return save(
-        options, f"{options.ride}/report", {name: value for name, value in told.items() if value}
-    )
+    return save(options, "report", {name: value for name, value in told.items() if value})
 
 
 def save(options: Namespace, what: str, params: dict[str, Any]) -> int:
-    """What the server makes of rides, as a file or to standard output."""
-    response = server_of(options).response("GET", f"/rides/{what}", params=params)
+    """What the server makes of a ride, as a file or to standard output."""
+    response = server_of(options).response("GET", f"/rides/{options.ride}/{what}", params=params)
     if options.output is None:
         sys.stdout.buffer.write(response.content)
         return 0

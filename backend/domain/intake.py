@@ -20,6 +20,8 @@ class Intake:
     of their own, which stand evenly within it. rows_moved: how often the clock went back, and
     rows were put in order. rows_dropped: by reason. values_dropped: by channel,
     what no bike can do. fields_unread: by name, in how many rows: text, bytes and lists of numbers.
+    taken_as: what the file does not say, and was taken as: `time_zone`, `rows_per_second`, a
+    column's unit, and as `start` where the date is from: `file_name`, or `none`.
     """
 
     rows_read: int = 0
@@ -30,3 +32,4 @@ class Intake:
     rows_dropped: Mapping[str, int] = field(default_factory=dict)
     values_dropped: Mapping[str, int] = field(default_factory=dict)
     fields_unread: Mapping[str, int] = field(default_factory=dict)
+    taken_as: Mapping[str, str] = field(default_factory=dict)

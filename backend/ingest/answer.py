@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import struct
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from backend.domain.intake import Intake
 from backend.domain.noted import noted_from_json, noted_to_json
 from backend.domain.ride import RideContext, RideRows
 from backend.domain.ride_events import RideEvent
+from backend.domain.table_answer import question_from_json
 from backend.ingest.outcome import ImportedRide, Outcome, rejected
 
 
@@ -51,9 +52,7 @@ def encode(outcome: Outcome) -> bytes:
 
 
 def _bare(outcome: Outcome) -> Outcome:
-    return Outcome(
-        outcome.state, (), outcome.code, outcome.detail, outcome.offset, outcome.completeness
-    )
+    return replace(outcome, rides=())
 
 
 def decode(answer: bytes) -> Outcome:
@@ -73,6 +72,7 @@ def decode(answer: bytes) -> Outcome:
             detail=header["detail"],
             offset=header["offset"],
             completeness=header["completeness"],
+            question=question_from_json(header["question"]) if header["question"] else None,
         )
     except (struct.error, ValueError, KeyError, TypeError) as error:
         return rejected("parser_crashed", f"The reader's answer makes no sense: {error}.")

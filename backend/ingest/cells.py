@@ -100,6 +100,11 @@ def decimals(values: Values) -> int:
     return DECIMALS_MAX
 
 
+def step_of(values: Values) -> float:
+    """The resolution that numbers (n,) were written with."""
+    return float(10.0 ** -decimals(values))
+
+
 def as_written(rule: FieldRule, columns: Mapping[str, Values]) -> FieldRule:
     """The rule with a channel that keeps every digit of a text's numbers, if any can.
 

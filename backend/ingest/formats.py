@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
+from backend.domain.table_answer import TableAnswer
 from backend.ingest.blocks import BLOCKS_SUFFIX, looks_like_blocks
 from backend.ingest.containers.gz import (
     GZIP,
@@ -15,10 +16,11 @@ from backend.ingest.containers.gz import (
     inflated_head,
     inner_name,
 )
-from backend.ingest.csv_rows import TIME_NAMES, header_refusal, looks_like_rows, read_csv
 from backend.ingest.fit import HEADER_SIZES, MAGIC, read_fit
 from backend.ingest.outcome import PARTIAL, REJECTED, Outcome, rejected
 from backend.ingest.ride_logs import read_blocks
+from backend.ingest.tables import looks_like_table, read_table
+from backend.ingest.tables.layouts import only_times
 from backend.ingest.tracks import read_gpx, read_tcx
 from backend.ingest.tracks.walk import as_utf8
 
@@ -56,17 +58,22 @@ TCX_ROOT = re.compile(rb"<(?:[\w.-]+:)?TrainingCenterDatabase[\s>]")
 Reader = Callable[[bytes], Outcome]
 
 
-def read_file(name: str, data: bytes) -> Outcome:
-    """A file -> what came of it. Never raises on any bytes or name."""
+def read_file(name: str, data: bytes, answer: TableAnswer | None = None) -> Outcome:
+    """A file -> what came of it. Never raises on any bytes or name.
+
+    answer: what its owner said of a table that does not say it.
+    """
     if not data:
         return rejected("empty_file", "The file is empty.", 0)
     if data.startswith(GZIP):
-        return read_gzip(name, data)
+        return read_gzip(name, data, answer)
     reader = reader_for(name, data[:SNIFFED_BYTES])
-    return reader(data) if reader is not None else refusal(name, data[:SNIFFED_BYTES])
+    if reader is None:
+        return refusal(name, data[:SNIFFED_BYTES])
+    return read_table(data, name, answer) if reader is read_table else reader(data)
 
 
-def read_gzip(name: str, data: bytes) -> Outcome:
+def read_gzip(name: str, data: bytes, answer: TableAnswer | None = None) -> Outcome:
     """The one file within a gzip file; `partial` where not all of it came out."""
     try:
         found = inflate(data)
@@ -77,7 +84,7 @@ def read_gzip(name: str, data: bytes) -> Outcome:
         return rejected("nested_too_deep", "A gzip file within a gzip file: unpack it first.", 0)
     if not found.data and found.trouble:
         return rejected("container_damaged", found.trouble)
-    outcome = read_file(inner_name(name), found.data)
+    outcome = read_file(inner_name(name), found.data, answer)
     if found.trouble is None or outcome.state == REJECTED:
         return outcome
     detail = f"{found.trouble} {outcome.detail or ''}".strip()
@@ -101,12 +108,13 @@ def refusal(name: str, head: bytes) -> Outcome:
     kind = known_kind(head)
     if kind is not None:
         return rejected("unsupported_format", f"This is {kind}. {ADVICE}", 0)
-    refused = header_refusal(head)
-    if refused is not None:
-        return refused
-    if name.lower().endswith(".csv"):
-        times = ", ".join(TIME_NAMES)
-        return rejected("unknown_format", f"The first line names no time column ({times}).", 0)
+    only = only_times(head)
+    if only is not None:
+        detail = f"The only column is {only}: times, and nothing that was measured at them."
+        return rejected("no_records", detail, 0)
+    if name.lower().endswith((".csv", ".txt", ".tsv")):
+        told = "time, timestamp, time_utc, or t_s and secs for seconds from the start"
+        return rejected("unknown_format", f"No line of its head names a time column ({told}).", 0)
     return rejected(
         "unknown_format",
         f"The first bytes ({head[:8].hex(' ')}) are of no ride format we know. {ADVICE}",
@@ -129,8 +137,8 @@ def reader_for(name: str, head: bytes) -> Reader | None:
     if track is not None:
         return track
     if known_kind(head) is None:
-        if looks_like_rows(head):
-            return read_csv
+        if looks_like_table(head):
+            return read_table
         named_fit = name.lower().endswith(".fit")
         if MAGIC in head or (named_fit and head[0] in HEADER_SIZES):
             return read_fit

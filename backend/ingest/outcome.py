@@ -3,7 +3,8 @@
 state     `complete` everything the file holds was read; `partial` rows are missing or unproven;
           `rejected` nothing could be used
 codes     empty_file, unknown_format, unsupported_format, no_records, no_valid_time, too_many_rows,
-          too_slow, too_much_memory, parser_crashed, unsafe_content    nothing was saved
+          too_slow, too_much_memory, parser_crashed, unsafe_content,
+          needs_mapping                                      nothing was saved
           truncated, damaged, checksum_mismatch, part_unreadable    something was saved
 Programs rely on the words; the detail is for people and says where and how much.
 """
@@ -16,6 +17,7 @@ from backend.domain.intake import Intake
 from backend.domain.noted import Noted
 from backend.domain.ride import RideContext, RideRows
 from backend.domain.ride_events import RideEvent
+from backend.domain.table_answer import TableQuestion
 
 COMPLETE = "complete"
 PARTIAL = "partial"
@@ -49,6 +51,7 @@ class Outcome:
 
     code, detail: None when it is complete. offset: byte where reading first went wrong.
     completeness: share of the file's rows that were read (0..1), None when nobody can say.
+    question: of `needs_mapping`, what must be said before the file is read.
     """
 
     state: str
@@ -57,6 +60,7 @@ class Outcome:
     detail: str | None = None
     offset: int | None = None
     completeness: float | None = None
+    question: TableQuestion | None = None
 
 
 def rejected(code: str, detail: str, offset: int | None = None) -> Outcome:

@@ -17,6 +17,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
+from backend.domain.table_answer import TableAnswer, answer_to_json
 from backend.ingest.answer import decode
 from backend.ingest.containers.archive import BrokenArchive, Entry, Left
 from backend.ingest.containers.frames import decode_frame
@@ -154,11 +155,19 @@ class Readers:
         self._stopped = False
         self.begun = 0
 
-    def read(self, path: Path, name: str, wall_s: float = WALL_S, cpu_s: float = CPU_S) -> Outcome:
+    def read(
+        self,
+        path: Path,
+        name: str,
+        wall_s: float = WALL_S,
+        cpu_s: float = CPU_S,
+        said: TableAnswer | None = None,
+    ) -> Outcome:
         """A file -> what came of it; the death of its reader is an outcome too.
 
         path: where the bytes are. name: what the file was called, which may decide the format.
-        wall_s, cpu_s: how long a child may take, and compute. Raises ReadingStopped after `stop`.
+        wall_s, cpu_s: how long a child may take, and compute. said: what was said of a table.
+        Raises ReadingStopped after `stop`.
         """
         if path.is_file() and (refused := refused_here(path, name)) is not None:
             return refused
@@ -166,6 +175,7 @@ class Readers:
             "path": str(path),
             "name": printable(name),
             "cpu_s": cpu_s,
+            "said": answer_to_json(said) if said else None,
         }
         while True:
             child = self._taken()
@@ -260,10 +270,16 @@ def refused_here(path: Path, name: str) -> Outcome | None:
     return refused_by_head(name, head) if head else None
 
 
-def read_in_child(path: Path, name: str, wall_s: float = WALL_S, cpu_s: float = CPU_S) -> Outcome:
+def read_in_child(
+    path: Path,
+    name: str,
+    wall_s: float = WALL_S,
+    cpu_s: float = CPU_S,
+    said: TableAnswer | None = None,
+) -> Outcome:
     """As `Readers.read`, by a child of its own that ends with it."""
     readers = Readers(waiting_max=0)
-    return readers.read(path, name, wall_s, cpu_s)
+    return readers.read(path, name, wall_s, cpu_s, said)
 
 
 def told_of_death(child: Child, code: int, wall_s: float, cpu_s: float) -> Outcome:

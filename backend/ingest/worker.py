@@ -1,11 +1,11 @@
 """The child process that reads files, one after the other. What it dies of, the server survives.
 
     python -m backend.ingest.worker
-A request is a line of JSON on standard input, {"path": ..., "name": ..., "cpu_s": ...}. An answer
-on standard output is its length as u64, WORN and MORE as u8, and the bytes of `answer.encode`; for
-a request with "unpack" it is a frame for each file within the archive, as `containers.frames` has
-them, all but the last with MORE. A worn child ends. Exit 3: out of memory; 4: nobody asked for
-long.
+A request is a line of JSON on standard input, {"path": ..., "name": ..., "cpu_s": ..., "said": what
+was said of a table}. An answer on standard output is its length as u64, WORN and MORE as u8, and
+the bytes of `answer.encode`; for a request with "unpack" it is a frame for each file within the
+archive, as `containers.frames` has them, all but the last with MORE. A worn child ends. Exit 3: out
+of memory; 4: nobody asked for long.
 """
 
 from __future__ import annotations
@@ -100,6 +100,7 @@ def requests() -> bool:
 
 def answers(asked: dict[str, Any]) -> Iterator[bytes]:
     """What a request is answered with: one answer for a file, one a file for an archive."""
+    from backend.domain.table_answer import answer_from_json
     from backend.ingest.answer import encode
     from backend.ingest.containers.frames import frames
     from backend.ingest.formats import read_file
@@ -108,7 +109,8 @@ def answers(asked: dict[str, Any]) -> Iterator[bytes]:
     if asked.get("unpack"):
         yield from frames(path)
     else:
-        yield encode(read_file(asked["name"], path.read_bytes()))
+        said = answer_from_json(asked.get("said"))
+        yield encode(read_file(asked["name"], path.read_bytes(), said))
 
 
 def say(answer: bytes, flags: int) -> None:

@@ -33,6 +33,8 @@ STAGING = ".staging"
 STAGED_NAME = re.compile(r"[0-9a-f]{16}")
 KINDS = ("rides", "originals")
 LOST_FOUND = "lost+found"
+# What owners said of tables: small files that no database names.
+TABLES = "tables"
 IDENTITY = "spindle-store.json"
 IDENTITY_ID = re.compile(r"[0-9a-f]{32}")
 RIDE_SUFFIX, SIDECAR_SUFFIX = ".parquet", ".json"
@@ -83,6 +85,7 @@ class Objects(Protocol):
     def holding(self) -> AbstractContextManager[None]: ...
     def unless_held(self, work: Callable[[], bool]) -> bool: ...
     def keys(self) -> Iterator[str]: ...
+    def table_keys(self) -> Iterator[str]: ...
     def clear_staging(self) -> int: ...
 
 
@@ -179,6 +182,10 @@ class FileObjects:
     def keys(self) -> Iterator[str]:
         """Every object's key, sidecars too."""
         yield from self._files(KINDS)
+
+    def table_keys(self) -> Iterator[str]:
+        """Keys of what was said of tables."""
+        yield from self._files((TABLES,))
 
     def lost_keys(self) -> Iterator[str]:
         """What lies in `lost+found/`."""

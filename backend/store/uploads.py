@@ -287,6 +287,16 @@ class UploadStore:
         tokens = self._database.read(lambda c: c.execute(query).scalars().all())
         return tuple(self.get(token) for token in tokens)
 
+    def rejected_with(self, code: str) -> Sequence[str]:
+        """Ids of the uploads that were rejected for one reason, the first first."""
+        mine = (t.upload.c.state == "rejected") & (t.upload.c.code == code)
+        query = select(t.upload.c.token).where(mine).order_by(t.upload.c.id)
+        return self._database.read(lambda c: c.execute(query).scalars().all())
+
+    def wait_again(self, token: str) -> None:
+        """An upload that was concluded waits to be read once more."""
+        self._set(token, state="queued", code=None, detail=None, expires_us=None)
+
     def remove(self, token: str, now_us: int) -> None:
         """Forget an upload that no ride came from, and its bytes.
 

@@ -9,6 +9,7 @@ import sys
 import atheris
 
 with atheris.instrument_imports(include=["firmware_protocol", "backend"]):
+    from backend.domain.table_answer import TableAnswer
     from backend.ingest.blocks import Block, put_block, scan
     from backend.ingest.formats import read_file
     from backend.ingest.ride_logs import read_blocks
@@ -17,6 +18,18 @@ with atheris.instrument_imports(include=["firmware_protocol", "backend"]):
     from tests.fakes.fit_file import definition, enclosed
 
 
+TABLE_HEADS = [
+    *("time,speed_kmh,", "timestamp,speed,distance,temperature\n2023-03-26T00:59:59,"),
+    "Minutes, Torq (N-m),Km/h,Watts,Km,Cadence,Hrate,ID\n0.021,8.1,25.2,",
+    "Device Type,Date/Time,Firmware Version\n1,2012-11-27 13:40:41,1\n\n\nMinutes,Km/h\n",
+    "ZEIT;STRECKE;POWER;RPM;SPEED;PULS;HÖHE;TEMP;INTERVAL;PAUSE\nL_SEC;KM\n0;0,1;",
+    "secs,cad,hr,km,kph,nm,watts,alt,lon,lat\n0,90,150,",
+    "iBike,8,english\n2008,8,8,6,32,52\n\n0,0,0,0,1,0\nSpeed (mph),Power (W)\n15,",
+    "Ah\tV\tA\tS\tD\tDeg\tRPM\tHW\tNm\tThI\tThO\tAuxA\tAuxD\tFlgs\n0.1\t50\t4\t36\t",
+    "0.1\t50\t4\t36\t0.01\t41\t60\t125\t20\t1\t1\t0\t0\t1\n",
+    "ms_today;input_voltage;current_motor;speed_meters_per_sec;gnss_lat\n86399000;50;",
+    "Time (min);Speed (m/s)\n0:01:30;",
+]
 TRACK_PIECES = [
     *(b"<trk>", b"</trk>", b"<trkseg>", b"</trkseg>", b"</trkpt>", b"<trkpt/>", b"</gpx>"),
     *(b'<trkpt lat="48.1" lon="', b'11.5">', b"<time>2023-11-14T22:13:20Z</time>", b"<ele>"),
@@ -62,8 +75,19 @@ def wire(data: bytes) -> None:
 
 
 def csv(data: bytes) -> None:
-    """A table or a reason."""
-    assert read_file("ride.csv", b"time,speed_kmh," + data).state
+    """A table of any maker: a ride, a part of it, a question, or a reason; answered, too."""
+    from_input = atheris.FuzzedDataProvider(data)
+    head = from_input.PickValueInList(TABLE_HEADS)
+    name = from_input.PickValueInList(["ride.csv", "2024-10-10_12-54-08.csv", "CAlog.txt"])
+    file = head.encode(from_input.PickValueInList(["utf-8", "latin-1", "utf-16"]))
+    file += from_input.ConsumeBytes(from_input.remaining_bytes())
+    outcome = read_file(name, file)
+    assert outcome.state
+    if outcome.question is not None:
+        units = {c.name: c.units[0] for c in outcome.question.columns if c.units}
+        assert (
+            read_file(name, file, TableAnswer("Europe/Dublin", units, 5.0)).code != "needs_mapping"
+        )
 
 
 def fit(data: bytes) -> None:

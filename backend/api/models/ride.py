@@ -86,6 +86,10 @@ class Intake(Answer):
     fields_unread: dict[str, int] = Field(
         description="By name, in how many rows: text, bytes and lists of numbers."
     )
+    taken_as: dict[str, str] = Field(
+        description="What the file does not say, and what it was taken as: `time_zone`, "
+        "`rows_per_second`, a column's unit. `start`: where its date is from."
+    )
 
 
 class Lap(Answer):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from math import floor
 
 from backend.domain.noted import Noted, within
-from backend.ingest.cells import Growing, as_written, iso_moment, unix_seconds
+from backend.ingest.cells import Growing, as_written, iso_moment, step_of, unix_seconds
 from backend.ingest.columns import rides_of_columns
 from backend.ingest.outcome import COMPLETE, PARTIAL, ImportedRide, Outcome, rejected
 from backend.ingest.own_channels import Column, rules_of
@@ -71,7 +71,10 @@ def rides_of(track: Track) -> list[ImportedRide]:
     times = columns.pop(TIME, None)
     if times is None:
         return []
-    named = {name: Column(values, UNITS.get(name, ""), 0.0) for name, values in columns.items()}
+    named = {
+        name: Column(values, UNITS.get(name, ""), step_of(values))
+        for name, values in columns.items()
+    }
     fields = tuple(as_written(rule, columns) for rule in rules_of(named, track.sport))
     found = rides_of_columns(times, columns, fields, track.sport, track.points.unread)
     return [replace(ride, noted=within(track.noted, *span_s(ride))) for ride in found]

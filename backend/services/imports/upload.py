@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import NamedTuple, Protocol
 
 from backend.domain.ride import Ride, iso_utc
+from backend.domain.table_answer import TableAnswer, TableQuestion
 from backend.errors import BadFile, Conflict, InvalidRequest
 from backend.ingest import (
     SNIFFED_BYTES,
@@ -48,13 +49,15 @@ PIECE_BYTES = 1 << 20
 QUICK_S = 5.0
 # Code of a file whose ride is still being recorded.
 WAITS = "ride_is_live"
+# Code of a table that does not say its units or zone.
+NEEDS_MAPPING = "needs_mapping"
 CONCLUDED = (COMPLETE, PARTIAL, REJECTED)
 
 
 class Reader(Protocol):
     """Reads a file into an outcome, whatever its bytes."""
 
-    def __call__(self, path: Path, name: str) -> Outcome: ...
+    def __call__(self, path: Path, name: str, *, said: TableAnswer | None = None) -> Outcome: ...
 
 
 @dataclass(frozen=True)
@@ -192,6 +195,23 @@ class Uploads:
         more = len(found) > limit
         return {"items": found[:limit], "next": found[limit - 1].id if more else None}
 
+    def question(self, upload_id: str) -> TableQuestion:
+        """What must be said of an upload's table before it is read.
+
+        Raises NotFound; Conflict when it waits for no answer.
+        """
+        upload = self.get(upload_id)
+        if upload.code == NEEDS_MAPPING:
+            outcome = self._slow_reader(self._path(upload), upload.name)
+            if outcome.question is not None:
+                return outcome.question
+        raise Conflict(f"Upload {upload_id} waits for no answer.", code="nothing_asked")
+
+    def read_anew(self, upload_id: str) -> Future[Upload]:
+        """Have a file read again that waited for an answer; the promise of what becomes of it."""
+        self._store.uploads.wait_again(upload_id)
+        return self._look(upload_id)
+
     def remove(self, upload_id: str) -> None:
         """Give an upload up and free its space, whatever became of it but rides.
 
@@ -321,10 +341,12 @@ class Uploads:
         return self._store.objects.local_path(upload.object_key)
 
     def _read(self, upload: Upload, path: Path, lane: str) -> Outcome:
-        if lane == SLOW:
-            return self._slow_reader(path, upload.name)
-        outcome = self._reader(path, upload.name)
-        if outcome.code == TOO_SLOW:
+        read = self._slow_reader if lane == SLOW else self._reader
+        outcome = read(path, upload.name)
+        if outcome.question is not None:
+            known = self._store.table_answers.get(outcome.question.header_sha256)
+            outcome = read(path, upload.name, said=known.answer) if known else outcome
+        if outcome.code == TOO_SLOW and lane != SLOW:
             raise GoesElsewhere(SLOW)
         return outcome
 

@@ -133,7 +133,8 @@ def added_objects(
     missing, damaged = [], []
     rides = [key for key in keys if key.endswith(RIDE_SUFFIX)]
     # A sidecar is there for most rides; without it a ride lacks only what a person wrote.
-    for key in [IDENTITY, *keys, *map(sidecar_key, rides)]:
+    beside = [*map(sidecar_key, rides), *store.objects.table_keys()]
+    for key in [IDENTITY, *keys, *beside]:
         try:
             file = store.objects.local_path(key)
         except StoreError:

@@ -1034,26 +1034,6 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/rides/archive": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Export Rides
-         * @description Rides as a ZIP with an `index.csv` that lists them and what could not be made of them.
-         */
-        get: operations["export_rides"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
     "/api/v1/rides/tags": {
         parameters: {
             query?: never;
@@ -1128,26 +1108,6 @@ export interface paths {
          * @description Time in zones and bands, and best mean powers. Without a threshold there are no zones.
          */
         get: operations["effort_of_ride"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/rides/{ride_id}/pedalling": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Pedalling Of Ride
-         * @description Torque over the crank's angle with leg, dead spot and lag; time over speed and gain.
-         */
-        get: operations["pedalling_of_ride"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1558,6 +1518,70 @@ export interface paths {
          *     422 with the upload's code when its first 4 KiB are of no ride: the rest need not be sent.
          */
         patch: operations["append_upload"];
+        trace?: never;
+    };
+    "/api/v1/uploads/{upload_id}/mapping": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Mapping
+         * @description What must be said of a file that was rejected with `needs_mapping`, with its first rows.
+         */
+        get: operations["get_mapping"];
+        /**
+         * Put Mapping
+         * @description Says it; the file is read, as is every other that waits for the same answer.
+         */
+        put: operations["put_mapping"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tables": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Tables
+         * @description What was said of which tables, by the hash of their header.
+         */
+        get: operations["list_tables"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tables/{header_sha256}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Forget Table
+         * @description Forgets what was said: the next file with this header is asked about again.
+         */
+        delete: operations["forget_table"];
+        options?: never;
+        head?: never;
+        patch?: never;
         trace?: never;
     };
     "/healthz": {
@@ -2164,42 +2188,6 @@ export interface components {
              * @description Why the latest trial was given up; null when none was since the unit's start.
              */
             rollback_cause: ("asked" | "time_out" | "restart" | "unknown") | null;
-        };
-        /**
-         * CrankTorque
-         * @description Means over turning cranks, in 36 bins from the left crank up on.
-         */
-        CrankTorque: {
-            /** Turns */
-            turns: number;
-            /** Cadence Rpm */
-            cadence_rpm: number;
-            /** Rider Nm */
-            rider_nm: number[];
-            /**
-             * Motor Nm
-             * @description What the motor gave, at the crank.
-             */
-            motor_nm: number[] | null;
-            /**
-             * Left Share
-             * @description Of the rider's work, in the half of the turn in which the left leg pushes.
-             */
-            left_share: number | null;
-            /** Dead Spot Deg */
-            dead_spot_deg: number;
-            /**
-             * Dead Spot Share
-             * @description Its torque over the mean.
-             */
-            dead_spot_share: number | null;
-            /**
-             * Lag Deg
-             * @description Of the motor behind the rider, by the fundamental of the stroke; null where the motor's torque is not known or does not swing with it.
-             */
-            lag_deg: number | null;
-            /** Lag Ms */
-            lag_ms: number | null;
         };
         /**
          * Cut
@@ -2832,18 +2820,6 @@ export interface components {
             rules: ("NB" | "NS" | "ZO" | "PS" | "PB")[][];
         };
         /**
-         * GainMap
-         * @description Time over speed and gain: seconds[speed][gain], cells of these steps from zero on.
-         */
-        GainMap: {
-            /** Speed Step Kmh */
-            speed_step_kmh: number;
-            /** Gain Step */
-            gain_step: number;
-            /** Seconds */
-            seconds: number[][];
-        };
-        /**
          * Gap
          * @description A stretch without samples; `rows_lost` where it is known.
          */
@@ -3009,6 +2985,45 @@ export interface components {
             fields_unread: {
                 [key: string]: number;
             };
+            /**
+             * Taken As
+             * @description What the file does not say, and what it was taken as: `time_zone`, `rows_per_second`, a column's unit. `start`: where its date is from.
+             */
+            taken_as: {
+                [key: string]: string;
+            };
+        };
+        /**
+         * KnownAnswer
+         * @description What was said before.
+         */
+        KnownAnswer: {
+            /** Time Zone */
+            time_zone: string | null;
+            /** Units */
+            units: {
+                [key: string]: string;
+            };
+            /** Rows Per Second */
+            rows_per_second: number | null;
+        };
+        /**
+         * KnownTable
+         * @description A kind of table that was answered for.
+         */
+        KnownTable: {
+            /** Header Sha256 */
+            header_sha256: string;
+            /** Kind */
+            kind: string;
+            /** Columns */
+            columns: string[];
+            answer: components["schemas"]["KnownAnswer"];
+        };
+        /** KnownTables */
+        KnownTables: {
+            /** Items */
+            items: components["schemas"]["KnownTable"][];
         };
         /**
          * Lap
@@ -4318,22 +4333,6 @@ export interface components {
              */
             tags?: string[] | null;
         };
-        /** RidePedalling */
-        RidePedalling: {
-            /** Ride Id */
-            ride_id: number;
-            crank: components["schemas"]["CrankTorque"] | null;
-            /** Crank Refused */
-            crank_refused: ("no_angle" | "no_torque" | "slow_rows" | "few_turns") | null;
-            gain: components["schemas"]["GainMap"] | null;
-            /**
-             * Speed Points Kmh
-             * @description Of the ride's own table; null where nobody kept it.
-             */
-            speed_points_kmh: number[] | null;
-            /** Gain Points */
-            gain_points: number[] | null;
-        };
         /**
          * RidePlace
          * @description Where a ride began: the nearest town of GeoNames. Null for what nobody knows.
@@ -4565,6 +4564,26 @@ export interface components {
              * @description Of the ride's motor energy, 0 to 1.
              */
             share: number | null;
+        };
+        /**
+         * SaidOfTable
+         * @description What an owner says of a table. It is kept for every file with the same header.
+         */
+        SaidOfTable: {
+            /**
+             * Time Zone
+             * @description An IANA name: `Europe/Dublin`, `UTC`.
+             */
+            time_zone?: string | null;
+            /**
+             * Units
+             * @description By the column's name.
+             */
+            units?: {
+                [key: string]: string;
+            };
+            /** Rows Per Second */
+            rows_per_second?: number | null;
         };
         /**
          * Scenario
@@ -4969,6 +4988,36 @@ export interface components {
             /** Torque Rates */
             torque_rates: number[];
         };
+        /**
+         * TableColumn
+         * @description One column of a table.
+         */
+        TableColumn: {
+            /** Name */
+            name: string;
+            /**
+             * Channel
+             * @description What it becomes, or `time`; null for nothing known.
+             */
+            channel: string | null;
+            /**
+             * Unit
+             * @description As the table says it; null where it must be said.
+             */
+            unit: string | null;
+            /**
+             * Units
+             * @description What may be said; empty where nothing is asked.
+             */
+            units: string[];
+            /** Suggested */
+            suggested: string | null;
+            /**
+             * Samples
+             * @description Of the first rows.
+             */
+            samples: string[];
+        };
         /** TableComparison */
         TableComparison: {
             /** Cells */
@@ -4990,6 +5039,29 @@ export interface components {
             right: number[][];
             /** @description Looked for over a finer grid and at every point of both. */
             largest: components["schemas"]["LargestDifference"];
+        };
+        /**
+         * TableQuestion
+         * @description What must be said before a table is read.
+         */
+        TableQuestion: {
+            /** Header Sha256 */
+            header_sha256: string;
+            /** Kind */
+            kind: string;
+            /**
+             * Time Zone
+             * @description Its times have no zone.
+             */
+            time_zone: boolean;
+            /**
+             * Rows Per Second
+             * @description Its rows have no time.
+             */
+            rows_per_second: boolean;
+            /** Columns */
+            columns: components["schemas"]["TableColumn"][];
+            answer: components["schemas"]["KnownAnswer"] | null;
         };
         /**
          * TableUse
@@ -10000,78 +10072,6 @@ export interface operations {
             };
         };
     };
-    export_rides: {
-        parameters: {
-            query?: {
-                formats?: ("csv" | "parquet" | "fit" | "gpx" | "original")[];
-                /** @description Numbers of rides separated by commas; absent means all of this kind. */
-                ids?: string | null;
-                /** @description To be shown to strangers: what is so near to the ride's start and end, in m, is left out, later passes too, and distance and time begin behind it. FIT, GPX and CSV; 422 `no_positions`, `nothing_to_share`. */
-                blur_m?: number | null;
-                bike?: number | null;
-                /** @description At least so far. */
-                longer_km?: number | null;
-                /** @description The motor's energy is known. */
-                motor?: boolean;
-                /** @description With faults or marks. */
-                events?: boolean;
-                tag?: string | null;
-                /** @description Words, all in name, notes, tags or place. */
-                q?: string | null;
-            };
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/zip": unknown;
-                };
-            };
-            /** @description Not Found */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Conflict */
-            409: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unsupported Media Type */
-            415: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
     tag_rides: {
         parameters: {
             query?: never;
@@ -10278,55 +10278,6 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RideEffort"];
-                };
-            };
-            /** @description Not Found */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description `object_damaged`: the ride's file is not as written */
-            500: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    pedalling_of_ride: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                ride_id: number;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["RidePedalling"];
                 };
             };
             /** @description Not Found */
@@ -10870,8 +10821,6 @@ export interface operations {
         parameters: {
             query?: {
                 format?: "csv" | "parquet" | "fit" | "gpx" | "original";
-                /** @description To be shown to strangers: what is so near to the ride's start and end, in m, is left out, later passes too, and distance and time begin behind it. FIT, GPX and CSV; 422 `no_positions`, `nothing_to_share`. */
-                blur_m?: number | null;
             };
             header?: never;
             path: {
@@ -12205,6 +12154,238 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+        };
+    };
+    get_mapping: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                upload_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TableQuestion"];
+                };
+            };
+            /** @description Bad Request */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    put_mapping: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                upload_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SaidOfTable"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Upload"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_tables: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["KnownTables"];
+                };
+            };
+            /** @description Bad Request */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    forget_table: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                header_sha256: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Bad Request */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
             };
         };
     };

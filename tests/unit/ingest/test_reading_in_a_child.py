@@ -102,7 +102,7 @@ import backend.ingest.formats as formats
 from backend.ingest import worker
 from backend.ingest.outcome import rejected
 held = []
-def read_file(name, data):
+def read_file(name, data, said):
     what, _, amount = name.partition(" ")
     if what == "computes":
         ends_s = time.process_time() + float(amount)

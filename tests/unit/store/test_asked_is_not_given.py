@@ -21,7 +21,7 @@ from sqlalchemy import create_engine
 import backend.store
 from backend.domain.channels import ChannelSpec
 from backend.domain.ride import Ride, RideContext
-from backend.ingest.csv_rows import read_csv
+from backend.ingest.tables import read_table
 from backend.services.rides.review import Rides
 from backend.store import Store
 from tests.unit.store.conftest import OpenStore
@@ -104,7 +104,7 @@ def test_an_export_names_what_its_motor_torque_is(store: Store, tmp_path: Path) 
         file = tmp_path / f"{ride.id}.parquet"
         file.write_bytes(b"".join(exports.export(ride.id, "parquet").chunks))
         facts = b"".join(pq.read_metadata(file).metadata.values()).decode()
-        (again,) = read_csv(text).rides
+        (again,) = read_table(text).rides
         names = [channel.name for channel in again.rows.channels]
         told.append((header[2:], names, f'"motor_torque_meaning": "{ride.motor_torque_meaning}"'))
         assert told[-1][2].replace(" ", "") in facts.replace(" ", "")

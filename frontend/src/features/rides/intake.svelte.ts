@@ -42,6 +42,12 @@ export class Intake {
     this.arrivals = this.arrivals.filter((arrival) => arrival.id !== id)
   }
 
+  /** What became of a file that waited for its owner. */
+  settle(upload: Upload): void {
+    this.arrivals = this.arrivals.map((a) => (a.upload?.id === upload.id ? { ...a, upload } : a))
+    this.arrived()
+  }
+
   private async one({ id, file }: { id: number; file: File }): Promise<void> {
     try {
       const upload = await this.send(file, (share) => this.change(id, { share }))

@@ -23,7 +23,6 @@ import type {
   RideDiagnosis,
   RideEffort,
   RideEnergy,
-  RidePedalling,
   LibraryDocument,
   LibraryEntry,
   LibraryRow,
@@ -41,22 +40,25 @@ import type {
   Replay,
   ReplayRequest,
   Revision,
-  SinceChange,
-  StorePlace,
   Ride,
   RideKind,
   RideList,
   RideMark,
   RiderHome,
+  SaidOfTable,
   Scenario,
   Simulation,
   SimulationChange,
+  SinceChange,
+  StorePlace,
   Surface,
+  TableQuestion,
   TableUse,
   TableUseRequest,
   TorqueSurface,
   TorqueSurfaceRequest,
   UnitLogs,
+  Upload,
   WearCounters,
   Why,
   WhyRequest,
@@ -423,11 +425,6 @@ export class Server {
     return body(this.http.GET('/api/v1/rides/{ride_id}/effort', { params, signal }))
   }
 
-  /** Torque over the crank's angle, and time over speed and gain. */
-  pedalling(id: number, signal: AbortSignal): Promise<RidePedalling> {
-    return body(this.http.GET('/api/v1/rides/{ride_id}/pedalling', { ...this.rideAt(id), signal }))
-  }
-
   /** What a ride shows of the bike's health. */
   diagnosis(id: number, signal: AbortSignal): Promise<RideDiagnosis> {
     return body(this.http.GET('/api/v1/rides/{ride_id}/diagnosis', { ...this.rideAt(id), signal }))
@@ -450,6 +447,24 @@ export class Server {
   async removeUpload(upload_id: string): Promise<void> {
     const params = { path: { upload_id } }
     await body(this.http.DELETE('/api/v1/uploads/{upload_id}', { params }))
+  }
+
+  /** Where a file stands. */
+  upload(upload_id: string): Promise<Upload> {
+    const params = { path: { upload_id } }
+    return body(this.http.GET('/api/v1/uploads/{upload_id}', { params }))
+  }
+
+  /** What must be said of a table before it is read. */
+  tableQuestion(upload_id: string): Promise<TableQuestion> {
+    const params = { path: { upload_id } }
+    return body(this.http.GET('/api/v1/uploads/{upload_id}/mapping', { params }))
+  }
+
+  /** Says it; what became of the file. */
+  sayOfTable(upload_id: string, said: SaidOfTable): Promise<Upload> {
+    const params = { path: { upload_id } }
+    return body(this.http.PUT('/api/v1/uploads/{upload_id}/mapping', { params, body: said }))
   }
 
   /** Least and greatest value per bin, exact at any zoom. */

@@ -8,6 +8,8 @@ export const enRides = {
   'rides.none': 'No rides yet. Ride a bike, or drop a file here.',
   'rides.more': 'Show older rides',
   'rides.open': 'Open the ride',
+  'rides.say': 'Say units and zone',
+  'rides.say_named': 'Say units and zone of {name}',
   'rides.remove': 'Remove the file',
   'rides.remove_named': 'Remove {name} from the server',
   'rides.duplicate': 'Already here: the same bytes were read before.',

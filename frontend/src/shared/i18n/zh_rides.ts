@@ -10,6 +10,8 @@ export const zhRides: Record<keyof typeof enRides, string> = {
   'rides.none': '还没有骑行。去骑车，或把文件拖到这里。',
   'rides.more': '显示更早的骑行',
   'rides.open': '打开骑行',
+  'rides.say': '说明单位和时区',
+  'rides.say_named': '说明 {name} 的单位和时区',
   'rides.remove': '移除文件',
   'rides.remove_named': '从服务器移除 {name}',
   'rides.duplicate': '已存在：之前读过相同的文件。',

@@ -15,6 +15,11 @@ export const en = {
   clock_jumped: '{count} with a clock that jumped away',
   no_value: '{count} without any value',
   values: '{count} impossible values of {channel} are left out',
+  taken_unit: '{column} is in {value}, as its owner said',
+  taken_time_zone: 'Its times are of {value}, as its owner said',
+  taken_rows_per_second: '{value} rows a second',
+  taken_file_name: 'Date and time are from the file’s name',
+  taken_none: 'The file has no date: the ride stands at the time it was sent',
   unread: '{field} is no single number ({count} records)',
 }
 

@@ -13,5 +13,10 @@ export const zh: Record<RideFileKey, string> = {
   clock_jumped: '{count} 条的时钟跳走',
   no_value: '{count} 条没有任何数值',
   values: '{channel} 有 {count} 个不可能的数值已略去',
+  taken_unit: '{column} 的单位为 {value}（由车主说明）',
+  taken_time_zone: '时间属于 {value}（由车主说明）',
+  taken_rows_per_second: '每秒 {value} 行',
+  taken_file_name: '日期和时间取自文件名',
+  taken_none: '文件没有日期：骑行按上传时间排列',
   unread: '{field} 不是单个数值（{count} 条记录）',
 }

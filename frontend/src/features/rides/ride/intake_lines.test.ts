@@ -14,6 +14,7 @@ const nothing = {
   rows_dropped: {},
   values_dropped: {},
   fields_unread: {},
+  taken_as: {},
 }
 
 test('a file that is wholly in its ride has nothing to tell', () => {
@@ -36,5 +37,15 @@ test('what is not simply a row is told with its count and reason', () => {
     '2 with a clock that jumped away',
     '1 impossible values of distance_m are left out',
     'left_power_phase is no single number (60 records)',
+  ])
+})
+
+test('what an owner said, and where a date is from, is told', () => {
+  const taken_as = { speed: 'm/s', time_zone: 'Europe/Dublin', start: 'file_name' }
+
+  expect(intakeLines({ ...nothing, taken_as }, say, locale)).toEqual([
+    'speed is in m/s, as its owner said',
+    'Its times are of Europe/Dublin, as its owner said',
+    'Date and time are from the file’s name',
   ])
 })

@@ -19,8 +19,17 @@ export function intakeLines(intake: Intake, say: FileSay, locale: Locale): strin
     ...Object.entries(intake.values_dropped).map(([name, many]) =>
       say('values', { ...count(many), channel: locale.lookup(`channel.${name}`, name) }),
     ),
+    ...Object.entries(intake.taken_as).map(([name, value]) => taken(name, value, say)),
     ...Object.entries(intake.fields_unread).map(([field, many]) =>
       say('unread', { ...count(many), field }),
     ),
   ]
+}
+
+/** What the file does not say, and was taken as. */
+function taken(name: string, value: string, say: FileSay): string {
+  if (name === 'start') return say(value === 'file_name' ? 'taken_file_name' : 'taken_none')
+  if (name === 'time_zone') return say('taken_time_zone', { value })
+  if (name === 'rows_per_second') return say('taken_rows_per_second', { value })
+  return say('taken_unit', { column: name, value })
 }

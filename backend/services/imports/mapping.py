@@ -1,0 +1,57 @@
+"""What a table does not say is asked once, and what its owner says is kept for its like."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import Any
+
+from backend.domain.table_answer import TableAnswer, answer_from_json, answer_to_json, lacking
+from backend.errors import Conflict, FieldError, InvalidRequest
+from backend.services.imports.upload import NEEDS_MAPPING, Uploads
+from backend.store import Store, Upload
+
+
+class TableMapping:
+    """The use cases; safe to call from any thread."""
+
+    def __init__(self, store: Store, uploads: Uploads) -> None:
+        self._store = store
+        self._uploads = uploads
+
+    def question(self, upload_id: str) -> dict[str, object]:
+        """What must be said of an upload's table: the question and what is known already.
+
+        Raises NotFound; Conflict when nothing is asked of it.
+        """
+        question = self._uploads.question(upload_id)
+        known = self._store.table_answers.get(question.header_sha256)
+        answer = answer_to_json(known.answer) if known else None
+        return {**asdict(question), "answer": answer}
+
+    def say(self, upload_id: str, said: Mapping[str, Any]) -> Upload:
+        """Keep an answer and read the file by it, as all that wait for the same; what became of it.
+
+        said: the members of TableAnswer.
+        Raises NotFound, Conflict; InvalidRequest for an answer that lacks something.
+        """
+        answer = answer_from_json(said) or TableAnswer()
+        question = self._uploads.question(upload_id)
+        if missing := lacking(question, answer):
+            told = f"Not said, or not one of what can be said: {', '.join(missing)}."
+            fields = [FieldError(name, "not_said", told) for name in missing]
+            raise InvalidRequest(told, code="answer_incomplete", fields=fields)
+        self._store.table_answers.keep(question, answer)
+        waiting = self._store.uploads.rejected_with(NEEDS_MAPPING)
+        read = {token: self._uploads.read_anew(token) for token in waiting}
+        if upload_id not in read:
+            raise Conflict(f"Upload {upload_id} waits for no answer.", code="nothing_asked")
+        return {token: promise.result() for token, promise in read.items()}[upload_id]
+
+    def known(self) -> dict[str, object]:
+        """What was said of which tables."""
+        return {"items": [asdict(table) for table in self._store.table_answers.all()]}
+
+    def forget(self, header_sha256: str) -> None:
+        """Ask again from now on; rides that were read stay as they are. Raises NotFound."""
+        self._store.table_answers.forget(header_sha256)

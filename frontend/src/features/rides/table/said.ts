@@ -1,0 +1,35 @@
+// What an owner says of a table, as far as it is said.
+import type { TableQuestion } from '$shared/api/types'
+
+export interface Said {
+  zone: string
+  /** By the column's name; '' until it is chosen. */
+  units: Record<string, string>
+  rate: number | null
+}
+
+/** What was said before, and the rider's own zone; a unit is never chosen for him. */
+export function answered(question: TableQuestion, here: string): Said {
+  const before = question.answer
+  const asked = question.columns.filter(({ units }) => units.length > 0)
+  const units = asked.map(({ name, units }) => {
+    const unit = before?.units[name] ?? ''
+    return [name, units.includes(unit) ? unit : ''] as const
+  })
+  return {
+    zone: before?.time_zone ?? here,
+    units: Object.fromEntries(units),
+    rate: before?.rows_per_second ?? null,
+  }
+}
+
+/** Whether everything that is asked is said. */
+export function isWhole(question: TableQuestion, said: Said): boolean {
+  return (
+    (!question.time_zone || said.zone.trim() !== '') &&
+    (!question.rows_per_second || (said.rate ?? 0) > 0) &&
+    question.columns.every(
+      ({ name, units }) => units.length === 0 || units.includes(said.units[name] ?? ''),
+    )
+  )
+}
