@@ -1,6 +1,11 @@
-"""What a list of rides and a rider's totals take once there are 10,000 rides."""
+"""What a list of rides and a rider's totals take once there are 10,000 rides.
 
+In processor time: the database is a file in memory's cache, and what else runs is not ours.
+"""
+
+import statistics
 import tempfile
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -15,7 +20,7 @@ from backend.services.rides.review import Rides
 from backend.store import Store, open_store
 from backend.store.sql import tables as t
 from firmware_protocol._generated import CHANNELS
-from tests.bench.figures import Figure, median_of
+from tests.bench.figures import Figure
 
 RIDES = 10_000
 RUNS = 15
@@ -50,12 +55,23 @@ def measure(store: Store) -> list[Figure]:
     ]
     figures = []
     for name, ask in questions:
-        took_ms = 1e3 * median_of(RUNS, ask)
+        took_ms = 1e3 * processor_s(ask)
         figures.append(
             Figure(f"{RIDES:,} rides: {name}", f"{took_ms:.1f} ms", f"<= {AT_MOST_MS:.0f} ms",
                    took_ms <= AT_MOST_MS)
         )  # fmt: skip
     return figures
+
+
+def processor_s(work: Callable[[], object]) -> float:
+    """Median processor time of a call, s."""
+    work()
+    taken = []
+    for _ in range(RUNS):
+        start = time.process_time()
+        work()
+        taken.append(time.process_time() - start)
+    return statistics.median(taken)
 
 
 def fill(store: Store) -> None:

@@ -89,12 +89,14 @@ def narrowed(query: Select[Any], sought: Sought) -> Select[Any]:
         query = query.where(
             (ride.unit_key == sought.device) | (ride.device_serial == sought.device)
         )
+    # As sums bike and distance are no terms of an index: SQLite would gather thousands of rides by
+    # them and sort these, instead of reading from the newest on until the page is full.
     if sought.bike_id is not None:
-        query = query.where(ride.bike_id == sought.bike_id)
+        query = query.where(ride.bike_id + 0 == sought.bike_id)
     if sought.longer_km is not None or sought.with_motor:
         query = query.join(t.ride_summary, t.ride_summary.c.ride_id == ride.id)
         if sought.longer_km is not None:
-            query = query.where(t.ride_summary.c.distance_km >= sought.longer_km)
+            query = query.where(t.ride_summary.c.distance_km + 0 >= sought.longer_km)
         if sought.with_motor:
             query = query.where(t.ride_summary.c.motor_wh.is_not(None))
     texts = [f"\n#{sought.tag.strip().casefold()}\n"] if sought.tag else []
