@@ -19,14 +19,13 @@ class TableColumn:
     """One column of a table. channel: what it becomes, `time`, None for nothing known.
 
     unit: as the header says it or the format defines it, None where it must be said. units: what
-    may be said then. suggested: the likeliest of them. samples: of the first rows.
+    may be said then. samples: of the first rows.
     """
 
     name: str
     channel: str | None = None
     unit: str | None = None
     units: tuple[str, ...] = ()
-    suggested: str | None = None
     samples: tuple[str, ...] = ()
 
 

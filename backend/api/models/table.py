@@ -14,7 +14,6 @@ class TableColumn(Answer):
     channel: str | None = Field(description="What it becomes, or `time`; null for nothing known.")
     unit: str | None = Field(description="As the table says it; null where it must be said.")
     units: list[str] = Field(description="What may be said; empty where nothing is asked.")
-    suggested: str | None
     samples: list[str] = Field(description="Of the first rows.")
 
 

@@ -140,8 +140,7 @@ class Table:
                 continue
             channel = measure.rule.channel.name
             asked = measure.choices if measure.unit is None else ()
-            first = asked[0] if asked else None
-            columns.append(TableColumn(name, channel, measure.unit, asked, first, samples))
+            columns.append(TableColumn(name, channel, measure.unit, asked, samples))
         return TableQuestion(
             hashlib.sha256(header.encode()).hexdigest(),
             layout.kind,

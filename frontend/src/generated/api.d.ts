@@ -5010,8 +5010,6 @@ export interface components {
              * @description What may be said; empty where nothing is asked.
              */
             units: string[];
-            /** Suggested */
-            suggested: string | null;
             /**
              * Samples
              * @description Of the first rows.

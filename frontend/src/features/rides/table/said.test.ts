@@ -8,7 +8,6 @@ const column = (name: string, units: string[]) => ({
   channel: null,
   unit: null,
   units,
-  suggested: units[0] ?? null,
   samples: [],
 })
 const question: TableQuestion = {
