@@ -77,6 +77,11 @@ def best_mean(
     """The best stretch of this length, among those that begin or end at a corner."""
     if length <= 0.0:
         return None
+    rows = round(length / float(corner_s[1] - corner_s[0]))
+    if 0 < rows < len(corner_s) and is_even(corner_s, rows, length):
+        # Even rows: a stretch that begins at a corner ends at one, and nothing is between them.
+        gained, gone = work_j[rows:] - work_j[:-rows], missing_s[rows:] - missing_s[:-rows]
+        return best_of(corner_s[:-rows], gained, gone, length)
     found = [best_from(corner_s, work_j, missing_s, length, at) for at in (0.0, length)]
     return max((best for best in found if best), key=lambda best: best.power_w, default=None)
 
@@ -88,10 +93,25 @@ def best_from(
     begins = corner_s - before_s
     inside = (begins >= corner_s[0] - MISSING_S) & (begins + length <= corner_s[-1] + MISSING_S)
     begins = begins[inside]
-    gone = np.interp(begins + length, corner_s, missing_s) - np.interp(begins, corner_s, missing_s)
-    begins = begins[gone <= MISSING_S]
-    if not len(begins):
+
+    def over(line: Values) -> Values:
+        ends = np.interp(begins + length, corner_s, line)
+        gained: Values = ends - np.interp(begins, corner_s, line)
+        return gained
+
+    return best_of(begins, over(work_j), over(missing_s), length)
+
+
+def is_even(corner_s: Values, rows: int, length: float) -> bool:
+    """Whether so many corners on it is always this length."""
+    off_s = corner_s[rows:] - corner_s[:-rows] - length
+    return bool(np.max(np.abs(off_s)) <= MISSING_S)
+
+
+def best_of(begins: Values, work_j: Values, missing_s: Values, length: float) -> BestMean | None:
+    """The best of stretches (m,) by when they begin, their work and their time without samples."""
+    whole = missing_s <= MISSING_S
+    if not whole.any():
         return None
-    work = np.interp(begins + length, corner_s, work_j) - np.interp(begins, corner_s, work_j)
-    best = int(np.argmax(work))
-    return BestMean(length, float(work[best]) / length, float(begins[best]))
+    best = int(np.argmax(np.where(whole, work_j, -np.inf)))
+    return BestMean(length, float(work_j[best]) / length, float(begins[best]))

@@ -119,6 +119,18 @@ def test_the_power_curve_is_what_trying_every_begin_finds(seed: int) -> None:
     assert searched(power, start_s, held_s, int(curve[-1].duration_s) + 1) == -1.0
 
 
+def test_even_rows_with_a_hole_are_searched_as_exactly() -> None:
+    random = np.random.default_rng(9)
+    power = random.uniform(0.0, 500.0, 3000).round()
+    power[[700, 701, 2000]] = np.nan
+    start_s, held_s = np.arange(3000) / 10.0, np.full(3000, 0.1)
+
+    for best in power_curve(power, start_s, held_s)[:-1]:
+        assert best.power_w == pytest.approx(
+            searched(power, start_s, held_s, int(best.duration_s)), abs=1e-6
+        )
+
+
 def test_a_ride_without_a_gap_ends_its_curve_with_its_mean() -> None:
     power = np.repeat([100.0, 300.0, 200.0], 40)
     curve = power_curve(power, np.arange(120.0), np.ones(120))
