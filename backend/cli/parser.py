@@ -206,6 +206,13 @@ def _add_ride(verbs: Any) -> None:
     formats = ["csv", "parquet", "fit", "gpx", "original"]
     command.add_argument("--format", choices=formats, default="csv")
     command.add_argument("--output", "-o", type=Path, help="a file; standard output if absent")
+    blur = "for strangers: leave out what is so near to start and end (fit, gpx, csv)"
+    command.add_argument("--blur", type=float, metavar="METRES", help=blur)
+    command = _asking(group, "archive", ride.archive, help="rides as one ZIP with a list of them")
+    command.add_argument("rides", type=int, nargs="*", help="all if absent")
+    command.add_argument("--formats", default="fit", help="of csv,parquet,fit,gpx,original (fit)")
+    command.add_argument("--output", "-o", type=Path, help="a file; standard output if absent")
+    command.add_argument("--blur", type=float, metavar="METRES", help=blur)
     command = _asking(
         group, "report", ride.report, help="a ride as one HTML file, to keep or print"
     )

@@ -182,19 +182,32 @@ def show(options: Namespace) -> int:
 
 def export(options: Namespace) -> int:
     """A ride as a file."""
-    return save(options, "export", {"format": options.format})
+    blur = {} if options.blur is None else {"blur_m": options.blur}
+    return save(options, f"{options.ride}/export", {"format": options.format, **blur})
+
+
+def archive(options: Namespace) -> int:
+    """Rides as one ZIP: those that are named, or all."""
+    params: dict[str, Any] = {"formats": options.formats.split(",")}
+    if options.rides:
+        params["ids"] = ",".join(map(str, options.rides))
+    if options.blur is not None:
+        params["blur_m"] = options.blur
+    return save(options, "archive", params)
 
 
 def report(options: Namespace) -> int:
     """A ride as one HTML file."""
     asked = ("language", "threshold_power_w", "heart_rate_bpm_max")
     told = {name: getattr(options, name) for name in asked}
-    return save(options, "report", {name: value for name, value in told.items() if value})
+    return save(
+        options, f"{options.ride}/report", {name: value for name, value in told.items() if value}
+    )
 
 
 def save(options: Namespace, what: str, params: dict[str, Any]) -> int:
-    """What the server makes of a ride, as a file or to standard output."""
-    response = server_of(options).response("GET", f"/rides/{options.ride}/{what}", params=params)
+    """What the server makes of rides, as a file or to standard output."""
+    response = server_of(options).response("GET", f"/rides/{what}", params=params)
     if options.output is None:
         sys.stdout.buffer.write(response.content)
         return 0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import re
+import zipfile
 
 import pytest
 from playwright.sync_api import Page, expect
@@ -220,6 +221,13 @@ def test_rides_are_found_tagged_and_deleted_many_at_once(desk: Desk, server: Spi
     page.click("dialog >> text=Add")
     page.click("dialog >> text=Done")
     expect(listed.first).to_contain_text("flat")
+    page.click("[data-testid=many-rides] >> text=Export…")
+    page.get_by_label("CSV").check()
+    with page.expect_download() as saved:
+        page.click("dialog >> text=Save the ZIP")
+    with zipfile.ZipFile(saved.value.path()) as zipped:
+        assert len(zipped.namelist()) == 7
+    page.click("dialog >> text=Done")
     page.get_by_label("Choose Delta 1").uncheck()
     page.click("[data-testid=many-rides] >> text=Delete…")
     page.click("dialog >> text=Delete (2)")

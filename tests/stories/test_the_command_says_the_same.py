@@ -9,6 +9,7 @@ import json
 import math
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -202,6 +203,14 @@ def test_a_file_is_imported_listed_and_exported(server: SpindleServer, tmp_path:
 
     assert reported.returncode == 0, reported.stderr
     assert "骑行" in page.read_text(encoding="utf-8")
+    zipped = tmp_path / "rides.zip"
+    packed = spindle(server, "ride", "archive", str(ride), "--formats", "csv,fit", "-o", zipped)
+    shared = spindle(server, "ride", "export", str(ride), "--format", "fit", "--blur", "200")
+
+    assert packed.returncode == 0, packed.stderr
+    with zipfile.ZipFile(zipped) as found_files:
+        assert len(found_files.namelist()) == 3
+    assert (shared.returncode, "no position" in shared.stderr) == (1, True)
     assert tagged.returncode == 0, tagged.stderr
     assert card == [20.0] * 64
     assert [item["id"] for item in json.loads(found.stdout)["items"]] == [ride]

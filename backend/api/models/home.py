@@ -15,6 +15,19 @@ RideIds = Annotated[
 ]
 
 
+ExportFormat = Literal["csv", "parquet", "fit", "gpx", "original"]
+Blur = Annotated[
+    float | None,
+    Query(
+        ge=50.0,
+        le=5000.0,
+        description="To be shown to strangers: what is so near to the ride's start and end, in m, "
+        "is left out, later passes too, and distance and time begin behind it. FIT, GPX and CSV; "
+        "422 `no_positions`, `nothing_to_share`.",
+    ),
+]
+
+
 class RideKind:
     """Which rides a list shows; absent means whatever."""
 

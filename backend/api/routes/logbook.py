@@ -4,9 +4,17 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Query, status
+from fastapi import APIRouter, Depends, Query, status
+from fastapi.responses import StreamingResponse
 
-from backend.api.models.home import RiderHome, RidesGone, RideTags
+from backend.api.models.home import (
+    Blur,
+    ExportFormat,
+    RideKind,
+    RiderHome,
+    RidesGone,
+    RideTags,
+)
 from backend.api.problem import refusals
 from backend.api.services import Provided
 
@@ -25,6 +33,34 @@ def rider_home(
     """Weeks, months, records and faults of all rides or a bike's; days begin at the zone's
     midnight, whatever its clocks do. 422 `unknown_zone` for a zone that is none."""
     return services.home(zone, week_begins, bike)
+
+
+@router.get(
+    "/archive",
+    operation_id="export_rides",
+    response_class=StreamingResponse,
+    responses={200: {"content": {"application/zip": {}}}},
+)
+def export_rides(
+    services: Provided,
+    kind: Annotated[RideKind, Depends()],
+    formats: Annotated[
+        list[ExportFormat], Query(min_length=1, max_length=5, default_factory=lambda: ["fit"])
+    ],
+    ids: Annotated[
+        str | None,
+        Query(
+            pattern=r"^[0-9]{1,18}(,[0-9]{1,18}){0,499}$",
+            description="Numbers of rides separated by commas; absent means all of this kind.",
+        ),
+    ] = None,
+    blur_m: Blur = None,
+) -> StreamingResponse:
+    """Rides as a ZIP with an `index.csv` that lists them and what could not be made of them."""
+    ride_ids = [int(number) for number in ids.split(",")] if ids else []
+    chunks = services.rides.archive(formats, blur_m, ride_ids, **kind.told())
+    headers = {"content-disposition": 'attachment; filename="spindle-rides.zip"'}
+    return StreamingResponse(chunks, media_type="application/zip", headers=headers)
 
 
 @router.post("/tags", operation_id="tag_rides", status_code=status.HTTP_204_NO_CONTENT)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from datetime import datetime
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Path, Query, Request, Response, status
 from fastapi.responses import JSONResponse, StreamingResponse
@@ -13,7 +13,7 @@ from pydantic import BeforeValidator
 
 from backend.api.asker import while_asked
 from backend.api.large import in_pieces, whole
-from backend.api.models.home import RideKind
+from backend.api.models.home import Blur, ExportFormat, RideKind
 from backend.api.models.replay import (
     AgainRequest,
     ClosedLoop,
@@ -48,7 +48,6 @@ def dated(text: object) -> object:
 
 
 Moment = Annotated[datetime, BeforeValidator(dated)]
-ExportFormat = Literal["csv", "parquet", "fit", "gpx", "original"]
 
 
 def channel_names(text: str | None) -> list[str] | None:
@@ -142,9 +141,10 @@ def export_ride(
     ride_id: RideId,
     services: Provided,
     file_format: Annotated[ExportFormat, Query(alias="format")] = "csv",
+    blur_m: Blur = None,
 ) -> StreamingResponse:
     """The ride as a file, verified before its first byte; `original` is what was uploaded."""
-    return as_file(services.rides.export(ride_id, file_format))
+    return as_file(services.rides.export(ride_id, file_format, blur_m))
 
 
 def as_file(export: Export) -> StreamingResponse:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -10,7 +10,9 @@ from typing import Any
 
 from backend.domain.ride import Ride, RideSummary
 from backend.errors import InvalidRequest, NotFound
+from backend.services.rides.archive import archive
 from backend.services.rides.export import Export, export
+from backend.services.rides.share import share
 from backend.store import Sought, Store, expected_of
 from backend.views.figure import figure
 from backend.views.trace import Trace, trace
@@ -117,9 +119,28 @@ class Rides:
         told: dict[str, object] = drawn.to_plotly_json()
         return told
 
-    def export(self, ride_id: int, file_format: str) -> Export:
-        """The ride as a file. Raises NotFound, InvalidRequest for what cannot be made of it."""
-        return export(self._store, self._store.rides.get(ride_id), file_format)
+    def export(self, ride_id: int, file_format: str, blur_m: float | None = None) -> Export:
+        """The ride as a file. Raises NotFound, InvalidRequest for what cannot be made of it.
+
+        blur_m: what is so near to its start and end is left out, as `share`.
+        """
+        ride = self._store.rides.get(ride_id)
+        if blur_m is not None:
+            return share(self._store, ride, file_format, blur_m)
+        return export(self._store, ride, file_format)
+
+    def archive(
+        self,
+        formats: Sequence[str],
+        blur_m: float | None = None,
+        ride_ids: Sequence[int] = (),
+        **what: Any,
+    ) -> Iterator[bytes]:
+        """These rides as a ZIP, or every finished one as of `sought`. Raises NotFound."""
+        chosen = list(dict.fromkeys(ride_ids)) or self._store.logbook.ids(self.sought(**what))
+        for ride_id in ride_ids:
+            self._store.rides.get(ride_id)
+        return archive(self._store, chosen, formats, blur_m)
 
     def replay(self, ride_id: int, **changes: Mapping[str, Any] | None) -> Any:
         """What the motor would have done with other settings, as of `changed_config`."""

@@ -1034,6 +1034,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/rides/archive": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Rides
+         * @description Rides as a ZIP with an `index.csv` that lists them and what could not be made of them.
+         */
+        get: operations["export_rides"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/rides/tags": {
         parameters: {
             query?: never;
@@ -10070,6 +10090,78 @@ export interface operations {
             };
         };
     };
+    export_rides: {
+        parameters: {
+            query?: {
+                formats?: ("csv" | "parquet" | "fit" | "gpx" | "original")[];
+                /** @description Numbers of rides separated by commas; absent means all of this kind. */
+                ids?: string | null;
+                /** @description To be shown to strangers: what is so near to the ride's start and end, in m, is left out, later passes too, and distance and time begin behind it. FIT, GPX and CSV; 422 `no_positions`, `nothing_to_share`. */
+                blur_m?: number | null;
+                bike?: number | null;
+                /** @description At least so far. */
+                longer_km?: number | null;
+                /** @description The motor's energy is known. */
+                motor?: boolean;
+                /** @description With faults or marks. */
+                events?: boolean;
+                tag?: string | null;
+                /** @description Words, all in name, notes, tags or place. */
+                q?: string | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/zip": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unsupported Media Type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     tag_rides: {
         parameters: {
             query?: never;
@@ -10819,6 +10911,8 @@ export interface operations {
         parameters: {
             query?: {
                 format?: "csv" | "parquet" | "fit" | "gpx" | "original";
+                /** @description To be shown to strangers: what is so near to the ride's start and end, in m, is left out, later passes too, and distance and time begin behind it. FIT, GPX and CSV; 422 `no_positions`, `nothing_to_share`. */
+                blur_m?: number | null;
             };
             header?: never;
             path: {

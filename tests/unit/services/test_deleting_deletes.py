@@ -19,6 +19,7 @@ from backend.errors import Conflict, NotFound, StoreError
 from backend.ingest import ImportedRide, Outcome
 from backend.ingest.outcome import rejected
 from backend.services.imports.upload import Uploads, UploadSettings
+from backend.services.rides.cards import RideCards
 from backend.services.rides.review import Rides
 from backend.store import open_store
 from backend.store.deletion import Deletions
@@ -111,6 +112,30 @@ def test_with_the_last_ride_the_original_goes_and_not_before(shop: Shop) -> None
     assert shop.files() == []
     with pytest.raises(NotFound):
         shop.uploads.get(upload)
+
+
+def test_nothing_a_person_wrote_of_a_deleted_ride_is_left_in_any_file(shop: Shop) -> None:
+    shop.take(b"kept", ridden(1))
+    shop.take(b"gone", ridden(2))
+    kept, gone = shop.ride_ids()
+    words = {"name": "to the clinic", "notes": "met nobody" * 50, "tags": ["secretive"]}
+    shop.store.rides.patch(gone, **words)  # type: ignore[arg-type]
+    RideCards(shop.store).tick()
+
+    def told() -> list[str]:
+        everything = b"".join(
+            path.read_bytes() for path in shop.folder.rglob("*") if path.is_file()
+        )
+        return [word for word in ("clinic", "nobody", "secretive") if word.encode() in everything]
+
+    assert told() == ["clinic", "nobody", "secretive"]
+    shop.rides.delete(gone)
+    # What a second of housekeeping does: the log of changes is emptied.
+    for _ in range(3):
+        shop.store.sweep(START_US)
+
+    assert told() == []
+    assert shop.ride_ids() == [kept]
 
 
 def test_copies_of_the_same_bytes_keep_nothing(shop: Shop) -> None:

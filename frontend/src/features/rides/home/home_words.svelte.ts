@@ -57,6 +57,14 @@ export const en = {
   chosen: '{count} chosen',
   tag: 'Tag…',
   delete: 'Delete…',
+  files: 'Export…',
+  files_title: 'Export the chosen rides ({count})',
+  files_list: 'One ZIP with a file for each ride and format, and a list of them.',
+  blurred: 'For strangers: without {metres} m around start and end',
+  blurred_why:
+    'Later passes are left out too; distance and time begin behind, and no name is in it. Only ' +
+    'FIT, GPX and CSV can be shared so.',
+  files_get: 'Save the ZIP',
   let_go: 'Choose none',
   tag_title: 'Tags of the chosen rides ({count})',
   tag_name: 'A new tag',

@@ -34,6 +34,10 @@ export const en = {
   export_title: 'Take this ride away',
   close: 'Close',
   report: 'Report (HTML)',
+  share_title: 'to share',
+  share:
+    'To share with strangers: without {metres} m around start and end, later passes too; ' +
+    'distance and time begin behind, and no name is in it.',
 }
 
 export type RideKey = keyof typeof en

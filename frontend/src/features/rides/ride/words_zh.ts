@@ -32,4 +32,6 @@ export const zh: Record<RideKey, string> = {
   export_title: '取走这次骑行',
   close: '关闭',
   report: '报告 (HTML)',
+  share_title: '用于分享',
+  share: '分享给陌生人：去掉起点和终点周围 {metres} 米，之后经过该处的部分也去掉；距离和时间从其后开始，不含名称。',
 }
