@@ -24,7 +24,7 @@ def test_a_ride_tells_its_energy_effort_and_health(
     energy = page.get_by_test_id("energy")
     expect(energy).to_contain_text(f"{told['motor_per_rider']:.2f} Wh for each Wh of yours")
     health = page.get_by_test_id("health")
-    expect(health).to_contain_text("Rows were lost while the bike moved: 1 times, 300 s")
+    expect(health).to_contain_text("Rows were lost while the bike moved: 1 ×, 300 s")
     health.get_by_role("button").first.click()
     page.wait_for_url("**from_s=2120**")
     effort = page.get_by_test_id("effort")

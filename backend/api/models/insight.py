@@ -1,4 +1,4 @@
-"""What a ride tells: energy, effort, diagnosis."""
+"""What a ride tells: energy, effort, pedalling, diagnosis."""
 
 from __future__ import annotations
 
@@ -177,3 +177,41 @@ class RideDiagnosis(Answer):
     method: int = Field(description="Counted up whenever a threshold or a method changes.")
     worst: Severity | None
     checks: list[DiagnosisCheck]
+
+
+class CrankTorque(Answer):
+    """Means over turning cranks, in 36 bins from the left crank up on."""
+
+    turns: float
+    cadence_rpm: float
+    rider_nm: list[float]
+    motor_nm: list[float] | None = Field(description="What the motor gave, at the crank.")
+    left_share: float | None = Field(
+        description="Of the rider's work, in the half of the turn in which the left leg pushes."
+    )
+    dead_spot_deg: float
+    dead_spot_share: float | None = Field(description="Its torque over the mean.")
+    lag_deg: float | None = Field(
+        description="Of the motor behind the rider, by the fundamental of the stroke; null where "
+        "the motor's torque is not known or does not swing with it."
+    )
+    lag_ms: float | None
+
+
+class GainMap(Answer):
+    """Time over speed and gain: seconds[speed][gain], cells of these steps from zero on."""
+
+    speed_step_kmh: float
+    gain_step: float
+    seconds: list[list[float]]
+
+
+class RidePedalling(Answer):
+    ride_id: int
+    crank: CrankTorque | None
+    crank_refused: Literal["no_angle", "no_torque", "slow_rows", "few_turns"] | None
+    gain: GainMap | None
+    speed_points_kmh: list[float] | None = Field(
+        description="Of the ride's own table; null where nobody kept it."
+    )
+    gain_points: list[float] | None

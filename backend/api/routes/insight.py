@@ -1,4 +1,4 @@
-"""What a ride tells: energy, effort, diagnosis."""
+"""What a ride tells: energy, effort, pedalling, diagnosis; and its report."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from fastapi import APIRouter, Query
 from fastapi.responses import StreamingResponse
 
-from backend.api.models.insight import RideDiagnosis, RideEffort, RideEnergy
+from backend.api.models.insight import RideDiagnosis, RideEffort, RideEnergy, RidePedalling
 from backend.api.problem import DAMAGED, refusals
 from backend.api.routes.rides import RideId, as_file
 from backend.api.services import Provided
@@ -46,6 +46,17 @@ def effort_of_ride(
 ) -> Any:
     """Time in zones and bands, and best mean powers. Without a threshold there are no zones."""
     return services.insight.effort(ride_id, threshold_power_w, heart_rate_bpm_max)
+
+
+@router.get(
+    "/{ride_id}/pedalling",
+    operation_id="pedalling_of_ride",
+    response_model=RidePedalling,
+    responses=DAMAGED,
+)
+def pedalling_of_ride(ride_id: RideId, services: Provided) -> Any:
+    """Torque over the crank's angle with leg, dead spot and lag; time over speed and gain."""
+    return services.insight.pedalling(ride_id)
 
 
 @router.get(

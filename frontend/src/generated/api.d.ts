@@ -1136,6 +1136,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/rides/{ride_id}/pedalling": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Pedalling Of Ride
+         * @description Torque over the crank's angle with leg, dead spot and lag; time over speed and gain.
+         */
+        get: operations["pedalling_of_ride"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/rides/{ride_id}/diagnosis": {
         parameters: {
             query?: never;
@@ -2210,6 +2230,42 @@ export interface components {
             rollback_cause: ("asked" | "time_out" | "restart" | "unknown") | null;
         };
         /**
+         * CrankTorque
+         * @description Means over turning cranks, in 36 bins from the left crank up on.
+         */
+        CrankTorque: {
+            /** Turns */
+            turns: number;
+            /** Cadence Rpm */
+            cadence_rpm: number;
+            /** Rider Nm */
+            rider_nm: number[];
+            /**
+             * Motor Nm
+             * @description What the motor gave, at the crank.
+             */
+            motor_nm: number[] | null;
+            /**
+             * Left Share
+             * @description Of the rider's work, in the half of the turn in which the left leg pushes.
+             */
+            left_share: number | null;
+            /** Dead Spot Deg */
+            dead_spot_deg: number;
+            /**
+             * Dead Spot Share
+             * @description Its torque over the mean.
+             */
+            dead_spot_share: number | null;
+            /**
+             * Lag Deg
+             * @description Of the motor behind the rider, by the fundamental of the stroke; null where the motor's torque is not known or does not swing with it.
+             */
+            lag_deg: number | null;
+            /** Lag Ms */
+            lag_ms: number | null;
+        };
+        /**
          * Cut
          * @description A stretch in which limits held the motor back, seconds since the ride's start.
          */
@@ -2838,6 +2894,18 @@ export interface components {
             gain_points: number[];
             /** Rules */
             rules: ("NB" | "NS" | "ZO" | "PS" | "PB")[][];
+        };
+        /**
+         * GainMap
+         * @description Time over speed and gain: seconds[speed][gain], cells of these steps from zero on.
+         */
+        GainMap: {
+            /** Speed Step Kmh */
+            speed_step_kmh: number;
+            /** Gain Step */
+            gain_step: number;
+            /** Seconds */
+            seconds: number[][];
         };
         /**
          * Gap
@@ -4352,6 +4420,22 @@ export interface components {
              * @description All of them, anew.
              */
             tags?: string[] | null;
+        };
+        /** RidePedalling */
+        RidePedalling: {
+            /** Ride Id */
+            ride_id: number;
+            crank: components["schemas"]["CrankTorque"] | null;
+            /** Crank Refused */
+            crank_refused: ("no_angle" | "no_torque" | "slow_rows" | "few_turns") | null;
+            gain: components["schemas"]["GainMap"] | null;
+            /**
+             * Speed Points Kmh
+             * @description Of the ride's own table; null where nobody kept it.
+             */
+            speed_points_kmh: number[] | null;
+            /** Gain Points */
+            gain_points: number[] | null;
         };
         /**
          * RidePlace
@@ -10368,6 +10452,55 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RideEffort"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    pedalling_of_ride: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                ride_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RidePedalling"];
                 };
             };
             /** @description Not Found */

@@ -87,3 +87,18 @@ def test_the_diagnosis_uses_the_rides_own_limits(store: Store) -> None:
     assert (finding["from_s"], finding["to_s"]) == pytest.approx((8.0, 10.0))
     assert (told["worst"], told["method"]) == ("serious", 1)
     assert (unknown["worst"], unknown["checks"][3]["state"]) == (None, "impossible")
+
+
+def test_pedalling_needs_an_angle_and_the_gain_its_rows(store: Store) -> None:
+    gain = np.full(ROWS, 0.3)
+    angle = np.mod(np.arange(ROWS) * 6.0 * PUSHING["cadence_rpm"] / 100.0, 360.0)
+    pedalling = Insight(store, config_of).pedalling
+
+    bare = pedalling(kept(store))
+    told = pedalling(kept(store, crank_angle_deg=angle, rider_torque_nm=PUSH, fuzzy_gain=gain))
+
+    assert (bare["crank"], bare["crank_refused"], bare["gain"]) == (None, "no_angle", None)
+    assert told["crank_refused"] == "few_turns", "ten seconds at 60 rpm"
+    assert np.sum(told["gain"]["seconds"]) == pytest.approx(10.0)
+    assert sum(told["gain"]["seconds"][6]) == pytest.approx(10.0), "12 to 14 km/h"
+    assert told["speed_points_kmh"] == law_defaults()["fuzzy_speed_points_kmh"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from backend.services.rides.insight.diagnosis import Diagnosis
 from backend.services.rides.insight.effort import RideEffort
 from backend.services.rides.insight.energy import RideEnergy
+from backend.services.rides.insight.pedalling import RidePedalling
 from backend.services.rides.insight.report import RideReport
 from backend.services.rides.replay import ConfigOf
 from backend.store import Store
@@ -17,4 +18,5 @@ class Insight:
         self.energy = RideEnergy(store, config_of)
         self.effort = RideEffort(store)
         self.diagnosis = Diagnosis(store, config_of)
+        self.pedalling = RidePedalling(store, config_of)
         self.report = RideReport(store, self.energy, self.effort, self.diagnosis)

@@ -23,6 +23,7 @@ import type {
   RideDiagnosis,
   RideEffort,
   RideEnergy,
+  RidePedalling,
   LibraryDocument,
   LibraryEntry,
   LibraryRow,
@@ -423,6 +424,11 @@ export class Server {
   ): Promise<RideEffort> {
     const params = { path: { ride_id: id }, query: rider }
     return body(this.http.GET('/api/v1/rides/{ride_id}/effort', { params, signal }))
+  }
+
+  /** Torque over the crank's angle, and time over speed and gain. */
+  pedalling(id: number, signal: AbortSignal): Promise<RidePedalling> {
+    return body(this.http.GET('/api/v1/rides/{ride_id}/pedalling', { ...this.rideAt(id), signal }))
   }
 
   /** What a ride shows of the bike's health. */
