@@ -15,6 +15,7 @@ from backend.cli import (
     library,
     propose,
     ride,
+    ride_upload,
     serve,
     store,
     unlock,
@@ -179,7 +180,7 @@ def _add_which(command: argparse.ArgumentParser) -> None:
 
 def _add_ride(verbs: Any) -> None:
     group = _group(
-        verbs, "ride", "rides: import, list, show, export, report, replay, since, delete"
+        verbs, "ride", "rides: import, upload, list, show, export, report, replay, delete"
     )
     command = _asking(group, "import", ride.import_files, help="FIT files and other logs")
     command.add_argument("files", nargs="+", type=Path)
@@ -187,6 +188,9 @@ def _add_ride(verbs: Any) -> None:
     for name in ("speed", "distance", "altitude", "temperature", "torque"):
         command.add_argument(f"--{name}-unit", metavar="UNIT", help=f"of a table's {name}")
     command.add_argument("--rows-per-second", type=float, help="of a log without times")
+    command = _asking(group, "upload", ride_upload.upload, help="files and whole folders")
+    command.add_argument("paths", nargs="+", type=Path, metavar="PATH")
+    command.add_argument("--watch", action="store_true", help="also what appears, until Ctrl-C")
     command = _asking(group, "list", ride.list_rides, help="newest first")
     command.add_argument("words", nargs="*", help="in name, notes, tags or place")
     command.add_argument("--limit", type=int, default=50)

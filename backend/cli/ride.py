@@ -111,6 +111,7 @@ def print_upload(answer: dict[str, Any]) -> None:
     detail = f": {answer['detail']}" if answer.get("detail") else ""
     stream = sys.stderr if answer["state"] == "rejected" else sys.stdout
     stream.write(f"{answer['file']}: {became}{detail}\n")
+    stream.flush()
 
 
 def list_rides(options: Namespace) -> int:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import math
+import signal
 import subprocess
 import sys
 import zipfile
@@ -334,3 +335,47 @@ def test_scenarios_run_without_a_server() -> None:
     assert "slope" in listed.stdout
     # 25 km/h on a wheel of 0.33 m radius: 25 / 3.6 / (2 pi 0.33) * 60 turns a minute.
     assert json.loads(run.stdout)["wheel_rpm"] == pytest.approx(200.95, rel=0.01)
+
+
+def test_a_folder_is_uploaded_and_what_is_here_is_not_sent_again(
+    server: SpindleServer, tmp_path: Path
+) -> None:
+    days = [1_610_000_000 + day * 86_400 for day in range(3)]
+    for day, start_s in enumerate(days):
+        folder = tmp_path / f"{day}"
+        folder.mkdir()
+        (folder / "ride.fit").write_bytes(fit_ride(start_s, [20.0] * 90, [75] * 90, [160] * 90))
+    (tmp_path / "notes.txt").write_bytes(b"words" * 2000)
+
+    first = spindle(server, "ride", "upload", tmp_path, "--json")
+    again = spindle(server, "ride", "upload", tmp_path / "0", tmp_path / "1" / "ride.fit")
+
+    assert json.loads(first.stdout)["summary"] == {
+        "complete": 3,
+        "here": 0,
+        "partial": 0,
+        "rejected": 1,
+    }
+    assert first.returncode == 1
+    assert again.stdout.endswith("2 files: 2 already here.\n")
+    assert again.returncode == 0
+
+
+def test_a_file_that_appears_in_a_watched_folder_becomes_a_ride(
+    server: SpindleServer, tmp_path: Path
+) -> None:
+    words = [sys.executable, "-m", "backend.cli", "ride", "upload", str(tmp_path), "--watch"]
+    watch = subprocess.Popen(
+        [*words, "--server", server.url], cwd=ROOT, stdout=subprocess.PIPE, text=True
+    )
+    (tmp_path / "watched.fit").write_bytes(
+        fit_ride(1_620_000_000, [20.0] * 90, [75] * 90, [160] * 90)
+    )
+    assert watch.stdout is not None
+    first = watch.stdout.readline()
+    watch.send_signal(signal.SIGINT)
+    said, _ = watch.communicate(timeout=30)
+
+    assert "watched.fit: ride" in first
+    assert said.endswith("1 file: 1 read completely.\n")
+    assert watch.returncode == 0

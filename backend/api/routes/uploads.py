@@ -13,6 +13,7 @@ import asyncio
 import base64
 import hashlib
 import hmac
+import re
 from collections.abc import AsyncIterator
 from contextlib import suppress
 from email.utils import formatdate
@@ -30,6 +31,7 @@ TUS_VERSION = "1.0.0"
 TUS_EXTENSIONS = "creation,creation-with-upload,checksum,termination,expiration"
 TUS_CHUNK_MEDIA_TYPE = "application/offset+octet-stream"
 TUS_CHECKSUMS = ("sha256", "sha1")
+SHA256 = re.compile("[0-9a-f]{64}")
 CHECKSUM_MISMATCH = 460
 # A chunk with a checksum is held in memory until it is checked; clients use 0.25 to 1 MiB.
 CHECKED_CHUNK_BYTES_MAX = 16 * 1024 * 1024
@@ -75,7 +77,11 @@ async def create_upload(
     upload_checksum: UploadChecksum = None,
     tus_resumable: Annotated[str, Header()] = "",
 ) -> Response:
-    """Begins an upload; a body with the tus chunk type is its first part already."""
+    """Begins an upload; a body with the tus chunk type is its first part already.
+
+    `Upload-Metadata` may name the file (`filename`), and say what the whole of it hashes to
+    (`sha256`, 64 hexadecimal digits): what arrives otherwise is rejected as `hash_mismatch`.
+    """
     if refusal := _version_refusal(tus_resumable):
         return refusal
     if upload_length > request.app.state.upload_bytes_max:
@@ -83,6 +89,9 @@ async def create_upload(
         return problem_response(413, "too_large", f"A file may have at most {limit} bytes.")
     described = metadata(upload_metadata)
     name = described.get("filename") or described.get("name") or "upload"
+    sha256 = described.get("sha256")
+    if sha256 is not None and not SHA256.fullmatch(sha256):
+        raise HTTPException(400, "Upload-Metadata: sha256 is 64 hexadecimal digits.")
     with_part = request.headers.get("content-type") == TUS_CHUNK_MEDIA_TYPE
     if with_part and _part_length(request) > upload_length:
         return _too_long(upload_length)
@@ -94,7 +103,7 @@ async def create_upload(
         if len(chunk) > upload_length:
             return _too_long(upload_length)
         chunks = _one(chunk)
-    upload = await _begin(services, name[:255], upload_length)
+    upload = await _begin(services, name[:255], upload_length, sha256)
     offset = 0
     if with_part:
         try:
@@ -299,9 +308,9 @@ def _expiry(upload: Any, received: int | None = None) -> dict[str, str]:
     return {"upload_expires": formatdate(upload.expires_us // 1_000_000, usegmt=True)}
 
 
-async def _begin(services: Services, name: str, length: int) -> Any:
+async def _begin(services: Services, name: str, length: int, sha256: str | None = None) -> Any:
     """A new upload; a file without bytes has arrived with it."""
-    upload = await run_in_threadpool(services.uploads.begin, name, length)
+    upload = await run_in_threadpool(services.uploads.begin, name, length, sha256)
     if length == 0:
         await _add(services, upload.id, 0, b"")
     return upload

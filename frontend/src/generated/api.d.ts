@@ -1509,6 +1509,9 @@ export interface paths {
         /**
          * Create Upload
          * @description Begins an upload; a body with the tus chunk type is its first part already.
+         *
+         *     `Upload-Metadata` may name the file (`filename`), and say what the whole of it hashes to
+         *     (`sha256`, 64 hexadecimal digits): what arrives otherwise is rejected as `hash_mismatch`.
          */
         post: operations["create_upload"];
         delete?: never;

@@ -2,21 +2,36 @@
    told; tus 1.0 says that after a failure only the server knows how far it got. */
 import { expect, it } from 'vitest'
 import { Refusal } from './client'
-import { uploadFile, type UploadSteps } from './upload'
+import { Stopped, uploadFile, type UploadSteps } from './upload'
 
 class TusServer {
   received = new Uint8Array()
   polls = 0
   constructor(private readonly faults: ('network' | 'lost_answer' | 503 | 413 | 422)[]) {}
 
+  hash: string | null = null
+  known: object[] = []
+  begun: string[] = []
+  readonly kept = new Map<string, string>()
   readonly steps: UploadSteps = {
     wait: async () => undefined,
-    fetch: async (_url, init) => this.answer(init ?? {}),
+    sha256: async () => this.hash,
+    places: {
+      getItem: (key) => this.kept.get(key) ?? null,
+      setItem: (key, value) => void this.kept.set(key, value),
+      removeItem: (key) => void this.kept.delete(key),
+    },
+    fetch: async (url, init) => this.answer(String(url), init ?? {}),
   }
 
-  private async answer(init: RequestInit): Promise<Response> {
-    const offset = { 'upload-offset': String(this.received.length) }
+  private async answer(url: string, init: RequestInit): Promise<Response> {
+    const offset = {
+      'upload-offset': String(this.received.length),
+      'upload-length': String(bytes.length),
+    }
+    if (url.includes('sha256=')) return Response.json({ items: this.known, next: null })
     if (init.method === 'POST') {
+      this.begun.push(new Headers(init.headers).get('upload-metadata') ?? '')
       return new Response(null, { status: 201, headers: { location: '/api/v1/uploads/1' } })
     }
     if (init.method === 'HEAD') return new Response(null, { headers: offset })
@@ -41,6 +56,36 @@ class TusServer {
 
 const bytes = Uint8Array.from({ length: 3_000_000 }, (_, i) => i % 251)
 const file = new File([bytes], 'ride 骑行.fit')
+
+it('goes on where it stood when the page was loaded anew', async () => {
+  const server = new TusServer([])
+  let parts = 0
+  const closed = async () => {
+    if (parts++ === 2) throw new Stopped()
+  }
+  await expect(uploadFile(file, () => undefined, server.steps, closed)).rejects.toThrow(Stopped)
+  const before = server.received.length
+
+  const upload = await uploadFile(file, () => undefined, server.steps)
+
+  expect(before).toBe(2 << 20)
+  expect(server.begun.length).toBe(1)
+  expect(server.received.length).toBe(bytes.length)
+  expect(upload.ride_ids).toEqual([4])
+  expect(server.kept.size).toBe(0)
+})
+
+it('sends nothing of what is here already, and says what it will hash to of the rest', async () => {
+  const server = new TusServer([])
+  server.hash = 'ab'.repeat(32)
+  await uploadFile(file, () => undefined, server.steps)
+  server.known = [{ ride_ids: [], parts: null }, { ride_ids: [7], parts: null }]
+
+  const upload = await uploadFile(file, () => undefined, server.steps)
+
+  expect(upload).toMatchObject({ code: 'duplicate', duplicate_of: 7 })
+  expect(server.begun).toEqual([expect.stringContaining(`,sha256 ${btoa(server.hash)}`)])
+})
 
 it('stops sending what its first part shows to be no ride', async () => {
   const server = new TusServer([422])

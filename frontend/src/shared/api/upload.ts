@@ -1,32 +1,56 @@
 // One file to the server by tus 1.0: resumes where the server says it stands, then waits for the
 // verdict.
 import { Refusal, refusal } from './client'
-import type { Upload } from './types'
+import type { Upload, UploadList } from './types'
 
 const CHUNK_BYTES = 1 << 20
+const HASHED_BYTES_MAX = 64 << 20
 const RETRIES_MAX = 6
 const VERDICT_POLLS_MAX = 600
+
+/** Where unfinished files stand, by what they are: kept while the page is loaded anew. */
+export type Places = Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>
 
 export interface UploadSteps {
   fetch: typeof fetch
   wait: (ms: number) => Promise<void>
+  sha256: (file: File) => Promise<string | null>
+  places: Places
 }
+
+/** Whoever sends does not want to any more. */
+export class Stopped extends Error {}
 
 const browser: UploadSteps = {
   fetch: (...request) => fetch(...request),
   wait: (ms) => new Promise((resolve) => setTimeout(resolve, ms)),
+  sha256,
+  get places() {
+    return localStorage
+  },
 }
 
-/** Sends a file and returns the server's verdict; `progress` is called with 0 to 1. */
+/**
+ * Sends a file and returns the server's verdict; `progress` is called with 0 to 1. A file whose bytes
+ * are rides on the server is not sent; one that was not finished goes on where it stood.
+ * `gate` is waited for before each part; what it throws ends the sending.
+ */
 export async function uploadFile(
   file: File,
   progress: (share: number) => void,
   steps: UploadSteps = browser,
+  gate: () => Promise<void> = () => Promise.resolve(),
 ): Promise<Upload> {
-  const address = await create(file, steps)
-  let offset = 0
+  const hash = await steps.sha256(file)
+  const known = hash && (await knownRides(hash, steps))
+  if (known) return known
+  const place = `spindle.upload.${hash ?? `${file.name} ${file.size} ${file.lastModified}`}`
+  const begin = await begun(file, hash, place, steps)
+  const { address } = begin
+  let { offset } = begin
   let failures = 0
   while (offset < file.size) {
+    await gate()
     try {
       offset = await append(address, file, offset, steps)
       failures = 0
@@ -39,16 +63,52 @@ export async function uploadFile(
       offset = await offsetOf(address, offset, steps)
     }
   }
-  return verdict(address, steps)
+  const upload = await verdict(address, steps)
+  steps.places.removeItem(place)
+  return upload
 }
 
-async function create(file: File, steps: UploadSteps): Promise<string> {
+// What the same bytes became before, with no word of that being an upload of its own.
+async function knownRides(hash: string, steps: UploadSteps): Promise<Upload | null> {
+  const response = await ask(steps, `/api/v1/uploads?sha256=${hash}`, {})
+  const { items } = (await response.json()) as UploadList
+  const first = items.find((upload) => upload.ride_ids.length > 0 && !upload.parts)
+  if (!first) return null
+  return { ...first, code: 'duplicate', detail: null, duplicate_of: first.ride_ids[0] ?? null }
+}
+
+async function begun(
+  file: File,
+  hash: string | null,
+  place: string,
+  steps: UploadSteps,
+): Promise<{ address: string; offset: number }> {
+  const before = steps.places.getItem(place)
+  if (before) {
+    try {
+      const headers = { 'Tus-Resumable': '1.0.0' }
+      const { headers: stands } = await ask(steps, before, { method: 'HEAD', headers })
+      if (Number(stands.get('upload-length')) === file.size) {
+        return { address: before, offset: Number(stands.get('upload-offset')) }
+      }
+    } catch (error) {
+      // It is gone: given up, or its time is over.
+      if (!(error instanceof Refusal) || error.status === 0) throw error
+    }
+  }
+  const address = await create(file, hash, steps)
+  steps.places.setItem(place, address)
+  return { address, offset: 0 }
+}
+
+async function create(file: File, hash: string | null, steps: UploadSteps): Promise<string> {
+  const declared = hash ? `,sha256 ${base64(hash)}` : ''
   const response = await ask(steps, '/api/v1/uploads', {
     method: 'POST',
     headers: {
       'Tus-Resumable': '1.0.0',
       'Upload-Length': String(file.size),
-      'Upload-Metadata': `filename ${base64(file.name)}`,
+      'Upload-Metadata': `filename ${base64(file.name)}${declared}`,
     },
   })
   const address = response.headers.get('location')
@@ -103,6 +163,13 @@ async function ask(steps: UploadSteps, path: string, init: RequestInit): Promise
   }
   if (response.ok) return response
   throw refusal(response.status, await response.json().catch(() => null))
+}
+
+// Only pages of this machine or over TLS may hash; a large file is told by name, size and time.
+async function sha256(file: File): Promise<string | null> {
+  if (!globalThis.crypto?.subtle || file.size > HASHED_BYTES_MAX) return null
+  const digest = await crypto.subtle.digest('SHA-256', await file.arrayBuffer())
+  return [...new Uint8Array(digest)].map((byte) => byte.toString(16).padStart(2, '0')).join('')
 }
 
 function mayResume(error: unknown): boolean {

@@ -3,7 +3,7 @@ import type { enRides } from './en_rides'
 
 export const zhRides: Record<keyof typeof enRides, string> = {
   'rides.add': '从文件添加骑行',
-  'rides.drop': '把 FIT 文件拖到页面任意位置。损坏的文件会尽量读取。',
+  'rides.drop': '把文件、文件夹或压缩文件拖到此页任意处。损坏的文件会尽量读取。',
   'rides.choose': '选择文件…',
   'rides.let_go': '松开即可读取这些文件',
   'rides.files': '文件',
