@@ -23,7 +23,9 @@ async function filesOf(entry: FileSystemEntry): Promise<File[]> {
   const found: File[] = []
   // A reader gives a hundred at a time, and none at the end.
   for (;;) {
-    const some = await new Promise<FileSystemEntry[]>((done, fail) => reader.readEntries(done, fail))
+    const some = await new Promise<FileSystemEntry[]>((done, fail) => {
+      reader.readEntries(done, fail)
+    })
     if (some.length === 0) return found
     found.push(...(await Promise.all(some.map(filesOf))).flat())
   }

@@ -70,7 +70,8 @@ export class Intake {
   }
 
   get count(): Record<Standing, number> {
-    const count = { waiting: 0, sending: 0, complete: 0, here: 0, partial: 0, rejected: 0, stopped: 0 }
+    const none = { waiting: 0, sending: 0, stopped: 0 }
+    const count = { ...none, complete: 0, here: 0, partial: 0, rejected: 0 }
     for (const { standing } of this.arrivals) count[standing]++
     return count
   }

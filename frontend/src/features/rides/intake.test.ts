@@ -1,5 +1,5 @@
-/* Goal: hundreds of files are one batch that can be paused, gone on with and stopped, and in which one
-   bad file stops nothing. The sender is a fake that the test lets go; times are given. */
+/* Goal: hundreds of files are one batch that can be paused, gone on with and stopped, and in which
+   one bad file stops nothing. The sender is a fake that the test lets go; times are given. */
 import { Refusal } from '$shared/api/client'
 import type { Upload } from '$shared/api/types'
 import type { uploadFile } from '$shared/api/upload'
@@ -37,11 +37,13 @@ class Sender {
 it('counts what became of each file, and one bad file stops nothing', async () => {
   const sender = new Sender()
   const intake = new Intake(() => undefined, sender.send)
-  const names = Array.from({ length: 300 }, (_, i) => `${['good', 'bad', 'cut', 'known'][i % 4]} ${i}`)
+  const kinds = ['good', 'bad', 'cut', 'known']
+  const names = Array.from({ length: 300 }, (_, i) => `${kinds[i % 4]} ${i}`)
 
   await intake.take(files(...names))
 
-  expect(intake.count).toMatchObject({ complete: 75, rejected: 75, partial: 75, here: 75, waiting: 0 })
+  const each = { complete: 75, rejected: 75, partial: 75, here: 75 }
+  expect(intake.count).toMatchObject({ ...each, waiting: 0 })
   expect([intake.done, intake.share, intake.isGoing]).toEqual([300, 1, false])
 })
 

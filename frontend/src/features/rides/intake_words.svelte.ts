@@ -26,4 +26,4 @@ export const en = {
 
 export type IntakeKey = keyof typeof en
 
-export const words = await pageWords<IntakeKey>(en, async () => (await import('./intake_words_zh')).zh)
+export const words = await pageWords(en, async () => (await import('./intake_words_zh')).zh)

@@ -31,8 +31,8 @@ const browser: UploadSteps = {
 }
 
 /**
- * Sends a file and returns the server's verdict; `progress` is called with 0 to 1. A file whose bytes
- * are rides on the server is not sent; one that was not finished goes on where it stood.
+ * Sends a file and returns the server's verdict; `progress` is called with 0 to 1. A file whose
+ * bytes are rides on the server is not sent; one that was not finished goes on where it stood.
  * `gate` is waited for before each part; what it throws ends the sending.
  */
 export async function uploadFile(

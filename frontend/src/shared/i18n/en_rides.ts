@@ -1,7 +1,7 @@
 // English: rides. Their list and files, the rides in the unit, one ride, and trying a table on it.
 export const enRides = {
   'rides.add': 'Add rides from files',
-  'rides.drop': 'Drop files, folders or archives anywhere on this page. Damaged files are read as far as they go.',
+  'rides.drop': 'Drop files, folders or archives here. Damaged ones are read as far as they go.',
   'rides.choose': 'Choose files…',
   'rides.let_go': 'Let go to read these files',
   'rides.files': 'Files',
