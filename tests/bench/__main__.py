@@ -14,6 +14,7 @@ from tests.bench import (
     plant,
     rides,
     server,
+    uploads,
     wire,
     writes,
 )
@@ -30,6 +31,7 @@ SECTIONS = {
     "Ride logs": logs.run,
     "Rides": rides.run,
     "Ten thousand rides": logbook.run,
+    "Files": uploads.run,
     "The server": server.run,
     "The pages in a browser": pages.run,
     "The firmware on a Cortex-M4F": board.run,
