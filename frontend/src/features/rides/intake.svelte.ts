@@ -120,7 +120,9 @@ export class Intake {
   /** What became of a file that waited for its owner. */
   settle(upload: Upload): void {
     const changed = { upload, standing: standingOf(upload) }
-    this.arrivals = this.arrivals.map((a) => (a.upload?.id === upload.id ? { ...a, ...changed } : a))
+    for (const arrival of this.arrivals) {
+      if (arrival.upload?.id === upload.id) this.change(arrival.id, changed)
+    }
     this.arrived()
   }
 
