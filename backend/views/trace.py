@@ -7,7 +7,9 @@ How a window is cut:
   either end, and the bins' own times say so.
 - Irregular rows (head units): bins of equal time, cut at pauses; bins without rows are left out,
   and one missing bin stands in each pause, so that no line is ever drawn across it.
-Either way the minimum and maximum of a bin are exactly those of the rows from its first to its
+- Over another axis than time (`backend.views.along`): bins of equal length of that axis, cut at
+  pauses and where the axis' own channel falls silent, always from raw rows; a missing bin as above.
+In each case the minimum and maximum of a bin are exactly those of the rows from its first to its
 last time, both included.
 
 Binary form, little-endian, `application/octet-stream`:
@@ -20,6 +22,8 @@ The header:
      "rows":                 rows of the ride in the bins
      "bins": n,              length of every array
      "kind":                 "rows" | "minmax"
+     "axis":                 "time" | "moving" | "distance"
+     "x_first", "x_last":    as the times below, in seconds in motion or metres; absent for "time"
      "t_first_s": {"dtype": "float64", "offset"},  time of a bin's first row
      "t_last_s":  {"dtype": "float64", "offset"},  time of its last row
      "channels": [{"name", "unit", "scale", "dtype": "int16" | "int32", "missing",
@@ -33,7 +37,7 @@ from __future__ import annotations
 import json
 import struct
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -43,6 +47,7 @@ from backend.domain.channels import ChannelSpec, Counts, Values
 from backend.domain.pyramid import Level, reduce_groups
 from backend.domain.ride import TimesUs, pause_us
 from backend.errors import FieldError, InvalidRequest
+from backend.views.along import Along, Axis, told_along
 
 MAGIC = b"SPV1"
 # A screen has at most this many columns; more would only cost the browser memory.
@@ -79,6 +84,9 @@ class Trace:
     channels: tuple[ChannelSpec, ...]
     minimum: Mapping[str, Counts]
     maximum: Mapping[str, Counts]
+    axis: Axis = "time"
+    x_first: Values | None = None
+    x_last: Values | None = None
 
     def to_json(self) -> dict[str, object]:
         """Plain JSON with physical values, missing as null."""
@@ -88,8 +96,11 @@ class Trace:
             "rows": self.rows,
             "bins": len(self.t_first_s),
             "kind": self.kind,
+            "axis": self.axis,
             "t_first_s": self.t_first_s.tolist(),
             "t_last_s": self.t_last_s.tolist(),
+            "x_first": None if self.x_first is None else self.x_first.tolist(),
+            "x_last": None if self.x_last is None else self.x_last.tolist(),
             "channels": [
                 {
                     "name": channel.name,
@@ -113,12 +124,22 @@ class Trace:
                 body.extend(array.astype(array.dtype.newbyteorder("<"), copy=False).tobytes())
             return placed[id(array)]
 
+        other = (
+            {}
+            if self.x_first is None or self.x_last is None
+            else {
+                "x_first": {"dtype": "float64", "offset": place(self.x_first)},
+                "x_last": {"dtype": "float64", "offset": place(self.x_last)},
+            }
+        )
         header = {
             "from_s": self.from_s,
             "to_s": self.to_s,
             "rows": self.rows,
             "bins": len(self.t_first_s),
             "kind": self.kind,
+            "axis": self.axis,
+            **other,
             "t_first_s": {"dtype": "float64", "offset": place(self.t_first_s)},
             "t_last_s": {"dtype": "float64", "offset": place(self.t_last_s)},
             "channels": [
@@ -145,19 +166,21 @@ def trace(
     from_s: float | None = None,
     to_s: float | None = None,
     pixels: int = 1000,
+    axis: Axis = "time",
 ) -> Trace:
     """Bins of the window [from_s, to_s] of a ride, at most `pixels` of them (pauses come on top).
 
     names: channels, recorded or derived, None for all. from_s, to_s: seconds since the ride's
-    start, None for its ends. Raises InvalidRequest for unknown channels or a window of no width.
+    start whatever the axis, None for its ends. Raises InvalidRequest for unknown channels, a window
+    of no width, and an axis that the ride does not tell.
     """
     channels = chosen(ride, names)
     if not 1 <= pixels <= PIXELS_MAX:
         raise refusal("px", "out_of_range", f"px is {pixels}: it must be from 1 to {PIXELS_MAX}.")
     start, stop, window = row_window(ride, from_s, to_s)
     rows_per_bin = -(-(stop - start) // pixels)
-    if ride.period_us is None:
-        return irregular_trace(ride, channels, start, stop, window, pixels)
+    if ride.period_us is None or axis != "time":
+        return uneven_trace(ride, channels, start, stop, window, pixels, axis)
     level = ride.level(rows_per_bin)
     if level is not None:
         return pyramid_trace(ride, channels, level, start, stop, window, rows_per_bin)
@@ -262,42 +285,65 @@ def pyramid_trace(
     )
 
 
-def irregular_trace(
+def uneven_trace(
     ride: RideReader,
     channels: tuple[ChannelSpec, ...],
     start: int,
     stop: int,
     window: tuple[float, float],
     pixels: int,
+    axis: Axis,
 ) -> Trace:
-    """Bins of equal time over irregular rows, cut at pauses, with a missing bin in each pause."""
+    """Bins of equal length of an axis, cut at pauses, with a missing bin in each pause."""
+    way = told_along(ride, axis)
+    at = way.at[start:stop]
     times = ride.times_us(start, stop)
     whole = ride.times_us(0, ride.row_count)
-    paused = np.diff(times) > pause_us(whole, None)
+    paused = np.diff(times) > pause_us(whole, ride.period_us)
+    cut = cuts(way, start, stop)
     if len(times) <= pixels:
         starts = np.arange(len(times))
     else:
-        width_us = max((times[-1] - times[0]) / pixels, 1.0)
-        bins = np.minimum((times - times[0]) // width_us, pixels - 1)
-        starts = np.concatenate(([0], np.flatnonzero((np.diff(bins) > 0) | paused) + 1))
+        # A nanometre or a nanosecond: the axis may stand over the whole window.
+        width = max((at[-1] - at[0]) / pixels, 1e-9)
+        bins = np.minimum((at - at[0]) // width, pixels - 1)
+        starts = np.concatenate(([0], np.flatnonzero((np.diff(bins) > 0) | paused | cut) + 1))
     bare = reduced(ride, channels, start, stop, window, starts)
+    if axis != "time" and len(times):
+        ends = np.append(starts[1:], len(times)) - 1
+        bare = replace(bare, axis=axis, x_first=at[starts], x_last=at[ends])
     breaks = np.flatnonzero(paused[starts[1:] - 1]) + 1
-    if not len(breaks):
-        return bare
-    middles = (bare.t_last_s[breaks - 1] + bare.t_first_s[breaks]) / 2.0
-    first = np.insert(bare.t_first_s, breaks, middles)
+    return opened(bare, breaks) if len(breaks) else bare
+
+
+def cuts(way: Along, start: int, stop: int) -> npt.NDArray[np.bool_]:
+    """Before which of the rows [start + 1, stop) a bin ends because the axis' channel does."""
+    cut = np.zeros(max(stop - start - 1, 0), np.bool_)
+    edges = way.edges[(way.edges > start) & (way.edges < stop)]
+    cut[edges - start - 1] = True
+    return cut
+
+
+def opened(bare: Trace, breaks: Starts) -> Trace:
+    """With a missing bin put in before each of `breaks`, in the middle of the pause."""
     same = bare.kind == "rows"
-    minimum = {c.name: interrupted(c, bare.minimum[c.name], breaks) for c in channels}
-    maximum = {c.name: interrupted(c, bare.maximum[c.name], breaks) for c in channels}
-    return Trace(
-        *window,
-        rows=bare.rows,
-        kind=bare.kind,
-        t_first_s=first,
-        t_last_s=first if same else np.insert(bare.t_last_s, breaks, middles),
-        channels=channels,
+
+    def between(first: Values, last: Values, into: Values) -> Values:
+        return np.insert(into, breaks, (last[breaks - 1] + first[breaks]) / 2.0)
+
+    first, last = bare.t_first_s, bare.t_last_s
+    t_first = between(first, last, first)
+    minimum = {c.name: interrupted(c, bare.minimum[c.name], breaks) for c in bare.channels}
+    maximum = {c.name: interrupted(c, bare.maximum[c.name], breaks) for c in bare.channels}
+    x_first, x_last = bare.x_first, bare.x_last
+    return replace(
+        bare,
+        t_first_s=t_first,
+        t_last_s=t_first if same else between(first, last, last),
         minimum=minimum,
         maximum=minimum if same else maximum,
+        x_first=None if x_first is None or x_last is None else between(x_first, x_last, x_first),
+        x_last=None if x_first is None or x_last is None else between(x_first, x_last, x_last),
     )
 
 

@@ -21,6 +21,7 @@ from tests.browser.long_ride import ROWS, write_long_ride
 EDITS = 40
 EDITS_3D = 20
 ZOOMS = 20
+OPENINGS = 10
 WITHIN_MS = 20_000
 # Counts from the event to the frame after the next drawing of other data: pixels of ours, or a
 # Plotly curve that is not the old one moved.
@@ -77,13 +78,13 @@ def measure(page: Page, site: str, ride: int) -> list[Figure]:
     solid = f"{surface}[data-kind='3d']"
     page.wait_for_selector(f"{solid}[data-draws]", timeout=60_000)
     solid_ms = waits(page, "keydown", solid, EDITS_3D, edit)
-    page.goto(f"{site}/rides/{ride}")
     traces = "[data-testid=traces]"
-    page.wait_for_selector(f"{traces}[data-draws]")
+    open_ms = sorted(opens(page, f"{site}/rides/{ride}", f"{traces}[data-draws]"))
     zoom_ms = waits(page, "mouseup", traces, ZOOMS, zoom)
     return [
         figure("a rule is edited: until the map shows it", map_ms, 60),
         figure("a rule is edited: until the surface in three dimensions shows it", solid_ms, 300),
+        figure("a two-hour ride is opened: until its traces are there", open_ms, 1500),
         figure("a two-hour ride is zoomed: until the finer curve is there", zoom_ms, 150),
     ]
 
@@ -98,6 +99,19 @@ def waits(
         act(page, number)
         taken.append(until_taken(page))
     return sorted(taken[3:])
+
+
+def opens(page: Page, address: str, ready: str) -> list[float]:
+    """How long a page takes from its address to what it is for, in ms, the browser's cache warm
+    after the first."""
+    taken = []
+    for _ in range(OPENINGS + 1):
+        page.goto("about:blank")
+        begun_s = time.monotonic()
+        page.goto(address)
+        page.wait_for_selector(ready)
+        taken.append((time.monotonic() - begun_s) * 1000.0)
+    return taken[1:]
 
 
 def until_taken(page: Page) -> float:

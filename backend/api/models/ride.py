@@ -264,9 +264,26 @@ class Series(Answer):
     rows: int = Field(description="Samples in the bins.")
     bins: int
     kind: Literal["rows", "minmax"]
+    axis: Literal["time", "moving", "distance"]
     t_first_s: list[float]
     t_last_s: list[float]
+    x_first: list[float] | None = Field(
+        description="As the times, in seconds in motion or metres; null for the axis `time`."
+    )
+    x_last: list[float] | None
     channels: list[SeriesChannel]
+
+
+class Track(Answer):
+    """Points of a ride in order of time; an array is null where the ride never tells it, and a
+    position is null in a gap. Half of the points stand evenly in time, the others where the track
+    bends most."""
+
+    t_s: list[float]
+    moving_s: list[float] | None = Field(description="Seconds in motion since the start.")
+    distance_m: list[float] | None = Field(description="Way since the start.")
+    latitude_deg: list[float | None] | None
+    longitude_deg: list[float | None] | None
 
 
 class Figure(Answer):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from datetime import datetime
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends, Path, Query, Request, Response, status
 from fastapi.responses import JSONResponse, StreamingResponse
@@ -22,7 +22,7 @@ from backend.api.models.replay import (
     TableUse,
     TableUseRequest,
 )
-from backend.api.models.ride import Figure, Ride, RideList, RidePatch, Series
+from backend.api.models.ride import Figure, Ride, RideList, RidePatch, Series, Track
 from backend.api.models.why import Cuts, Ledger, Why
 from backend.api.problem import DAMAGED, refusals
 from backend.api.services import Provided
@@ -48,6 +48,7 @@ def dated(text: object) -> object:
 
 
 Moment = Annotated[datetime, BeforeValidator(dated)]
+Axis = Literal["time", "moving", "distance"]
 
 
 def channel_names(text: str | None) -> list[str] | None:
@@ -106,13 +107,25 @@ def get_ride_series(
     from_s: Annotated[float | None, Query(ge=0.0)] = None,
     to_s: Annotated[float | None, Query(ge=0.0)] = None,
     px: Annotated[int, Query(ge=1, le=10_000, description="Width of the plot.")] = 1200,
+    axis: Annotated[Axis, Query(description="What the plot's pixels are equal parts of.")] = "time",
 ) -> Any:
     """The exact least and greatest value per pixel; every sample once they fit."""
-    trace = services.rides.series(ride_id, channel_names(channels), from_s, to_s, px)
+    trace = services.rides.series(ride_id, channel_names(channels), from_s, to_s, px, axis)
     if BINARY_MEDIA_TYPE in request.headers.get("accept", ""):
         return Response(trace.to_bytes(), media_type=BINARY_MEDIA_TYPE)
     # Thousands of numbers that the view has just made: checking each again costs more than them.
     return in_pieces(JSONResponse(trace.to_json()).body)
+
+
+@router.get(
+    "/{ride_id}/track",
+    operation_id="get_ride_track",
+    response_model=Track,
+    responses=DAMAGED,
+)
+def get_ride_track(ride_id: RideId, services: Provided) -> Any:
+    """Where the ride went: some 2000 of its rows, enough to draw its track."""
+    return whole(Track, services.rides.track(ride_id).to_json())
 
 
 @router.get(

@@ -14,8 +14,10 @@ from backend.services.rides.archive import archive
 from backend.services.rides.export import Export, export
 from backend.services.rides.share import share
 from backend.store import Sought, Store, expected_of
+from backend.views.along import Axis
 from backend.views.figure import figure
 from backend.views.trace import Trace, trace
+from backend.views.track import Track, track
 
 # (the ride, what is changed) -> the API's answer
 Replay = Callable[..., Any]
@@ -107,9 +109,14 @@ class Rides:
         from_s: float | None = None,
         to_s: float | None = None,
         pixels: int = 1000,
+        axis: Axis = "time",
     ) -> Trace:
         """Exact minimum and maximum for each pixel of a window; see `backend.views.trace`."""
-        return trace(self._store.rides.reader(ride_id), channels, from_s, to_s, pixels)
+        return trace(self._store.rides.reader(ride_id), channels, from_s, to_s, pixels, axis)
+
+    def track(self, ride_id: int) -> Track:
+        """Where the ride went, and how time, motion and way lie over each other."""
+        return track(self._store.rides.reader(ride_id))
 
     def figure(
         self, ride_id: int, channels: Sequence[str] | None = None, pixels: int = 1000

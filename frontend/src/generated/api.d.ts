@@ -1264,6 +1264,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/rides/{ride_id}/track": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Ride Track
+         * @description Where the ride went: some 2000 of its rows, enough to draw its track.
+         */
+        get: operations["get_ride_track"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/rides/{ride_id}/figure": {
         parameters: {
             query?: never;
@@ -4733,10 +4753,22 @@ export interface components {
              * @enum {string}
              */
             kind: "rows" | "minmax";
+            /**
+             * Axis
+             * @enum {string}
+             */
+            axis: "time" | "moving" | "distance";
             /** T First S */
             t_first_s: number[];
             /** T Last S */
             t_last_s: number[];
+            /**
+             * X First
+             * @description As the times, in seconds in motion or metres; null for the axis `time`.
+             */
+            x_first: number[] | null;
+            /** X Last */
+            x_last: number[] | null;
             /** Channels */
             channels: components["schemas"]["SeriesChannel"][];
         };
@@ -5338,6 +5370,30 @@ export interface components {
              * @description Increasing.
              */
             torque_rates: number[];
+        };
+        /**
+         * Track
+         * @description Points of a ride in order of time; an array is null where the ride never tells it, and a
+         *     position is null in a gap. Half of the points stand evenly in time, the others where the track
+         *     bends most.
+         */
+        Track: {
+            /** T S */
+            t_s: number[];
+            /**
+             * Moving S
+             * @description Seconds in motion since the start.
+             */
+            moving_s: number[] | null;
+            /**
+             * Distance M
+             * @description Way since the start.
+             */
+            distance_m: number[] | null;
+            /** Latitude Deg */
+            latitude_deg: (number | null)[] | null;
+            /** Longitude Deg */
+            longitude_deg: (number | null)[] | null;
         };
         /**
          * Trust
@@ -10906,6 +10962,8 @@ export interface operations {
                 to_s?: number | null;
                 /** @description Width of the plot. */
                 px?: number;
+                /** @description What the plot's pixels are equal parts of. */
+                axis?: "time" | "moving" | "distance";
             };
             header?: never;
             path: {
@@ -10923,6 +10981,73 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["Series"];
                     "application/octet-stream": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unsupported Media Type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_ride_track: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                ride_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Track"];
                 };
             };
             /** @description Not Found */

@@ -42,6 +42,9 @@ function replay(changes: Partial<Replay> = {}): Replay {
       rows: 2,
       bins: 2,
       kind: 'rows',
+      axis: 'time',
+      x_first: null,
+      x_last: null,
       t_first_s: [0, 1],
       t_last_s: [0, 1],
       channels: [

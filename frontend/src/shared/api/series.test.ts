@@ -35,6 +35,9 @@ it('gives physical values, missing as NaN', () => {
     rows: 2000,
     bins: 2,
     kind: 'minmax',
+    axis: 'distance',
+    x_first: { dtype: 'float64', offset: 16 },
+    x_last: { dtype: 'float64', offset: 16 },
     t_first_s: { dtype: 'float64', offset: 0 },
     t_last_s: { dtype: 'float64', offset: 16 },
     channels: [channel],
@@ -43,6 +46,7 @@ it('gives physical values, missing as NaN', () => {
   const series = readSeries(block(header, body))
 
   expect([...series.t_last_s]).toEqual([9, 19])
+  expect([...(series.x_first ?? [])]).toEqual([9, 19])
   expect(series.channels[0]?.min[0]).toBeCloseTo(1)
   expect(series.channels[0]?.max[0]).toBeCloseTo(95)
   expect(series.channels[0]?.max[1]).toBeNaN()
@@ -58,6 +62,9 @@ const told = {
   rows: 5,
   bins: 5,
   kind: 'rows' as const,
+  axis: 'time' as const,
+  x_first: null,
+  x_last: null,
   t_first_s: [0, 1, 2, 3, 4],
   t_last_s: [0, 1, 2, 3, 4],
   channels: [{ name: 'a', unit: 'Nm', min: [1, 9, null, null, 4], max: [1, 9, null, null, 4] }],

@@ -16,8 +16,12 @@ export interface Series {
   /** Rows of the ride within the bins. */
   rows: number
   kind: 'rows' | 'minmax'
+  axis: 'time' | 'moving' | 'distance'
   t_first_s: Float64Array
   t_last_s: Float64Array
+  /** As the times, in seconds in motion or metres; undefined for the axis of time. */
+  x_first?: Float64Array
+  x_last?: Float64Array
   channels: SeriesChannel[]
 }
 
@@ -27,6 +31,9 @@ interface Header {
   rows: number
   bins: number
   kind: 'rows' | 'minmax'
+  axis: Series['axis']
+  x_first?: { offset: number }
+  x_last?: { offset: number }
   t_first_s: { offset: number }
   t_last_s: { offset: number }
   channels: {
@@ -55,6 +62,9 @@ export function readSeries(bytes: ArrayBuffer): Series {
     to_s: header.to_s,
     rows: header.rows,
     kind: header.kind,
+    axis: header.axis,
+    ...(header.x_first && { x_first: times(header.x_first.offset) }),
+    ...(header.x_last && { x_last: times(header.x_last.offset) }),
     t_first_s: times(header.t_first_s.offset),
     t_last_s: times(header.t_last_s.offset),
     channels: header.channels.map((channel) => {
@@ -83,6 +93,9 @@ export function seriesOf(told: components['schemas']['Series']): Series {
     to_s: told.to_s,
     rows: told.rows,
     kind: told.kind,
+    axis: told.axis,
+    ...(told.x_first && { x_first: Float64Array.from(told.x_first) }),
+    ...(told.x_last && { x_last: Float64Array.from(told.x_last) }),
     t_first_s: Float64Array.from(told.t_first_s),
     t_last_s: Float64Array.from(told.t_last_s),
     channels: told.channels.map(({ name, unit, min, max }) => {

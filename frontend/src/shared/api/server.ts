@@ -58,6 +58,7 @@ import type {
   TableUseRequest,
   TorqueSurface,
   TorqueSurfaceRequest,
+  Track,
   UnitLogs,
   Upload,
   WearCounters,
@@ -406,6 +407,10 @@ export class Server {
         )
   }
 
+  track(id: number): Promise<Track> {
+    return body(this.http.GET('/api/v1/rides/{ride_id}/track', this.rideAt(id)))
+  }
+
   /** Which mode and which rule carried which share of a ride's motor energy. */
   ledger(id: number): Promise<Ledger> {
     return body(this.http.GET('/api/v1/rides/{ride_id}/ledger', this.rideAt(id)))
@@ -477,12 +482,11 @@ export class Server {
   async series(
     id: number,
     channels: string[],
-    window: { from_s?: number; to_s?: number; px: number },
+    window: { from_s?: number; to_s?: number; px: number; axis?: Series['axis'] },
     signal: AbortSignal,
   ): Promise<Series> {
-    const query = { channels: channels.join(','), ...window }
     const request = this.http.GET('/api/v1/rides/{ride_id}/series', {
-      params: { path: { ride_id: id }, query },
+      params: { path: { ride_id: id }, query: { channels: channels.join(','), ...window } },
       headers: { accept: 'application/octet-stream' },
       parseAs: 'arrayBuffer',
       signal,

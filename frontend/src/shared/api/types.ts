@@ -42,6 +42,7 @@ export type RideKind = Omit<
 >
 export type RiderHome = Schemas['RiderHome']
 export type PeriodTotals = Schemas['PeriodTotals']
+export type Track = Schemas['Track']
 export type RideMark = Schemas['RideMark']
 export type RideEvent = Schemas['RideEvent']
 export type Replay = Schemas['Replay']

@@ -23,6 +23,8 @@ export interface MarkedEvent extends RideEvent {
 export interface EventWords {
   kind: (kind: Kind) => string
   moment: (t_s: number) => string
+  /** Where a moment lies on the axis. */
+  at: (t_s: number) => number
 }
 
 /** One series of marks for each kind of event there is, on the axis `yaxis`. */
@@ -41,7 +43,7 @@ export function markData(
       type: 'scatter',
       mode: 'markers',
       name: words.kind(kind),
-      x: those.map((event) => event.t_s),
+      x: those.map((event) => words.at(event.t_s)),
       y: those.map(() => 0.5),
       yaxis,
       marker: { symbol, size: 10, color: theme.colour(token), line: { width: 1.5 } },
@@ -58,15 +60,20 @@ export function markAxis(height: number): object {
 }
 
 /** Lines through the rows below `top` (0 to 1); faults before modes where there are too many. */
-export function markLines(events: MarkedEvent[], top: number, theme: Theme): object[] {
+export function markLines(
+  events: MarkedEvent[],
+  top: number,
+  theme: Theme,
+  words: EventWords,
+): object[] {
   const rank = (event: MarkedEvent) => kinds.indexOf(event.kind)
   const worst = [...events].sort((a, b) => rank(a) - rank(b)).slice(0, LINES_MAX)
   return worst.map(({ kind, t_s }) => ({
     type: 'line',
     xref: 'x',
     yref: 'paper',
-    x0: t_s,
-    x1: t_s,
+    x0: words.at(t_s),
+    x1: words.at(t_s),
     y0: 0,
     y1: top,
     line: { color: theme.colour(looks[kind].token), width: 1, dash: 'dot' },

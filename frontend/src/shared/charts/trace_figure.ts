@@ -2,19 +2,20 @@
 import type { Series } from '../api/series'
 import type { Theme } from '../ui/theme.svelte'
 import type { Units } from '../units/units.svelte'
-import { markAxis, markLines, type MarkedEvent } from './event_marks'
+import { markAxis, markLines, type EventWords, type MarkedEvent } from './event_marks'
 import { plotLook } from './plotly'
+import { axisTicks } from './trace_axis'
+import type { TraceWindow } from './trace_window.svelte'
 import {
   binLine,
   MARKS_PX,
   moment,
-  timeTicks,
   type Span,
   type TraceLine,
   type TraceRow,
 } from './trace_line'
 
-export interface FigureWords {
+export interface FigureWords extends EventWords {
   row: (key: string) => string
   events: string
   channel: (name: string) => string
@@ -32,7 +33,7 @@ export interface Frame {
 }
 
 /** Beside the plot, in pixels. */
-export const MARGIN_PX = { l: 44, r: 10 }
+export const MARGIN_PX = { l: 44, r: 10, t: 18, b: 26 }
 const ROW_GAP_PX = 26 // room for a row's title
 const SWATCH = { thin: '▬', broad: '▬', dashed: '╍' }
 
@@ -49,7 +50,8 @@ export function traceData(
     row.lines.flatMap((line) => {
       const channel = series.channels.find((c) => c.name === line.channel)
       if (!channel) return []
-      const { x, y } = binLine(series.t_first_s, series.t_last_s, channel.min, channel.max)
+      const { x_first = series.t_first_s, x_last = series.t_last_s } = series
+      const { x, y } = binLine(x_first, x_last, channel.min, channel.max)
       return {
         type: 'scatter',
         mode: 'lines',
@@ -72,10 +74,11 @@ function stroke({ look }: TraceLine): { width: number; dash?: string } {
 }
 
 /** The part of the layout that a zoom changes; a figure is not built anew for it. */
-export function windowLayout(window: { from_s: number; to_s: number }, width: number) {
-  const ticks = timeTicks(window.from_s, window.to_s, Math.max(3, width / 110))
+export function windowLayout(view: TraceWindow, width: number, units: Units) {
+  const { low, high } = view.span
+  const ticks = axisTicks(view.axis, low, high, Math.max(3, width / 110), units)
   return {
-    'xaxis.range': [window.from_s, window.to_s],
+    'xaxis.range': [low, high],
     'xaxis.tickvals': ticks.at,
     'xaxis.ticktext': ticks.text,
   }
@@ -125,7 +128,7 @@ export function traceLayout(
     height: frame.height,
     ...Object.fromEntries(rows),
     ...(head > 0 ? { [layoutName(count)]: markAxis(frame.height) } : {}),
-    margin: { ...MARGIN_PX, t: 18, b: 26 },
+    margin: MARGIN_PX,
     dragmode: false,
     hovermode: 'closest',
     hoverdistance: 30,
@@ -140,10 +143,10 @@ export function traceLayout(
       spikecolor: theme.colour('line-strong'),
     },
     shapes: [
-      ...frame.gaps.map((span) => spanShape(span, theme.colour('line'), 0.35)),
-      ...frame.filled.map((span) => spanShape(span, theme.colour('accent-soft'), 0.6)),
-      ...frame.cuts.map((span) => spanShape(span, theme.colour('warn'), 0.16)),
-      ...markLines(frame.events, 1 - head, theme),
+      ...frame.gaps.map((span) => spanShape(span, theme.colour('line'), 0.35, words)),
+      ...frame.filled.map((span) => spanShape(span, theme.colour('accent-soft'), 0.6, words)),
+      ...frame.cuts.map((span) => spanShape(span, theme.colour('warn'), 0.16, words)),
+      ...markLines(frame.events, 1 - head, theme, words),
     ],
     annotations: [
       ...frame.rows.map((row, i) => title(rowTitle(row, units, words, theme), top(i))),
@@ -173,18 +176,29 @@ function rowTitle(row: TraceRow, units: Units, words: FigureWords, theme: Theme)
     : `<b>${words.row(row.key)}</b>${unit}`
 }
 
-function spanShape({ from_s, to_s }: Span, fillcolor: string, opacity: number): object {
+function spanShape(span: Span, fillcolor: string, opacity: number, { at }: EventWords): object {
+  const [x0, x1] = [at(span.from_s), at(span.to_s)]
   return {
     type: 'rect',
     xref: 'x',
     yref: 'paper',
-    x0: from_s,
-    x1: to_s,
+    x0,
+    x1,
     y0: 0,
     y1: 1,
     fillcolor,
     opacity,
-    line: { width: 0 },
+    // A stretch in which the bike stood has no width on the way: a line stands for it.
+    line: { width: x0 === x1 ? 2 : 0, color: fillcolor },
     layer: 'below',
   }
+}
+
+/** Where the title of each row begins, in pixels from the top of a figure. */
+export function titleTops(rows: number, height: number, marked: boolean): number[] {
+  const within = height - MARGIN_PX.t - MARGIN_PX.b
+  const gap = ROW_GAP_PX / height
+  const head = marked ? MARKS_PX / height : 0
+  const each = (1 - head - gap * (rows - 1)) / rows
+  return Array.from({ length: rows }, (_, i) => MARGIN_PX.t + (head + i * (each + gap)) * within)
 }

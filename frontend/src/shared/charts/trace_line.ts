@@ -28,7 +28,8 @@ export interface Span {
 }
 
 export interface Cursor {
-  t_s: number
+  /** Null while nothing is looked at. */
+  t_s: number | null
   move: (t_s: number) => void
 }
 
@@ -42,9 +43,13 @@ export interface Traced {
   events?: MarkedEvent[]
   /** Stretches in which something held the motor back. */
   cuts?: Span[]
+  /** What the cursor reads, beside the title of each row. */
+  readings?: string[]
   /** A moment that is looked at: keys and a press on the plot move it. */
   cursor?: Cursor
   summary: string
+  /** Buttons that zoom and move, where the page has none of its own. */
+  tools?: boolean
 }
 
 /** Bins as a line that touches the least and the greatest value of each. NaN breaks the line. */

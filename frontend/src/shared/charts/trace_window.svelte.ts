@@ -1,5 +1,6 @@
 // A window of time over traces: moved, zoomed, and kept inside the ride.
 import type { Series } from '../api/series'
+import { timeAxis, type TraceAxis } from './trace_axis'
 
 export interface TimeWindow {
   from_s: number
@@ -12,6 +13,8 @@ const WINDOW_S_MIN = 0.2
 export class TraceWindow {
   window: TimeWindow = $state.raw({ from_s: 0, to_s: 1 })
   series = $state.raw<Series | null>(null)
+  /** What lies across; the window is one of time on every axis. */
+  axis = $state.raw<TraceAxis>(timeAxis)
 
   constructor(
     readonly duration_s: number,
@@ -34,21 +37,32 @@ export class TraceWindow {
     this.show({ from_s: 0, to_s: this.duration_s }, px)
   }
 
+  /** The window on the axis. */
+  get span(): { low: number; high: number } {
+    return { low: this.axis.at(this.window.from_s), high: this.axis.at(this.window.to_s) }
+  }
+
+  /** Shows what lies between two places of the axis. */
+  showSpan(low: number, high: number, px: number): void {
+    const { axis } = this
+    if (low <= 0 && high >= axis.at(this.duration_s)) return this.showAll(px)
+    this.show({ from_s: axis.moment(Math.max(0, low)), to_s: axis.moment(high) }, px)
+  }
+
   /** Scales the window about its middle: 0.5 zooms in, 2 zooms out. */
   zoom(factor: number, px: number): void {
-    const middle = (this.window.from_s + this.window.to_s) / 2
-    const half = ((this.window.to_s - this.window.from_s) / 2) * factor
-    this.show({ from_s: middle - half, to_s: middle + half }, px)
+    const { low, high } = this.span
+    const [middle, half] = [(low + high) / 2, ((high - low) / 2) * factor]
+    this.showSpan(middle - half, middle + half, px)
   }
 
   /** Moves the window by a share of its width. */
   pan(share: number, px: number): void {
-    const width = this.window.to_s - this.window.from_s
-    const from_s = Math.min(
-      Math.max(0, this.window.from_s + share * width),
-      this.duration_s - width,
-    )
-    this.show({ from_s, to_s: from_s + width }, px)
+    const { low, high } = this.span
+    const width = high - low
+    const most = this.axis.at(this.duration_s) - width
+    const begin = Math.min(Math.max(0, low + share * width), most)
+    this.showSpan(begin, begin + width, px)
   }
 
   /** Fetches what the window shows, where it is not here. */

@@ -16,7 +16,9 @@ const ride = (channels: string[], summary: object, meaning: string | null = null
     motor_torque_meaning: meaning,
   }) as unknown as Ride
 const told = (one: Ride) =>
-  Object.fromEntries(headline(one, speech).map(({ name, value, note }) => [name, { value, note }]))
+  Object.fromEntries(
+    headline(one, null, speech).map(({ name, value, note }) => [name, { value, note }]),
+  )
 
 it('gives the ratio of two energies and never their sum', () => {
   const figures = told(ride([], { rider_wh: 40, motor_wh: 30 }))
@@ -27,7 +29,7 @@ it('gives the ratio of two energies and never their sum', () => {
 })
 
 it('has a reason for each of eight figures of a ride with a heart rate only', () => {
-  const figures = headline(ride(['heart_rate_bpm'], {}), speech)
+  const figures = headline(ride(['heart_rate_bpm'], {}), null, speech)
 
   expect(figures).toHaveLength(8)
   expect(figures.every(({ value }) => value === null)).toBe(true)

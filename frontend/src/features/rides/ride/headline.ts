@@ -1,12 +1,12 @@
 // The eight figures a ride is told by. A figure that is missing is a dash with its reason.
-import type { Ride } from '$shared/api/types'
+import type { Ride, RideEnergy } from '$shared/api/types'
 import type { Locale } from '$shared/i18n/locale.svelte'
 import type { Units } from '$shared/units/units.svelte'
 import type { RideKey, RideSay } from './words.svelte'
 
 export interface Figure {
   name: RideKey
-  token?: 'rider' | 'motor' | 'battery' | 'cadence'
+  token?: 'rider' | 'motor' | 'battery'
   /** Number and unit; null where the ride does not tell it. */
   value: [number: string, unit: string] | null
   /** What it rests on, or why it is missing. */
@@ -20,7 +20,11 @@ interface Speech {
 }
 
 /** Rider and motor stand side by side and are never added; their ratio may be given. */
-export function headline(ride: Ride, { say, locale, units }: Speech): Figure[] {
+export function headline(
+  ride: Ride,
+  energy: RideEnergy | null,
+  { say, locale, units }: Speech,
+): Figure[] {
   const s = ride.summary
   const has = (name: string) => ride.channels.some((channel) => channel.name === name)
   const figure = (value: number | null | undefined, unit: string): Figure['value'] =>
@@ -30,6 +34,7 @@ export function headline(ride: Ride, { say, locale, units }: Speech): Figure[] {
   const meanTop = (mean: number | null | undefined, top: number | null | undefined) =>
     say('mean_top', { mean: units.text(mean, 'W'), top: units.text(top, 'W') })
   const motorless = ride.motor_torque_meaning === 'demanded' ? 'not_asked' : 'none_motor'
+  const climb = energy?.climb
   const ratio = s?.rider_wh && s.motor_wh != null ? s.motor_wh / s.rider_wh : null
   return [
     {
@@ -56,10 +61,9 @@ export function headline(ride: Ride, { say, locale, units }: Speech): Figure[] {
       ),
     },
     {
-      name: 'cadence',
-      token: 'cadence',
-      value: figure(s?.cadence_rpm_mean, 'rpm'),
-      note: told(s?.cadence_rpm_mean, say('cranks_turning'), 'none_cadence'),
+      name: 'climb',
+      value: figure(climb?.ascent_m, 'm of altitude'),
+      note: climbNote(climb?.descent_m, energy === null && has('altitude_m'), { say, units }),
     },
     {
       name: 'your_energy',
@@ -93,4 +97,14 @@ function batteryNote({ summary }: Ride, { say, units }: Speech): string {
   const used = summary?.battery_soc_pct_used
   if (used == null) return say('per_km', { per_km })
   return say('battery_used', { share: units.text(used, '%'), per_km })
+}
+
+function climbNote(
+  descent_m: number | undefined,
+  waits: boolean,
+  { say, units }: Omit<Speech, 'locale'>,
+): string {
+  if (waits) return '…'
+  if (descent_m === undefined) return say('none_height')
+  return say('of_heights', { descent: units.text(descent_m, 'm of altitude') })
 }

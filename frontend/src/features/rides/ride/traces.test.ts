@@ -1,6 +1,8 @@
 /* Goal: a ride shows the channels it has, and says what it lacks or was only asked of the motor. */
 import { expect, it } from 'vitest'
-import { rowsFor } from './traces'
+import type { Ride } from '$shared/api/types'
+import { Locale } from '$shared/i18n/locale.svelte'
+import { rowName, rowsFor, rowsOf } from './traces'
 
 it('draws what was asked of the motor behind what it gave', () => {
   const { shown } = rowsFor(
@@ -23,4 +25,24 @@ it('names what a head unit did not record', () => {
 
   expect(shown.map((row) => row.key)).toEqual(['speed', 'power', 'heart_rate'])
   expect(missing).toEqual(['rider_torque', 'motor_torque_crank', 'gain'])
+})
+
+it('has a row for every channel, also for one that only its file knows', () => {
+  const names = ['speed_kmh', 'left_right_balance', 'unknown_61']
+  const channels = names.map((name) => ({ name, unit: name === 'unknown_61' ? '' : '%' }))
+
+  const { all, usual } = rowsOf({ channels, motor_torque_meaning: null } as unknown as Ride)
+
+  expect(all.map((row) => row.key)).toEqual(['speed', 'left_right_balance', 'unknown_61'])
+  expect(all[1]?.unit).toBe('%')
+  expect(usual).toEqual(['speed'])
+  expect(rowName('unknown_61', new Locale())).toBe('unknown 61')
+})
+
+it('shows the channels of a ride that has none of the usual ones', () => {
+  const channels = [{ name: 'unknown_61', unit: '' }]
+
+  const { usual } = rowsOf({ channels, motor_torque_meaning: null } as unknown as Ride)
+
+  expect(usual).toEqual(['unknown_61'])
 })

@@ -1,6 +1,7 @@
 // What the ride page draws: rows of the channels that a ride has.
 import type { Ride } from '$shared/api/types'
 import type { TraceRow } from '$shared/charts/trace_line'
+import type { Locale } from '$shared/i18n/locale.svelte'
 
 // Each row shows the first of its alternatives that the ride has. What a unit asked of its motor is
 // drawn behind what the motor gave.
@@ -57,4 +58,34 @@ export function rowsFor(
     else if (expected.includes(row.key)) missing.push(row.key)
   }
   return { shown, missing }
+}
+
+interface RowsOfRide {
+  /** In the order they are drawn in. */
+  all: TraceRow[]
+  /** Keys of those shown at first. */
+  usual: string[]
+  /** Keys of the expected ones that the ride lacks. */
+  missing: string[]
+}
+
+/** Every channel of a ride in a row: the usual rows, then each other channel in one of its own. */
+export function rowsOf({ channels, motor_torque_meaning }: Ride): RowsOfRide {
+  const { shown, missing } = rowsFor(
+    channels.map(({ name }) => name),
+    motor_torque_meaning,
+  )
+  const drawn = new Set(shown.flatMap((row) => row.lines.map(({ channel }) => channel)))
+  const others = channels
+    .filter(({ name }) => !drawn.has(name))
+    .map(({ name, unit }) => ({ key: name, unit, lines: [{ channel: name, token: 'battery' }] }))
+  const all = [...shown, ...others]
+  const usual = (shown.length > 0 ? shown : all.slice(0, 3)).map(({ key }) => key)
+  return { all, usual, missing }
+}
+
+/** What a row is called: its own name, else its channel's, else the channel as the file has it. */
+export function rowName(key: string, { lookup }: Locale): string {
+  const channel = lookup(`channel.${key}`, key.replaceAll('_', ' '))
+  return lookup(`trace.${key}`, channel)
 }

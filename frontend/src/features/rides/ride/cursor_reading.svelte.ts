@@ -1,0 +1,51 @@
+// What every channel of a ride tells at the cursor: the row that holds there, as recorded.
+import type { Server } from '$shared/api/server'
+import type { Ride } from '$shared/api/types'
+
+const PACE_MS = 40 // a drag asks this often at most
+// A head unit's row holds until the next one; a longer silence is a gap.
+const HELD_S = 10
+
+export class CursorReading {
+  /** By channel; null where nothing is told. The whole is null until the first answer. */
+  values = $state.raw<Record<string, number | null> | null>(null)
+  private asked = new AbortController()
+  private timer: ReturnType<typeof setTimeout> | null = null
+
+  constructor(
+    private readonly server: Server,
+    private readonly ride: Ride,
+  ) {}
+
+  at(t_s: number): void {
+    if (this.timer) clearTimeout(this.timer)
+    this.timer = setTimeout(() => void this.fetch(t_s), PACE_MS)
+  }
+
+  stop(): void {
+    if (this.timer) clearTimeout(this.timer)
+    this.asked.abort()
+  }
+
+  private async fetch(t_s: number): Promise<void> {
+    this.asked.abort()
+    this.asked = new AbortController()
+    const { signal } = this.asked
+    const { channels, period_us } = this.ride
+    const held_s = period_us === null ? HELD_S : period_us / 1e6
+    const window = { from_s: Math.max(0, t_s - held_s + 1e-6), to_s: t_s, px: 2000 }
+    const names = channels.map(({ name }) => name)
+    try {
+      const series = await this.server.series(this.ride.id, names, window, signal)
+      if (signal.aborted) return
+      const row = series.t_first_s.length - 1
+      const told = series.channels.map(({ name, min }) => {
+        const value = min[row] ?? NaN
+        return [name, Number.isNaN(value) ? null : value] as const
+      })
+      this.values = Object.fromEntries(told)
+    } catch {
+      if (!signal.aborted) this.values = null // the traces say what is wrong
+    }
+  }
+}
