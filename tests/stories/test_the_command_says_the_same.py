@@ -215,7 +215,7 @@ def test_a_file_is_imported_listed_and_exported(server: SpindleServer, tmp_path:
     assert tagged.returncode == 0, tagged.stderr
     assert card == [20.0] * 64
     assert [item["id"] for item in json.loads(found.stdout)["items"]] == [ride]
-    assert json.loads(none.stdout)["items"] == []
+    assert ride not in {item["id"] for item in json.loads(none.stdout)["items"]}
     assert home["tags"] == [{"tag": "winter", "rides": 1}]
     assert [len(home[spans]) for spans in ("weeks", "months")] == [12, 12]
     assert result.returncode == exported.returncode == 0

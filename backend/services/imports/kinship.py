@@ -28,6 +28,8 @@ TOLERANCES = {
     "cadence_rpm": 1.0,
     "heart_rate_bpm": 1.0,
     "rider_power_w": 1.0,
+    "rider_torque_nm": 0.1,
+    "motor_torque_nm": 0.1,
 }
 # Receivers side by side differ by 2 to 5 m; what a format rounds off is far below this.
 SAME_PLACE_M = 1.0
@@ -119,6 +121,8 @@ def judged(
     """How two rides are to each other; None when they are two."""
     shared, here, there = np.intersect1d(ours.unix_s, theirs.unix_s, return_indices=True)
     shorter = min(len(ours), len(theirs))
+    if not shorter:
+        return None  # nothing was measured that could tell
     if len(shared) >= OVERLAP_SHARE * shorter and may_be_one(ride, imported):
         ours_shared, theirs_shared = taken(ours, here), taken(theirs, there)
         if is_same_recording(ours_shared, theirs_shared):

@@ -261,3 +261,28 @@ def test_the_steady_commute_of_other_tests_is_one_ride_too(shop: Shop) -> None:
     (first,) = shop.take("a.fit", fit_file(commute(200))).ride_ids
 
     assert shop.take("b.fit", fit_file(commute(100))).duplicate_of == first
+
+
+def table(name: str, values: Sequence[float], note: str = "") -> bytes:
+    """Rides of one channel a second, besides a steady speed where `note` is none."""
+    times = [f"2026-07-01T10:{at // 60:02}:{at % 60:02}Z" for at in range(len(values))]
+    head, speed = (f"time_utc,{name},speed_kmh", ",20") if not note else (f"time_utc,{name}", "")
+    lines = [f"{at},{value}{speed}" for at, value in zip(times, values, strict=True)]
+    return "\n".join([head, *lines, note]).encode()
+
+
+def test_the_same_way_with_another_motor_is_another_recording(shop: Shop) -> None:
+    """What the motor gave is not thrown away because the rider and the road were alike."""
+    helped = shop.take("a.csv", table("motor_torque_nm", [0.5] * 300))
+    unhelped = shop.take("b.csv", table("motor_torque_nm", [0.0] * 300))
+
+    assert (helped.state, unhelped.state) == ("complete", "complete")
+    assert len(shop.ride_ids) == 2
+
+
+def test_rides_of_nothing_that_could_tell_them_apart_are_both_kept(shop: Shop) -> None:
+    first = shop.take("a.csv", table("altitude_m", [70.0] * 60, note=" "))
+    second = shop.take("b.csv", table("altitude_m", [70.0] * 60, note="  "))
+
+    assert (first.state, second.state) == ("complete", "complete")
+    assert len(shop.ride_ids) == 2
