@@ -143,8 +143,8 @@ def test_the_same_window_is_a_table_for_those_who_see_no_curves(
 
     page.click("button >> text=Data table")
 
-    expect(page.locator("section table")).to_contain_text("95.0")
-    assert 20 <= page.locator("section table tbody tr").count() <= 40
+    expect(page.locator("section[aria-labelledby=traces] table")).to_contain_text("95.0")
+    assert 20 <= page.locator("section[aria-labelledby=traces] table tbody tr").count() <= 40
 
 
 def test_no_button_sends_a_chart_away(desk: Desk, server: SpindleServer) -> None:
