@@ -6,7 +6,7 @@ from backend.control.gain import ENGINE, points, surface
 from backend.control.lint_rules import lint
 from backend.control.market import Cutoff, cutoff_of
 from backend.control.mode_curves import CADENCE_RPM, HARD_PUSH_NM, ModeCurve, mode_curves
-from backend.control.recorded_ride import KMH_PER_MS, STANDING_MS
+from backend.control.recorded_ride import STANDING_MS
 from backend.control.recorded_ride import recorded as recorded_ride
 from backend.control.ride_replay import (
     Replay,
@@ -33,7 +33,6 @@ __all__ = [
     "CADENCE_RPM",
     "ENGINE",
     "HARD_PUSH_NM",
-    "KMH_PER_MS",
     "LIMITS",
     "OF_THE_BIKE",
     "STANDING_MS",

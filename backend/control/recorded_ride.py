@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.energy import RADIANS_PER_S_PER_RPM
+from backend.domain.energy import KMH_PER_MS, RADIANS_PER_S_PER_RPM
 from backend.errors import InvalidRequest
 
-KMH_PER_MS = 3.6
 STANDING_MS = 0.3
 ENGAGED_NM = 5.0
 """With less on the pedals the cranks may turn slower than the chainring."""

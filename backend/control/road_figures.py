@@ -8,7 +8,8 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from backend.control.recorded_ride import KMH_PER_MS, STANDING_MS, Bools, Floats, Recorded
+from backend.control.recorded_ride import STANDING_MS, Bools, Floats, Recorded
+from backend.domain.energy import KMH_PER_MS
 from sim_device.firmware.python.law import LIMITS
 from sim_device.firmware.python.twin import Totals
 

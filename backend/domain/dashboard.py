@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from backend.domain.energy import (
     DELIVERED,
+    KMH_PER_MS,
     MOTOR_TORQUE,
     MOTOR_TORQUE_DEMANDED,
     RADIANS_PER_S_PER_RPM,
@@ -24,7 +25,7 @@ from backend.domain.energy import (
 )
 
 US_PER_S = 1e6
-MS_PER_KMH = 1.0 / 3.6
+MS_PER_KMH = 1.0 / KMH_PER_MS
 WINDOW_S = 1.0
 # Before this much is used and ridden, battery per kilometre is a guess: state of charge has steps.
 RANGE_SOC_PCT_MIN = 0.5

@@ -25,6 +25,7 @@ from backend.domain.channels import ChannelSpec, Values
 
 RADIANS_PER_S_PER_RPM = 2.0 * math.pi / 60.0
 SECONDS_PER_HOUR = 3600.0
+KMH_PER_MS = 3.6
 
 # Wide where the product of two 16 bit factors may not fit: no extreme is ever clipped.
 RIDER_POWER = ChannelSpec("rider_power_w", "W", 0.1, wide=True)

@@ -18,6 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.domain.channels import ChannelSpec, Counts, Values
+from backend.domain.energy import KMH_PER_MS
 from backend.domain.intake import CLOCK_JUMPED, CLOCK_NOT_SET, NO_TIME, NO_VALUE, Intake
 from backend.domain.ride import RideRows
 from backend.ingest.outcome import ImportedRide
@@ -63,7 +64,12 @@ LATITUDE, LONGITUDE = "latitude_deg", "longitude_deg"
 FIT_FIELDS: tuple[FieldRule, ...] = (
     # 2 g, which no tyre holds.
     FieldRule(
-        ChannelSpec("speed_kmh", "km/h", 0.0036), ("enhanced_speed", "speed"), 0, 117.9, 3.6, 70.0
+        ChannelSpec("speed_kmh", "km/h", 0.0036),
+        ("enhanced_speed", "speed"),
+        0,
+        117.9,
+        KMH_PER_MS,
+        70.0,
     ),
     FieldRule(ChannelSpec("cadence_rpm", "rpm", 1.0), ("cadence",), 0, 254),
     FieldRule(ChannelSpec("rider_power_w", "W", 1.0), ("power",), 0, 4000),

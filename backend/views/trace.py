@@ -45,9 +45,9 @@ import numpy.typing as npt
 
 from backend.domain.channels import ChannelSpec, Counts, Values
 from backend.domain.pyramid import Level, reduce_groups
-from backend.domain.ride import TimesUs, pause_us
+from backend.domain.ride import pause_us
 from backend.errors import FieldError, InvalidRequest
-from backend.views.along import Along, Axis, told_along
+from backend.views.along import Along, Axis, Rows, told_along
 
 MAGIC = b"SPV1"
 # A screen has at most this many columns; more would only cost the browser memory.
@@ -57,17 +57,9 @@ ALIGNMENT = 8
 Starts = npt.NDArray[np.int64]
 
 
-class RideReader(Protocol):
-    """What a view needs to know of a ride; the store's reader offers it."""
+class RideReader(Rows, Protocol):
+    """A ride's rows and its overview; the store's reader offers both."""
 
-    @property
-    def row_count(self) -> int: ...
-    @property
-    def period_us(self) -> int | None: ...
-    @property
-    def offered(self) -> Sequence[ChannelSpec]: ...
-    def times_us(self, start: int, stop: int) -> TimesUs: ...
-    def counts(self, names: Sequence[str], start: int, stop: int) -> Mapping[str, Counts]: ...
     def level(self, rows_per_bin: int) -> Level | None: ...
 
 

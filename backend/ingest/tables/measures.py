@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass, replace
 
 from backend.domain.channels import ChannelSpec
+from backend.domain.energy import KMH_PER_MS
 from backend.ingest.columns import FIT_FIELDS, FieldRule
 
 # Unit as files write it, without case and spaces -> its quantity, our word, factor to the
@@ -13,7 +14,7 @@ from backend.ingest.columns import FIT_FIELDS, FieldRule
 UNITS: dict[str, tuple[str, str, float, float]] = {
     **dict.fromkeys(("km/h", "kmh", "kph", "kmph", "km/hr"), ("speed", "km/h", 1.0, 0.0)),
     **dict.fromkeys(("mph", "mi/h", "mp/h"), ("speed", "mph", 1.609344, 0.0)),
-    **dict.fromkeys(("m/s", "mps", "ms"), ("speed", "m/s", 3.6, 0.0)),
+    **dict.fromkeys(("m/s", "mps", "ms"), ("speed", "m/s", KMH_PER_MS, 0.0)),
     **dict.fromkeys(("m", "meter", "meters", "metres", "metre"), ("length", "m", 1.0, 0.0)),
     **dict.fromkeys(("km", "kilometers", "kilometres"), ("length", "km", 1000.0, 0.0)),
     **dict.fromkeys(("mi", "miles", "mile"), ("length", "mi", 1609.344, 0.0)),

@@ -14,6 +14,7 @@ from enum import Enum
 import numpy as np
 import numpy.typing as npt
 
+from backend.domain.energy import KMH_PER_MS
 from backend.domain.ride import Ride
 from backend.ingest import ImportedRide
 from backend.store import RideStore, Sought
@@ -236,4 +237,4 @@ def distance_m(ride: BySecond, first: int, last: int) -> float | None:
     there = np.isfinite(speed)
     if not there.any():
         return None
-    return float(np.trapezoid(speed[there] / 3.6, ride.unix_s[inside][there]))
+    return float(np.trapezoid(speed[there] / KMH_PER_MS, ride.unix_s[inside][there]))

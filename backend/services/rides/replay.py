@@ -19,7 +19,7 @@ import numpy.typing as npt
 from backend import control
 from backend.domain._generated import INPUT_FLAGS
 from backend.domain.channels import ChannelSpec, Values
-from backend.domain.energy import DELIVERED, RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
+from backend.domain.energy import DELIVERED, KMH_PER_MS, RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
 from backend.domain.ride import Ride
 from backend.errors import InvalidRequest
 from backend.services.tuning.preview import Preview
@@ -107,7 +107,7 @@ class RideReplay:
             "motor_work_wh": compared(recorded_wh, replayed.motor_work_wh),
             "motor_torque_nm_max": compared(largest(recorded_nm), replayed.motor_torque_nm_max),
             **on_the_way(
-                columns["speed_kmh"] / control.KMH_PER_MS > control.STANDING_MS,
+                columns["speed_kmh"] / KMH_PER_MS > control.STANDING_MS,
                 (recorded_wh, recorded_nm),
                 (replayed.motor_work_wh, new_nm),
                 step_s,

@@ -9,11 +9,17 @@ import numpy.typing as npt
 
 from backend.domain._generated import MOVING_KMH
 from backend.domain.channels import ChannelSpec, Values
-from backend.domain.energy import FACTORS, MOTOR_POWER, RIDER_POWER, derivable, derive
+from backend.domain.energy import (
+    FACTORS,
+    MOTOR_POWER,
+    RIDER_POWER,
+    SECONDS_PER_HOUR,
+    derivable,
+    derive,
+)
 from backend.domain.ride import RideSummary
 
 POWERS = (RIDER_POWER, MOTOR_POWER)
-SECONDS_PER_HOUR = 3600.0
 
 
 class RunningTotals:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from backend.domain.channels import Values
+from backend.domain.energy import KMH_PER_MS
 from backend.views.diagnosis.finding import WARNING, Evidence, Finding
 from backend.views.insight.way import way_of
 
@@ -55,7 +56,7 @@ def implausible_speed(ride: Evidence) -> list[Finding]:
 def speed_jumps(ride: Evidence, speed_kmh: Values) -> tuple[list[tuple[float, float]], float]:
     """Where the speed (n,) changed faster than JUMP_MS2, and the greatest change."""
     known = np.flatnonzero(np.isfinite(speed_kmh))
-    at_s, ms = ride.start_s[known], speed_kmh[known] / 3.6
+    at_s, ms = ride.start_s[known], speed_kmh[known] / KMH_PER_MS
     later = np.searchsorted(at_s, at_s + JUMP_S - 1e-6)
     inside = later < len(at_s)
     first, later = np.flatnonzero(inside), later[inside]
@@ -105,7 +106,9 @@ def wheel(ride: Evidence) -> list[Finding] | None:
     whole_m = np.hypot(x_m[2:] - x_m[:-2], y_m[2:] - y_m[:-2])
     rolled_m, took_s = way_m[2:] - way_m[:-2], at_s[2:] - at_s[:-2]
     halves_m = half_m[:-1] + half_m[1:]
-    good = (took_s <= 2.0 * CHORD_S) & (rolled_m / np.maximum(took_s, 1e-9) > CHORD_KMH / 3.6)
+    good = (took_s <= 2.0 * CHORD_S) & (
+        rolled_m / np.maximum(took_s, 1e-9) > CHORD_KMH / KMH_PER_MS
+    )
     good &= halves_m <= whole_m * (1.0 + STRAIGHT)
     share = whole_m[good] / rolled_m[good]
     if len(share) < WHEEL_CHORDS or rolled_m[good].sum() < WHEEL_M:

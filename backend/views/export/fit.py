@@ -17,7 +17,7 @@ import numpy as np
 from fastcrc import crc16
 
 from backend.domain.channels import Values
-from backend.domain.energy import DEMANDED, MOTOR_POWER, MOTOR_TORQUE, RIDER_POWER
+from backend.domain.energy import DEMANDED, KMH_PER_MS, MOTOR_POWER, MOTOR_TORQUE, RIDER_POWER
 from backend.domain.ride import Ride, pause_us
 from backend.views.export.seconds import SECOND_US, BySecond
 
@@ -62,7 +62,7 @@ NATIVE = (
     Native("heart_rate_bpm", 3, UINT8),
     Native("cadence_rpm", 4, UINT8),
     Native("distance_m", 5, UINT32, 100),
-    Native("speed_kmh", 73, UINT32, 1000, factor=1 / 3.6),
+    Native("speed_kmh", 73, UINT32, 1000, factor=1 / KMH_PER_MS),
     Native(RIDER_POWER.name, 7, UINT16),
     Native(MOTOR_POWER.name, 82, UINT16),
     Native("temperature_degc", 13, SINT8),
@@ -189,8 +189,8 @@ def summaries(ride: Ride, ridden: BySecond, start_s: int, end_s: int) -> list[by
         (1, ENUM, STOP),
         (5, ENUM, CYCLING),
         (6, ENUM, kind),
-        (14, UINT16, scaled(np.mean, speed, 1000 / 3.6)),
-        (15, UINT16, scaled(np.max, speed, 1000 / 3.6)),
+        (14, UINT16, scaled(np.mean, speed, 1000 / KMH_PER_MS)),
+        (15, UINT16, scaled(np.max, speed, 1000 / KMH_PER_MS)),
         (16, UINT8, scaled(np.mean, ridden["heart_rate_bpm"])),
         (17, UINT8, scaled(np.max, ridden["heart_rate_bpm"])),
         (18, UINT8, scaled(np.mean, ridden["cadence_rpm"])),

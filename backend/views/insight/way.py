@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.domain.channels import Values
+from backend.domain.energy import KMH_PER_MS
 
 CELL_M = 5.0
 WINDOW_M = 100.0
@@ -83,7 +84,7 @@ def way_of(columns: Mapping[str, Values], start_s: Values, seconds: Values) -> W
     speed = columns.get("speed_kmh")
     if speed is None or not np.isfinite(speed).any():
         return None
-    step_m = np.where(np.isfinite(speed), speed, 0.0) / 3.6 * seconds
+    step_m = np.where(np.isfinite(speed), speed, 0.0) / KMH_PER_MS * seconds
     return Way(np.cumsum(step_m) - step_m, step_m, 0.0)
 
 
