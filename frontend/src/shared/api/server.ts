@@ -407,8 +407,8 @@ export class Server {
         )
   }
 
-  track(id: number): Promise<Track> {
-    return body(this.http.GET('/api/v1/rides/{ride_id}/track', this.rideAt(id)))
+  track(id: number, signal: AbortSignal): Promise<Track> {
+    return body(this.http.GET('/api/v1/rides/{ride_id}/track', { ...this.rideAt(id), signal }))
   }
 
   /** Which mode and which rule carried which share of a ride's motor energy. */

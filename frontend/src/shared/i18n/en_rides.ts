@@ -57,7 +57,6 @@ export const enRides = {
   'ride.started': 'Started',
   'ride.time': 'Time',
   'ride.distance': 'Distance',
-  'ride.mean_speed': 'Mean speed',
   'ride.rider_energy': 'Rider energy',
   'ride.motor_energy': 'Motor energy',
   'ride.only_asked':

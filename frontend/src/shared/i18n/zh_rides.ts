@@ -58,7 +58,6 @@ export const zhRides: Record<keyof typeof enRides, string> = {
   'ride.started': '开始',
   'ride.time': '用时',
   'ride.distance': '距离',
-  'ride.mean_speed': '平均速度',
   'ride.rider_energy': '骑手能量',
   'ride.motor_energy': '电机能量',
   'ride.only_asked': '此骑行未测量电机实际给出的扭矩：所示为请求的扭矩，不据此计算能量。',

@@ -71,7 +71,6 @@ export const en = {
   tag_add: 'Add',
   tag_add_named: 'Add {tag}',
   tag_remove_named: 'Take {tag} away',
-  tag_known: 'Tags',
   done: 'Done',
   delete_title: 'Delete the chosen rides ({count})?',
   delete_what:

@@ -67,7 +67,6 @@ export const zh: Record<HomeKey, string> = {
   tag_add: '添加',
   tag_add_named: '添加 {tag}',
   tag_remove_named: '去掉 {tag}',
-  tag_known: '标签',
   done: '完成',
   delete_title: '删除 {count} 次骑行？',
   delete_what:

@@ -24,6 +24,7 @@ export function headline(
   ride: Ride,
   energy: RideEnergy | null,
   { say, locale, units }: Speech,
+  waits = false,
 ): Figure[] {
   const s = ride.summary
   const has = (name: string) => ride.channels.some((channel) => channel.name === name)
@@ -34,7 +35,6 @@ export function headline(
   const meanTop = (mean: number | null | undefined, top: number | null | undefined) =>
     say('mean_top', { mean: units.text(mean, 'W'), top: units.text(top, 'W') })
   const motorless = ride.motor_torque_meaning === 'demanded' ? 'not_asked' : 'none_motor'
-  const climb = energy?.climb
   const ratio = s?.rider_wh && s.motor_wh != null ? s.motor_wh / s.rider_wh : null
   return [
     {
@@ -62,8 +62,8 @@ export function headline(
     },
     {
       name: 'climb',
-      value: figure(climb?.ascent_m, 'm of altitude'),
-      note: climbNote(climb?.descent_m, energy === null && has('altitude_m'), { say, units }),
+      value: figure(energy?.climb?.ascent_m, 'm of altitude'),
+      note: climbNote(energy?.climb?.descent_m, waits && has('altitude_m'), { say, units }),
     },
     {
       name: 'your_energy',

@@ -1,4 +1,5 @@
 // How one ride is looked at: its window, axis, rows and cursor, and the address that holds them.
+import { NewestAnswer } from '$shared/api/newest_answer.svelte'
 import type { Server } from '$shared/api/server'
 import type { Ride, RideEnergy, Track } from '$shared/api/types'
 import { RideView } from '$shared/charts/ride_view.svelte'
@@ -18,9 +19,9 @@ export class RideLook implements Cursor {
   readonly missing: string[]
   readonly modes: ModeSpan[]
   readonly reading: CursorReading
+  readonly energy = new NewestAnswer<RideEnergy>()
   readonly end_s: number
   track = $state.raw<Track | null>(null)
-  energy = $state.raw<RideEnergy | null>(null)
   t_s = $state<number | null>(null)
   keys = $state.raw<string[]>([])
   axis = $state<AxisKind>('time')
@@ -56,11 +57,13 @@ export class RideLook implements Cursor {
 
   /** Fetches what stands beside the traces. */
   async load(): Promise<void> {
+    const { id, state } = this.ride
+    if (state === 'done') void this.energy.ask((signal) => this.server.energy(id, signal))
     if (!this.view) return
-    const nothing = () => null // the page says by itself what is wrong with a ride
+    // The page says by itself what is wrong with a ride.
     const { signal } = this.left
-    void this.server.energy(this.ride.id, signal).then((found) => (this.energy = found), nothing)
-    this.track = await this.server.track(this.ride.id).catch(nothing)
+    this.track = await this.server.track(id, signal).catch(() => null)
+    if (signal.aborted) return
     if (this.wanted !== 'time') this.lay(this.wanted)
   }
 
@@ -160,6 +163,7 @@ export class RideLook implements Cursor {
 
   stop(): void {
     this.left.abort()
+    this.energy.stop()
     this.view?.stop()
     this.reading.stop()
   }

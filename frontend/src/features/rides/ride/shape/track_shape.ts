@@ -30,15 +30,13 @@ export class TrackShape {
   readonly m_per_px: number
   private readonly east: LaidAxis
   private readonly south: LaidAxis
-  private readonly open: [from_s: number, to_s: number][] = []
 
   private constructor(
     private readonly known: { t_s: number[]; x: number[]; y: number[] },
-    gaps: [number, number][],
+    private readonly open: [from_s: number, to_s: number][],
     m_per_px: number,
   ) {
     const last = known.t_s.length - 1
-    this.open = gaps
     this.m_per_px = m_per_px
     this.east = new LaidAxis('time', known.t_s, known.x)
     this.south = new LaidAxis('time', known.t_s, known.y)
