@@ -98,8 +98,9 @@ def requests() -> bool:
     return bool(asked.poll(IDLE_S * 1000))
 
 
-def answers(asked: dict[str, Any]) -> Iterator[bytes]:
-    """What a request is answered with: one answer for a file, one a file for an archive."""
+def answers(asked: dict[str, Any]) -> Iterator[tuple[tuple[bytes, ...], bool]]:
+    """What a request is answered with, in pieces, and whether it is the last: one answer for a
+    file, one a file for an archive."""
     from backend.domain.table_answer import answer_from_json
     from backend.ingest.answer import encode
     from backend.ingest.containers.frames import frames
@@ -110,12 +111,14 @@ def answers(asked: dict[str, Any]) -> Iterator[bytes]:
         yield from frames(path)
     else:
         said = answer_from_json(asked.get("said"))
-        yield encode(read_file(asked["name"], path.read_bytes(), said))
+        yield (encode(read_file(asked["name"], path.read_bytes(), said)),), True
 
 
-def say(answer: bytes, flags: int) -> None:
+def say(answer: tuple[bytes, ...], flags: int) -> None:
     """Write one answer."""
-    sys.stdout.buffer.write(FRAME.pack(len(answer), flags) + answer)
+    sys.stdout.buffer.write(FRAME.pack(sum(map(len, answer)), flags))
+    for piece in answer:
+        sys.stdout.buffer.write(piece)
     sys.stdout.buffer.flush()
 
 
@@ -133,19 +136,18 @@ def main() -> int:
             return 0
         asked = json.loads(line)
         limit_time(asked["cpu_s"])
-        last = None
         try:
-            for answer in answers(asked):
-                if last is not None:
-                    say(last, MORE)
-                last = answer
+            for answer, last in answers(asked):
+                if not last:
+                    say(answer, MORE)
+                    continue
+                limit_time(0)
+                worn = number == FILES_MAX or is_worn()
+                say(answer, WORN if worn else 0)
+                if worn:
+                    return 0
         except MemoryError:
             return OUT_OF_MEMORY
-        limit_time(0)
-        worn = number == FILES_MAX or is_worn()
-        say(last or b"", WORN if worn else 0)
-        if worn:
-            return 0
     return 0
 
 

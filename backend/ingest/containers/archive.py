@@ -2,7 +2,8 @@
 
 Nothing is ever written under a name from the archive, so `../../x`, absolute names and links are
 names like any other. Sizes are counted as bytes come out; what the archive says of itself is not
-believed. A ZIP within the ZIP is opened, one within that is not.
+believed. A ZIP within the ZIP is opened, one within that is not. Of a ZIP that was cut every file
+is taken that is whole.
 """
 
 from __future__ import annotations
@@ -11,11 +12,13 @@ import io
 import zipfile
 import zlib
 from collections.abc import Iterator
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import IO
 
 from backend.ingest.containers.bulk import Titles, is_summary, left_alone, strava, summaries
+from backend.ingest.containers.salvage import Salvaged
 from backend.ingest.formats import SNIFFED_BYTES, is_archive, refused_by_head
 from backend.ingest.outcome import Outcome, rejected
 
@@ -29,6 +32,7 @@ RATIO_FROM_BYTES = 1024 * 1024
 ENTRIES_MAX = 20_000
 PIECE_BYTES = 1 << 20
 ENCRYPTED_FLAG = 0x1
+CUT = "The archive was cut: its list of files is gone. What is whole was taken; send it again."
 # What zipfile and its decompressors raise on damage or on a method they do not know.
 DAMAGE = (
     zipfile.BadZipFile,
@@ -58,10 +62,12 @@ class Entry:
 
 @dataclass(frozen=True)
 class Left:
-    """What else is known at the end: what people called their rides, and files of no interest."""
+    """What else is known at the end: what people called their rides, files of no interest, and why
+    there are not more files."""
 
     titles: Titles
     left_alone: int
+    trouble: Outcome | None = None
 
 
 class Bounds:
@@ -75,22 +81,23 @@ class Bounds:
         """The bytes of a file within. Raises Refused, and DAMAGE as the library does."""
         if info.flag_bits & ENCRYPTED_FLAG:
             raise Refused("encrypted", "It is locked with a password: unpack it and send the file.")
-        found = bytearray()
+        # Grows in its place and gives its bytes away: a file within is never held twice.
+        found = io.BytesIO()
         with archive.open(info) as file:
             while piece := file.read(PIECE_BYTES):
-                found += piece
+                found.write(piece)
                 self.total += len(piece)
                 packed = max(info.compress_size, 1)
-                if len(found) > max(RATIO_FROM_BYTES, RATIO_MAX * packed):
+                if found.tell() > max(RATIO_FROM_BYTES, RATIO_MAX * packed):
                     raise Refused(
                         "expands_too_much",
                         f"It becomes more than {RATIO_MAX} times as large as it is packed.",
                     )
-                if len(found) > size_max:
+                if found.tell() > size_max:
                     raise Refused("too_large", f"It has more than {size_max} bytes.")
                 if self.total > TOTAL_BYTES_MAX:
                     raise Refused("too_large", "The archive holds more than can be read at once.")
-        return bytes(found)
+        return found.getvalue()
 
 
 class Refused(Exception):
@@ -113,29 +120,37 @@ class BrokenArchive(Exception):
 def entries(source: Path | IO[bytes]) -> Iterator[Entry | Left]:
     """Every file of an archive in its own order, then what is left. Raises BrokenArchive."""
     bounds = Bounds()
-    try:
-        archive = zipfile.ZipFile(source)
-    except DAMAGE as error:
-        raise BrokenArchive(
-            rejected("container_damaged", f"The archive cannot be opened: {error}. Send it again.")
-        ) from None
-    with archive:
+    with source.open("rb") if isinstance(source, Path) else nullcontext(source) as file:
+        try:
+            archive = opened_archive(file)
+        except DAMAGE as error:
+            told = f"The archive cannot be opened: {error}. Send it again."
+            raise BrokenArchive(rejected("container_damaged", told)) from None
         infos = [info for info in archive.infolist() if not info.is_dir()]
-        if min((info.header_offset for info in infos), default=0):
-            # What was found is the end of an archive within: the list of this one is gone.
-            told = "The archive was cut: its list of files is gone. Send it again."
-            raise BrokenArchive(rejected("container_damaged", told))
         if len(infos) > ENTRIES_MAX:
             raise BrokenArchive(
                 rejected("too_large", f"The archive has {len(infos)} files; {ENTRIES_MAX} at most.")
             )
         titles = titles_of(archive, infos, bounds)
         alone = left_alone([info.filename for info in infos])
-        seen: dict[str, int] = {}
+        seen: set[str] = set()
         for info in infos:
             if info.filename not in alone:
                 yield from opened(archive, info, bounds, seen)
-        yield Left(titles, len(alone))
+        trouble = rejected("truncated", CUT) if isinstance(archive, Salvaged) else None
+        yield Left(titles, len(alone), trouble)
+
+
+def opened_archive(file: IO[bytes]) -> zipfile.ZipFile:
+    """An archive; `Salvaged` where its list of files is gone. Raises DAMAGE."""
+    try:
+        archive = zipfile.ZipFile(file)
+    except DAMAGE:
+        return Salvaged(file)
+    if min((info.header_offset for info in archive.infolist()), default=0):
+        # What was found is the list of an archive within: that of this one is gone.
+        return Salvaged(file)
+    return archive
 
 
 def titles_of(archive: zipfile.ZipFile, infos: list[zipfile.ZipInfo], bounds: Bounds) -> Titles:
@@ -162,7 +177,7 @@ def opened(
     archive: zipfile.ZipFile,
     info: zipfile.ZipInfo,
     bounds: Bounds,
-    seen: dict[str, int],
+    seen: set[str],
     within: str = "",
 ) -> Iterator[Entry]:
     """A file of an archive, or those of the archive that it is. within: name of that archive."""
@@ -186,16 +201,14 @@ def opened(
             yield judged(name, data)
 
 
-def nested(
-    data: bytes, name: str, bounds: Bounds, seen: dict[str, int], deep: bool
-) -> Iterator[Entry]:
+def nested(data: bytes, name: str, bounds: Bounds, seen: set[str], deep: bool) -> Iterator[Entry]:
     """The files of an archive within an archive."""
     if deep:
         told = "An archive within an archive within an archive is not opened: unpack it first."
         yield Entry(name, len(data), None, "nested_too_deep", told)
         return
     try:
-        inner = zipfile.ZipFile(io.BytesIO(data))
+        inner = opened_archive(io.BytesIO(data))
     except DAMAGE as error:
         told = f"The archive within cannot be opened: {error}."
         yield Entry(name, len(data), None, "container_damaged", told)
@@ -204,6 +217,8 @@ def nested(
         for info in inner.infolist():
             if not info.is_dir():
                 yield from opened(inner, info, bounds, seen, within=f"{name}/")
+        if isinstance(inner, Salvaged):
+            yield Entry(name, len(data), None, "truncated", CUT)
 
 
 def judged(name: str, data: bytes) -> Entry:
@@ -216,7 +231,11 @@ def judged(name: str, data: bytes) -> Entry:
     return Entry(name, len(data), None, refused.code, refused.detail)
 
 
-def unlike(name: str, seen: dict[str, int]) -> str:
+def unlike(name: str, seen: set[str]) -> str:
     """The name, with a number where another file of the container has it too."""
-    seen[name] = seen.get(name, 0) + 1
-    return name if seen[name] == 1 else f"{name} ({seen[name]})"
+    free, number = name, 1
+    while free in seen:
+        number += 1
+        free = f"{name} ({number})"
+    seen.add(free)
+    return free

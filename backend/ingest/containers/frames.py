@@ -8,8 +8,9 @@ from __future__ import annotations
 import json
 import struct
 from collections.abc import Iterator
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from pathlib import Path
+from typing import NamedTuple
 
 from backend.ingest.containers.archive import BrokenArchive, Entry, Left, entries
 from backend.ingest.containers.bulk import Titles
@@ -18,7 +19,14 @@ from backend.ingest.outcome import rejected
 HEADER = struct.Struct("<I")
 
 
-def frames(path: Path) -> Iterator[bytes]:
+class Frame(NamedTuple):
+    """A frame in pieces, so that a file within is not copied. last: nothing comes behind it."""
+
+    pieces: tuple[bytes, ...]
+    last: bool = False
+
+
+def frames(path: Path) -> Iterator[Frame]:
     """An archive -> its files, then what is left; or why nothing can be read."""
     try:
         for told in entries(path):
@@ -27,25 +35,29 @@ def frames(path: Path) -> Iterator[bytes]:
         yield encode_broken(broken)
 
 
-def encode_entry(entry: Entry) -> bytes:
+def encode_entry(entry: Entry) -> Frame:
     """A file within, or why it is refused."""
-    told = {key: value for key, value in asdict(entry).items() if key != "data"}
-    return packed({"entry": told, "has_data": entry.data is not None}, entry.data or b"")
+    told = {
+        field.name: getattr(entry, field.name) for field in fields(Entry) if field.name != "data"
+    }
+    return framed({"entry": told, "has_data": entry.data is not None}, entry.data or b"")
 
 
-def encode_left(left: Left) -> bytes:
+def encode_left(left: Left) -> Frame:
     """What is known at the end."""
-    return packed({"left": asdict(left)}, b"")
+    trouble = None if left.trouble is None else [left.trouble.code, left.trouble.detail]
+    told = {"titles": asdict(left.titles), "left_alone": left.left_alone, "trouble": trouble}
+    return framed({"left": told}, last=True)
 
 
-def encode_broken(broken: BrokenArchive) -> bytes:
+def encode_broken(broken: BrokenArchive) -> Frame:
     """Why nothing can be read."""
-    return packed({"broken": [broken.outcome.code, broken.outcome.detail]}, b"")
+    return framed({"broken": [broken.outcome.code, broken.outcome.detail]}, last=True)
 
 
-def packed(header: dict[str, object], data: bytes) -> bytes:
+def framed(header: dict[str, object], data: bytes = b"", last: bool = False) -> Frame:
     head = json.dumps(header).encode()
-    return HEADER.pack(len(head)) + head + data
+    return Frame((HEADER.pack(len(head)), head, data), last)
 
 
 def decode_frame(frame: bytes) -> Entry | Left:
@@ -60,7 +72,9 @@ def decode_frame(frame: bytes) -> Entry | Left:
             titles = header["left"]["titles"]
             by_name = {str(key): (str(a), str(b)) for key, (a, b) in titles["by_name"].items()}
             by_start = tuple((int(us), str(a), str(b)) for us, a, b in titles["by_start_us"])
-            return Left(Titles(by_name, by_start), int(header["left"]["left_alone"]))
+            trouble = header["left"]["trouble"]
+            outcome = None if trouble is None else rejected(str(trouble[0]), str(trouble[1]))
+            return Left(Titles(by_name, by_start), int(header["left"]["left_alone"]), outcome)
         data = frame[HEADER.size + length :] if header["has_data"] else None
         return Entry(**header["entry"], data=data)
     except (struct.error, ValueError, KeyError, TypeError, AttributeError) as error:

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Protocol
 
 from backend.domain.ride import Ride
-from backend.errors import NotFound
+from backend.errors import InvalidRequest, NotFound
 from backend.ingest import BrokenArchive, Entry, Left, Outcome, ReadingStopped, Titles
 from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED
 from backend.services.imports.naming import ride_name
@@ -58,7 +58,7 @@ class Container:
         try:
             for told in found:
                 if isinstance(told, Left):
-                    left = told
+                    left, broken = told, told.trouble
                 elif (promise := self._take(told)) is not None:
                     going.append(promise)
                 if len(going) > AHEAD_MAX:
@@ -79,12 +79,21 @@ class Container:
         part = self._known.get(entry.name)
         if part is not None and part.state in (COMPLETE, PARTIAL, REJECTED):
             return None
-        part = part or self._desk.begin(entry.name, entry.size, part_of=self._upload.id)
-        if entry.data is not None:
-            return self._desk.resume(part, entry.data)
-        verdict = Verdict(REJECTED, entry.code, entry.detail, 0.0, None, self._over_us)
+        if entry.data is None:
+            self._refuse(part, entry.name, entry.code, entry.detail)
+            return None
+        try:
+            part = part or self._desk.begin(entry.name, entry.size, part_of=self._upload.id)
+        except InvalidRequest as refused:
+            self._refuse(None, entry.name, refused.code, refused.message)
+            return None
+        return self._desk.resume(part, entry.data)
+
+    def _refuse(self, part: Upload | None, name: str, code: str | None, detail: str | None) -> None:
+        """Conclude a file within of which no byte is kept, whatever size it says it has."""
+        part = part or self._desk.begin(name, 0, part_of=self._upload.id)
+        verdict = Verdict(REJECTED, code, detail, 0.0, None, self._over_us)
         self._store.uploads.conclude(part.id, verdict)
-        return None
 
     def _wait_for(self, part: Upload) -> Upload:
         """Leave the container until a ride is over that a file within is of.

@@ -11,6 +11,7 @@ import io
 import json
 import random
 import struct
+import tracemalloc
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -96,14 +97,30 @@ def test_names_from_an_archive_are_only_names(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_two_files_of_one_name_stay_two() -> None:
+def test_two_files_of_one_name_stay_two_whatever_others_are_called() -> None:
     held = io.BytesIO()
     with zipfile.ZipFile(held, "w") as made:
+        made.writestr("a.fit (2)", RIDE)
         made.writestr("a.fit", RIDE)
         with pytest.warns(UserWarning, match="Duplicate"):
             made.writestr("a.fit", RIDE[:-1])
 
-    assert [entry.name for entry in files_of(held.getvalue())[0]] == ["a.fit", "a.fit (2)"]
+    names = [entry.name for entry in files_of(held.getvalue())[0]]
+    assert names == ["a.fit (2)", "a.fit", "a.fit (3)"]
+
+
+def test_an_archive_within_and_its_file_are_each_held_once() -> None:
+    size = 16 << 20
+    inner = zipped({"a.fit": random.Random(3).randbytes(size)}, zipfile.ZIP_STORED)
+    outer = io.BytesIO(zipped({"in.zip": inner}, zipfile.ZIP_STORED))
+
+    tracemalloc.start()
+    names = [told.name for told in archive.entries(outer) if isinstance(told, Entry)]
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+
+    assert names == ["in.zip/a.fit"]
+    assert most < 2.5 * size
 
 
 def test_an_archive_within_is_opened_and_one_within_that_is_not() -> None:
@@ -164,14 +181,68 @@ def test_bounds_of_number_and_of_the_whole(monkeypatch: pytest.MonkeyPatch) -> N
         files_of(many)
 
 
-def test_an_archive_that_was_cut_says_so() -> None:
-    with pytest.raises(BrokenArchive) as broken:
-        files_of(zipped({"a.fit": RIDE})[:-30])
+class NoSeeking(io.BytesIO):
+    """As a download that is packed while it is sent: sizes stand behind each file."""
 
-    assert (broken.value.outcome.state, broken.value.outcome.code) == (
-        REJECTED,
-        "container_damaged",
-    )
+    def seekable(self) -> bool:
+        return False
+
+    def seek(self, *_: int) -> int:
+        raise io.UnsupportedOperation
+
+    def tell(self) -> int:
+        raise io.UnsupportedOperation
+
+
+def packed(files: Mapping[str, bytes], packing: int, streamed: bool) -> bytes:
+    held = NoSeeking() if streamed else io.BytesIO()
+    with zipfile.ZipFile(held, "w", packing) as made:
+        for name, data in files.items():
+            made.writestr(name, data)
+    return held.getvalue()
+
+
+@pytest.mark.parametrize("streamed", [False, True])
+@pytest.mark.parametrize("packing", [zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED])
+def test_every_whole_file_comes_out_of_an_archive_that_was_cut_anywhere(
+    packing: int, streamed: bool
+) -> None:
+    files = {f"{n}.fit": RIDE[: 2000 + n] for n in range(3)}
+    sound = packed(files, packing, streamed)
+    ends = [sound.index(f"{n}.fit".encode()) - 30 for n in (1, 2)] + [sound.index(b"PK\x01\x02")]
+
+    for cut in range(40, len(sound), 97):
+        whole = sum(end <= cut for end in ends)
+        if not whole:
+            with pytest.raises(BrokenArchive, match="no file is whole"):
+                files_of(sound[:cut])
+            continue
+        entries, left = files_of(sound[:cut])
+
+        assert {e.name: e.data for e in entries} == dict(list(files.items())[:whole])
+        assert left.trouble is not None
+        assert left.trouble.code == "truncated"
+
+
+def test_a_cut_archive_within_gives_what_is_whole_in_it() -> None:
+    inner = zipped({"a.fit": RIDE, "b.fit": RIDE})
+    cut_outside = zipped({"in.zip": inner}, zipfile.ZIP_STORED)[: len(inner) - 200]
+
+    assert codes(zipped({"in.zip": inner[:-60], "c.fit": RIDE})) == {
+        "in.zip/a.fit": None,
+        "in.zip/b.fit": None,
+        "in.zip": "truncated",
+        "c.fit": None,
+    }
+    assert [name.rpartition("/")[2] for name in codes(cut_outside)] == ["a.fit"]
+
+
+def test_an_archive_of_which_nothing_is_whole_says_so() -> None:
+    with pytest.raises(BrokenArchive) as broken:
+        files_of(zipped({"a.fit": RIDE})[:1000])
+
+    outcome = broken.value.outcome
+    assert (outcome.state, outcome.code) == (REJECTED, "container_damaged")
 
 
 def test_no_flipped_byte_makes_an_archive_raise_anything_else() -> None:
@@ -179,7 +250,7 @@ def test_no_flipped_byte_makes_an_archive_raise_anything_else() -> None:
     dice = random.Random(11)
 
     for _ in range(400):
-        data = bytearray(sound)
+        data = bytearray(sound[: dice.choice((len(sound), -30))])
         for _ in range(dice.randint(1, 4)):
             data[dice.randrange(len(data))] = dice.randrange(256)
         try:
@@ -265,10 +336,13 @@ def test_the_child_gives_the_same_files_as_opening_it_here(tmp_path: Path) -> No
     there = list(readers.unpack(path))
     again = readers.read(path.with_name("object"), "x.fit")
     path.write_bytes(data[:-30])
-    with pytest.raises(BrokenArchive, match="was cut"):
+    cut = list(readers.unpack(path))
+    path.write_bytes(data[:60])
+    with pytest.raises(BrokenArchive, match="is gone"):
         list(readers.unpack(path))
     readers.stop()
 
     assert there == list(archive.entries(io.BytesIO(data)))
+    assert cut == list(archive.entries(io.BytesIO(data[:-30])))
     assert again.code == "unsupported_format"
     assert readers.begun == 1

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import gzip
 import io
+import struct
 import zipfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -17,7 +18,7 @@ from backend.errors import Conflict
 from backend.ingest import Entry, Left, Outcome, ReadingStopped
 from backend.ingest.containers.archive import entries
 from backend.ingest.formats import read_file
-from backend.services.imports.upload import Uploads
+from backend.services.imports.upload import Uploads, UploadSettings
 from backend.services.rides.review import Rides
 from backend.store import Store, open_store
 from backend.store.upkeep.rebuild import rebuild_store
@@ -130,10 +131,32 @@ def test_an_archive_without_a_ride_is_refused_and_can_be_removed(
     assert store.uploads.object_keys() == set()
 
 
-def test_a_damaged_archive_says_so(uploads: Uploads) -> None:
-    sent = uploads.receive_file("cut.zip", zipped({"a.fit": FIRST})[:-30])
+def test_a_cut_archive_gives_its_whole_files_and_says_so(uploads: Uploads) -> None:
+    data = zipped({"a.fit": FIRST, "b.fit": SECOND})
+    cut = data.index(b"b.fit") + 500
 
-    assert (sent.state, sent.code) == ("rejected", "container_damaged")
+    sent = uploads.receive_file("cut.zip", data[:cut])
+    nothing = uploads.receive_file("nothing.zip", data[:500])
+
+    assert (sent.state, sent.code, len(sent.ride_ids)) == ("partial", "truncated", 1)
+    assert "its list of files is gone" in str(sent.detail)
+    assert (nothing.state, nothing.code) == ("rejected", "container_damaged")
+
+
+def test_a_file_within_that_states_any_size_or_is_too_large_stops_no_archive(store: Store) -> None:
+    data = bytearray(zipped({"locked.fit": FIRST, "large.fit": SECOND, "small.fit": THIRD[:2000]}))
+    data[6] |= 1
+    listed = data.index(b"PK\x01\x02")
+    data[listed + 8] |= 1
+    data[listed + 24 : listed + 28] = struct.pack("<I", 0xFFFFFFF0)
+    uploads = Uploads(store, UploadSettings(length_max=len(SECOND) - 1), reader=read_here)
+
+    sent = uploads.receive_file("rides.zip", bytes(data))
+    uploads.close()
+
+    codes = {part.name: part.code for part in store.uploads.parts(sent.id)}
+    assert codes == {"locked.fit": "encrypted", "large.fit": "too_large", "small.fit": "truncated"}
+    assert (sent.state, sent.code) == ("partial", "part_unreadable")
 
 
 def test_an_export_s_names_become_the_rides_and_what_people_wrote_here_stays(
