@@ -1,7 +1,7 @@
 """Figures of an error test as the simulator tells them: thesis eq. 3.18 to 3.21, plain Python.
 
-The server has its own (backend.domain.calibration), for readings of any sensor; a test holds both
-against each other and against the thesis' tables.
+The server has its own (backend.domain.calibration.figures), for readings of any sensor; a test
+holds both against each other and against the thesis' tables.
 """
 
 from collections.abc import Callable, Sequence

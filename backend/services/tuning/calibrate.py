@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy.typing as npt
 
-from backend.domain.calibration import CalibrationFigures, evaluate
+from backend.domain.calibration.figures import CalibrationFigures, evaluate
 
 __all__ = ["evaluate_calibration"]
 

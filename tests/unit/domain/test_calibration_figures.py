@@ -6,7 +6,7 @@ there by hand, must come out to 1e-9.
 
 import pytest
 
-from backend.domain.calibration import evaluate, reading_error_pct
+from backend.domain.calibration.figures import evaluate, reading_error_pct
 from backend.errors import InvalidRequest
 
 LOAD_NM = [0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100]

@@ -1,0 +1,1 @@
+"""Calibration of the torque sensor, pure: captures in, coefficients, uncertainty, judgement out."""
