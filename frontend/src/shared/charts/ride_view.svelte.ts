@@ -2,38 +2,37 @@
 // curve stays until the new one is there.
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
+import { Pace } from '../context/pace'
 import { timeAxis, type LaidAxis, type TraceAxis } from './trace_axis'
 import { TraceWindow, type TimeWindow } from './trace_window.svelte'
 
 const PACE_MS = 60 // a drag asks this often at most
 
 export class RideView extends TraceWindow {
+  channels = $state.raw<string[]>([])
   loading = $state(false)
   trouble = $state<string | null>(null)
   /** Width of the plot it was asked for last. */
   px = 1000
   private asked = new AbortController()
-  private fetched_ms = -Infinity
   private wanted: TraceAxis | LaidAxis = timeAxis
-  private timer: ReturnType<typeof setTimeout> | null = null
+  private readonly pace = new Pace(PACE_MS)
 
   constructor(
     private readonly server: Server,
     private readonly ride_id: number,
-    public channels: string[],
+    channels: string[],
     duration_s: number,
     window: TimeWindow | null,
   ) {
     super(duration_s, window)
+    this.channels = channels
   }
 
   /** Fetches the window: at once, or with the last of a quick row of them. */
   override fetchSoon(px: number): void {
     this.px = px
-    if (this.timer) clearTimeout(this.timer)
-    const wait_ms = this.fetched_ms + PACE_MS - performance.now()
-    if (wait_ms <= 0) void this.fetch(px)
-    else this.timer = setTimeout(() => void this.fetch(px), wait_ms)
+    this.pace.soon(() => void this.fetch(px))
   }
 
   /** Draws over another axis as soon as its curve is there. */
@@ -49,12 +48,11 @@ export class RideView extends TraceWindow {
   }
 
   stop(): void {
-    if (this.timer) clearTimeout(this.timer)
+    this.pace.stop()
     this.asked.abort()
   }
 
   private async fetch(px: number): Promise<void> {
-    this.fetched_ms = performance.now()
     this.asked.abort()
     this.asked = new AbortController()
     const { signal } = this.asked

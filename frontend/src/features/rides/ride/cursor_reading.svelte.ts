@@ -1,6 +1,7 @@
 // What every channel of a ride tells at the cursor: the row that holds there, as recorded.
 import type { Server } from '$shared/api/server'
 import type { Ride } from '$shared/api/types'
+import { Pace } from '$shared/context/pace'
 
 const PACE_MS = 40 // a drag asks this often at most
 // A head unit's row holds until the next one; a longer silence is a gap.
@@ -9,8 +10,8 @@ const HELD_S = 10
 export class CursorReading {
   /** By channel; null where nothing is told. The whole is null until the first answer. */
   values = $state.raw<Record<string, number | null> | null>(null)
-  private asked = new AbortController()
-  private timer: ReturnType<typeof setTimeout> | null = null
+  private readonly left = new AbortController()
+  private readonly pace = new Pace(PACE_MS)
 
   constructor(
     private readonly server: Server,
@@ -18,19 +19,16 @@ export class CursorReading {
   ) {}
 
   at(t_s: number): void {
-    if (this.timer) clearTimeout(this.timer)
-    this.timer = setTimeout(() => void this.fetch(t_s), PACE_MS)
+    this.pace.soon(() => this.fetch(t_s))
   }
 
   stop(): void {
-    if (this.timer) clearTimeout(this.timer)
-    this.asked.abort()
+    this.pace.stop()
+    this.left.abort()
   }
 
   private async fetch(t_s: number): Promise<void> {
-    this.asked.abort()
-    this.asked = new AbortController()
-    const { signal } = this.asked
+    const { signal } = this.left
     const { channels, period_us } = this.ride
     const held_s = period_us === null ? HELD_S : period_us / 1e6
     const window = { from_s: Math.max(0, t_s - held_s + 1e-6), to_s: t_s, px: 2000 }

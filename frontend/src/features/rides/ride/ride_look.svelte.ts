@@ -153,7 +153,9 @@ export class RideLook implements Cursor {
       const { from_s, to_s } = this.view.window
       told.push(`from_s=${from_s.toFixed(2)}`, `to_s=${to_s.toFixed(2)}`)
     }
-    if (this.axis !== 'time') told.push(`axis=${this.axis}`)
+    // Until the track is here, the link's own.
+    const axis = this.track ? this.axis : this.wanted
+    if (axis !== 'time') told.push(`axis=${axis}`)
     if (this.keys.join() !== this.usual.join()) {
       told.push(`show=${this.keys.map(encodeURIComponent).join()}`)
     }
