@@ -13,6 +13,7 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 from backend.api import docs, errors, live, pages
 from backend.api.problem import Problem, refusals
 from backend.api.routes import (
+    comparison,
     config,
     devices,
     health,
@@ -69,7 +70,7 @@ def create_app(settings: ApiSettings, services: Services | None = None) -> FastA
     app.state.author = settings.author
     api = APIRouter(prefix=PREFIX)
     # Before the rides: what several rides tell together is at no ride's number.
-    told = (logbook, insight, rides, proposals)
+    told = (logbook, comparison, insight, rides, proposals)
     parts = (health, store, devices, logs, config, law, library, *told, uploads, tables, live)
     for module in parts:
         api.include_router(module.router)

@@ -15,6 +15,7 @@ from backend.cli import (
     library,
     propose,
     ride,
+    ride_compare,
     ride_upload,
     serve,
     store,
@@ -180,7 +181,7 @@ def _add_which(command: argparse.ArgumentParser) -> None:
 
 def _add_ride(verbs: Any) -> None:
     group = _group(
-        verbs, "ride", "rides: import, upload, list, show, export, report, replay, delete"
+        verbs, "ride", "rides: import, upload, list, show, compare, export, report, replay, delete"
     )
     command = _asking(group, "import", ride.import_files, help="FIT files and other logs")
     command.add_argument("files", nargs="+", type=Path)
@@ -234,6 +235,8 @@ def _add_ride(verbs: Any) -> None:
     command.add_argument("--closed-loop", action="store_true", help="as if the bike answered")
     command.add_argument("--mass-kg", type=float, help="rider, bike and load, for the closed loop")
     command.add_argument("--drag-area-m2", type=float, help="0.4 bent low to 0.6 upright")
+    words = "two rides, or windows of rides, side by side"
+    ride_compare.add_arguments(_asking(group, "compare", ride_compare.compare, help=words))
     command = _asking(group, "since", ride.since, help="the rides since a change, and before it")
     command.add_argument("revision", type=int, nargs="?", help="of the unit; its newest if absent")
     command.add_argument("--unit", help="whose; may be left out when there is only one unit")

@@ -62,12 +62,7 @@ def compare_tables(left: FuzzyTable, right: FuzzyTable) -> TableComparison:
     one, other = (surface(table, *looked).astype(np.float64) for table in (left, right))
     place = np.unravel_index(np.argmax(np.abs(other - one)), one.shape)
     return TableComparison(
-        cells=tuple(
-            CellChange(row, column, left.rules[row][column], right.rules[row][column])
-            for row in range(len(LABELS))
-            for column in range(len(LABELS))
-            if left.rules[row][column] != right.rules[row][column]
-        ),
+        cells=cells_changed(left, right),
         points_changed=tuple(
             field for field in POINT_FIELDS if getattr(left, field) != getattr(right, field)
         ),
@@ -83,4 +78,14 @@ def compare_tables(left: FuzzyTable, right: FuzzyTable) -> TableComparison:
             left=float(one[place]),
             right=float(other[place]),
         ),
+    )
+
+
+def cells_changed(left: FuzzyTable, right: FuzzyTable) -> tuple[CellChange, ...]:
+    """The rules with another label, row by row."""
+    return tuple(
+        CellChange(row, column, left.rules[row][column], right.rules[row][column])
+        for row in range(len(LABELS))
+        for column in range(len(LABELS))
+        if left.rules[row][column] != right.rules[row][column]
     )

@@ -93,12 +93,7 @@ class Compare:
         old, new = one.values, other.values
         if "table" in (one.kind, other.kind):
             old, new = own_names(one, left), own_names(other, right)
-        names = [*old, *(name for name in new if name not in old)]
-        changed = tuple(
-            Difference(name, old.get(name), new.get(name))
-            for name in names
-            if old.get(name) != new.get(name)
-        )
+        changed = differences(old, new)
         tables = None
         if one.table is not None and other.table is not None:
             tables = compare_tables(one.table, other.table)
@@ -162,6 +157,16 @@ class Compare:
             if revision.seq == side.revision:
                 return f"{side.device} {revision.seq}", "configuration", dict(revision.parameters)
         raise NotFound(f"{side.device} has no revision {side.revision}.")
+
+
+def differences(old: Mapping[str, Any], new: Mapping[str, Any]) -> tuple[Difference, ...]:
+    """What differs between two sets of parameters by name, in the order of the first."""
+    names = [*old, *(name for name in new if name not in old)]
+    return tuple(
+        Difference(name, old.get(name), new.get(name))
+        for name in names
+        if old.get(name) != new.get(name)
+    )
 
 
 def own_names(looked: Looked, side: Side) -> dict[str, Any]:

@@ -1095,6 +1095,67 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/rides/compare": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Compare Rides
+         * @description Figures of both with their differences, whether they went the same way, and by which settings
+         *     they were ridden.
+         */
+        get: operations["compare_rides"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/rides/compare/series": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Compare Ride Series
+         * @description Both on one axis from the starts of their windows; without channels, those that both have.
+         */
+        get: operations["compare_ride_series"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/rides/compare/crank": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Compare Ride Crank
+         * @description Torque over the crank's angle of both.
+         */
+        get: operations["compare_ride_crank"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/rides/{ride_id}/energy": {
         parameters: {
             query?: never;
@@ -1818,6 +1879,13 @@ export interface components {
             /** Distance Km */
             distance_km: number | null;
         };
+        /** BinExtremes */
+        BinExtremes: {
+            /** Min */
+            min: (number | null)[];
+            /** Max */
+            max: (number | null)[];
+        };
         /**
          * Calibration
          * @description How raw counts become newton metres, and how they are filtered.
@@ -2127,6 +2195,110 @@ export interface components {
             /** Difference */
             difference: number | null;
         };
+        /**
+         * ComparedChannel
+         * @description A channel under the name of what it is: the torque of a ride that tells only what was asked
+         *     of its motor is `motor_torque_demanded_nm`, whatever the file calls it.
+         */
+        ComparedChannel: {
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            /** A */
+            a: boolean;
+            /** B */
+            b: boolean;
+        };
+        /**
+         * ComparedCrank
+         * @description Torque over the crank's angle of both; the motor's only as delivered.
+         */
+        ComparedCrank: {
+            a: components["schemas"]["CrankTorque"] | null;
+            b: components["schemas"]["CrankTorque"] | null;
+            /** A Refused */
+            a_refused: ("no_angle" | "no_torque" | "slow_rows" | "few_turns") | null;
+            /** B Refused */
+            b_refused: ("no_angle" | "no_torque" | "slow_rows" | "few_turns") | null;
+            difference: components["schemas"]["CrankApart"];
+        };
+        /** ComparedFigure */
+        ComparedFigure: {
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            a: components["schemas"]["ToldFigure"];
+            b: components["schemas"]["ToldFigure"];
+            /**
+             * Difference
+             * @description B less A; null where one is missing.
+             */
+            difference: number | null;
+        };
+        /**
+         * ComparedSeries
+         * @description Both rides in bins of equal length. A bin has the least and greatest value of the rows that
+         *     begin in it, else of the row that still holds; in a gap null.
+         */
+        ComparedSeries: {
+            /**
+             * By
+             * @enum {string}
+             */
+            by: "time" | "distance";
+            /**
+             * Unit
+             * @enum {string}
+             */
+            unit: "s" | "m";
+            /**
+             * End X
+             * @description Of the axis: where the longer of both ends.
+             */
+            end_x: number;
+            /**
+             * X
+             * @description Edges of the bins, one more than there are bins.
+             */
+            x: number[];
+            /** Channels */
+            channels: components["schemas"]["SeriesBeside"][];
+            /** A Gaps */
+            a_gaps: [
+                number,
+                number
+            ][];
+            /** B Gaps */
+            b_gaps: [
+                number,
+                number
+            ][];
+        };
+        /**
+         * ComparedSide
+         * @description A window of a ride; places on an axis count from its start.
+         */
+        ComparedSide: {
+            /** Ride Id */
+            ride_id: number;
+            /** From S */
+            from_s: number;
+            /** To S */
+            to_s: number;
+            /** Rows */
+            rows: number;
+            /** Motor Torque Meaning */
+            motor_torque_meaning: ("demanded" | "delivered") | null;
+            /** Length S */
+            length_s: number;
+            /**
+             * Length M
+             * @description Null where nothing tells its way.
+             */
+            length_m: number | null;
+        };
         /** Comparison */
         Comparison: {
             left: components["schemas"]["LookedAt"];
@@ -2251,6 +2423,16 @@ export interface components {
              * @description Why the latest trial was given up; null when none was since the unit's start.
              */
             rollback_cause: ("asked" | "time_out" | "restart" | "unknown") | null;
+        };
+        /**
+         * CrankApart
+         * @description B less A, bin by bin; null unless both are known.
+         */
+        CrankApart: {
+            /** Rider Nm */
+            rider_nm: number[] | null;
+            /** Motor Nm */
+            motor_nm: number[] | null;
         };
         /**
          * CrankTorque
@@ -2722,7 +2904,7 @@ export interface components {
              */
             ride_t_s: number | null;
             /** Motor Torque Meaning */
-            motor_torque_meaning: ("delivered" | "demanded") | null;
+            motor_torque_meaning: ("demanded" | "delivered") | null;
             /**
              * Whole
              * @description False while samples after the fault are still to come.
@@ -4247,6 +4429,28 @@ export interface components {
             /** Derived */
             derived: boolean;
         };
+        /** RideComparison */
+        RideComparison: {
+            a: components["schemas"]["ComparedSide"];
+            b: components["schemas"]["ComparedSide"];
+            /** Figures */
+            figures: components["schemas"]["ComparedFigure"][];
+            /**
+             * Motor Torque
+             * @description `apart`: one ride tells what the motor gave, the other what was asked of it.
+             * @enum {string}
+             */
+            motor_torque: "alike" | "apart";
+            /** Channels */
+            channels: components["schemas"]["ComparedChannel"][];
+            same_way: components["schemas"]["SameWay"] | null;
+            /**
+             * No Way
+             * @description Who has no positions, or too few of them; null with `same_way`.
+             */
+            no_way: ("a" | "b" | "neither" | "too_few") | null;
+            settings: components["schemas"]["SettingsApart"];
+        };
         /**
          * RideCurve
          * @description Means over each stretch of the road, null where there is no sample.
@@ -4713,6 +4917,26 @@ export interface components {
             rows_per_second?: number | null;
         };
         /**
+         * SameWay
+         * @description Shares, 0 to 1, of tracks walked in steps of 10 m.
+         */
+        SameWay: {
+            /** Near M */
+            near_m: number;
+            /**
+             * A Near B
+             * @description Of A's track, so near to B's, whenever B was there.
+             */
+            a_near_b: number;
+            /** B Near A */
+            b_near_a: number;
+            /**
+             * In Step
+             * @description Of the way that both have, where they are so near at the same distance from their starts: how well they line up by distance. Null without a way.
+             */
+            in_step: number | null;
+        };
+        /**
          * Scenario
          * @description A ride that a simulated unit can be sent on.
          */
@@ -4772,6 +4996,21 @@ export interface components {
             /** Channels */
             channels: components["schemas"]["SeriesChannel"][];
         };
+        /** SeriesBeside */
+        SeriesBeside: {
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            /** @description Null where the ride has no such channel. */
+            a: components["schemas"]["BinExtremes"] | null;
+            b: components["schemas"]["BinExtremes"] | null;
+            /**
+             * Difference
+             * @description Of the means over time of each bin, B less A, where both have one.
+             */
+            difference: (number | null)[] | null;
+        };
         /**
          * SeriesChannel
          * @description Least and greatest value of each bin; a bin without a sample is null.
@@ -4785,6 +5024,21 @@ export interface components {
             min: (number | null)[];
             /** Max */
             max: (number | null)[];
+        };
+        /** SettingsApart */
+        SettingsApart: {
+            a: components["schemas"]["SideSettings"];
+            b: components["schemas"]["SideSettings"];
+            /**
+             * Differences
+             * @description From A to B by parameter; null unless both are known.
+             */
+            differences: components["schemas"]["Change"][] | null;
+            /**
+             * Tables
+             * @description Those of which anything differs.
+             */
+            tables: components["schemas"]["TablesApart"][];
         };
         /**
          * Side
@@ -4820,6 +5074,20 @@ export interface components {
              * @enum {string}
              */
             table: "first" | "second";
+        };
+        /** SideSettings */
+        SideSettings: {
+            /** Known */
+            known: boolean;
+            /**
+             * Why
+             * @description Why the configuration is not known: a file brought the ride, its unit told none, or nobody kept what it told. Null where it is known.
+             */
+            why: ("imported" | "not_told" | "not_kept") | null;
+            /** Unit Key */
+            unit_key: string | null;
+            /** Generation */
+            generation: number | null;
         };
         /**
          * Simulation
@@ -5283,6 +5551,18 @@ export interface components {
             /** Torque Rate Points */
             torque_rate_points: number[];
         };
+        /** TablesApart */
+        TablesApart: {
+            /**
+             * Which
+             * @enum {string}
+             */
+            which: "first" | "second";
+            left: components["schemas"]["FuzzyTable"];
+            right: components["schemas"]["FuzzyTable"];
+            /** Cells */
+            cells: components["schemas"]["CellChange"][];
+        };
         /** TagInUse */
         TagInUse: {
             /** Tag */
@@ -5304,6 +5584,21 @@ export interface components {
             recorded_s: number | null;
             /** Replayed S */
             replayed_s: number;
+        };
+        /** ToldFigure */
+        ToldFigure: {
+            /** Value */
+            value: number | null;
+            /**
+             * Missing
+             * @description Why there is no value; null with one.
+             */
+            missing: ("no_speed" | "no_way" | "no_motion" | "no_rider_power" | "no_motor_power" | "no_battery_power" | "only_asked" | "no_height" | "no_rider_work") | null;
+            /**
+             * Unknown S
+             * @description Time that an energy leaves out because its samples are missing.
+             */
+            unknown_s: number | null;
         };
         /**
          * TorqueSurface
@@ -10430,6 +10725,189 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    compare_rides: {
+        parameters: {
+            query: {
+                a: number;
+                b: number;
+                /** @description Since that ride's start. */
+                a_from_s?: number | null;
+                /** @description Since that ride's start. */
+                a_to_s?: number | null;
+                /** @description Since that ride's start. */
+                b_from_s?: number | null;
+                /** @description Since that ride's start. */
+                b_to_s?: number | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RideComparison"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    compare_ride_series: {
+        parameters: {
+            query: {
+                /** @description The common axis. */
+                by?: "time" | "distance";
+                /** @description Names separated by commas; absent means all of them. */
+                channels?: string | null;
+                /** @description Of the axis: s or m. */
+                from_x?: number;
+                to_x?: number | null;
+                /** @description Bins. */
+                px?: number;
+                a: number;
+                b: number;
+                /** @description Since that ride's start. */
+                a_from_s?: number | null;
+                /** @description Since that ride's start. */
+                a_to_s?: number | null;
+                /** @description Since that ride's start. */
+                b_from_s?: number | null;
+                /** @description Since that ride's start. */
+                b_to_s?: number | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ComparedSeries"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    compare_ride_crank: {
+        parameters: {
+            query: {
+                a: number;
+                b: number;
+                /** @description Since that ride's start. */
+                a_from_s?: number | null;
+                /** @description Since that ride's start. */
+                a_to_s?: number | null;
+                /** @description Since that ride's start. */
+                b_from_s?: number | null;
+                /** @description Since that ride's start. */
+                b_to_s?: number | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ComparedCrank"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from backend.services.rides.insight.comparison import RideComparison
 from backend.services.rides.insight.diagnosis import Diagnosis
 from backend.services.rides.insight.effort import RideEffort
 from backend.services.rides.insight.energy import RideEnergy
@@ -18,5 +19,6 @@ class Insight:
         self.energy = RideEnergy(store, config_of)
         self.effort = RideEffort(store)
         self.diagnosis = Diagnosis(store, config_of)
+        self.comparison = RideComparison(store, config_of)
         self.pedalling = RidePedalling(store, config_of)
         self.report = RideReport(store, self.energy, self.effort, self.diagnosis)

@@ -42,9 +42,11 @@ def columns_of(store: Store, ride_id: int, names: Sequence[str]) -> RideColumns:
     return columns_from(reader, names)
 
 
-def columns_from(reader: RideReader, names: Sequence[str]) -> RideColumns:
-    """The rows of an open ride."""
-    count = reader.row_count
-    values = reader.values(list(dict.fromkeys(names)))
-    start_s = reader.times_us(0, count) / 1e6
-    return RideColumns(reader.ride, values, start_s, np.asarray(row_seconds(reader)))
+def columns_from(
+    reader: RideReader, names: Sequence[str], start: int = 0, stop: int | None = None
+) -> RideColumns:
+    """The rows [start, stop) of an open ride, all of them unless it says which."""
+    end = reader.row_count if stop is None else stop
+    values = reader.values(list(dict.fromkeys(names)), start, end)
+    start_s = reader.times_us(start, end) / 1e6
+    return RideColumns(reader.ride, values, start_s, np.asarray(row_seconds(reader))[start:end])

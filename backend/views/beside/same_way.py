@@ -1,0 +1,144 @@
+"""Whether two rides went the same way: how much of each track lies near the other one.
+
+Both tracks are laid on one plane around their middle and walked in steps of STEP_M; nothing is
+walked over a gap between positions. A position of a bicycle computer is off by 5 to 10 m, two of
+them and a road with two sides by 25: NEAR_M is one road, and less than the next one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from backend.domain.channels import Values
+from backend.domain.ride import EARTH_RADIUS_KM, PAUSE_MIN_US
+
+NEAR_M = 30.0
+STEP_M = 10.0
+CELL_M = 4.0
+"""Of points that lie closer together one stands for all: laps of a track stay few points."""
+
+
+@dataclass(frozen=True)
+class Positions:
+    """Of rows (n,), missing as NaN. at_m: way since the window's start, None where not known."""
+
+    latitude_deg: Values
+    longitude_deg: Values
+    start_s: Values
+    at_m: Values | None
+
+
+@dataclass(frozen=True)
+class SameWay:
+    """Shares, 0 to 1. a_near_b: of A's track within NEAR_M of B's, whenever; b_near_a: likewise.
+    in_step: of the way that both have, where they are so near at the same distance from their
+    starts; None where a way is not known."""
+
+    near_m: float
+    a_near_b: float
+    b_near_a: float
+    in_step: float | None
+
+
+@dataclass(frozen=True)
+class Walked:
+    """Points (k, 2) in metres on the plane, a step apart; at_m (k,): the way at each."""
+
+    points_m: Values
+    at_m: Values
+
+
+def same_way(a: Positions, b: Positions) -> SameWay | None:
+    """None unless both have two positions that follow each other."""
+    known = np.concatenate([side.latitude_deg for side in (a, b)])
+    if not np.isfinite(known).any():
+        return None
+    middle_deg = float(np.nanmean(known))
+    first_deg = next(
+        (float(side.longitude_deg[np.isfinite(side.longitude_deg)][0]))
+        for side in (a, b)
+        if np.isfinite(side.longitude_deg).any()
+    )
+    one, other = (walked(side, middle_deg, first_deg) for side in (a, b))
+    if one is None or other is None:
+        return None
+    in_step = None
+    if a.at_m is not None and b.at_m is not None:
+        in_step = at_the_same_way(one, other)
+    return SameWay(
+        NEAR_M,
+        share_near(one.points_m, other.points_m),
+        share_near(other.points_m, one.points_m),
+        in_step,
+    )
+
+
+def walked(side: Positions, middle_deg: float, first_deg: float) -> Walked | None:
+    """A track in steps of STEP_M; None where no two positions follow each other."""
+    there = np.flatnonzero(np.isfinite(side.latitude_deg) & np.isfinite(side.longitude_deg))
+    if len(there) < 2:
+        return None
+    around = np.mod(side.longitude_deg[there] - first_deg + 180.0, 360.0) - 180.0
+    narrow = np.cos(np.radians(middle_deg))
+    plane = np.radians(np.column_stack((around * narrow, side.latitude_deg[there] - middle_deg)))
+    points = plane * EARTH_RADIUS_KM * 1000.0
+    at_m = np.zeros(len(there)) if side.at_m is None else side.at_m[there]
+    follows = np.diff(side.start_s[there]) * 1e6 <= PAUSE_MIN_US
+    step = np.where(follows, np.hypot(*np.diff(points, axis=0).T), 0.0)
+    along = np.append(0.0, np.cumsum(step))
+    if along[-1] <= 0.0:
+        return None
+    # Where the track is broken `along` stands: the later of both ends is the one that is found.
+    wanted = np.arange(0.0, along[-1], STEP_M)
+    begin = np.searchsorted(along, wanted, "right") - 1
+    share = ((wanted - along[begin]) / step[begin])[:, None]
+    laid = points[begin] + share * (points[begin + 1] - points[begin])
+    return Walked(laid, at_m[begin] + share[:, 0] * (at_m[begin + 1] - at_m[begin]))
+
+
+def share_near(points_m: Values, others_m: Values) -> float:
+    """Share of points (k, 2) that have one of others (n, 2) within NEAR_M.
+
+    The others are kept in cells as wide as that, so that only nine are looked at for each point.
+    """
+    thin = others_m[np.unique(np.floor(others_m / CELL_M), axis=0, return_index=True)[1]]
+    low = np.minimum(points_m.min(axis=0), thin.min(axis=0)) - 2.0 * NEAR_M
+    columns = int((max(points_m[:, 0].max(), thin[:, 0].max()) - low[0]) / NEAR_M) + 3
+
+    def cell(of_m: Values) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+        place = ((of_m - low) // NEAR_M).astype(np.int64)
+        number: np.ndarray[tuple[int], np.dtype[np.int64]] = place[:, 1] * columns + place[:, 0]
+        return number
+
+    order = np.argsort(cell(thin), kind="stable")
+    thin = thin[order]
+    numbers, mine = cell(thin), cell(points_m)
+    near = np.zeros(len(points_m), np.bool_)
+    for up in (-columns, 0, columns):
+        # Three cells of a line of cells stand behind each other.
+        first = np.searchsorted(numbers, mine + up - 1, "left")
+        stop = np.searchsorted(numbers, mine + up + 1, "right")
+        count = stop - first
+        owner = np.repeat(np.arange(len(points_m)), count)
+        behind = np.arange(int(count.sum())) - np.repeat(np.cumsum(count) - count, count)
+        away = points_m[owner] - thin[np.repeat(first, count) + behind]
+        near[owner[np.hypot(away[:, 0], away[:, 1]) <= NEAR_M]] = True
+    return float(near.mean())
+
+
+def at_the_same_way(one: Walked, other: Walked) -> float | None:
+    """Share of the way that both have on which they are near each other; None if there is none.
+
+    Of points of the first only those with a point of the other within a step of way are asked.
+    """
+    after = np.minimum(np.searchsorted(other.at_m, one.at_m), len(other.at_m) - 1)
+    before = np.maximum(after - 1, 0)
+    nearer = np.abs(other.at_m[before] - one.at_m) < np.abs(other.at_m[after] - one.at_m)
+    match = np.where(nearer, before, after)
+    both = np.abs(other.at_m[match] - one.at_m) <= STEP_M
+    if not both.any():
+        return None
+    away = one.points_m[both] - other.points_m[match[both]]
+    return float((np.hypot(away[:, 0], away[:, 1]) <= NEAR_M).mean())
