@@ -21,7 +21,8 @@ class Intake:
     rows were put in order. rows_dropped: by reason. values_dropped: by channel,
     what no bike can do. fields_unread: by name, in how many rows: text, bytes and lists of numbers.
     taken_as: what the file does not say, and was taken as: `time_zone`, `rows_per_second`, a
-    column's unit, and as `start` where the date is from: `file_name`, or `none`.
+    column's unit, as `start` where the date is from: `file_name`, or `none`, and as `clock` the
+    zone that its two clocks, one of UTC, are apart.
     """
 
     rows_read: int = 0

@@ -1,4 +1,5 @@
-"""What the device that recorded a ride's file noted beside its rows: laps, pauses, instruments.
+"""What the device that recorded a ride's file noted beside its rows: laps, pauses, instruments,
+and figures of the whole ride.
 
 A ride that was recorded here has none of these. Times are seconds since the ride's start.
 """
@@ -11,6 +12,7 @@ from typing import Any
 
 # More than any ride has; a file may say anything.
 LAPS_MAX, PAUSES_MAX, INSTRUMENTS_MAX = 1000, 2000, 64
+STATEMENTS_MAX, STATED_MAX = 16, 200
 # What shares less than this with a ride ended as the ride began: files tell whole seconds.
 LEAST_S = 1.0
 
@@ -59,12 +61,34 @@ class Instrument:
 
 
 @dataclass(frozen=True, slots=True)
+class Stated:
+    """A figure as the device stated it: never one of ours, which are of the ride's own rows.
+
+    name: of FIT's profile or of the file. unit: "" for none, and where nothing tells it.
+    """
+
+    name: str
+    value: float
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """What the device stated of a whole session, which may reach beyond the ride."""
+
+    from_s: float
+    to_s: float
+    figures: tuple[Stated, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class Noted:
     """All of it, each in the order of time or of the file."""
 
     laps: tuple[Lap, ...] = ()
     pauses: tuple[Pause, ...] = ()
     instruments: tuple[Instrument, ...] = ()
+    statements: tuple[Statement, ...] = ()
 
 
 def noted_to_json(noted: Noted) -> dict[str, object]:
@@ -79,6 +103,10 @@ def noted_from_json(body: Mapping[str, Any] | None) -> Noted:
         laps=_items(Lap, body.get("laps", ())),
         pauses=_items(Pause, body.get("pauses", ())),
         instruments=_items(Instrument, body.get("instruments", ())),
+        statements=tuple(
+            Statement(told["from_s"], told["to_s"], _items(Stated, told.get("figures", ())))
+            for told in body.get("statements", ())
+        ),
     )
 
 
@@ -90,7 +118,8 @@ def within(noted: Noted, started_s: float, duration_s: float) -> Noted:
     """What of a file's notes is of one ride of it.
 
     noted: with times as Unix seconds. started_s: Unix time of the ride's first row. What reaches
-    beyond the ride is cut to it; what lies outside is of another ride.
+    beyond the ride is cut to it, but for statements: their figures are of all of their session.
+    What lies outside is of another ride.
     """
 
     def cut(item: Any) -> Any:
@@ -102,9 +131,19 @@ def within(noted: Noted, started_s: float, duration_s: float) -> Noted:
     laps = [cut(lap) for lap in noted.laps if _touches(lap, started_s, duration_s)]
     pauses = [cut(pause) for pause in noted.pauses if _touches(pause, started_s, duration_s)]
     laps.sort(key=lambda lap: (lap.from_s, lap.to_s))
-    return Noted(tuple(laps[:LAPS_MAX]), tuple(pauses[:PAUSES_MAX]), noted.instruments)
+    statements = [
+        Statement(round(s.from_s - started_s, 6), round(s.to_s - started_s, 6), s.figures)
+        for s in noted.statements
+        if _touches(s, started_s, duration_s)
+    ]
+    return Noted(
+        tuple(laps[:LAPS_MAX]),
+        tuple(pauses[:PAUSES_MAX]),
+        noted.instruments,
+        tuple(statements[:STATEMENTS_MAX]),
+    )
 
 
-def _touches(item: Lap | Pause, started_s: float, duration_s: float) -> bool:
+def _touches(item: Lap | Pause | Statement, started_s: float, duration_s: float) -> bool:
     shared_s = min(item.to_s, started_s + duration_s) - max(item.from_s, started_s)
     return shared_s > 0 and shared_s >= min(LEAST_S, 0.5 * (item.to_s - item.from_s))

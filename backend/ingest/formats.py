@@ -17,6 +17,7 @@ from backend.ingest.containers.gz import (
     inner_name,
 )
 from backend.ingest.fit import HEADER_SIZES, MAGIC, read_fit
+from backend.ingest.mahle import looks_like_mahle, read_mahle
 from backend.ingest.outcome import PARTIAL, REJECTED, Outcome, rejected
 from backend.ingest.ride_logs import read_blocks
 from backend.ingest.tables import looks_like_table, read_table
@@ -48,7 +49,8 @@ MARKUP: tuple[tuple[bytes, str], ...] = (
     (b"<?xml", "an XML document"),
 )
 ADVICE = (
-    "Spindle reads FIT, GPX, TCX, CSV and its units' own logs; export the ride as one of these."
+    "Spindle reads FIT, GPX, TCX, CSV, the JSON of Mahle's My SmartBike and its units' own logs; "
+    "export the ride as one of these."
 )
 
 # A track by its root element, whatever prefix that has.
@@ -70,7 +72,9 @@ def read_file(name: str, data: bytes, answer: TableAnswer | None = None) -> Outc
     reader = reader_for(name, data[:SNIFFED_BYTES])
     if reader is None:
         return refusal(name, data[:SNIFFED_BYTES])
-    return read_table(data, name, answer) if reader is read_table else reader(data)
+    if reader is read_table:
+        return read_table(data, name, answer)
+    return read_mahle(data, answer) if reader is read_mahle else reader(data)
 
 
 def read_gzip(name: str, data: bytes, answer: TableAnswer | None = None) -> Outcome:
@@ -136,11 +140,13 @@ def reader_for(name: str, head: bytes) -> Reader | None:
     track = track_reader(head)
     if track is not None:
         return track
+    if looks_like_mahle(head):
+        return read_mahle
     if known_kind(head) is None:
         if looks_like_table(head):
             return read_table
         named_fit = name.lower().endswith(".fit")
-        if MAGIC in head or (named_fit and head[0] in HEADER_SIZES):
+        if MAGIC in head or (named_fit and head[:1] in map(int.to_bytes, HEADER_SIZES)):
             return read_fit
     return None
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from tests.fuzz import harness
 
-HOST_TARGETS = ("wire", "csv", "fit", "track", "log")
+HOST_TARGETS = ("wire", "csv", "fit", "track", "mahle", "log", "head")
 
 
 def main() -> None:

@@ -1,9 +1,11 @@
-"""atheris on what the host reads: the wire, CSV, FIT, GPX and TCX files, ride logs of units.
+"""atheris on what the host reads: the wire, CSV, FIT, GPX, TCX and Mahle's JSON, ride logs of
+units, and what tells them apart.
 
-Usage: python -m tests.fuzz.host wire|csv|fit|track|log [libFuzzer options]. Only what is promised
-may be raised: nothing at all by decoders, an Outcome by readers.
+Usage: python -m tests.fuzz.host wire|csv|fit|track|mahle|log|head [libFuzzer options]. Only what is
+promised may be raised: nothing at all by decoders, an Outcome by readers.
 """
 
+import gzip
 import sys
 
 import atheris
@@ -11,11 +13,13 @@ import atheris
 with atheris.instrument_imports(include=["firmware_protocol", "backend"]):
     from backend.domain.table_answer import TableAnswer
     from backend.ingest.blocks import Block, put_block, scan
-    from backend.ingest.formats import read_file
+    from backend.ingest.formats import SNIFFED_BYTES, read_file, refused_by_head
+    from backend.ingest.mahle import read_mahle
     from backend.ingest.ride_logs import read_blocks
     from firmware_protocol.codec import Malformed, decode, encode
     from firmware_protocol.framing import FrameDecoder, encode_frame
     from tests.fakes.fit_file import definition, enclosed
+    from tests.fakes.mahle_file import mahle_file, mahle_ride
 
 
 TABLE_HEADS = [
@@ -54,6 +58,59 @@ TRACK_PIECES = [
         b"<![CDATA[",
     ),
     *(b"<?xml version='1.0' encoding='", b"utf-16'?>", b"rot13'?>", b"<!--", b"-->", b"\0"),
+]
+MAHLE = mahle_file(mahle_ride(3))
+MAHLE_HEAD = MAHLE[: MAHLE.index(b'"locations"')]
+MAHLE_PIECES = [
+    *(b'"locations": [', b'"start_date": "2024-07-24 15:35:43",', b'"stop_date": "2024-', b'"aw"'),
+    *(b'{"al": 1, "bt": [', b'{"bc": 3, "vl": 36.5}', b'], "cp": 60,', b'"ts": "2024-07-24 17:3'),
+    *(b'5:44.28"}', b'5:48.28+02:00"}', b"}", b"]", b",", b'"la": 50.6, "lo": ', b"-1e999", b"NaN"),
+    *(
+        b"null",
+        b"true",
+        b"[[[[",
+        b'"\\u12',
+        b"\xff",
+        b"\xef\xbb\xbf",
+        b'{"ts": ',
+        b'"batteries": [',
+    ),
+]
+# Beginnings of everything that is told apart by its beginning.
+HEADS = [
+    *(
+        b"",
+        MAHLE_HEAD,
+        b'{"type": "FeatureCollection"',
+        b"[",
+        b"PK\x03\x04",
+        b"PK\x05\x06",
+        b"%PDF",
+    ),
+    *(b"\x0e\x10\x00\x00\x00\x00\x00\x00.FIT", b"\x0c\x10", b"....", b"<?xml version='1.0'?><gpx>"),
+    *(
+        b"<html>",
+        b"<TrainingCenterDatabase>",
+        b"\xff\xfe<\x00g\x00p\x00x\x00>\x00",
+        b"\xef\xbb\xbf",
+    ),
+    *(
+        b"time,speed_kmh\n",
+        b"Minutes, Torq (N-m),Km/h\n",
+        b"iBike,8,english\n",
+        b"secs\n",
+        b"\x89PNG",
+    ),
+    put_block(Block(0, 1, 1, 1, 1, 0, 0, 0, 1, b"")),
+]
+NAMES = [
+    "ride",
+    "ride.fit",
+    "ride.csv",
+    "ride.json",
+    "ride.gpx.gz",
+    "2024-10-10_12-54-08.txt",
+    "a.sbl",
 ]
 
 
@@ -110,6 +167,38 @@ def track(data: bytes) -> None:
     assert read_file("ride", file).state
 
 
+def mahle(data: bytes) -> None:
+    """A document of any pieces that such rides have: a ride, a part of it, a question, or a
+    reason; answered, too."""
+    from_input = atheris.FuzzedDataProvider(data)
+    file = (
+        MAHLE_HEAD if from_input.ConsumeBool() else MAHLE[: from_input.ConsumeIntInRange(0, 4096)]
+    )
+    while from_input.remaining_bytes():
+        file += from_input.PickValueInList(MAHLE_PIECES)
+        if from_input.ConsumeIntInRange(0, 3) == 0:
+            file += from_input.ConsumeBytes(from_input.ConsumeIntInRange(0, 12))
+    asked = read_mahle(file)
+    assert asked.state
+    if asked.question is not None:
+        assert read_mahle(file, TableAnswer("Europe/Berlin")).code != "needs_mapping"
+
+
+def head(data: bytes) -> None:
+    """What a beginning alone refuses, the whole file is refused for, too; packed or not."""
+    from_input = atheris.FuzzedDataProvider(data)
+    name = from_input.PickValueInList(NAMES)
+    file = from_input.PickValueInList(HEADS)
+    packed = from_input.ConsumeIntInRange(0, 7) == 0
+    file += from_input.ConsumeBytes(from_input.remaining_bytes())
+    if packed:
+        file = gzip.compress(file)
+    refused = refused_by_head(name, file[:SNIFFED_BYTES])
+    if refused is not None:
+        assert refused.state == read_file(name, file).state == "rejected"
+        assert packed or refused.code == read_file(name, file).code or not file
+
+
 def fit_messages(from_input: atheris.FuzzedDataProvider) -> bytes:
     """Definitions of messages that are read, with any fields, and data for them."""
     body, sizes = b"", {0: 0}
@@ -159,7 +248,8 @@ def any_block(from_input: atheris.FuzzedDataProvider) -> Block:
 
 
 def main() -> None:
-    target = {"wire": wire, "csv": csv, "fit": fit, "track": track, "log": log}[sys.argv[1]]
+    targets = (wire, csv, fit, track, mahle, log, head)
+    target = next(target for target in targets if target.__name__ == sys.argv[1])
     atheris.Setup([sys.argv[0], *sys.argv[2:]], target)
     atheris.Fuzz()
 

@@ -88,7 +88,8 @@ class Intake(Answer):
     )
     taken_as: dict[str, str] = Field(
         description="What the file does not say, and what it was taken as: `time_zone`, "
-        "`rows_per_second`, a column's unit. `start`: where its date is from."
+        "`rows_per_second`, a column's unit. `start`: where its date is from. `clock`: the zone "
+        "that its two clocks, one of UTC, are apart."
     )
 
 

@@ -3280,7 +3280,7 @@ export interface components {
             };
             /**
              * Taken As
-             * @description What the file does not say, and what it was taken as: `time_zone`, `rows_per_second`, a column's unit. `start`: where its date is from.
+             * @description What the file does not say, and what it was taken as: `time_zone`, `rows_per_second`, a column's unit. `start`: where its date is from. `clock`: the zone that its two clocks, one of UTC, are apart.
              */
             taken_as: {
                 [key: string]: string;

@@ -87,6 +87,14 @@ def test_the_head_of_a_gzip_file_tells_what_is_no_ride() -> None:
     assert refused_by_head("ride.fit.gz", gzip.compress(RIDE)[:4096]) is None
 
 
+def test_a_head_of_nothing_is_refused_and_not_tripped_over() -> None:
+    # As the beginning of a gzip file that holds no byte.
+    refused = refused_by_head("ride.fit", b"")
+
+    assert refused is not None
+    assert refused.code == "unknown_format"
+
+
 def test_names_from_an_archive_are_only_names(tmp_path: Path) -> None:
     names = ["../../etc/passwd.fit", "/absolute.fit", "C:\\rides\\a.fit", "深/深.fit", "a\x01b.fit"]
     data = zipped(dict.fromkeys(names, RIDE))

@@ -35,6 +35,8 @@ CODES = {
     "truncated",
     "damaged",
     "checksum_mismatch",
+    # Of the gzip file that two bytes begin.
+    "container_damaged",
 }
 
 

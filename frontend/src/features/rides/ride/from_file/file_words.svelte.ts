@@ -17,6 +17,7 @@ export const en = {
   values: '{count} impossible values of {channel} are left out',
   taken_unit: '{column} is in {value}, as its owner said',
   taken_time_zone: 'Its times are of {value}, as its owner said',
+  taken_clock: 'Its times are of {value}: so far they are from its start, which is in UTC',
   taken_rows_per_second: '{value} rows a second',
   taken_file_name: 'Date and time are from the file’s name',
   taken_none: 'The file has no date: the ride stands at the time it was sent',

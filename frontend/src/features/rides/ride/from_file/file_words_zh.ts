@@ -15,6 +15,7 @@ export const zh: Record<RideFileKey, string> = {
   values: '{channel} 有 {count} 个不可能的数值已略去',
   taken_unit: '{column} 的单位为 {value}（由车主说明）',
   taken_time_zone: '时间属于 {value}（由车主说明）',
+  taken_clock: '时间属于 {value}：与文件中 UTC 开始时间的差',
   taken_rows_per_second: '每秒 {value} 行',
   taken_file_name: '日期和时间取自文件名',
   taken_none: '文件没有日期：骑行按上传时间排列',

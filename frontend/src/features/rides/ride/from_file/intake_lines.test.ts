@@ -41,11 +41,17 @@ test('what is not simply a row is told with its count and reason', () => {
 })
 
 test('what an owner said, and where a date is from, is told', () => {
-  const taken_as = { speed: 'm/s', time_zone: 'Europe/Dublin', start: 'file_name' }
+  const taken_as = {
+    speed: 'm/s',
+    time_zone: 'Europe/Dublin',
+    start: 'file_name',
+    clock: 'UTC+02:00',
+  }
 
   expect(intakeLines({ ...nothing, taken_as }, say, locale)).toEqual([
     'speed is in m/s, as its owner said',
     'Its times are of Europe/Dublin, as its owner said',
     'Date and time are from the file’s name',
+    'Its times are of UTC+02:00: so far they are from its start, which is in UTC',
   ])
 })

@@ -30,6 +30,7 @@ export function intakeLines(intake: Intake, say: FileSay, locale: Locale): strin
 function taken(name: string, value: string, say: FileSay): string {
   if (name === 'start') return say(value === 'file_name' ? 'taken_file_name' : 'taken_none')
   if (name === 'time_zone') return say('taken_time_zone', { value })
+  if (name === 'clock') return say('taken_clock', { value })
   if (name === 'rows_per_second') return say('taken_rows_per_second', { value })
   return say('taken_unit', { column: name, value })
 }
