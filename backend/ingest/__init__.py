@@ -3,11 +3,19 @@
 from backend.ingest.containers.archive import BrokenArchive, Entry, Left, entries
 from backend.ingest.containers.bulk import Titles
 from backend.ingest.formats import SNIFFED_BYTES, is_archive, refused_by_head
-from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide, Outcome
+from backend.ingest.outcome import (
+    COMPLETE,
+    NEEDS_MAPPING,
+    PARTIAL,
+    REJECTED,
+    ImportedRide,
+    Outcome,
+)
 from backend.ingest.sandbox import Readers, ReadingStopped, read_in_child
 
 __all__ = [
     "COMPLETE",
+    "NEEDS_MAPPING",
     "PARTIAL",
     "REJECTED",
     "SNIFFED_BYTES",

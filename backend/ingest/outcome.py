@@ -23,6 +23,7 @@ COMPLETE = "complete"
 PARTIAL = "partial"
 REJECTED = "rejected"
 TOO_SLOW = "too_slow"
+NEEDS_MAPPING = "needs_mapping"
 
 
 @dataclass(frozen=True)

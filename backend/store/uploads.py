@@ -78,7 +78,10 @@ class Upload:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What became of an upload. expires_us: when it goes, if no ride keeps it."""
+    """What became of an upload. expires_us: when it goes, if no ride keeps it.
+
+    asks_sha256: header of the table that is not read before more is said of it.
+    """
 
     state: str
     code: str | None = None
@@ -86,6 +89,7 @@ class Verdict:
     completeness: float | None = None
     duplicate_of: int | None = None
     expires_us: int | None = None
+    asks_sha256: str | None = None
 
 
 # The spool's name among the parts of the store that may refuse to be written.
@@ -287,9 +291,12 @@ class UploadStore:
         tokens = self._database.read(lambda c: c.execute(query).scalars().all())
         return tuple(self.get(token) for token in tokens)
 
-    def rejected_with(self, code: str) -> Sequence[str]:
-        """Ids of the uploads that were rejected for one reason, the first first."""
-        mine = (t.upload.c.state == "rejected") & (t.upload.c.code == code)
+    def asking(self, code: str, header_sha256: str) -> Sequence[str]:
+        """Ids of the uploads rejected with `code` that wait for what is said of a header, the first
+        first; also those that a version before concluded, of which it is not known."""
+        mine = (t.upload.c.state == REJECTED) & (t.upload.c.code == code)
+        header = t.upload.c.asks_sha256
+        mine &= (header == header_sha256) | header.is_(None)
         query = select(t.upload.c.token).where(mine).order_by(t.upload.c.id)
         return self._database.read(lambda c: c.execute(query).scalars().all())
 

@@ -19,7 +19,7 @@ from backend.domain.table_answer import (
 )
 from backend.ingest.cells import COLUMNS_MAX, as_written, number, step_of
 from backend.ingest.columns import LATITUDE, LONGITUDE, FieldRule, rides_of_columns
-from backend.ingest.outcome import COMPLETE, PARTIAL, ImportedRide, Outcome, rejected
+from backend.ingest.outcome import COMPLETE, NEEDS_MAPPING, PARTIAL, ImportedRide, Outcome, rejected
 from backend.ingest.own_channels import Column, rules_of
 from backend.ingest.tables.layouts import Layout, layout_of, since_column, time_column
 from backend.ingest.tables.measures import (
@@ -39,7 +39,6 @@ SAMPLES = 5
 LOGGER_RATES_HZ, NEAR = (1.0, 5.0, 10.0), 0.15
 # The rate is looked at over so many rows, if at least so far was ridden in them, in the log's unit.
 RATE_ROWS, RATE_DISTANCE = 120, 0.02
-NEEDS_MAPPING = "needs_mapping"
 
 
 def read_table(data: bytes, name: str = "", answer: TableAnswer | None = None) -> Outcome:

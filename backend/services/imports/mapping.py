@@ -7,8 +7,9 @@ from dataclasses import asdict
 from typing import Any
 
 from backend.domain.table_answer import TableAnswer, answer_from_json, answer_to_json, lacking
-from backend.errors import Conflict, FieldError, InvalidRequest
-from backend.services.imports.upload import NEEDS_MAPPING, Uploads
+from backend.errors import FieldError, InvalidRequest
+from backend.ingest import NEEDS_MAPPING
+from backend.services.imports.upload import Uploads
 from backend.store import Store, Upload
 
 
@@ -30,9 +31,10 @@ class TableMapping:
         return {**asdict(question), "answer": answer}
 
     def say(self, upload_id: str, said: Mapping[str, Any]) -> Upload:
-        """Keep an answer and read the file by it, as all that wait for the same; what became of it.
+        """Keep an answer and read the file by it; what became of it.
 
-        said: the members of TableAnswer.
+        All others that wait for the same are read behind it, and each tells for itself what became
+        of it. said: the members of TableAnswer.
         Raises NotFound, Conflict; InvalidRequest for an answer that lacks something.
         """
         answer = answer_from_json(said) or TableAnswer()
@@ -42,11 +44,10 @@ class TableMapping:
             fields = [FieldError(name, "not_said", told) for name in missing]
             raise InvalidRequest(told, code="answer_incomplete", fields=fields)
         self._store.table_answers.keep(question, answer)
-        waiting = self._store.uploads.rejected_with(NEEDS_MAPPING)
-        read = {token: self._uploads.read_anew(token) for token in waiting}
-        if upload_id not in read:
-            raise Conflict(f"Upload {upload_id} waits for no answer.", code="nothing_asked")
-        return {token: promise.result() for token, promise in read.items()}[upload_id]
+        read = self._uploads.read_anew(upload_id)
+        for waiting in self._store.uploads.asking(NEEDS_MAPPING, question.header_sha256):
+            self._uploads.read_anew(waiting)
+        return read.result()
 
     def known(self) -> dict[str, object]:
         """What was said of which tables."""

@@ -22,6 +22,7 @@ from backend.domain.ride import Ride, iso_utc
 from backend.domain.table_answer import TableAnswer, TableQuestion
 from backend.errors import BadFile, Conflict, InvalidRequest
 from backend.ingest import (
+    NEEDS_MAPPING,
     SNIFFED_BYTES,
     ImportedRide,
     Outcome,
@@ -49,8 +50,6 @@ PIECE_BYTES = 1 << 20
 QUICK_S = 5.0
 # Code of a file whose ride is still being recorded.
 WAITS = "ride_is_live"
-# Code of a table that does not say its units or zone.
-NEEDS_MAPPING = "needs_mapping"
 CONCLUDED = (COMPLETE, PARTIAL, REJECTED)
 
 
@@ -291,6 +290,7 @@ class Uploads:
             outcome.completeness,
             came.known[0].id if only_known else None,
             [ride.id for ride in came.known],
+            outcome.question.header_sha256 if outcome.question else None,
         )
 
     def _settle(self, upload: Upload, imported: ImportedRide, outcome: Outcome, came: Came) -> None:
@@ -316,9 +316,10 @@ class Uploads:
         completeness: float | None,
         duplicate_of: int | None = None,
         beside: Sequence[int] = (),
+        asks_sha256: str | None = None,
     ) -> Upload:
         over_us = now_us() + self._settings.expires_s * 1_000_000
-        verdict = Verdict(state, code, detail, completeness, duplicate_of, over_us)
+        verdict = Verdict(state, code, detail, completeness, duplicate_of, over_us, asks_sha256)
         return self._store.uploads.conclude(upload_id, verdict, beside)
 
     def _wait_for(self, upload: Upload, live: Ride) -> Upload:

@@ -174,6 +174,8 @@ upload = Table(
     Column("created_us", BigInteger, nullable=False),
     Column("expires_us", BigInteger),
     Column("part_of", KEY, index=True),
+    # Of a table that is not read before somebody says more: the hash of its header.
+    Column("asks_sha256", String(64)),
 )
 
 ride = Table(

@@ -73,6 +73,29 @@ def test_an_answer_reads_every_file_that_waited_for_it_and_those_that_come(
     assert uploads.receive_file("3.csv", table(3)).state == "complete"
 
 
+def test_an_answer_waits_for_no_other_file_and_leaves_other_tables_alone(store: Store) -> None:
+    read: list[str] = []
+
+    def read_and_note(path: Path, name: str, *, said: TableAnswer | None = None) -> Outcome:
+        read.append(name)
+        if name == "broken.csv" and read.count(name) > 1:
+            raise OSError("a disk that is gone")
+        return reader(path, name, said=said)
+
+    uploads = Uploads(store, reader=read_and_note)
+    other = uploads.receive_file("other.csv", table(1).replace(b"cadence", b"power"))
+    broken = uploads.receive_file("broken.csv", table(2))
+    asked = uploads.receive_file("asked.csv", table(3))
+
+    became = TableMapping(store, uploads).say(asked.id, SAID)
+    uploads.close()
+
+    assert (became.state, len(became.ride_ids)) == ("complete", 1)
+    assert read.count("other.csv") == 1
+    assert uploads.get(other.id).code == "needs_mapping"
+    assert uploads.get(broken.id).state == "queued"
+
+
 def test_an_answer_that_lacks_something_changes_nothing(
     uploads: Uploads, mapping: TableMapping
 ) -> None:
