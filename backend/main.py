@@ -108,8 +108,9 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
         dashboards, recent = Dashboards(), RecentRows()
         for watcher in (memory.follow, recorder.watch, dashboards.follow, recent.follow):
             devices.watch(watcher)
-        work = partial(tidy, recorder, uploads, store, last_seen, devices, RideCards(store))
-        closing.enter_context(housekeeping(work))
+        work = partial(tidy, recorder, uploads, store, last_seen, devices)
+        closing.enter_context(every_second("housekeeping", work))
+        closing.enter_context(every_second("cards", RideCards(store).tick))
         for url in settings.device:
             in_background(url, partial(devices.add, url))
         replay = RideReplay(Preview(), memory.ride_config)
@@ -197,7 +198,6 @@ def tidy(
     store: Store,
     last_seen: LastSeen,
     devices: Devices,
-    cards: RideCards,
 ) -> None:
     """Ends what has been silent too long; fills rides that are over; removes what has expired."""
     now_us = time.time_ns() // 1000
@@ -207,7 +207,6 @@ def tidy(
     store.sweep(now_us)
     store.scrub(now_us)
     last_seen.look(devices.list(), now_us)
-    cards.tick()
 
 
 def in_background(name: str, work: Callable[[], object]) -> None:
@@ -223,8 +222,11 @@ def in_background(name: str, work: Callable[[], object]) -> None:
 
 
 @contextlib.contextmanager
-def housekeeping(work: Callable[[], None]) -> Iterator[None]:
-    """Does `work` once a second on a thread of its own until the context ends."""
+def every_second(name: str, work: Callable[[], object]) -> Iterator[None]:
+    """Does `work` once a second on a thread of its own until the context ends.
+
+    Whatever it raises is told in the log, and the thread goes on.
+    """
     stopped = threading.Event()
 
     def run() -> None:
@@ -233,13 +235,14 @@ def housekeeping(work: Callable[[], None]) -> Iterator[None]:
             try:
                 work()
                 told = ""
-            except SpindleError as error:
+            except Exception as error:
                 # What lasts need not be said every second.
-                if error.message != told:
-                    LOG.warning("%s", error.message)
-                told = error.message
+                if repr(error) != told:
+                    fault = None if isinstance(error, SpindleError) else error
+                    LOG.warning("%s: %s", name, error, exc_info=fault)
+                told = repr(error)
 
-    thread = threading.Thread(target=run, name="housekeeping", daemon=True)
+    thread = threading.Thread(target=run, name=name, daemon=True)
     thread.start()
     try:
         yield

@@ -12,6 +12,7 @@ from urllib.parse import quote
 
 import httpx
 
+from backend.domain.quantities import plain
 from backend.errors import (
     FieldError,
     InvalidRequest,
@@ -130,7 +131,7 @@ def text_of(value: Any) -> str:
     if value is None:
         return "-"
     if isinstance(value, float):
-        return f"{value:.6g}"
+        return plain(value, 6)
     if isinstance(value, dict | list):
         return json.dumps(value, ensure_ascii=False)
     return str(value)

@@ -7,6 +7,7 @@ from typing import Any
 
 from backend.cli.client import Server, print_json, print_table, text_of
 from backend.cli.device import read_json, server_of
+from backend.domain.quantities import plain
 from backend.errors import InvalidRequest
 
 POINTS_MAX = 512
@@ -70,7 +71,7 @@ def print_certificate(answer: dict[str, Any]) -> None:
         print(f"  {name:17} {answer[name]}")
     print(f"  {'method':17} {answer['method']}, {text_of(answer['created_at'])}")
     for claim in answer["claims"]:
-        margin = "" if claim["margin"] is None else f", margin {claim['margin']:.4g}"
+        margin = "" if claim["margin"] is None else f", margin {plain(claim['margin'], 4)}"
         mark = "" if claim["holds"] else "NOT KEPT: "
         print(f"{mark}{claim['message']}")
         print(f"  by {claim['how']}{margin} {claim['unit'] if margin else ''}".rstrip())

@@ -6,6 +6,8 @@ follows the unit (`motor_torque_nm_max`). A name without a suffix has no dimensi
 
 from __future__ import annotations
 
+from math import floor, isfinite, log10
+
 UNITS: dict[str, str] = {
     "nm": "Nm",
     "rpm": "rpm",
@@ -33,6 +35,18 @@ UNITS: dict[str, str] = {
 
 BOUNDS = ("min", "max")
 """What may follow the unit in a name."""
+
+
+def plain(value: float, digits: int) -> str:
+    """A number with so many significant digits, never with an exponent.
+
+    Digits before the point are never rounded away: `plain(1053.2, 3)` is `1053`.
+    """
+    if not value or not isfinite(value):
+        return f"{value:g}"
+    places = max(0, digits - 1 - floor(log10(abs(value))))
+    text = f"{value:.{places}f}"
+    return text.rstrip("0").rstrip(".") if places else text
 
 
 def unit_of(name: str) -> str:

@@ -1,17 +1,19 @@
 """Makes the cards of rides, in the background: new rides', old ones', and those of a newer method.
 
-A ride whose rows cannot be read has an empty card: it is told as damaged elsewhere.
+A ride whose rows cannot be read, or of which no card can be made, has an empty one: whatever is
+wrong with it stops no other.
 """
 
 from __future__ import annotations
 
 import logging
+import time
 
 from backend.domain.energy import RIDER_POWER
 from backend.domain.logbook.card import BEST_S, RideCard, ends_of, speed_line
 from backend.domain.ride import Ride, RidePlace
 from backend.domain.ride_events import FAULT_SET, MARK
-from backend.errors import NotFound, StoreError
+from backend.errors import NotFound, SpindleError
 from backend.gazetteer import Gazetteer
 from backend.services.rides.insight.rows import WAY, RideColumns, columns_of
 from backend.store import Store
@@ -21,8 +23,9 @@ from backend.views.insight.way import climb_of
 LOG = logging.getLogger(__name__)
 
 CHANNELS = (*WAY, "altitude_m", "latitude_deg", "longitude_deg", RIDER_POWER.name)
-# Rides between two looks at whether the server ends.
+# Rides looked up at once, and how long they may take: then somebody looks whether the server ends.
 CARDS_AT_ONCE = 20
+TICK_S = 1.0
 # A town further away is not where the ride was; its time zone still is.
 TOWN_MAX_M = 20_000.0
 ZONE_MAX_M = 300_000.0
@@ -41,8 +44,11 @@ class RideCards:
         finishes = self._store.rides.finishes
         if finishes == self._seen:
             return 0
+        over_s = time.monotonic() + TICK_S
         due = self._store.cards.due(CARDS_AT_ONCE)
-        for ride_id in due:
+        for made, ride_id in enumerate(due):
+            if made and time.monotonic() > over_s:
+                return made
             self._make(ride_id)
         if len(due) < CARDS_AT_ONCE:
             self._seen = finishes
@@ -59,9 +65,11 @@ class RideCards:
     def _card(self, ride: Ride) -> RideCard:
         try:
             return card_of(columns_of(self._store, ride.id, CHANNELS))
-        except (StoreError, NotFound) as error:
+        except SpindleError as error:
             LOG.warning("Ride %d has an empty card: %s", ride.id, error.message)
-            return RideCard()
+        except Exception:
+            LOG.exception("Ride %d has an empty card.", ride.id)
+        return RideCard()
 
     def _place(self, card: RideCard) -> RidePlace:
         """Where the ride began, as far as the gazetteer knows."""

@@ -17,7 +17,7 @@ from backend.domain.energy import (
     derivable,
     derive,
 )
-from backend.domain.ride import RideSummary
+from backend.domain.ride import RideSummary, present
 
 POWERS = (RIDER_POWER, MOTOR_POWER)
 
@@ -25,8 +25,9 @@ POWERS = (RIDER_POWER, MOTOR_POWER)
 class RunningTotals:
     """Sums over rows of one period. Fed from one thread; what it tells may be read from any.
 
-    As in a finished ride's figures a missing sample adds nothing; an odometer is not looked at, so
-    that the distance may differ from the finished ride's by what the speed does not tell.
+    As in a finished ride's figures a missing sample adds nothing, and what never had one is None.
+    An odometer is not looked at, so that the distance may differ from the finished ride's by what
+    the speed does not tell.
     """
 
     def __init__(self, channels: Sequence[ChannelSpec], period_us: int) -> None:
@@ -42,14 +43,18 @@ class RunningTotals:
         self._rows += len(rows)
         found: dict[str, float] = {}
         if "speed_kmh" in self._channels:
-            speed = self._values("speed_kmh", rows)
-            moving = speed > MOVING_KMH
-            found["distance_km"] = float(np.nansum(speed))
-            found["moving_km"] = float(np.sum(speed[moving]))
-            found["moving_s"] = float(np.sum(moving))
+            speed = present(self._values("speed_kmh", rows))
+            if len(speed):
+                moving = speed[speed > MOVING_KMH]
+                found["distance_km"] = float(np.sum(speed))
+                found["moving_km"] = float(np.sum(moving))
+                found["moving_s"] = float(len(moving))
         for power in self._powers:
-            found[power.name] = float(np.nansum(self._values(power.name, rows)))
-        self._sums = {name: self._sums.get(name, 0.0) + value for name, value in found.items()}
+            there = present(self._values(power.name, rows))
+            if len(there):
+                found[power.name] = float(np.sum(there))
+        sums = {name: self._sums.get(name, 0.0) + value for name, value in found.items()}
+        self._sums = {**self._sums, **sums}
 
     def skip(self, rows: int) -> None:
         """Count rows that never came: only time went on."""

@@ -19,7 +19,7 @@ from pathlib import Path, PurePosixPath
 
 from sqlalchemy import Connection, insert, select
 
-from backend.errors import StoreError
+from backend.errors import InvalidRequest, StoreError
 from backend.store.deletion import FILLED, MADE, join_source
 from backend.store.digest import digest
 from backend.store.facts import KeptRide, Original, kept_ride
@@ -48,8 +48,8 @@ from backend.store.upkeep.check import damage_of
 
 # Where a destroyed SQLite file may have left something.
 JOURNALS = ("-wal", "-shm", "-journal")
-# What facts raise that make no sense.
-NONSENSE = (KeyError, TypeError, ValueError, AttributeError)
+# What facts raise that make no sense, and words that are none a ride can have.
+NONSENSE = (KeyError, TypeError, ValueError, AttributeError, InvalidRequest)
 
 
 @dataclass
@@ -165,7 +165,11 @@ def bring_back(
         elif key in view.known_keys:
             report.rides_before += 1
         else:
-            lacks = add_kept(database, objects, one)
+            try:
+                lacks = add_kept(database, objects, one)
+            except NONSENSE as error:
+                report.not_taken[key] = f"{key} tells no ride: {error!r}."
+                continue
             report.rides += 1
             if lacks:
                 report.lacking[key] = lacks

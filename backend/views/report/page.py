@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from html import escape
 from typing import Any
 
+from backend.domain.quantities import plain
 from backend.views.report.charts import curve_chart, energy_chart, zones_chart
 from backend.views.report.words import WORDS
 
@@ -187,7 +188,7 @@ def named(missing: Sequence[str], words: Mapping[str, str]) -> str:
 
 def found(one: Mapping[str, Any], words: Mapping[str, str]) -> str:
     """A finding in a line: how bad, where, and what, with its numbers."""
-    numbers = {name: f"{value:.3g}" for name, value in one["numbers"].items()}
+    numbers = {name: plain(value, 3) for name, value in one["numbers"].items()}
     channel = words.get(one["channel"] or "", one["channel"])
     sentence = words[f"{one['kind']}_found"].format(channel=channel, **numbers)
     where = f"{clock(one['from_s'])}–{clock(one['to_s'])}"

@@ -2,7 +2,7 @@
 
 import pytest
 
-from backend.domain.quantities import unit_of
+from backend.domain.quantities import plain, unit_of
 from firmware_protocol._generated import CHANNELS, PARAMETERS
 
 REGISTRY_SPELLING = {"°C": "degC", "Ω": "ohm"}
@@ -33,3 +33,20 @@ def test_the_registry_names_its_quantities_from_the_closed_list() -> None:
     }
 
     assert wrong == {}
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (1053.2, "1053"),
+        (4294967295.0, "4294967295"),
+        (12.345, "12.3"),
+        (9.999, "10"),
+        (-0.0001234, "-0.000123"),
+        (1e-9, "0.000000001"),
+        (5.0, "5"),
+        (0.0, "0"),
+    ],
+)
+def test_a_number_for_people_has_no_exponent(value: float, text: str) -> None:
+    assert plain(value, 3) == text

@@ -22,6 +22,7 @@ from backend.domain.ride_events import RideEvent
 from backend.errors import Conflict, NotFound, StoreError
 from backend.services.rides.mark import MarkMoment
 from backend.services.rides.record import Recorder, RecordSettings
+from backend.services.rides.running import RunningTotals
 from backend.store import Store, open_store
 
 # A store for every test, or rides of minutes: left out of `make test-fast`.
@@ -266,6 +267,24 @@ def test_a_ride_tells_what_it_comes_to_while_it_is_recorded(
         assert getattr(so_far, name) == pytest.approx(getattr(ride.summary, name), rel=1e-3), name
     assert so_far.motor_wh is ride.summary.motor_wh is None
     assert recorder.running(ride_id) is None
+
+
+def test_what_was_never_measured_is_not_told_as_nothing_ridden() -> None:
+    totals = RunningTotals(CHANNELS, PERIOD_US)
+    rows = riding(10.0)
+    silent = rows.copy()
+    silent[:] = CHANNELS[0].missing
+
+    totals.add(silent)
+    before = totals.summary()
+    totals.add(rows)
+    totals.add(silent)
+    after = totals.summary()
+
+    assert (before.duration_s, after.duration_s) == (10.0, 30.0)
+    assert before.moving_s is before.distance_km is before.rider_wh is None
+    assert after.moving_s == pytest.approx(10.0)
+    assert after.rider_wh is not None
 
 
 def test_a_silent_unit_s_ride_ends_by_the_wall_clock(store: Store, recorder: Recorder) -> None:

@@ -285,6 +285,8 @@ def test_damaged_rides_are_told_and_the_others_come_back(hundred: Path, tmp_path
         b'{"notes": 5}',
         b'{"name": "\\ud800"}',
         b'{"name": "a\\u0000b"}',
+        b'{"tags": ["%s"]}' % (b"x" * 41),
+        json.dumps({"tags": [f"tag {number}" for number in range(21)]}).encode(),
     ],
 )
 def test_a_damaged_sidecar_costs_the_words_and_says_so(tmp_path: Path, damage: bytes) -> None:

@@ -16,9 +16,11 @@ import pytest
 
 from backend.domain.channels import ChannelSpec
 from backend.domain.logbook.calendar import last_months, last_weeks
+from backend.domain.logbook.card import RideCard
 from backend.domain.ride import Ride, RideContext, RideRows
 from backend.errors import InvalidRequest, NotFound
-from backend.services.rides.cards import RideCards
+from backend.services.rides.cards import RideCards, card_of
+from backend.services.rides.insight.rows import RideColumns
 from backend.store import Sought, Store
 from backend.store.upkeep.rebuild import rebuild_store
 
@@ -136,6 +138,23 @@ def test_a_ride_knows_its_town_its_zone_and_its_line(store: Store) -> None:
     assert ride.place is not None
     assert (ride.place.name, ride.place.zone) == ("Dublin", "Europe/Dublin")
     assert ride.speed_line_kmh == (18.0,) * 64
+
+
+def test_a_ride_of_which_no_card_can_be_made_stops_no_other(
+    store: Store, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bad, good = added(store, "2026-07-14T08:00Z"), added(store, "2026-07-13T08:00Z")
+
+    def unless_bad(rows: RideColumns) -> RideCard:
+        if rows.ride.id == bad:
+            raise MemoryError
+        return card_of(rows)
+
+    monkeypatch.setattr("backend.services.rides.cards.card_of", unless_bad)
+    made(store)
+
+    assert [store.rides.get(ride).speed_line_kmh != () for ride in (bad, good)] == [False, True]
+    assert store.cards.due(9) == []
 
 
 def test_cards_are_made_once(store: Store) -> None:

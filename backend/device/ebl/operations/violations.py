@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Mapping
 
+from backend.domain.quantities import plain
 from backend.errors import FieldError
 from firmware_protocol._generated import PARAMETER_BY_ID, Violation
 from firmware_protocol.layout import Parameter, Value
@@ -54,7 +55,8 @@ def _named(parameter_id: int, index: int, code: int) -> FieldError:
 def _bounds(row: Parameter | None) -> str:
     if row is None or row.min is None or row.max is None:
         return ""
-    return f" ({row.min:g} to {row.max:g}{' ' + row.unit if row.unit else ''})"
+    unit = f" {row.unit}" if row.unit else ""
+    return f" ({plain(row.min, 6)} to {plain(row.max, 6)}{unit})"
 
 
 def _field_name(name: str, index: int) -> str:
