@@ -15,9 +15,10 @@ from typing import Protocol
 import numpy as np
 
 from backend.domain.channels import ChannelSpec, Counts, Values
-from backend.domain.energy import FACTORS, derive
+from backend.domain.energy import FACTORS, derive, sample_seconds
+from backend.domain.filled import filled_seconds
 from backend.domain.pyramid import STEPS, Level
-from backend.domain.ride import Ride, RideRows, TimesUs
+from backend.domain.ride import Ride, RideRows, TimesUs, pause_us
 from backend.errors import StoreError
 from backend.store.soundness import CHANGED, damaged_samples
 from backend.store.sql.blobs import Rows16
@@ -111,6 +112,18 @@ class RideReader:
         chosen = [name for name in names if name in offered]
         counts = self.counts(chosen, start, self.row_count if stop is None else stop)
         return {name: offered[name].to_values(counts[name]) for name in chosen}
+
+    def row_seconds(self) -> Values:
+        """How long the sample of each row (n,) holds; see domain.filled, domain.energy."""
+        ride, count = self.ride, self.row_count
+        if ride.period_us is None:
+            times_us = self.times_us(0, count)
+            return sample_seconds(times_us, pause_us(times_us, None))
+        if not ride.filled:
+            return np.broadcast_to(np.float64(ride.period_us / 1e6), (count,))
+        speed = self._recorded["speed_kmh"]
+        empty = self.counts([speed.name], 0, count)[speed.name] == speed.missing
+        return filled_seconds(ride.filled, empty, ride.period_us)
 
     def chunks(self, names: Sequence[str], rows: int) -> Iterator[RideRows]:
         """The whole ride, `rows` rows at a time."""

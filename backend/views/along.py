@@ -16,8 +16,7 @@ import numpy.typing as npt
 
 from backend.domain._generated import MOVING_KMH
 from backend.domain.channels import ChannelSpec, Counts, Values
-from backend.domain.energy import sample_seconds
-from backend.domain.ride import PAUSE_MIN_US, TimesUs, find_gaps, pause_us
+from backend.domain.ride import PAUSE_MIN_US, TimesUs
 from backend.errors import FieldError, InvalidRequest
 from backend.views.insight.way import way_of
 
@@ -36,6 +35,8 @@ class Rows(Protocol):
     def offered(self) -> Sequence[ChannelSpec]: ...
     def times_us(self, start: int, stop: int) -> TimesUs: ...
     def counts(self, names: Sequence[str], start: int, stop: int) -> Mapping[str, Counts]: ...
+    def values(self, names: Sequence[str]) -> Mapping[str, Values]: ...
+    def row_seconds(self) -> Values: ...
 
 
 @dataclass(frozen=True)
@@ -52,19 +53,29 @@ def along(ride: Rows, axis: Axis) -> Along | None:
     times = ride.times_us(0, ride.row_count)
     if axis == "time":
         return Along(times / 1e6, np.empty(0, np.int64))
-    columns = columns_of(ride, (SPEED, ODOMETER))
-    held_s = sample_seconds(times, pause_us(times, ride.period_us))
-    at = None
-    if axis == "distance":
-        way = way_of(columns, times / 1e6, held_s)
-        at = way.at_m if way else None
-    elif np.isfinite(columns.get(SPEED, np.empty(0))).any():
-        step_s = np.where(columns[SPEED] > MOVING_KMH, held_s, 0.0)
-        at = np.cumsum(step_s) - step_s
+    columns = ride.values((SPEED, ODOMETER))
+    at = places(columns, times / 1e6, ride.row_seconds(), axis)
     if at is None:
         return None
-    source = columns.get(SPEED, columns.get(ODOMETER, at))
-    return Along(at, silent_edges(source, times, ride.period_us))
+    return Along(at, silent_edges(columns.get(SPEED, columns.get(ODOMETER, at)), times))
+
+
+def places(
+    columns: Mapping[str, Values], start_s: Values, seconds: Values, axis: Axis
+) -> Values | None:
+    """Seconds in motion or metres at each row (n,); None where SPEED and ODOMETER tell none.
+
+    start_s, seconds: when each row begins and how long it holds.
+    """
+    if axis == "distance":
+        way = way_of(columns, start_s, seconds)
+        return way.at_m if way else None
+    speed = columns.get(SPEED)
+    if speed is None or not np.isfinite(speed).any():
+        return None
+    step_s = np.where(speed > MOVING_KMH, seconds, 0.0)
+    at: Values = np.cumsum(step_s) - step_s
+    return at
 
 
 def told_along(ride: Rows, axis: Axis) -> Along:
@@ -76,20 +87,10 @@ def told_along(ride: Rows, axis: Axis) -> Along:
     return found
 
 
-def columns_of(ride: Rows, names: Sequence[str]) -> dict[str, Values]:
-    """Values of the whole ride, missing as NaN, of those of the channels that it has."""
-    offered = {channel.name: channel for channel in ride.offered}
-    chosen = [name for name in names if name in offered]
-    counts = ride.counts(chosen, 0, ride.row_count)
-    return {name: offered[name].to_values(counts[name]) for name in chosen}
-
-
-def silent_edges(source: Values, times: TimesUs, period_us: int | None) -> npt.NDArray[np.int64]:
+def silent_edges(source: Values, times: TimesUs) -> npt.NDArray[np.int64]:
     """Rows that begin and end the stretches without a sample that last as long as a pause."""
-    silent = [
-        gap
-        for gap in find_gaps(times, np.isnan(source), period_us)
-        if gap.rows_lost and (gap.to_s - gap.from_s) * 1e6 >= PAUSE_MIN_US
-    ]
-    ends_us = np.array([round(t_s * 1e6) for gap in silent for t_s in (gap.from_s, gap.to_s)])
-    return np.searchsorted(times, ends_us).astype(np.int64)
+    silent = np.concatenate(([False], np.isnan(source), [False])).astype(np.int8)
+    edges = np.flatnonzero(np.diff(silent)).reshape(-1, 2)
+    edges = np.minimum(edges, len(times) - 1)
+    lasts = times[edges[:, 1]] - times[edges[:, 0]] >= PAUSE_MIN_US
+    return edges[lasts].ravel().astype(np.int64)

@@ -65,7 +65,7 @@ class RideReader(Rows, Protocol):
 
 @dataclass(frozen=True)
 class Trace:
-    """Bins of a window; arrays as the module's docstring tells."""
+    """Bins of a window; arrays as the module's docstring tells. x: x_first and x_last."""
 
     from_s: float
     to_s: float
@@ -77,8 +77,7 @@ class Trace:
     minimum: Mapping[str, Counts]
     maximum: Mapping[str, Counts]
     axis: Axis = "time"
-    x_first: Values | None = None
-    x_last: Values | None = None
+    x: tuple[Values, Values] | None = None
 
     def to_json(self) -> dict[str, object]:
         """Plain JSON with physical values, missing as null."""
@@ -91,8 +90,8 @@ class Trace:
             "axis": self.axis,
             "t_first_s": self.t_first_s.tolist(),
             "t_last_s": self.t_last_s.tolist(),
-            "x_first": None if self.x_first is None else self.x_first.tolist(),
-            "x_last": None if self.x_last is None else self.x_last.tolist(),
+            "x_first": None if self.x is None else self.x[0].tolist(),
+            "x_last": None if self.x is None else self.x[1].tolist(),
             "channels": [
                 {
                     "name": channel.name,
@@ -116,14 +115,10 @@ class Trace:
                 body.extend(array.astype(array.dtype.newbyteorder("<"), copy=False).tobytes())
             return placed[id(array)]
 
-        other = (
-            {}
-            if self.x_first is None or self.x_last is None
-            else {
-                "x_first": {"dtype": "float64", "offset": place(self.x_first)},
-                "x_last": {"dtype": "float64", "offset": place(self.x_last)},
-            }
-        )
+        other = {
+            name: {"dtype": "float64", "offset": place(array)}
+            for name, array in zip(("x_first", "x_last"), self.x or (), strict=False)
+        }
         header = {
             "from_s": self.from_s,
             "to_s": self.to_s,
@@ -303,7 +298,7 @@ def uneven_trace(
     bare = reduced(ride, channels, start, stop, window, starts)
     if axis != "time" and len(times):
         ends = np.append(starts[1:], len(times)) - 1
-        bare = replace(bare, axis=axis, x_first=at[starts], x_last=at[ends])
+        bare = replace(bare, axis=axis, x=(at[starts], at[ends]))
     breaks = np.flatnonzero(paused[starts[1:] - 1]) + 1
     return opened(bare, breaks) if len(breaks) else bare
 
@@ -327,15 +322,14 @@ def opened(bare: Trace, breaks: Starts) -> Trace:
     t_first = between(first, last, first)
     minimum = {c.name: interrupted(c, bare.minimum[c.name], breaks) for c in bare.channels}
     maximum = {c.name: interrupted(c, bare.maximum[c.name], breaks) for c in bare.channels}
-    x_first, x_last = bare.x_first, bare.x_last
+    x = bare.x
     return replace(
         bare,
         t_first_s=t_first,
         t_last_s=t_first if same else between(first, last, last),
         minimum=minimum,
         maximum=minimum if same else maximum,
-        x_first=None if x_first is None or x_last is None else between(x_first, x_last, x_first),
-        x_last=None if x_first is None or x_last is None else between(x_first, x_last, x_last),
+        x=None if x is None else (between(*x, into=x[0]), between(*x, into=x[1])),
     )
 
 

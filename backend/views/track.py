@@ -9,6 +9,7 @@ is drawn there.
 from __future__ import annotations
 
 import heapq
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,8 +17,9 @@ import numpy.typing as npt
 
 from backend.domain.channels import Values
 from backend.domain.ride import PAUSE_MIN_US
-from backend.views.along import Axis, Rows, along, columns_of
+from backend.views.along import ODOMETER, SPEED, Axis, Rows, places
 
+LATITUDE, LONGITUDE = "latitude_deg", "longitude_deg"
 EVEN_POINTS = 1000
 BENDS = 1000
 # Of the track's extent: what is nearer to the line is less than a pixel on any screen.
@@ -51,13 +53,12 @@ class Track:
 def track(ride: Rows) -> Track:
     """The points of a whole ride: at most EVEN_POINTS + BENDS and two for each gap."""
     times_s = ride.times_us(0, ride.row_count) / 1e6
-    columns = columns_of(ride, ("latitude_deg", "longitude_deg"))
+    columns = ride.values((LATITUDE, LONGITUDE, SPEED, ODOMETER))
     known = positioned(columns)
     rows = evenly(times_s)
     breaks = np.empty(0, np.int64)
     if len(known):
-        left = columns["longitude_deg"][known]
-        bends = known[bending(columns["latitude_deg"][known], left)]
+        bends = known[bending(columns[LATITUDE][known], columns[LONGITUDE][known])]
         breaks = np.flatnonzero(np.diff(times_s[known]) * 1e6 > PAUSE_MIN_US)
         ends = np.concatenate((known[breaks], known[np.minimum(breaks + 1, len(known) - 1)]))
         rows = np.unique(np.concatenate((rows, bends, ends)))
@@ -72,24 +73,20 @@ def track(ride: Rows) -> Track:
     def place(name: str) -> Values | None:
         return np.insert(columns[name][rows], opened, np.nan) if len(known) else None
 
+    seconds = ride.row_seconds()
+
     def way(axis: Axis) -> Values | None:
-        told = along(ride, axis)
-        return None if told is None else at(told.at)
+        found = places(columns, times_s, seconds, axis)
+        return None if found is None else at(found)
 
-    return Track(
-        at(times_s),
-        way("moving"),
-        way("distance"),
-        place("latitude_deg"),
-        place("longitude_deg"),
-    )
+    return Track(at(times_s), way("moving"), way("distance"), place(LATITUDE), place(LONGITUDE))
 
 
-def positioned(columns: dict[str, Values]) -> RowNumbers:
+def positioned(columns: Mapping[str, Values]) -> RowNumbers:
     """Rows with a position."""
-    if len(columns) < 2:
+    if not {LATITUDE, LONGITUDE} <= columns.keys():
         return np.empty(0, np.intp)
-    there = np.isfinite(columns["latitude_deg"]) & np.isfinite(columns["longitude_deg"])
+    there = np.isfinite(columns[LATITUDE]) & np.isfinite(columns[LONGITUDE])
     return np.flatnonzero(there)
 
 

@@ -23,7 +23,6 @@ from backend.services.rides.use_of_table import (
     channels_missing,
     names_for_use,
     needs_gain,
-    row_seconds,
     slots_by,
 )
 from backend.store import Store
@@ -54,7 +53,7 @@ class EnergyLedger:
         uses = {table: TableUse.none() for table in PARAMETERS_OF}
         seconds, motor_ws, excluded_s = np.zeros(SLOTS), np.zeros(SLOTS), 0.0
         measured = False
-        row_s, names = row_seconds(reader), names_for_use(reader.ride)
+        row_s, names = reader.row_seconds(), names_for_use(reader.ride)
         for start in range(0, reader.row_count, PIECE_ROWS):
             stop = min(start + PIECE_ROWS, reader.row_count)
             columns, spent_s = reader.values(names, start, stop), row_s[start:stop]

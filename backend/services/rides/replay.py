@@ -20,7 +20,7 @@ from backend import control
 from backend.domain._generated import INPUT_FLAGS
 from backend.domain.channels import ChannelSpec, Values
 from backend.domain.energy import DELIVERED, KMH_PER_MS, RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
-from backend.domain.ride import Ride
+from backend.domain.ride import Ride, largest
 from backend.errors import InvalidRequest
 from backend.services.tuning.preview import Preview
 from backend.store import RideReader
@@ -247,12 +247,6 @@ def work_wh(torque_nm: Values | None, speed_rpm: Values | None, step_s: float) -
     return float(np.nansum(power_w)) * step_s / SECONDS_PER_HOUR
 
 
-def largest(values: Values | None) -> float | None:
-    """The largest sample, None where there is none."""
-    there = values[np.isfinite(values)] if values is not None else np.empty(0)
-    return float(there.max()) if len(there) else None
-
-
 def difference_max(recorded: Values | None, replayed: Values) -> float | None:
     """The largest difference of any one sample, None where nothing was recorded."""
     return None if recorded is None else largest(np.abs(replayed - recorded))
@@ -275,6 +269,7 @@ class ReplayedReader:
         self.period_us: int | None = period_us
         self.row_count = len(next(iter(channels.values())))
         self.offered = tuple(channels)
+        self._values = {spec.name: values for spec, values in channels.items()}
         self._counts = {spec.name: spec.to_counts(values) for spec, values in channels.items()}
 
     def times_us(self, start: int, stop: int) -> npt.NDArray[np.int64]:
@@ -284,6 +279,14 @@ class ReplayedReader:
     def counts(self, names: Any, start: int, stop: int) -> Any:
         """Counts of rows [start, stop)."""
         return {name: self._counts[name][start:stop] for name in names}
+
+    def values(self, names: Sequence[str]) -> dict[str, Values]:
+        """Values of those of the channels that are here."""
+        return {name: self._values[name] for name in names if name in self._values}
+
+    def row_seconds(self) -> Values:
+        """Each row holds for a period."""
+        return np.full(self.row_count, (self.period_us or 1) / 1e6)
 
     def level(self, rows_per_bin: int) -> None:
         """There is no pyramid: the rows are at hand."""

@@ -9,16 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
-from backend.domain.channels import Values
-from backend.domain.energy import MOTOR_POWER, sample_seconds
-from backend.domain.filled import filled_seconds
+from backend.domain.energy import MOTOR_POWER
 from backend.domain.fuzzy_table import PARAMETERS_OF, point_faults
-from backend.domain.ride import Ride, iso_utc, pause_us
+from backend.domain.ride import Ride, iso_utc
 from backend.errors import InvalidRequest, ObjectDamaged
 from backend.services.rides.replay import ConfigOf
-from backend.store import RideReader, Sought, Store
+from backend.store import Sought, Store
 from backend.views.table_use import ASKED, FUZZY_GAIN, NEEDED, TableUse, acting, table_use
 
 RIDES_MAX = 20
@@ -122,7 +118,7 @@ class UseOfTable:
     ) -> TableUse:
         """One ride's use of the table, read piece by piece."""
         reader = self._store.rides.reader(ride.id)
-        seconds, names = row_seconds(reader), names_for_use(reader.ride)
+        seconds, names = reader.row_seconds(), names_for_use(reader.ride)
         use = TableUse.none()
         for start in range(0, reader.row_count, PIECE_ROWS):
             stop = min(start + PIECE_ROWS, reader.row_count)
@@ -179,19 +175,6 @@ def names_for_use(ride: Ride) -> list[str]:
     offered = {channel.name for channel in ride.offered}
     asked = next(name for name in ASKED if name in offered)
     return [*NEEDED, asked, FUZZY_GAIN, MOTOR_POWER.name]
-
-
-def row_seconds(reader: RideReader) -> Values:
-    """How long the sample of each row (n,) of a ride holds; see domain.filled, domain.energy."""
-    ride, count = reader.ride, reader.row_count
-    if ride.period_us is None:
-        times_us = reader.times_us(0, count)
-        return sample_seconds(times_us, pause_us(times_us, None))
-    if not ride.filled:
-        return np.broadcast_to(np.float64(ride.period_us / 1e6), (count,))
-    speed = next(channel for channel in ride.channels if channel.name == "speed_kmh")
-    empty = reader.counts([speed.name], 0, count)[speed.name] == speed.missing
-    return filled_seconds(ride.filled, empty, ride.period_us)
 
 
 def told(use: TableUse, points: Points) -> dict[str, Any]:

@@ -21,7 +21,7 @@ from backend.domain.filled import Filled
 from backend.domain.fuzzy_table import THESIS_TABLE
 from backend.domain.ride import Ride, RideContext
 from backend.errors import InvalidRequest, NotFound
-from backend.services.rides.use_of_table import RIDES_MAX, UseOfTable, row_seconds
+from backend.services.rides.use_of_table import RIDES_MAX, UseOfTable
 from backend.store import RideReader, Store, open_store
 from backend.store.reader import LiveRows
 from firmware_protocol._generated import CHANNELS
@@ -245,7 +245,7 @@ def test_a_sample_from_the_unit_s_log_holds_until_the_next(shop: Shop) -> None:
     filled = replace(ride, filled=(Filled(0.5, 0.7, 20, 2, 100_000),))
     reader = RideReader(filled, LiveRows(filled, rows), lambda ride_id, step: None)
 
-    seconds = row_seconds(reader)
+    seconds = reader.row_seconds()
 
     assert seconds[[49, 50, 51, 60, 70]] == pytest.approx([0.01, 0.1, 0.0, 0.1, 0.01])
     assert seconds.sum() == pytest.approx(1.0)

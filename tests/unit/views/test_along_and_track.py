@@ -64,8 +64,8 @@ def test_every_bin_of_another_axis_has_the_extremes_of_its_rows(
 
     place = along(ride, axis)
     assert place is not None
-    assert shown.x_first is not None
-    assert shown.x_last is not None
+    assert shown.x is not None
+    x_first, x_last = shown.x
     first = np.rint(shown.t_first_s * 100).astype(int)
     last = np.rint(shown.t_last_s * 100).astype(int)
     assert (first[1:] == last[:-1] + 1).all()
@@ -73,12 +73,12 @@ def test_every_bin_of_another_axis_has_the_extremes_of_its_rows(
         inside = rows[begin : end + 1]
         assert shown.minimum["rider_torque_nm"][bin_number] == inside.min()
         assert shown.maximum["rider_torque_nm"][bin_number] == inside.max()
-    assert shown.x_first == pytest.approx(place.at[first])
-    assert shown.x_last == pytest.approx(place.at[last])
+    assert x_first == pytest.approx(place.at[first])
+    assert x_last == pytest.approx(place.at[last])
     # No bin is wider than a pixel: the axis' own length over 300, and one row.
     width = (place.at[last[-1]] - place.at[first[0]]) / 300
     step = np.diff(place.at).max()
-    assert (shown.x_last - shown.x_first).max() <= width + step
+    assert (x_last - x_first).max() <= width + step
 
 
 def test_a_silent_sensor_is_a_gap_of_its_own_though_the_way_stands() -> None:
@@ -88,6 +88,39 @@ def test_a_silent_sensor_is_a_gap_of_its_own_though_the_way_stands() -> None:
     assert missing.any()
     assert shown.t_first_s[missing].min() == 150.0
     assert shown.t_last_s[missing].max() == pytest.approx(169.99)
+
+
+def test_a_sparse_channel_is_silent_only_where_it_is_for_long() -> None:
+    speed = np.full(60_000, np.nan)
+    speed[::100] = 25.0
+    speed[20_000:23_000] = np.nan
+
+    place = along(ride_of({SPEED: speed}, None), "distance")
+
+    # From the first row without a sample to the next one with one, of rows 10 ms apart.
+    assert place is not None
+    assert place.edges.tolist() == [19_901, 23_000]
+
+
+class Filled(PlainReader):
+    """Of four rows of the ride one came from a log, and holds for all of them."""
+
+    def row_seconds(self) -> Values:
+        return np.tile([0.04, 0.0, 0.0, 0.0], self.row_count // 4)
+
+
+def test_what_a_log_filled_counts_as_long_as_its_samples_hold() -> None:
+    speed = np.tile([36.0, np.nan, np.nan, np.nan], 2500)
+    ride = Filled({SPEED: SPEED.to_counts(speed)})
+
+    moving, way = along(ride, "moving"), along(ride, "distance")
+    told = track(ride)
+
+    assert moving is not None
+    assert way is not None
+    assert (moving.at[-1], way.at[-1]) == (pytest.approx(100.0), pytest.approx(1000.0))
+    assert told.distance_m is not None
+    assert told.distance_m[-1] == pytest.approx(1000.0)
 
 
 def test_a_ride_without_speed_has_time_only() -> None:

@@ -18,8 +18,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from backend.domain.channels import MISSING_INT16, MISSING_INT32, ChannelSpec, Counts
+from backend.domain.channels import MISSING_INT16, MISSING_INT32, ChannelSpec, Counts, Values
+from backend.domain.energy import sample_seconds
 from backend.domain.pyramid import STEPS, Level, first_level
+from backend.domain.ride import pause_us
 from backend.errors import InvalidRequest
 from backend.views.figure import figure
 from backend.views.trace import Trace, trace
@@ -49,6 +51,14 @@ class PlainReader:
 
     def counts(self, names: Sequence[str], start: int, stop: int) -> dict[str, Counts]:
         return {name: self._counts[name][start:stop] for name in names}
+
+    def values(self, names: Sequence[str]) -> dict[str, Values]:
+        known = {channel.name: channel for channel in self.offered}
+        return {n: known[n].to_values(self._counts[n]) for n in names if n in known}
+
+    def row_seconds(self) -> Values:
+        times = self.times_us(0, self.row_count)
+        return sample_seconds(times, pause_us(times, self.period_us))
 
     def level(self, rows_per_bin: int) -> Level | None:
         steps = [step for step in STEPS if step <= rows_per_bin]

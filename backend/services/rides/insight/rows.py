@@ -10,7 +10,6 @@ import numpy as np
 
 from backend.domain.channels import Values
 from backend.domain.ride import Ride
-from backend.services.rides.use_of_table import row_seconds
 from backend.store import RideReader, Store
 from backend.views.insight.way import Way, way_of
 
@@ -49,4 +48,4 @@ def columns_from(
     end = reader.row_count if stop is None else stop
     values = reader.values(list(dict.fromkeys(names)), start, end)
     start_s = reader.times_us(start, end) / 1e6
-    return RideColumns(reader.ride, values, start_s, np.asarray(row_seconds(reader))[start:end])
+    return RideColumns(reader.ride, values, start_s, np.asarray(reader.row_seconds())[start:end])
