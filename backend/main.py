@@ -109,8 +109,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
         for watcher in (memory.follow, recorder.watch, dashboards.follow, recent.follow):
             devices.watch(watcher)
         work = partial(tidy, recorder, uploads, store, last_seen, devices)
-        closing.enter_context(every_second("housekeeping", work))
-        closing.enter_context(every_second("cards", RideCards(store).tick))
+        closing.enter_context(every_second(housekeeping=work, cards=RideCards(store).tick))
         for url in settings.device:
             in_background(url, partial(devices.add, url))
         replay = RideReplay(Preview(), memory.ride_config)
@@ -222,14 +221,14 @@ def in_background(name: str, work: Callable[[], object]) -> None:
 
 
 @contextlib.contextmanager
-def every_second(name: str, work: Callable[[], object]) -> Iterator[None]:
-    """Does `work` once a second on a thread of its own until the context ends.
+def every_second(**works: Callable[[], object]) -> Iterator[None]:
+    """Does each of `works` once a second, on a thread of its own, until the context ends.
 
-    Whatever it raises is told in the log, and the thread goes on.
+    Whatever one raises is told in the log, and its thread goes on.
     """
     stopped = threading.Event()
 
-    def run() -> None:
+    def run(name: str, work: Callable[[], object]) -> None:
         told = ""
         while not stopped.wait(HOUSEKEEPING_S):
             try:
@@ -242,13 +241,17 @@ def every_second(name: str, work: Callable[[], object]) -> Iterator[None]:
                     LOG.warning("%s: %s", name, error, exc_info=fault)
                 told = repr(error)
 
-    thread = threading.Thread(target=run, name=name, daemon=True)
-    thread.start()
+    threads = [
+        threading.Thread(target=run, args=one, name=one[0], daemon=True) for one in works.items()
+    ]
+    for thread in threads:
+        thread.start()
     try:
         yield
     finally:
         stopped.set()
-        thread.join()
+        for thread in threads:
+            thread.join()
 
 
 def build_app(settings: Settings, services: Services) -> FastAPI:

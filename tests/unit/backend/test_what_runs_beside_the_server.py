@@ -28,7 +28,7 @@ def test_an_error_is_told_once_and_the_next_second_comes(
             return
         raise error
 
-    with caplog.at_level(logging.WARNING), main.every_second("cards", work):
+    with caplog.at_level(logging.WARNING), main.every_second(cards=work):
         assert again.wait(10)
 
     assert [record.levelname for record in caplog.records] == ["WARNING"]
