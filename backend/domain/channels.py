@@ -16,6 +16,8 @@ import numpy.typing as npt
 
 MISSING_INT16 = -(2**15)
 MISSING_INT32 = -(2**31)
+# The largest counts.
+NARROW_MAX, WIDE_MAX = -MISSING_INT16 - 1, -MISSING_INT32 - 1
 
 Counts = npt.NDArray[np.signedinteger[Any]]
 Values = npt.NDArray[np.float64]

@@ -24,14 +24,13 @@ from backend.domain.filled import Filled
 from backend.domain.intake import Intake
 from backend.domain.noted import Noted, Pause, noted_to_json
 from backend.domain.ride_events import RideEvent
+from backend.domain.standards.sphere import great_circle_m
 
 TimesUs = npt.NDArray[np.int64]
 
 # A break in irregular rows longer than this many usual spacings, and than this time, is a pause.
 PAUSE_SPACINGS = 5
 PAUSE_MIN_US = 10_000_000
-# Mean radius of the ellipsoid WGS 84.
-EARTH_RADIUS_KM = 6371.0088
 
 
 @dataclass(frozen=True)
@@ -315,22 +314,18 @@ def movement_figures(values: Mapping[str, Values], seconds: Values) -> dict[str,
 def track_km(
     latitude_deg: Values, longitude_deg: Values, times_us: TimesUs, break_us: int
 ) -> float | None:
-    """Length of a track (n,) over the ground, by the haversine formula on a sphere.
+    """Length of a track (n,) over the ground.
 
     What lies between two positions further apart in time than break_us is not counted: nobody
     knows the way. None where no two positions follow each other.
     """
     there = np.isfinite(latitude_deg) & np.isfinite(longitude_deg)
-    latitude, longitude = np.radians(latitude_deg[there]), np.radians(longitude_deg[there])
+    latitude, longitude = latitude_deg[there], longitude_deg[there]
     follows = np.diff(times_us[there]) <= break_us
     if not follows.any():
         return None
-    half = (
-        np.sin(np.diff(latitude) / 2.0) ** 2
-        + np.cos(latitude[:-1]) * np.cos(latitude[1:]) * np.sin(np.diff(longitude) / 2.0) ** 2
-    )
-    steps_km = 2.0 * EARTH_RADIUS_KM * np.arcsin(np.sqrt(np.minimum(half, 1.0)))
-    return float(np.sum(steps_km[follows]))
+    steps_m = great_circle_m(latitude[:-1], longitude[:-1], latitude[1:], longitude[1:])
+    return float(np.sum(steps_m[follows])) / 1000.0
 
 
 def power_figures(owner: str, power_w: Values | None, seconds: Values) -> dict[str, float | None]:

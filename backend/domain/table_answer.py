@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
-from zoneinfo import ZoneInfo
+
+from backend.domain.standards.zones import zone_of
 
 ROWS_PER_SECOND_MAX = 1000.0
 
@@ -79,14 +80,6 @@ def answer_from_json(body: Mapping[str, Any] | None) -> TableAnswer | None:
 def answer_to_json(answer: TableAnswer) -> dict[str, object]:
     """Plain JSON."""
     return asdict(answer)
-
-
-def zone_of(name: str) -> ZoneInfo | None:
-    """A time zone by its IANA name, None when there is none of that name."""
-    try:
-        return ZoneInfo(name)
-    except (KeyError, ValueError, OSError):
-        return None
 
 
 def lacking(question: TableQuestion, answer: TableAnswer | None) -> list[str]:

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from backend.domain.channels import Values
-from backend.domain.logbook.card import metres_from
+from backend.domain.standards.sphere import great_circle_m
 
 FILE = Path(__file__).with_name("towns.tsv.xz")
 
@@ -34,7 +34,7 @@ class Gazetteer:
     def nearest(self, latitude_deg: float, longitude_deg: float) -> Town:
         """The town whose middle is nearest, however far that is."""
         latitudes, longitudes, towns = self._towns
-        away_m = metres_from(latitude_deg, longitude_deg, latitudes, longitudes)
+        away_m = great_circle_m(latitude_deg, longitude_deg, latitudes, longitudes)
         best = int(np.argmin(away_m))
         name, country, zone = towns[best]
         return Town(name, country, zone, float(away_m[best]))

@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 
 import numpy as np
 
-from backend.domain.channels import MISSING_INT16, MISSING_INT32, Values
+from backend.domain.channels import NARROW_MAX, WIDE_MAX, Values
 from backend.ingest.columns import FieldRule
 
 # A longer cell is no number that anything measured.
@@ -17,7 +17,6 @@ NUMBER_CHARACTERS_MAX = 40
 # Digits behind the point that are looked for: 1e-7 degrees are a centimetre.
 DECIMALS_MAX = 7
 COLUMNS_MAX = 200
-NARROW_MAX, WIDE_MAX = -MISSING_INT16 - 1, -MISSING_INT32 - 1
 
 
 def number(cell: str, decimal_comma: bool = False) -> float:

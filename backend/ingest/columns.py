@@ -21,11 +21,10 @@ from backend.domain.channels import ChannelSpec, Counts, Values
 from backend.domain.energy import KMH_PER_MS
 from backend.domain.intake import CLOCK_JUMPED, CLOCK_NOT_SET, NO_TIME, NO_VALUE, Intake
 from backend.domain.ride import RideRows
+from backend.domain.standards.fit import EPOCH_S
 from backend.ingest.outcome import ImportedRide
 
-# FIT's zero, 1989-12-31.
-EPOCH_S = 631_065_600
-# Before it a clock was never set: FIT then counts from the device's start.
+# Before it a clock was never set: FIT then counts from the device's start. Behind 2099 nothing is.
 CLOCK_MIN_S = EPOCH_S + 0x10000000
 LATEST_S = 4_102_444_800
 # A break longer than this is between two rides: nobody rests so long within one.

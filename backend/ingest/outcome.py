@@ -45,6 +45,11 @@ class ImportedRide:
     intake: Intake | None = None
     noted: Noted = Noted()  # noqa: RUF009 - frozen
 
+    @property
+    def span_s(self) -> tuple[float, float]:
+        """Unix time of its first row, and from there to its last."""
+        return self.started_us / 1e6, float(self.rows.times_us[-1]) / 1e6
+
 
 @dataclass(frozen=True)
 class Outcome:

@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from backend.domain.channels import MISSING_INT16, MISSING_INT32, ChannelSpec, Values
+from backend.domain.channels import NARROW_MAX, WIDE_MAX, ChannelSpec, Values
 from backend.ingest.columns import FIT_FIELDS, FieldRule
 
-NARROW_MAX, WIDE_MAX = -MISSING_INT16 - 1, -MISSING_INT32 - 1
 # A number so many times above 99 of 100 others was not measured.
 FAR = 1000.0
 # Digits that a number without a resolution of its own keeps, of its largest.

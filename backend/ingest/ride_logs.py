@@ -25,6 +25,7 @@ from backend.domain.ride_events import (
     FAULT_SET,
     RideEvent,
 )
+from backend.domain.standards.fit import EPOCH_S
 from backend.domain.unit_key import ebl_key
 from backend.ingest.blocks import (
     CONFIG,
@@ -42,7 +43,7 @@ from backend.ingest.blocks import (
     Scan,
     scan,
 )
-from backend.ingest.columns import EPOCH_S, LATEST_S
+from backend.ingest.columns import LATEST_S
 from backend.ingest.outcome import COMPLETE, PARTIAL, ImportedRide, Outcome, rejected
 from firmware_protocol._generated import CHANNELS, PARAMETER_BY_NAME, LogEvent
 from firmware_protocol.layout import HALF_BITS

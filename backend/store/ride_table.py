@@ -32,9 +32,9 @@ INTEGER_MAX = 2**63 - 1
 CARD = ("place", "country", "zone", "is_loop", "speed_line")
 
 
-def whole_ride(ride_id: int | None = None) -> Select[Any]:
+def whole_ride() -> Select[Any]:
     """Rides with their figures and the upload they came with."""
-    query = (
+    return (
         select(
             t.ride,
             t.upload.c.token.label("upload_token"),
@@ -46,7 +46,6 @@ def whole_ride(ride_id: int | None = None) -> Select[Any]:
         .outerjoin(t.upload, t.upload.c.id == t.ride.c.upload_id)
         .outerjoin(t.ride_card, t.ride_card.c.ride_id == t.ride.c.id)
     )
-    return query if ride_id is None else query.where(t.ride.c.id == ride_id)
 
 
 def rides_whole(connection: Connection, ride_ids: Sequence[int]) -> tuple[Ride, ...]:

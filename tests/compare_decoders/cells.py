@@ -10,8 +10,9 @@ from dataclasses import dataclass, field
 import fitdecode
 import numpy as np
 
+from backend.domain.standards.fit import FIELD_DESCRIPTION, RECORD
 from backend.ingest.fit.fields import PROFILE_NAMES, channel_name, descriptions, table_of
-from backend.ingest.fit.profile import FIELD_DESCRIPTION, RECORD, RECORD_FIELDS
+from backend.ingest.fit.profile import RECORD_FIELDS
 from backend.ingest.fit.salvage import Salvaging
 from backend.ingest.fit.walk import sound_parts
 

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from datetime import UTC, date, datetime, timedelta
-from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
+from zoneinfo import ZoneInfo
 
+from backend.domain.standards.zones import zone_of
 from backend.errors import FieldError, InvalidRequest
 
 PERIODS = 12
@@ -26,14 +27,14 @@ class Period:
     to_us: int
 
 
-def zone_of(name: str) -> ZoneInfo:
+def asked_zone(name: str) -> ZoneInfo:
     """A time zone of the IANA database. Raises InvalidRequest for a name that is none."""
-    try:
-        return ZoneInfo(name)
-    except (ZoneInfoNotFoundError, ValueError, OSError):
+    zone = zone_of(name)
+    if zone is None:
         message = f"zone is {name!r}: a name of the IANA database is needed, as Europe/Dublin."
         error = FieldError("zone", "unknown_zone", message)
-        raise InvalidRequest(message, code="unknown_zone", fields=[error]) from None
+        raise InvalidRequest(message, code="unknown_zone", fields=[error])
+    return zone
 
 
 def last_weeks(now_us: int, zone: ZoneInfo, week_begins: int = MONDAY) -> tuple[Period, ...]:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from backend.domain.channels import Values
+from backend.domain.standards.sphere import great_circle_m
 
 METHOD = 1
 LINE_POINTS = 64
@@ -20,7 +21,6 @@ LINE_MISSING = 255
 BEST_S = (5, 60, 300, 1200)
 # A ride that ends this near to its start, and went further away, is a loop.
 LOOP_END_M = 500.0
-EARTH_M = 6_371_000.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +73,7 @@ def ends_of(
     there = np.isfinite(latitude_deg) & np.isfinite(longitude_deg)
     if not there.any():
         return None, None
-    away_m = metres_from(
+    away_m = great_circle_m(
         float(latitude_deg[there][0]),
         float(longitude_deg[there][0]),
         latitude_deg[there],
@@ -82,15 +82,3 @@ def ends_of(
     begin = float(latitude_deg[there][0]), float(longitude_deg[there][0])
     is_loop = bool(away_m[-1] <= LOOP_END_M < np.max(away_m) / 2)
     return begin, is_loop
-
-
-def metres_from(
-    latitude_deg: float, longitude_deg: float, latitudes_deg: Values, longitudes_deg: Values
-) -> Values:
-    """Great-circle distance from one place to places (n,), in m, by the haversine formula."""
-    here, there = np.radians(latitude_deg), np.radians(latitudes_deg)
-    half_lat = (there - here) / 2
-    half_lon = np.radians(longitudes_deg - longitude_deg) / 2
-    chord = np.sin(half_lat) ** 2 + np.cos(here) * np.cos(there) * np.sin(half_lon) ** 2
-    metres: Values = 2 * EARTH_M * np.arcsin(np.sqrt(np.clip(chord, 0.0, 1.0)))
-    return metres

@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.domain.channels import Values
-from backend.ingest.fit.layout import BASE_TYPES, TIMESTAMP, UINT32, Definition, Field
+from backend.domain.standards.fit import BASE_TYPES, TIMESTAMP, UINT32
+from backend.ingest.fit.layout import Definition, Field
 from backend.ingest.fit.profile import COMPRESSED_SPEED_DISTANCE, RECORD_FIELDS, ProfileField
 from backend.ingest.own_channels import Column
 

@@ -11,6 +11,8 @@ from array import array
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
+from backend.domain.standards.fit import BASE_TYPES, TIMESTAMP, UINT32
+
 HEADER_SIZES = (12, 14)
 MAGIC = b".FIT"
 MAGIC_AT = 8
@@ -22,44 +24,8 @@ COMPRESSED, DEFINITION, DEVELOPER = 0x80, 0x40, 0x20
 LOCAL_MASK, COMPRESSED_MASK, OFFSET_MASK = 0x0F, 0x03, 0x1F
 COMPRESSED_SHIFT = 5
 
-TIMESTAMP = 253
-UINT32 = 0x86
 DEFINITION_BYTES = 6
 FIELD_BYTES = 3
-
-
-@dataclass(frozen=True)
-class BaseType:
-    """code: of `struct` and numpy, "" for text and plain bytes. invalid: the raw "no value"."""
-
-    code: str
-    invalid: int | None = None
-
-    @property
-    def size(self) -> int:
-        """Bytes of one value."""
-        return struct.calcsize(f"<{self.code}") if self.code else 1
-
-
-BASE_TYPES: dict[int, BaseType] = {
-    0x00: BaseType("B", 0xFF),
-    0x01: BaseType("b", 0x7F),
-    0x02: BaseType("B", 0xFF),
-    0x83: BaseType("h", 0x7FFF),
-    0x84: BaseType("H", 0xFFFF),
-    0x85: BaseType("i", 0x7FFFFFFF),
-    UINT32: BaseType("I", 0xFFFFFFFF),
-    0x07: BaseType(""),
-    0x88: BaseType("f"),
-    0x89: BaseType("d"),
-    0x0A: BaseType("B", 0),
-    0x8B: BaseType("H", 0),
-    0x8C: BaseType("I", 0),
-    0x0D: BaseType(""),
-    0x8E: BaseType("q", 0x7FFFFFFFFFFFFFFF),
-    0x8F: BaseType("Q", 0xFFFFFFFFFFFFFFFF),
-    0x90: BaseType("Q", 0),
-}
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from backend.domain.noted import (
     Noted,
     Pause,
 )
-from backend.ingest.columns import EPOCH_S
+from backend.domain.standards.fit import DEVICE_INFO, EPOCH_S, EVENT, LAP
 from backend.ingest.fit.fields import Bytes, Table, table_of, text
 from backend.ingest.fit.layout import Part
 from backend.ingest.fit.noted_words import (
@@ -25,7 +25,6 @@ from backend.ingest.fit.noted_words import (
 )
 from backend.ingest.fit.profile import ProfileField
 
-LAP, EVENT, DEVICE_INFO = 19, 21, 23
 LAP_FIELDS = {
     2: ProfileField("start_time"),
     7: ProfileField("total_elapsed_time", "s", 1000),

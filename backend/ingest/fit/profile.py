@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-SESSION, RECORD, FIELD_DESCRIPTION = 18, 20, 206
-
 SPORTS: dict[int, str] = {
     0: "generic",
     1: "running",

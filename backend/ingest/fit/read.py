@@ -14,17 +14,15 @@ from math import floor
 import numpy as np
 
 from backend.domain.noted import within
-from backend.ingest.columns import EPOCH_S, Places, rides_of_columns
+from backend.domain.standards.fit import EPOCH_S, FIELD_DESCRIPTION, RECORD, SESSION
+from backend.ingest.columns import Places, rides_of_columns
 from backend.ingest.fit.balance import with_leg
 from backend.ingest.fit.fields import Table, descriptions, table_of
 from backend.ingest.fit.layout import CHECKSUM_BYTES, Part
 from backend.ingest.fit.mend import mended
 from backend.ingest.fit.noted import noted_of
 from backend.ingest.fit.profile import (
-    FIELD_DESCRIPTION,
-    RECORD,
     RECORD_FIELDS,
-    SESSION,
     SPORTS,
     ProfileField,
 )
@@ -110,12 +108,7 @@ def rides_of(data: bytes, cells: np.typing.NDArray[np.uint8], part: Part) -> lis
             sport,
             leg.unread,
         )
-    return [replace(ride, noted=within(noted, *span_s(ride))) for ride in found]
-
-
-def span_s(ride: ImportedRide) -> tuple[float, float]:
-    """Unix time of a ride's first row, and from there to its last."""
-    return ride.started_us / 1e6, float(ride.rows.times_us[-1]) / 1e6
+    return [replace(ride, noted=within(noted, *ride.span_s)) for ride in found]
 
 
 def legs_of(records: Table, sessions: Table) -> list[tuple[str | None, Places]]:

@@ -10,12 +10,12 @@ from dataclasses import replace
 import numpy as np
 
 from backend.domain.channels import ChannelSpec, Values
+from backend.domain.standards.zones import zone_of
 from backend.domain.table_answer import (
     TableAnswer,
     TableColumn,
     TableQuestion,
     lacking,
-    zone_of,
 )
 from backend.ingest.cells import COLUMNS_MAX, as_written, number, step_of
 from backend.ingest.columns import LATITUDE, LONGITUDE, FieldRule, rides_of_columns

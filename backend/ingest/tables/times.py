@@ -10,12 +10,13 @@ from datetime import UTC, datetime, tzinfo
 import numpy as np
 
 from backend.domain.channels import Values
+from backend.domain.standards.fit import EPOCH_S
 from backend.ingest.cells import iso_moment, number, unix_seconds
-from backend.ingest.columns import EPOCH_S
+from backend.ingest.columns import LATEST_S
 from backend.ingest.tables.layouts import Layout, since_column, time_column
 
 # Numbers that can only be Unix time, in seconds and in milliseconds.
-UNIX_S, UNIX_MS = (EPOCH_S, 4_102_444_800), (EPOCH_S * 1000, 4_102_444_800_000)
+UNIX_S, UNIX_MS = (EPOCH_S, LATEST_S), (EPOCH_S * 1000, LATEST_S * 1000)
 # A date and a time in the name of a file, as loggers call theirs.
 NAME_MOMENT = re.compile(
     r"(20\d\d)[-_.]?(\d\d)[-_.]?(\d\d)[T _.-]*(\d\d)[-_.:h]?(\d\d)[-_.:m]?(\d\d)"

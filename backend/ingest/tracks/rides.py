@@ -77,12 +77,7 @@ def rides_of(track: Track) -> list[ImportedRide]:
     }
     fields = tuple(as_written(rule, columns) for rule in rules_of(named, track.sport))
     found = rides_of_columns(times, columns, fields, track.sport, track.points.unread)
-    return [replace(ride, noted=within(track.noted, *span_s(ride))) for ride in found]
-
-
-def span_s(ride: ImportedRide) -> tuple[float, float]:
-    """Unix time of a ride's first row, and from there to its last."""
-    return ride.started_us / 1e6, float(ride.rows.times_us[-1]) / 1e6
+    return [replace(ride, noted=within(track.noted, *ride.span_s)) for ride in found]
 
 
 def outcome_of(tracks: Sequence[Track], walked: Walked, length: int, what: str) -> Outcome:

@@ -8,6 +8,7 @@ by metres. Times that do not overlap are two rides, however alike: a commute is 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import Enum
 
@@ -16,6 +17,7 @@ import numpy.typing as npt
 
 from backend.domain.energy import KMH_PER_MS
 from backend.domain.ride import Ride
+from backend.domain.standards.sphere import EARTH_M
 from backend.ingest import ImportedRide
 from backend.store import RideStore, Sought
 from backend.views.export.seconds import BySecond, by_second
@@ -43,7 +45,7 @@ OVERLAP_SHARE = 0.5
 # Nobody rides for longer without a break that makes two rides.
 LONGEST_US = 48 * 3600 * 1_000_000
 PAGE = 100
-METRES_PER_DEG = 111_195.0
+METRES_PER_DEG = math.radians(EARTH_M)
 # Channels that a reader may work out from others: having one more of them is no more ride.
 WORKED_OUT = frozenset({"speed_kmh", "distance_m", "grade_pct", "altitude_m"})
 

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 
-from backend.domain.logbook.calendar import MONDAY, Period, last_months, last_weeks, zone_of
+from backend.domain.logbook.calendar import MONDAY, Period, asked_zone, last_months, last_weeks
 from backend.domain.logbook.tags import clean_tags
 from backend.domain.ride import iso_utc
 from backend.store import Store, Totals
@@ -34,7 +34,7 @@ class RiderHome:
 
         zone: the rider's, of the IANA database. week_begins: 1 Monday to 7 Sunday.
         """
-        here, now = zone_of(zone), self._clock()
+        here, now = asked_zone(zone), self._clock()
         spans = last_weeks(now, here, week_begins), last_months(now, here)
         home = self._store.logbook.home(spans, bike_id)
         weeks, months = map(told, spans, home.by_period)

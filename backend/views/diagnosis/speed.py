@@ -6,6 +6,7 @@ import numpy as np
 
 from backend.domain.channels import Values
 from backend.domain.energy import KMH_PER_MS
+from backend.domain.standards.sphere import EARTH_M
 from backend.views.diagnosis.finding import WARNING, Evidence, Finding
 from backend.views.insight.way import way_of
 
@@ -24,7 +25,6 @@ WHEEL_M, WHEEL_CHORDS = 1000.0, 12
 WHEEL_SHARE = 0.02
 """Two in a hundred: the difference of two tyres of one nominal size (ISO 5775: 40-622 has 2.224 m
 by its outer diameter, some 2 % less under load)."""
-EARTH_M = 6371000.8
 
 
 def implausible_speed(ride: Evidence) -> list[Finding]:

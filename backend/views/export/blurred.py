@@ -29,8 +29,8 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.domain.channels import Values
-from backend.domain.logbook.card import EARTH_M, metres_from
 from backend.domain.ride import Ride, RideRows, summarise
+from backend.domain.standards.sphere import EARTH_M, great_circle_m
 
 Mask = npt.NDArray[np.bool_]
 DISTANCE = "distance_m"
@@ -60,7 +60,7 @@ def shown_rows(
     hidden = np.zeros(len(known), dtype=bool)
     for end in (known[0], known[-1]):
         middle = moved(float(latitude_deg[end]), float(longitude_deg[end]), blur_m, secret)
-        away_m = metres_from(*middle, latitude_deg[known], longitude_deg[known])
+        away_m = great_circle_m(*middle, latitude_deg[known], longitude_deg[known])
         hidden |= away_m <= (1 + MOVED) * blur_m
     # A row without a position is as hidden as the positions before and behind it.
     at = np.searchsorted(known, np.arange(len(there)))

@@ -19,27 +19,34 @@ from fastcrc import crc16
 from backend.domain.channels import Values
 from backend.domain.energy import DEMANDED, KMH_PER_MS, MOTOR_POWER, MOTOR_TORQUE, RIDER_POWER
 from backend.domain.ride import Ride, pause_us
+from backend.domain.standards.fit import (
+    ACTIVITY,
+    BASE_TYPES,
+    BYTES,
+    DEVELOPER_DATA_ID,
+    ENUM,
+    EPOCH_S,
+    EVENT,
+    FIELD_DESCRIPTION,
+    FILE_ID,
+    FLOAT32,
+    LAP,
+    RECORD,
+    SESSION,
+    SINT8,
+    SINT32,
+    TEXT,
+    TIMESTAMP,
+    UINT8,
+    UINT16,
+    UINT32,
+    UINT32Z,
+)
 from backend.views.export.seconds import SECOND_US, BySecond
 
-EPOCH_S = 631_065_600
-FILE_ID, SESSION, LAP, RECORD, EVENT, ACTIVITY = 0, 18, 19, 20, 21, 34
-FIELD_DESCRIPTION, DEVELOPER_DATA_ID = 206, 207
-ENUM, SINT8, UINT8, UINT16, SINT32, UINT32, UINT32Z = 0x00, 0x01, 0x02, 0x84, 0x85, 0x86, 0x8C
-FLOAT32, TEXT, BYTES = 0x88, 0x07, 0x0D
-TIMESTAMP = (253, UINT32)
+TIME_CELL = (TIMESTAMP, UINT32)
 ACTIVITY_FILE, DEVELOPMENT, CYCLING, E_BIKE_FITNESS = 4, 255, 2, 28
 TIMER, LAP_EVENT, SESSION_EVENT, START, STOP, STOP_ALL = 0, 9, 8, 0, 1, 4
-
-CODES = {ENUM: "B", SINT8: "b", UINT8: "B", UINT16: "H", SINT32: "i", UINT32: "I", UINT32Z: "I"}
-INVALID = {
-    ENUM: 0xFF,
-    SINT8: 0x7F,
-    UINT8: 0xFF,
-    UINT16: 0xFFFF,
-    SINT32: 0x7FFFFFFF,
-    UINT32: 0xFFFFFFFF,
-    UINT32Z: 0,
-}
 
 
 @dataclass(frozen=True)
@@ -127,7 +134,7 @@ def records(ridden: BySecond, own: dict[str, tuple[str, str]], breaks: list[int]
     """A record a second; where the ride has a gap the timer stops before it and starts behind."""
     native = [one for one in NATIVE if one.channel in ridden.values]
     kinds = [("head", "u1"), ("time", "<u4")]
-    kinds += [(one.channel, f"<{np.dtype(CODES[one.base]).str[1:]}") for one in native]
+    kinds += [(one.channel, f"<{np.dtype(BASE_TYPES[one.base].code).str[1:]}") for one in native]
     kinds += [(f"own {name}", "<f4") for name in own]
     rows = np.zeros(len(ridden), dtype=kinds)
     rows["time"] = ridden.unix_s - EPOCH_S
@@ -136,9 +143,9 @@ def records(ridden: BySecond, own: dict[str, tuple[str, str]], breaks: list[int]
     for name in own:
         rows[f"own {name}"] = ridden[name].astype(np.float32)
     head = struct.pack("<BBBHB", 0x60, 0, 0, RECORD, 1 + len(native))
-    head += struct.pack("BBB", TIMESTAMP[0], 4, TIMESTAMP[1])
+    head += struct.pack("BBB", TIMESTAMP, 4, UINT32)
     for one in native:
-        head += struct.pack("BBB", one.number, struct.calcsize(CODES[one.base]), one.base)
+        head += struct.pack("BBB", one.number, BASE_TYPES[one.base].size, one.base)
     head += bytes([len(own)])
     head += b"".join(struct.pack("BBB", number, 4, 0) for number in range(len(own)))
     pieces, begun = [], 0
@@ -154,9 +161,9 @@ def records(ridden: BySecond, own: dict[str, tuple[str, str]], breaks: list[int]
 def raw(one: Native, values: Values) -> Values:
     """Values (n,) as a field's whole numbers; its "no value" for what is missing or too large."""
     numbers = np.rint((values * one.factor + one.offset) * one.scale)
-    limits = np.iinfo(np.dtype(CODES[one.base]))
+    limits = np.iinfo(np.dtype(BASE_TYPES[one.base].code))
     beyond = ~np.isfinite(numbers) | (numbers < limits.min) | (numbers >= limits.max)
-    found: Values = np.where(beyond, INVALID[one.base], numbers)
+    found: Values = np.where(beyond, BASE_TYPES[one.base].invalid or 0, numbers)
     return found
 
 
@@ -176,7 +183,7 @@ def summaries(ride: Ride, ridden: BySecond, start_s: int, end_s: int) -> list[by
     distance_km = None if summary is None else summary.distance_km
     speed, rider, motor = ridden["speed_kmh"], ridden[RIDER_POWER.name], ridden[MOTOR_POWER.name]
     common: list[Cell] = [
-        (*TIMESTAMP, end_s - EPOCH_S),
+        (*TIME_CELL, end_s - EPOCH_S),
         (2, UINT32, start_s - EPOCH_S),
         (7, UINT32, elapsed_ms),
         (8, UINT32, timer_ms),
@@ -203,7 +210,7 @@ def summaries(ride: Ride, ridden: BySecond, start_s: int, end_s: int) -> list[by
     return [
         message(LAP, [*common, (0, ENUM, LAP_EVENT), (1, ENUM, STOP)]),
         message(SESSION, session),
-        message(ACTIVITY, [(*TIMESTAMP, end_s - EPOCH_S), (0, UINT32, timer_ms),
+        message(ACTIVITY, [(*TIME_CELL, end_s - EPOCH_S), (0, UINT32, timer_ms),
                            (1, UINT16, 1), (2, ENUM, 0), (3, ENUM, 26), (4, ENUM, STOP)]),
     ]  # fmt: skip
 
@@ -216,7 +223,7 @@ def scaled(of: Callable[[Values], Any], values: Values, scale: float = 1.0) -> f
 
 def timer(unix_s: int, event_type: int) -> bytes:
     """The timer starts or stops."""
-    cells: list[Cell] = [(*TIMESTAMP, unix_s - EPOCH_S), (0, ENUM, TIMER), (1, ENUM, event_type)]
+    cells: list[Cell] = [(*TIME_CELL, unix_s - EPOCH_S), (0, ENUM, TIMER), (1, ENUM, event_type)]
     return message(EVENT, cells, local=1)
 
 
@@ -228,14 +235,13 @@ def defined(number: int, fields: list[tuple[int, int, int]], local: int = 0) -> 
 
 def message(number: int, cells: list[Cell], local: int = 0) -> bytes:
     """One message with its definition; None is the field's "no value"."""
-    told = defined(
-        number, [(one, struct.calcsize(CODES[base]), base) for one, base, _ in cells], local
-    )
+    told = defined(number, [(one, BASE_TYPES[base].size, base) for one, base, _ in cells], local)
     told += bytes([local])
     for _, base, value in cells:
+        kind = BASE_TYPES[base]
         kept = None if value is None else round(value)
-        fits = (kept is not None and 0 <= kept < INVALID[base]) or base == UINT32Z
-        told += struct.pack(f"<{CODES[base]}", kept if fits else INVALID[base])
+        fits = kept is not None and 0 <= kept < (kind.invalid or 0)
+        told += struct.pack(f"<{kind.code}", kept if fits or base == UINT32Z else kind.invalid)
     return told
 
 

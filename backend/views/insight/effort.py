@@ -23,7 +23,6 @@ HEART_ZONE_SHARES = (0.6, 0.7, 0.8, 0.9)
 POWER_STEP_W, TORQUE_STEP_NM, CADENCE_STEP_RPM, HEART_STEP_BPM = 50.0, 10.0, 10.0, 10.0
 BANDS_MAX = 16
 """What lies above the last band is in it: one spike makes no hundred bands."""
-SECOND_US = 1_000_000
 POWER, TORQUE, CADENCE, HEART = RIDER_POWER.name, "rider_torque_nm", "cadence_rpm", "heart_rate_bpm"
 NEEDED = (POWER, TORQUE, CADENCE, HEART)
 

@@ -19,8 +19,8 @@ import numpy as np
 import pytest
 
 from backend.domain.channels import ChannelSpec
-from backend.domain.logbook.card import metres_from
 from backend.domain.ride import Ride, RideContext, RideRows
+from backend.domain.standards.sphere import great_circle_m
 from backend.errors import InvalidRequest, NotFound
 from backend.ingest.formats import read_file
 from backend.services.rides.review import Rides
@@ -87,7 +87,7 @@ def points(gpx: bytes) -> list[tuple[float, float, datetime]]:
 def away_m(gpx: bytes) -> np.ndarray:
     """How far from the door each point is."""
     found = np.array([(lat, lon) for lat, lon, _ in points(gpx)])
-    return metres_from(*DOOR, found[:, 0], found[:, 1])
+    return great_circle_m(*DOOR, found[:, 0], found[:, 1])
 
 
 def test_no_point_is_near_the_door_not_on_a_later_pass_either(store: Store) -> None:

@@ -23,7 +23,7 @@ LIMITS = Limits(
     control.law_defaults()["battery_voltage_v_min"],
     wheel_circumference_m=2.2,
 )
-EARTH_M = 6_371_000.8
+EARTH_M = 6_371_008.8
 LEGS = {"kind": "legs", "torque_nm": 30.0, "cadence_rpm_max": 90.0}
 RIDING = {"rider": LEGS, "brake": False, "assist_mode": 3}
 STANDING = {"rider": {"kind": "off"}, "brake": True}
