@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from backend.domain.channels import Values
-from backend.domain.ride import EARTH_RADIUS_KM, PAUSE_MIN_US
+from backend.domain.ride import PAUSE_MIN_US
+from backend.domain.standards.sphere import EARTH_M
 
 NEAR_M = 30.0
 STEP_M = 10.0
@@ -83,7 +84,7 @@ def walked(side: Positions, middle_deg: float, first_deg: float) -> Walked | Non
     around = np.mod(side.longitude_deg[there] - first_deg + 180.0, 360.0) - 180.0
     narrow = np.cos(np.radians(middle_deg))
     plane = np.radians(np.column_stack((around * narrow, side.latitude_deg[there] - middle_deg)))
-    points = plane * EARTH_RADIUS_KM * 1000.0
+    points = plane * EARTH_M
     at_m = np.zeros(len(there)) if side.at_m is None else side.at_m[there]
     follows = np.diff(side.start_s[there]) * 1e6 <= PAUSE_MIN_US
     step = np.where(follows, np.hypot(*np.diff(points, axis=0).T), 0.0)

@@ -29,7 +29,6 @@ from backend.services.rides.insight.pedalling import ANGLE, CADENCE, TORQUE, tol
 from backend.services.rides.insight.rows import WAY, RideColumns, columns_from
 from backend.services.rides.insight.settings_apart import settings_apart
 from backend.services.rides.replay import ConfigOf
-from backend.services.rides.use_of_table import row_seconds
 from backend.store import RideReader, Store
 from backend.views.beside.figures import Stretch, compared
 from backend.views.beside.grid import Bins, Laid, binned
@@ -91,7 +90,7 @@ class Side:
     def laid(self, by: By) -> Laid | None:
         """Rows on an axis; None where nothing tells it."""
         start_s = self.reader.times_us(self.start, self.stop) / 1e6
-        seconds = np.asarray(row_seconds(self.reader))[self.start : self.stop]
+        seconds = np.asarray(self.reader.row_seconds())[self.start : self.stop]
         if by == "time":
             return Laid(start_s - self.from_s, start_s - self.from_s + seconds, seconds)
         way = self.columns(WAY).way
