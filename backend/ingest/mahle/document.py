@@ -25,7 +25,8 @@ import numpy as np
 
 from backend.domain.channels import Values
 from backend.domain.noted import PAUSES_MAX, Instrument, Noted, Pause, Stated, Statement, within
-from backend.domain.table_answer import TableAnswer, TableQuestion, lacking, zone_of
+from backend.domain.standards.zones import zone_of
+from backend.domain.table_answer import TableAnswer, TableQuestion, lacking
 from backend.ingest.cells import Growing, as_written, iso_moment, number, step_of, unix_seconds
 from backend.ingest.columns import FIT_FIELDS, FieldRule, rides_of_columns
 from backend.ingest.mahle.walk import TIME
