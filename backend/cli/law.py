@@ -1,4 +1,4 @@
-"""`spindle surface`, `spindle lint`, `spindle certificate` and `spindle calibrate evaluate`."""
+"""`spindle surface`, `spindle lint` and `spindle certificate`."""
 
 from __future__ import annotations
 
@@ -76,17 +76,6 @@ def print_certificate(answer: dict[str, Any]) -> None:
         print(f"{mark}{claim['message']}")
         print(f"  by {claim['how']}{margin} {claim['unit'] if margin else ''}".rstrip())
     print(f"Not covered: {', '.join(answer['not_covered'])}")
-
-
-def evaluate(options: Namespace) -> int:
-    """The sensor's figures from a file of readings."""
-    answer = server_of(options).ask("POST", "/calibration/evaluate", json=read_json(options.file))
-    if options.json:
-        print_json(answer)
-        return 0
-    for name, value in answer.items():
-        print(f"{name:20} {text_of(value)}")
-    return 0
 
 
 def table_of(server: Server, options: Namespace) -> Any:

@@ -8,6 +8,7 @@ from typing import Any
 
 from backend import __version__
 from backend.cli import (
+    calibrate,
     device,
     device_live,
     device_log,
@@ -285,8 +286,14 @@ def _add_law(verbs: Any) -> None:
     command.add_argument("--library", metavar="ID", help="an entry's, instead of a unit's")
     command.set_defaults(second=False)
     group = _group(verbs, "calibrate", "the torque sensor's figures")
-    command = _asking(group, "evaluate", law.evaluate, help="linearity, hysteresis, repeatability")
-    command.add_argument("file", type=Path, help="JSON: full_scale_nm, load_nm, forward, reverse")
+    command = _asking(
+        group, "evaluate", calibrate.evaluate, help="linearity, hysteresis, or a certificate again"
+    )
+    command.add_argument(
+        "file",
+        type=Path,
+        help="JSON: full_scale_nm, load_nm, forward, reverse; or a certificate, without a server",
+    )
 
 
 def _add_unlock(verbs: Any) -> None:

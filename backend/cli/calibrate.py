@@ -1,0 +1,73 @@
+"""`spindle calibrate evaluate`: readings of an error test, or a certificate worked out again."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from dataclasses import asdict
+from typing import Any
+
+from backend.cli.client import print_json, text_of
+from backend.cli.device import read_json, server_of
+from backend.domain.calibration.certificate import Evaluated, is_certificate
+from backend.domain.calibration.certificate import evaluate as evaluate_certificate
+from backend.domain.calibration.plain import to_plain
+
+SHOWN_MAX = 20
+"""Differences that are listed; a wrong arm changes hundreds of numbers."""
+
+
+def evaluate(options: Namespace) -> int:
+    """The figures of a file. Of a certificate it needs no server, and is 1 unless all of it
+    follows from its raw captures."""
+    body = read_json(options.file)
+    if is_certificate(body):
+        return _certificate(evaluate_certificate(body), options.json)
+    answer = server_of(options).ask("POST", "/calibration/evaluate", json=body)
+    if options.json:
+        print_json(answer)
+        return 0
+    for name, value in answer.items():
+        print(f"{name:20} {text_of(value)}")
+    return 0
+
+
+def _certificate(found: Evaluated, as_json: bool) -> int:
+    if as_json:
+        print_json(_plain(found))
+    else:
+        _print(found)
+    return 0 if found.reproduced else 1
+
+
+def _plain(found: Evaluated) -> dict[str, Any]:
+    return {
+        "reproduced": found.reproduced,
+        "sha256": found.sha256,
+        "stated_sha256": found.stated_sha256,
+        "differences": [asdict(difference) for difference in found.differences],
+        "worked": to_plain(found.worked),
+    }
+
+
+def _print(found: Evaluated) -> None:
+    about, worked = found.told.about, found.worked
+    changed = "" if found.sha256 == found.stated_sha256 else ": CHANGED, it was another"
+    print(f"Certificate {about.number} of {about.unit_key}, {found.sha256}{changed}")
+    state = "all of it follows from the raw captures"
+    if found.differences:
+        state = f"{len(found.differences)} VALUES DO NOT FOLLOW from the raw captures"
+    print(f"  {len(found.told.captures)} captures; {state}")
+    for difference in found.differences[:SHOWN_MAX]:
+        stated, computed = text_of(difference.stated), text_of(difference.computed)
+        print(f"  {difference.path}: says {stated}, is {computed}")
+    if worked.fit is not None:
+        for name in worked.fit.names:
+            value = getattr(worked.fit.coefficients, name)
+            print(f"  {name:20} {value:.6g} ± {worked.fit.expanded(name):.2g}")
+    if worked.budget is not None:
+        torque, expanded = worked.budget.torque_nm[-1], worked.budget.expanded_nm[-1]
+        print(f"  {'uncertainty':20} ± {expanded:.2f} Nm at {torque:g} Nm, k = 2")
+    judgement = worked.judgement
+    print(f"  {'judgement':20} {judgement.verdict} ({judgement.limits.source})")
+    for cause in judgement.causes:
+        print(f"    {cause.weight}: {cause.sentence}")

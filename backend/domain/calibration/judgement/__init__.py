@@ -1,0 +1,1 @@
+"""Whether a calibration passes: limits, verification, and the earlier ones beside it."""

@@ -1,0 +1,59 @@
+"""What a calibration may be off by, per market and model, and who says so."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from pydantic import Field
+
+from backend.domain.calibration.plain import Plain
+
+Percent = Annotated[float, Field(gt=0, le=100)]
+
+EXAMPLE = "example limits"
+
+
+@dataclass(frozen=True, slots=True)
+class Limits(Plain):
+    """Percent of full scale, unless the name says otherwise.
+
+    source: who says so. expanded_pct: of the whole budget, k = 2. reference_pct: of what arm,
+    masses, gravity and level leave open, k = 2. gain_change_pct: of the unit's gain, found against
+    kept. left_right_pct, bending_pct: of the load.
+    """
+
+    source: str = EXAMPLE
+    market: str | None = None
+    model: str | None = None
+    linearity_pct: Percent = 0.7
+    hysteresis_pct: Percent = 0.3
+    repeatability_pct: Percent = 0.6
+    zero_return_pct: Percent = 0.3
+    total_pct: Percent = 1.0
+    expanded_pct: Percent = 1.0
+    reference_pct: Percent = 0.5
+    left_right_pct: Percent = 1.0
+    bending_pct: Percent = 1.0
+    gain_change_pct: Percent = 1.0
+
+
+DEFAULTS: tuple[Limits, ...] = (
+    Limits(),
+    # Up to 45 km/h and 750 W: the same share of the torque is more power than elsewhere.
+    Limits(market="us_class_3", expanded_pct=0.8, total_pct=0.8),
+)
+
+
+def limits_for(
+    market: str | None, model: str | None, table: tuple[Limits, ...] = DEFAULTS
+) -> Limits:
+    """The most particular entry that fits: of model and market, of the model, of the market, any.
+
+    Raises nothing: a table without an entry for anybody falls back to the example limits.
+    """
+    for wanted in ((market, model), (None, model), (market, None), (None, None)):
+        for entry in table:
+            if (entry.market, entry.model) == wanted:
+                return entry
+    return Limits()

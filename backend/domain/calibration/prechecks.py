@@ -1,0 +1,72 @@
+"""What must be so before the first capture: standing, nobody on the pedals, supply, temperature."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from backend.domain.calibration.plain import Plain
+
+ZERO_BAND_NM = 5.0
+"""As far from the kept zero as the unit lets a zero be set: beyond, a foot is on the pedal."""
+
+WARMING_K = 1.0
+"""Over the last minute: one step of the thermometer."""
+
+
+@dataclass(frozen=True, slots=True)
+class Measured(Plain):
+    """What the unit says now; None where it does not tell. idle_nm: rider torque on the kept
+    calibration. warming_k: of the sensor over the last minute."""
+
+    wheel_kmh: float | None = None
+    cadence_rpm: float | None = None
+    motor_rpm: float | None = None
+    idle_nm: float | None = None
+    battery_v: float | None = None
+    battery_min_v: float | None = None
+    warming_k: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Check(Plain):
+    """passed: None where nobody could tell. figure, allowed: in the unit the code implies."""
+
+    code: str
+    passed: bool | None
+    sentence: str
+    figure: float | None
+    allowed: float | None
+
+
+def prechecks(measured: Measured) -> tuple[Check, ...]:
+    """All of them, in the order of the page."""
+    turning = [
+        abs(value)
+        for value in (measured.wheel_kmh, measured.cadence_rpm, measured.motor_rpm)
+        if value is not None
+    ]
+    return (
+        _at_most("standing", max(turning, default=None), 0.0, "nothing turns"),
+        _at_most("pedals_free", _size(measured.idle_nm), ZERO_BAND_NM, "nobody on the pedals"),
+        _supply(measured),
+        _at_most("temperature", _size(measured.warming_k), WARMING_K, "temperature is steady"),
+    )
+
+
+def _size(value: float | None) -> float | None:
+    return None if value is None else abs(value)
+
+
+def _at_most(code: str, figure: float | None, allowed: float, sentence: str) -> Check:
+    if figure is None:
+        return Check(code, None, f"{sentence}: the unit does not tell", None, allowed)
+    passed = figure <= allowed
+    told = f"{sentence}: {figure:.1f}, {allowed:g} is allowed"
+    return Check(code, passed, told, figure, allowed)
+
+
+def _supply(measured: Measured) -> Check:
+    figure, least = measured.battery_v, measured.battery_min_v
+    if figure is None or least is None:
+        return Check("supply", None, "supply: the unit does not tell", figure, least)
+    return Check("supply", figure >= least, f"supply: {figure:.1f} V of {least:g} V", figure, least)
