@@ -130,3 +130,9 @@ def sample_seconds(times_us: np.ndarray[tuple[int], np.dtype[np.int64]], pause_u
     held = np.append(spacing, usual).astype(np.float64)
     held[held > pause_us] = usual
     return np.maximum(held, 0.0) / 1e6
+
+
+def rate_hz(seconds: Values) -> float | None:
+    """How often samples (n,) come that hold for `seconds`, by the middle one; None without any."""
+    running = seconds[seconds > 0.0]
+    return 1.0 / float(np.median(running)) if len(running) else None

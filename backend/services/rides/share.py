@@ -13,7 +13,6 @@ from backend.views.export.blurred import ShownRide, shown_ride, shown_rows
 from backend.views.export.csv import csv_chunks
 from backend.views.export.seconds import by_second
 
-BLUR_M_MIN, BLUR_M_MAX = 50.0, 5000.0
 KNOWN = frozenset(fit.CHANNELS)
 SHARED = ("fit", "gpx", "csv")
 
@@ -40,16 +39,14 @@ def share(store: Store, ride: Ride, file_format: str, blur_m: float) -> Export:
 
 
 def what_is_shown(store: Store, ride: Ride, blur_m: float) -> ShownRide:
-    """The rows that may be told."""
+    """The rows that may be told, of the channels that a stranger's format knows."""
     reader = verified(store, ride)
-    names = [channel.name for channel in ride.channels]
+    channels = tuple(channel for channel in ride.offered if channel.name in KNOWN)
     count = reader.row_count
-    rows = RideRows(ride.channels, reader.times_us(0, count), reader.counts(names, 0, count))
-    at = reader.values(("latitude_deg", "longitude_deg"))
+    counts = reader.counts([channel.name for channel in channels], 0, count)
+    rows = RideRows(channels, reader.times_us(0, count), counts)
     secret = (store.objects.identity() or "").encode()
-    nowhere = np.full(count, np.nan)
-    latitudes = at.get("latitude_deg", nowhere)
-    shown = shown_rows(latitudes, at.get("longitude_deg", nowhere), blur_m, secret)
+    shown = shown_rows(rows, blur_m, secret)
     if shown is None:
         raise InvalidRequest(
             f"Ride {ride.id} has no position: there is nothing to blur.", code="no_positions"
@@ -60,7 +57,7 @@ def what_is_shown(store: Store, ride: Ride, blur_m: float) -> ShownRide:
             "can be shared.",
             code="nothing_to_share",
         )
-    return shown_ride(ride, rows, shown, KNOWN)
+    return shown_ride(ride, rows, np.asarray(reader.row_seconds()), shown)
 
 
 def part(rows: RideRows, start: int) -> RideRows:

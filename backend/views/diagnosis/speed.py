@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from backend.domain.channels import Values
-from backend.domain.energy import KMH_PER_MS
+from backend.domain.energy import KMH_PER_MS, rate_hz
 from backend.domain.standards.sphere import EARTH_M
 from backend.views.diagnosis.finding import WARNING, Evidence, Finding
 from backend.views.insight.way import way_of
@@ -84,8 +84,7 @@ def driven_without_speed(
 
 def window_rows(ride: Evidence) -> int:
     """Rows of a second."""
-    usual = float(np.median(ride.seconds[ride.seconds > 0.0])) if len(ride.seconds) else 1.0
-    return max(1, min(round(1.0 / max(usual, 1e-3)), len(ride.start_s)))
+    return max(1, min(round(min(rate_hz(ride.seconds) or 1.0, 1000.0)), len(ride.start_s)))
 
 
 def wheel(ride: Evidence) -> list[Finding] | None:

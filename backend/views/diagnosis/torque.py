@@ -6,7 +6,9 @@ import numpy as np
 
 from backend.domain._generated import RESTING_KMH
 from backend.domain.channels import Values
+from backend.domain.energy import rate_hz
 from backend.views.diagnosis.finding import SERIOUS, WARNING, Evidence, Finding
+from backend.views.insight.crank import RATE_HZ_MIN
 
 TORQUE, RAW, CADENCE, SPEED = "rider_torque_nm", "rider_torque_raw", "cadence_rpm", "speed_kmh"
 
@@ -17,7 +19,6 @@ ZERO_NM = 1.0
 """Cold moves the zero by about 1 Nm in 50 K; more than that over a whole ride is no weather."""
 FULL_SCALE_COUNTS = 32767.0
 """What the converter's end reads, of either sign (physics/torque_sensor.h, faults/inputs.c)."""
-RATE_HZ_MIN = 20.0
 FLAT_ROWS, FLAT_STROKES, FLAT_NM = 5, 3, 30.0
 """The greatest torque, held this long in so many strokes: legs make no flat top."""
 
@@ -77,10 +78,9 @@ def saturation(ride: Evidence) -> list[Finding] | None:
     if ride.has(RAW):
         return at_the_end(ride)
     torque = ride.values[TORQUE]
-    rate_hz = 1.0 / float(np.median(ride.seconds[ride.seconds > 0.0]))
-    greatest = float(np.nanmax(torque))
-    if rate_hz < RATE_HZ_MIN:
+    if (rate_hz(ride.seconds) or 0.0) < RATE_HZ_MIN:
         return None
+    greatest = float(np.nanmax(torque))
     if greatest < FLAT_NM:
         return []
     tops = [rows for rows in ride.spans(torque == greatest) if rows.stop - rows.start >= FLAT_ROWS]

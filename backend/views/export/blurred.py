@@ -33,7 +33,7 @@ from backend.domain.ride import Ride, RideRows, summarise
 from backend.domain.standards.sphere import EARTH_M, great_circle_m
 
 Mask = npt.NDArray[np.bool_]
-DISTANCE = "distance_m"
+DISTANCE, LATITUDE, LONGITUDE = "distance_m", "latitude_deg", "longitude_deg"
 # The middle of a zone is moved by up to so much of the blur; the zone reaches that much further.
 MOVED = 0.5
 # Homes in one square of so many blurs are moved alike.
@@ -42,17 +42,21 @@ NEIGHBOURHOOD = 8.0
 
 @dataclass(frozen=True)
 class ShownRide:
-    """What is left of a ride: its facts, rows and physical values (n,), as if it were a whole."""
+    """What is left of a ride: its facts, the rows of its recorded channels, and physical values
+    (n,), also of derived ones, as if it were a whole."""
 
     ride: Ride
     rows: RideRows
     values: dict[str, Values]
 
 
-def shown_rows(
-    latitude_deg: Values, longitude_deg: Values, blur_m: float, secret: bytes
-) -> Mask | None:
+def shown_rows(rows: RideRows, blur_m: float, secret: bytes) -> Mask | None:
     """Which rows (n,) may be told; None where the ride has no position at all."""
+    specs = {channel.name: channel for channel in rows.channels}
+    if not {LATITUDE, LONGITUDE} <= specs.keys():
+        return None
+    latitude_deg = specs[LATITUDE].to_values(rows.counts[LATITUDE])
+    longitude_deg = specs[LONGITUDE].to_values(rows.counts[LONGITUDE])
     there = np.isfinite(latitude_deg) & np.isfinite(longitude_deg)
     known = np.flatnonzero(there)
     if not len(known):
@@ -89,18 +93,21 @@ def moved(
     )
 
 
-def shown_ride(ride: Ride, rows: RideRows, shown: Mask, known: frozenset[str]) -> ShownRide:
-    """The shown rows (n,) of a ride, of the known channels only; at least one row is shown."""
+def shown_ride(ride: Ride, rows: RideRows, seconds: Values, shown: Mask) -> ShownRide:
+    """The shown rows (n,) of a ride; at least one is shown.
+
+    rows: of channels whose meaning is known, recorded and derived. seconds: how long each holds.
+    """
     kept = np.flatnonzero(shown)
     begun_us = int(rows.times_us[kept[0]])
-    channels = tuple(channel for channel in ride.channels if channel.name in known)
-    counts = {channel.name: rows.counts[channel.name][kept] for channel in channels}
+    counts = {name: column[kept] for name, column in rows.counts.items()}
     if DISTANCE in counts:
-        spec = next(channel for channel in channels if channel.name == DISTANCE)
+        spec = next(channel for channel in rows.channels if channel.name == DISTANCE)
         odometer = spec.to_values(counts[DISTANCE])
         counts[DISTANCE] = spec.to_counts(joined(odometer, np.diff(kept, prepend=kept[0]) > 1))
     times_us = rows.times_us[kept] - begun_us
-    values = {c.name: c.to_values(counts[c.name]) for c in channels}
+    values = {c.name: c.to_values(counts[c.name]) for c in rows.channels}
+    recorded = tuple(channel for channel in rows.channels if channel in ride.channels)
     told = replace(
         ride,
         name="",
@@ -109,12 +116,13 @@ def shown_ride(ride: Ride, rows: RideRows, shown: Mask, known: frozenset[str]) -
         place=None,
         started_us=ride.started_us + begun_us,
         row_count=len(kept),
-        channels=channels,
+        channels=recorded,
+        derived=tuple(channel for channel in rows.channels if channel not in recorded),
         gaps=(),
         events=(),
-        summary=summarise(values, times_us, ride.period_us),
+        summary=summarise(values, times_us, ride.period_us, seconds[kept]),
     )
-    return ShownRide(told, RideRows(channels, times_us, counts), values)
+    return ShownRide(told, RideRows(recorded, times_us, counts), values)
 
 
 def joined(distance_m: Values, begins: Mask) -> Values:

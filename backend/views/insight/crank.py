@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from backend.domain.channels import Values
+from backend.domain.energy import rate_hz
 
 BINS = 36
 ANGLE_DEG = 360.0 / BINS
@@ -59,8 +60,7 @@ def crank_torque(
 
     motor_nm: what the motor gave, at the crank; None where that is not known.
     """
-    running = seconds[seconds > 0.0]
-    if not len(running) or 1.0 / float(np.median(running)) < RATE_HZ_MIN:
+    if (rate_hz(seconds) or 0.0) < RATE_HZ_MIN:
         return "slow_rows"
     turning = np.isfinite(angle_deg) & np.isfinite(rider_nm) & (cadence_rpm >= CADENCE_RPM_MIN)
     if motor_nm is not None:

@@ -38,6 +38,8 @@ DISTANCE = ChannelSpec("distance_m", "m", 0.01, wide=True)
 HIDDEN = ChannelSpec("home_distance", "", 1.0)
 LATITUDE = ChannelSpec("latitude_deg", "deg", 180 / 2**31, wide=True)
 LONGITUDE = ChannelSpec("longitude_deg", "deg", 180 / 2**31, wide=True)
+TORQUE = ChannelSpec("rider_torque_nm", "Nm", 0.01)
+CADENCE = ChannelSpec("cadence_rpm", "rpm", 0.5)
 CHANNELS = (SPEED, DISTANCE, HIDDEN, LATITUDE, LONGITUDE)
 
 
@@ -173,6 +175,30 @@ def test_no_word_or_unknown_channel_is_told(store: Store) -> None:
         assert b"Home Street" not in body
         assert b"mat" not in body.replace(b"format", b"")
         assert b"home_distance" not in body
+
+
+def test_a_shared_fit_file_has_the_powers_that_the_whole_one_has(store: Store) -> None:
+    path_m = there_and_back(0.7)
+    rows = len(path_m)
+    columns = {
+        LATITUDE: DOOR[0] + path_m[:, 1] / M_PER_DEG,
+        LONGITUDE: DOOR[1] + path_m[:, 0] / M_PER_DEG / np.cos(np.radians(DOOR[0])),
+        TORQUE: np.full(rows, 30.0),
+        CADENCE: np.full(rows, 60.0),
+    }
+    counts = {spec.name: spec.to_counts(values) for spec, values in columns.items()}
+    times_us = np.arange(rows, dtype=np.int64) * 1_000_000
+    channels = tuple(columns)
+    ride = Ride(
+        0, "live", "imported", "", "", START_S * 10**6, rows, 10**6, channels, (), RideContext()
+    )
+    ride_id = store.rides.add(ride, RideRows(channels, times_us, counts)).id
+
+    (shared,) = read_file("a.fit", exported(store, ride_id, "fit")).rides
+
+    power = next(c for c in shared.rows.channels if c.name == "rider_power_w")
+    # 30 Nm at a turn a second.
+    assert power.to_values(shared.rows.counts[power.name]) == pytest.approx(188.0, abs=0.5)
 
 
 def test_what_cannot_be_blurred_is_refused(store: Store) -> None:

@@ -119,6 +119,13 @@ def test_a_clipped_torque_has_flat_tops() -> None:
     assert answer(evidence(once_a_second, 1.0), "saturation").missing == ("fast_rows",)
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_single_row_is_no_fast_recording() -> None:
+    ride = Evidence({"rider_torque_nm": np.array([40.0])}, np.zeros(1), np.zeros(1), Limits(0))
+
+    assert answer(ride, "saturation").missing == ("fast_rows",)
+
+
 def test_a_lost_rotor_link_is_old_torque() -> None:
     riding = [(6.0, RIDING), (3.0, {"faults": {"link_lost": True}}), (3.0, {"faults": {}})]
     ride = evidence(simulated_ride(riding))
