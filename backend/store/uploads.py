@@ -14,11 +14,11 @@ import threading
 import time
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import Connection, Row, func, insert, select, update
+from sqlalchemy import Connection, Row, Select, func, insert, select, union_all, update
 
 from backend.domain.ride import iso_utc
 from backend.errors import BadFile, Conflict, NotFound, StoreError
@@ -31,6 +31,8 @@ from backend.store.sql.database import Database
 RECEIVING = "receiving"
 REJECTED = "rejected"
 TOKEN = re.compile(r"[0-9a-f]{32}")
+# Databases take only so many values in one question.
+ROWS_AT_ONCE = 500
 
 
 @dataclass(frozen=True)
@@ -180,7 +182,7 @@ class UploadStore:
             os.fsync(file.fileno())
         received = offset + len(data)
         self._set(token, received=received)
-        return self.get(token)
+        return replace(upload, received=received)
 
     def head(self, token: str, size: int) -> bytes:
         """The first bytes of an upload that is still arriving. Raises StoreError."""
@@ -253,43 +255,34 @@ class UploadStore:
     def get(self, token: str) -> Upload:
         """One upload by its id. Raises NotFound."""
 
-        upload = self._database.read(lambda c: found_upload(c, token))
-        if upload is None:
+        found = self._found(select(t.upload).where(t.upload.c.token == token))
+        if not found:
             raise NotFound(f"There is no upload {token}.")
-        return upload
+        return found[0]
 
     def parts(self, token: str) -> tuple[Upload, ...]:
         """The files within a container, in its order."""
-
-        def work(connection: Connection) -> list[str]:
-            whole = upload_key(connection, token)
-            query = select(t.upload.c.token).where(t.upload.c.part_of == whole)
-            return list(connection.execute(query.order_by(t.upload.c.id)).scalars())
-
-        return tuple(self.get(part) for part in self._database.read(work))
+        whole = select(t.upload.c.id).where(t.upload.c.token == token).scalar_subquery()
+        return self._found(
+            select(t.upload).where(t.upload.c.part_of == whole).order_by(t.upload.c.id)
+        )
 
     def first_with(self, sha256: str) -> Upload | None:
         """The first upload of the same bytes that became rides, None when there is none."""
         query = (
-            select(t.upload.c.token)
+            select(t.upload)
             .join(t.ride, t.ride.c.upload_id == t.upload.c.id)
             .where(t.upload.c.sha256 == sha256)
             .order_by(t.upload.c.id)
             .limit(1)
         )
-        token = self._database.read(lambda c: c.execute(query).scalar())
-        return None if token is None else self.get(token)
+        return next(iter(self._found(query)), None)
 
     def waiting(self) -> tuple[Upload, ...]:
         """Uploads that have arrived and whose contents nobody has looked at yet."""
         arrived = (t.upload.c.state == RECEIVING) & (t.upload.c.received == t.upload.c.length)
-        query = (
-            select(t.upload.c.token)
-            .where((t.upload.c.state == "queued") | arrived)
-            .order_by(t.upload.c.id)
-        )
-        tokens = self._database.read(lambda c: c.execute(query).scalars().all())
-        return tuple(self.get(token) for token in tokens)
+        mine = (t.upload.c.state == "queued") | arrived
+        return self._found(select(t.upload).where(mine).order_by(t.upload.c.id))
 
     def asking(self, code: str, header_sha256: str) -> Sequence[str]:
         """Ids of the uploads rejected with `code` that wait for what is said of a header, the first
@@ -354,7 +347,7 @@ class UploadStore:
 
         part_of: those within this one, else those within none. sha256: of these bytes only.
         """
-        query = select(t.upload.c.token).order_by(t.upload.c.id.desc()).limit(limit)
+        query = select(t.upload).order_by(t.upload.c.id.desc()).limit(limit)
         if part_of is not None:
             whole = self._database.read(lambda c: upload_key(c, part_of))
             query = query.where(t.upload.c.part_of == whole)
@@ -368,8 +361,7 @@ class UploadStore:
             if key is None:
                 raise NotFound(f"There is no upload {before}.")
             query = query.where(t.upload.c.id < key)
-        tokens = self._database.read(lambda c: c.execute(query).scalars().all())
-        return tuple(self.get(token) for token in tokens)
+        return self._found(query)
 
     def unknown_spooled(self) -> Sequence[Path]:
         """Spooled files that no upload knows; empty ones, which a crash leaves, are removed."""
@@ -392,6 +384,9 @@ class UploadStore:
         rows = self._database.read(lambda c: c.execute(query).all())
         return {key or content_key("originals", sha256) for key, sha256 in rows}
 
+    def _found(self, query: Select[Any]) -> tuple[Upload, ...]:
+        return self._database.read(lambda c: uploads_of(c, c.execute(query).all()))
+
     def _path(self, token: str) -> Path:
         return self._spool / token
 
@@ -411,33 +406,50 @@ def told_of_rides(token: str, rides: Sequence[int]) -> str:
     return f"Rides {named} came from upload {token}: delete them, and the file goes with the last."
 
 
-def found_upload(connection: Connection, token: str) -> Upload | None:
-    """An upload by its public token, None when there is none."""
-    row = connection.execute(select(t.upload).where(t.upload.c.token == token)).first()
-    if row is None:
-        return None
-    made = select(t.ride_source.c.ride_id).where(
-        t.ride_source.c.upload_id == row.id, t.ride_source.c.part == MADE
-    )
-    mine = (
-        (t.ride.c.upload_id == row.id) | (t.ride.c.id == row.duplicate_of) | t.ride.c.id.in_(made)
-    )
-    rides = connection.execute(select(t.ride.c.id).where(mine).order_by(t.ride.c.id)).scalars()
-    whole = select(t.upload.c.token).where(t.upload.c.id == row.part_of)
-    part_of = None if row.part_of is None else connection.execute(whole).scalar()
-    return upload_from_row(row, tuple(rides), part_of, counted_parts(connection, row.id))
+def uploads_of(connection: Connection, rows: Sequence[Row[Any]]) -> tuple[Upload, ...]:
+    """Rows of the table as uploads, in their order; a few questions for many of them."""
+    found: list[Upload] = []
+    for start in range(0, len(rows), ROWS_AT_ONCE):
+        some = rows[start : start + ROWS_AT_ONCE]
+        rides, parts = rides_by(connection, some), parts_by(connection, [row.id for row in some])
+        wholes = {row.part_of for row in some} - {None}
+        query = select(t.upload.c.id, t.upload.c.token).where(t.upload.c.id.in_(wholes))
+        tokens: dict[int, str] = {row.id: row.token for row in connection.execute(query)}
+        for row in some:
+            mine = tuple(sorted(rides.get(row.id, ())))
+            found.append(upload_from_row(row, mine, tokens.get(row.part_of), parts.get(row.id)))
+    return tuple(found)
 
 
-def counted_parts(connection: Connection, upload_id: int) -> Parts | None:
-    """What became of the files within an upload, None where there are none."""
+def rides_by(connection: Connection, rows: Sequence[Row[Any]]) -> dict[int, set[int]]:
+    """Rides that uploads became or are of, by the upload's row id."""
+    keys = [row.id for row in rows]
+    link = t.ride_source.c
+    made = select(link.upload_id, link.ride_id).where(link.upload_id.in_(keys), link.part == MADE)
+    first = select(t.ride.c.upload_id, t.ride.c.id).where(t.ride.c.upload_id.in_(keys))
+    found: dict[int, set[int]] = {}
+    for key, ride_id in connection.execute(union_all(made, first)):
+        found.setdefault(key, set()).add(ride_id)
+    twins = {row.duplicate_of for row in rows} - {None}
+    here = set(connection.execute(select(t.ride.c.id).where(t.ride.c.id.in_(twins))).scalars())
+    for row in rows:
+        if row.duplicate_of in here:
+            found.setdefault(row.id, set()).add(row.duplicate_of)
+    return found
+
+
+def parts_by(connection: Connection, keys: Sequence[int]) -> dict[int, Parts]:
+    """What became of the files within those uploads that have some, by the upload's row id."""
     here = t.upload.c.code.in_(("duplicate", "filled"))
-    query = select(t.upload.c.state, here, func.count()).group_by(t.upload.c.state, here)
-    counted: dict[str, int] = {}
-    for state, is_here, count in connection.execute(query.where(t.upload.c.part_of == upload_id)):
-        judged = state if state in ("complete", "partial", REJECTED) else "waiting"
+    whole, state = t.upload.c.part_of, t.upload.c.state
+    query = select(whole, state, here, func.count()).where(whole.in_(keys))
+    counted: dict[int, dict[str, int]] = {}
+    for key, told, is_here, count in connection.execute(query.group_by(whole, state, here)):
+        judged = told if told in ("complete", "partial", REJECTED) else "waiting"
         name = "here" if is_here else judged
-        counted[name] = counted.get(name, 0) + count
-    return Parts(**counted) if counted else None
+        mine = counted.setdefault(key, {})
+        mine[name] = mine.get(name, 0) + count
+    return {key: Parts(**mine) for key, mine in counted.items()}
 
 
 def upload_from_row(

@@ -7,6 +7,7 @@ nothing: the container still waits, and what of it has become an upload is not m
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections import Counter, deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
@@ -109,6 +110,7 @@ class Container:
         """Give rides the names they had where they come from, unless somebody named them here."""
         if not (titles.by_name or titles.by_start_us):
             return
+        titles = Titles(titles.by_name, tuple(sorted(titles.by_start_us)))
         for part in parts:
             for ride_id in part.ride_ids if part.duplicate_of is None else ():
                 with suppress(NotFound):
@@ -174,10 +176,11 @@ def summary(counted: Counter[str], left_alone: int) -> str:
 
 
 def started_at(titles: Titles, started_us: int) -> tuple[str, str] | None:
-    """What the export calls the ride that began then."""
+    """What the export calls the ride that began then. titles: in order of their starts."""
+    at = bisect_left(titles.by_start_us, (started_us, "", ""))
     near = [
         (abs(start_us - started_us), title, about)
-        for start_us, title, about in titles.by_start_us
+        for start_us, title, about in titles.by_start_us[max(at - 1, 0) : at + 1]
         if abs(start_us - started_us) <= SAME_START_US
     ]
     return min(near)[1:] if near else None
