@@ -33,6 +33,7 @@ from backend.link import kind_of
 from backend.services.health import Health
 from backend.services.imports.collect import Collect
 from backend.services.imports.mapping import TableMapping
+from backend.services.imports.sample import sample_ride
 from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
 from backend.services.keeping import Keeping
 from backend.services.rides.cards import RideCards
@@ -146,6 +147,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             insight=Insight(store, memory.ride_config),
             uploads=uploads,
             tables=TableMapping(store, uploads),
+            sample_ride=partial(sample_ride, store, uploads),
             collect=collect,
         )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, cast
 
@@ -68,6 +69,7 @@ class Services:
     insight: Insight
     uploads: Uploads
     tables: TableMapping
+    sample_ride: Callable[[], int]
     collect: Collect
 
 

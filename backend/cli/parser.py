@@ -193,6 +193,7 @@ def _add_ride(verbs: Any) -> None:
     command = _asking(group, "upload", ride_upload.upload, help="files and whole folders")
     command.add_argument("paths", nargs="+", type=Path, metavar="PATH")
     command.add_argument("--watch", action="store_true", help="also what appears, until Ctrl-C")
+    _asking(group, "sample", ride.sample, help="a simulated ride to look round with")
     command = _asking(group, "list", ride.list_rides, help="newest first")
     command.add_argument("words", nargs="*", help="in name, notes, tags or place")
     command.add_argument("--limit", type=int, default=50)

@@ -168,6 +168,16 @@ def tag(options: Namespace) -> int:
     return 0
 
 
+def sample(options: Namespace) -> int:
+    """Has the sample ride made, or finds it."""
+    made = server_of(options).ask("POST", "/rides/sample")
+    if options.json:
+        print_json(made)
+    else:
+        print(f"ride {made['id']}: {made['name']}")
+    return 0
+
+
 def show(options: Namespace) -> int:
     """One ride's figures."""
     ride = server_of(options).ask("GET", f"/rides/{options.ride}")

@@ -22,6 +22,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Header, HTTPException, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
 
+from backend.api.models.ride import Ride
 from backend.api.models.upload import Upload, UploadList
 from backend.api.problem import problem_response, refusals
 from backend.api.services import Provided, Services
@@ -54,6 +55,12 @@ async def import_ride(name: FileName, request: Request, services: Provided) -> A
     with suppress(BadFile):
         await _append_stream(services, upload.id, 0, request.stream())
     return await run_in_threadpool(services.uploads.get, upload.id)
+
+
+@router.post("/rides/sample", operation_id="sample_ride", response_model=Ride)
+def make_sample_ride(services: Provided) -> Any:
+    """A ride to look round with, simulated and named so; the one that is here, if there is one."""
+    return services.rides.get(services.sample_ride())
 
 
 @router.options("/uploads", operation_id="describe_uploads", status_code=204)

@@ -22,6 +22,19 @@ export const en = {
   count_stopped: '{count} not sent',
   more: 'and {count} more',
   folder: 'Choose a folder…',
+  none_yet: 'No rides yet',
+  none_what:
+    'Drop ride files anywhere on this page (FIT, GPX, TCX, CSV), fetch what the unit has kept, or ' +
+    'look round with a sample ride. Damaged files are read as far as they go.',
+  live: 'Ride and record',
+  sample: 'Open the sample ride',
+  sample_name: 'Sample ride, simulated',
+  sample_notes: 'Simulated by Spindle to look round with: nobody rode it.',
+  fetch_from: 'Fetch from the unit ({count})',
+  unfetched: 'Rides in the unit, not fetched: {count}',
+  fetch_all: 'Fetch them ({count})',
+  import: 'Import files…',
+  fetched_before: 'Fetched before, and still in the unit.',
 }
 
 export type IntakeKey = keyof typeof en

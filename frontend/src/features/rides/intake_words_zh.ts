@@ -21,4 +21,16 @@ export const zh: Record<IntakeKey, string> = {
   count_stopped: '{count} 个未发送',
   more: '另有 {count} 个',
   folder: '选择文件夹…',
+  none_yet: '还没有骑行',
+  none_what:
+    '将骑行文件（FIT、GPX、TCX、CSV）拖放到本页任意位置，取回单元中保存的骑行，或用示例骑行了解各页。损坏的文件会尽量读取。',
+  live: '骑行并记录',
+  sample: '打开示例骑行',
+  sample_name: '示例骑行（模拟）',
+  sample_notes: '由 Spindle 模拟，供了解各页之用：没有人骑过。',
+  fetch_from: '从单元取回（{count}）',
+  unfetched: '单元中未取回的骑行：{count}',
+  fetch_all: '取回（{count}）',
+  import: '导入文件…',
+  fetched_before: '曾经取回，仍在单元中。',
 }

@@ -357,6 +357,11 @@ export class Server {
     return body(this.http.GET('/api/v1/rides/home', { params: { query } }))
   }
 
+  /** A simulated ride to look round with; made where it is not here yet. */
+  sampleRide(): Promise<Ride> {
+    return body(this.http.POST('/api/v1/rides/sample'))
+  }
+
   async tagRides(ride_ids: number[], change: { add?: string[]; remove?: string[] }) {
     const request = { body: { ride_ids, add: [], remove: [], ...change } }
     await body(this.http.POST('/api/v1/rides/tags', request))

@@ -5,7 +5,6 @@ export const enRides = {
   'rides.choose': 'Choose files…',
   'rides.let_go': 'Let go to read these files',
   'rides.files': 'Files',
-  'rides.none': 'No rides yet. Ride a bike, or drop a file here.',
   'rides.more': 'Show older rides',
   'rides.open': 'Open the ride',
   'rides.say': 'Say units and zone',

@@ -7,7 +7,6 @@ export const zhRides: Record<keyof typeof enRides, string> = {
   'rides.choose': '选择文件…',
   'rides.let_go': '松开即可读取这些文件',
   'rides.files': '文件',
-  'rides.none': '还没有骑行。去骑车，或把文件拖到这里。',
   'rides.more': '显示更早的骑行',
   'rides.open': '打开骑行',
   'rides.say': '说明单位和时区',

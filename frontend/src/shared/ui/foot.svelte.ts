@@ -1,16 +1,19 @@
 // The foot of the window: messages, and below them the one action bar of the page. It stands in the
 // page's own flow, so that neither lies over the other, and nothing is under it that cannot be
 // scrolled out.
-import type { Snippet } from 'svelte'
+import { untrack, type Snippet } from 'svelte'
 
 export class Foot {
-  bar = $state.raw<Snippet | null>(null)
+  private bars = $state.raw<Snippet[]>([])
 
-  /** Shows an action bar; what comes back takes it away, unless another has come. */
+  /** The one that came last. */
+  get bar(): Snippet | null {
+    return this.bars.at(-1) ?? null
+  }
+
+  /** Shows an action bar; what comes back takes it away, and the one before is seen again. */
   show(bar: Snippet): () => void {
-    this.bar = bar
-    return () => {
-      if (this.bar === bar) this.bar = null
-    }
+    untrack(() => (this.bars = [...this.bars, bar]))
+    return () => untrack(() => (this.bars = this.bars.filter((one) => one !== bar)))
   }
 }

@@ -1,0 +1,29 @@
+"""A ride to look round with: what a simulated unit's own recorder kept of a ride through town."""
+
+from __future__ import annotations
+
+from sim_device.lockstep import LockstepUnit
+
+SCENARIO = "commute"
+SEED = 7
+LOOK_S = 1.0
+# The modes of the factory that give more and more, then the fuzzy one.
+MODES = ((0, 1), (60, 2), (110, 3))
+"""Seconds after the start, and the slot chosen then."""
+FLASH_PAGE_BYTES = 512
+
+
+def sample_log() -> bytes:
+    """The flash for ride logs after one round of the scenario: blocks that each stand alone.
+
+    The same bytes each time: the noise has its seed, and time is the unit's own.
+    """
+    unit = LockstepUnit(SEED, name="sample", scenario=SCENARIO)
+    chosen = 0
+    for seen in unit.ride_once(LOOK_S):
+        while chosen < len(MODES) and seen["t_s"] >= MODES[chosen][0]:
+            unit.select_mode(MODES[chosen][1])
+            chosen += 1
+    log = unit.unit.log()
+    written = len(log.rstrip(b"\xff"))
+    return log[: -(-written // FLASH_PAGE_BYTES) * FLASH_PAGE_BYTES]

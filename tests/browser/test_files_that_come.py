@@ -1,0 +1,121 @@
+"""Goal: who has no ride gets a first one; hundreds of files are one summary that can be paused; a
+table that does not say its units is asked about once.
+
+Method: a server of its own that begins without a ride; files are written here.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.conftest import OpenDesk
+from tests.browser.test_rides_page import TRACES, drop_file
+from tests.fakes.fit_file import START_S, fit_ride
+from tests.fakes.server import SpindleServer, eventually
+
+FILES = 200
+DAY_S = 86_400
+ROWS_S = 60
+
+
+@pytest.fixture(scope="module")
+def fresh(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
+    running = SpindleServer(tmp_path_factory.mktemp("fresh"), ["sim:fresh?scenario=none"]).start()
+    running.all_ready(1)
+    yield running
+    running.stop()
+
+
+def table(start: str) -> bytes:
+    """A ride of a minute at 5 m a second, whose header says neither unit nor zone."""
+    hour = int(start[-2:])
+    rows = [f"{start[:-2]}{hour:02}:{s // 60:02}:{s % 60:02},5.0,80" for s in range(120)]
+    return "\n".join(["time,speed,cadence", *rows, ""]).encode()
+
+
+def test_who_has_no_ride_looks_round_with_a_sample_and_deletes_it(
+    open_desk: OpenDesk, fresh: SpindleServer
+) -> None:
+    page = open_desk(address=fresh.url).open("/rides")
+    expect(page.locator("#intake")).to_have_text("No rides yet")
+    expect(page.get_by_test_id("rider-totals")).to_have_count(0)
+
+    page.get_by_role("button", name="Open the sample ride").click()
+
+    page.wait_for_selector(f"{TRACES}[data-draws]")
+    expect(page.locator("h1")).to_have_text("Sample ride, simulated")
+    expect(page.locator("main")).to_contain_text("nobody rode it")
+    page.once("dialog", lambda question: question.accept())
+    page.get_by_test_id("ride-bar").get_by_role("button", name="Delete").click()
+    expect(page.locator("#intake")).to_have_text("No rides yet")
+    assert fresh.get("/rides")["items"] == []
+
+
+def test_a_table_that_does_not_say_its_units_is_asked_about_once(
+    open_desk: OpenDesk, fresh: SpindleServer
+) -> None:
+    page = open_desk(address=fresh.url).open("/rides")
+    drop_file(page, "first.csv", table("2026-05-01 10"))
+    page.get_by_role("button", name="Say units and zone of first.csv").click()
+    dialog = page.get_by_role("dialog")
+    expect(dialog.get_by_test_id("table-columns")).to_contain_text("5.0 · 5.0 · 5.0")
+    reading = dialog.get_by_role("button", name="Read the file")
+    expect(reading).to_be_disabled()
+
+    dialog.get_by_label("Unit of speed").select_option("m/s")
+    dialog.get_by_label("Time zone of its times").fill("Europe/Dublin")
+    reading.click()
+
+    row = page.get_by_test_id("intake-list").locator("li")
+    expect(row).to_have_attribute("data-state", "complete")
+    expect(page.get_by_test_id("ride-table")).to_contain_text("18.0")
+    drop_file(page, "second.csv", table("2026-05-02 10"))
+    expect(row.filter(has_text="second.csv")).to_have_attribute("data-state", "complete")
+    rides = fresh.get("/rides")["items"]
+    # Ten in the morning in Dublin's summer; 119 s at 5 m/s.
+    assert {ride["started_at"][:16] for ride in rides} == {"2026-05-01T09:00", "2026-05-02T09:00"}
+    assert [ride["summary"]["distance_km"] for ride in rides] == [pytest.approx(0.6, 0.02)] * 2
+
+
+def done_of(page: Page) -> int:
+    found = re.match(r"(\d+) of", page.get_by_test_id("batch-progress").inner_text())
+    return int(found[1]) if found else 0
+
+
+def test_hundreds_of_files_pause_go_on_and_end_in_one_summary(
+    open_desk: OpenDesk, fresh: SpindleServer
+) -> None:
+    before = fresh.get("/rides")["total"]
+    files: list[Any] = [
+        {"name": f"ride {day}.fit", "mimeType": "", "buffer": ride_of_day(day)}
+        for day in range(FILES)
+    ]
+    files[7]["buffer"] = files[7]["buffer"][: len(files[7]["buffer"]) * 2 // 3]
+    page = open_desk(address=fresh.url).open("/rides")
+    page.get_by_label("Choose files…").set_input_files(files)
+    eventually(lambda: done_of(page), lambda done: done >= 5)
+
+    page.get_by_role("button", name="Pause").click()
+
+    # What was on its way is read to its end, at most three.
+    at_rest = done_of(page)
+    eventually(lambda: fresh.get("/rides")["total"], lambda total: total - before >= at_rest)
+    expect(page.get_by_role("button", name="Go on")).to_be_visible()
+    assert at_rest <= done_of(page) <= at_rest + 3 < FILES
+    page.get_by_role("button", name="Go on").click()
+    expect(page.locator("h2", has_text=f"{FILES} files are in")).to_be_visible(timeout=120_000)
+    expect(page.get_by_test_id("batch-complete")).to_contain_text(f"{FILES - 1} read completely")
+    damaged = page.get_by_test_id("batch-partial")
+    damaged.locator("summary").click()
+    expect(damaged).to_contain_text("ride 7.fit")
+    assert fresh.get("/rides")["total"] == before + FILES
+
+
+def ride_of_day(day: int) -> bytes:
+    start_s = START_S + DAY_S * (day + 1)
+    return fit_ride(start_s, [18.0] * ROWS_S, [80] * ROWS_S, [150] * ROWS_S)
