@@ -1,5 +1,6 @@
 // What can be asked of Spindle's server, one function a verb. Throws Refusal.
 import { body, bodyAndTag, type Http } from './client'
+import { FileServer } from './file_server'
 import { readSeries, type Series } from './series'
 import type {
   AgainRequest,
@@ -46,28 +47,30 @@ import type {
   RideList,
   RideMark,
   RiderHome,
-  SaidOfTable,
   Scenario,
   Simulation,
   SimulationChange,
   SinceChange,
   StorePlace,
   Surface,
-  TableQuestion,
   TableUse,
   TableUseRequest,
   TorqueSurface,
   TorqueSurfaceRequest,
   Track,
   UnitLogs,
-  Upload,
   WearCounters,
   Why,
   WhyRequest,
 } from './types'
 
 export class Server {
-  constructor(private readonly http: Http) {}
+  /** What comes in as a file. */
+  readonly files: FileServer
+
+  constructor(private readonly http: Http) {
+    this.files = new FileServer(http)
+  }
 
   private unit(device_id: string) {
     return { params: { path: { device_id } } }
@@ -357,11 +360,6 @@ export class Server {
     return body(this.http.GET('/api/v1/rides/home', { params: { query } }))
   }
 
-  /** A simulated ride to look round with; made where it is not here yet. */
-  sampleRide(): Promise<Ride> {
-    return body(this.http.POST('/api/v1/rides/sample'))
-  }
-
   async tagRides(ride_ids: number[], change: { add?: string[]; remove?: string[] }) {
     const request = { body: { ride_ids, add: [], remove: [], ...change } }
     await body(this.http.POST('/api/v1/rides/tags', request))
@@ -457,30 +455,6 @@ export class Server {
 
   async deleteRide(id: number): Promise<void> {
     await body(this.http.DELETE('/api/v1/rides/{ride_id}', this.rideAt(id)))
-  }
-
-  /** Removes a file that became no ride, and its bytes. */
-  async removeUpload(upload_id: string): Promise<void> {
-    const params = { path: { upload_id } }
-    await body(this.http.DELETE('/api/v1/uploads/{upload_id}', { params }))
-  }
-
-  /** Where a file stands. */
-  upload(upload_id: string): Promise<Upload> {
-    const params = { path: { upload_id } }
-    return body(this.http.GET('/api/v1/uploads/{upload_id}', { params }))
-  }
-
-  /** What must be said of a table before it is read. */
-  tableQuestion(upload_id: string): Promise<TableQuestion> {
-    const params = { path: { upload_id } }
-    return body(this.http.GET('/api/v1/uploads/{upload_id}/mapping', { params }))
-  }
-
-  /** Says it; what became of the file. */
-  sayOfTable(upload_id: string, said: SaidOfTable): Promise<Upload> {
-    const params = { path: { upload_id } }
-    return body(this.http.PUT('/api/v1/uploads/{upload_id}/mapping', { params, body: said }))
   }
 
   /** Least and greatest value per bin, exact at any zoom. */

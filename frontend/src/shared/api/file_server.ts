@@ -1,0 +1,49 @@
+// What the server does with files that come in; sending them is `uploadFile`.
+import { body, type Http } from './client'
+import type { KnownTable, Ride, SaidOfTable, TableQuestion, Upload } from './types'
+
+export class FileServer {
+  constructor(private readonly http: Http) {}
+
+  private at(upload_id: string) {
+    return { params: { path: { upload_id } } }
+  }
+
+  /** Where a file stands. */
+  upload(id: string): Promise<Upload> {
+    return body(this.http.GET('/api/v1/uploads/{upload_id}', this.at(id)))
+  }
+
+  /** Removes a file that became no ride, and its bytes. */
+  async remove(id: string): Promise<void> {
+    await body(this.http.DELETE('/api/v1/uploads/{upload_id}', this.at(id)))
+  }
+
+  /** What must be said of a table before it is read. */
+  tableQuestion(id: string): Promise<TableQuestion> {
+    return body(this.http.GET('/api/v1/uploads/{upload_id}/mapping', this.at(id)))
+  }
+
+  /** Says it; what became of the file. */
+  sayOfTable(id: string, said: SaidOfTable): Promise<Upload> {
+    return body(
+      this.http.PUT('/api/v1/uploads/{upload_id}/mapping', { ...this.at(id), body: said }),
+    )
+  }
+
+  /** A simulated ride to look round with; made where it is not here yet. */
+  sampleRide(): Promise<Ride> {
+    return body(this.http.POST('/api/v1/rides/sample'))
+  }
+
+  /** What was said of which tables. */
+  async knownTables(): Promise<KnownTable[]> {
+    return (await body(this.http.GET('/api/v1/tables'))).items
+  }
+
+  /** The next file with this header is asked about again. */
+  async forgetTable(header_sha256: string): Promise<void> {
+    const params = { path: { header_sha256 } }
+    await body(this.http.DELETE('/api/v1/tables/{header_sha256}', { params }))
+  }
+}
