@@ -82,8 +82,7 @@ FRONTENDS = (CHECKOUT / "frontend" / "dist", Path(__file__).resolve().parent / "
 def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator[Services]:
     """Everything behind the API, opened; closed again in the other order, whatever happens.
 
-    families: the makes of units there are. Raises StoreError if the store cannot be opened,
-    InvalidRequest for a bad url of a device or the database.
+    families: of units. Raises StoreError without a store, InvalidRequest for a bad url.
     """
     check(settings)
     with contextlib.ExitStack() as closing:

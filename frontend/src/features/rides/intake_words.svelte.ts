@@ -24,8 +24,8 @@ export const en = {
   folder: 'Choose a folder…',
   none_yet: 'No rides yet',
   none_what:
-    'Drop ride files anywhere on this page (FIT, GPX, TCX, CSV), fetch what the unit has kept, or ' +
-    'look round with a sample ride. Damaged files are read as far as they go.',
+    'Drop ride files anywhere on this page (FIT, GPX, TCX, CSV), fetch what the unit has kept, ' +
+    'or look round with a sample ride. Damaged files are read as far as they go.',
   live: 'Ride and record',
   sample: 'Open the sample ride',
   sample_name: 'Sample ride, simulated',
