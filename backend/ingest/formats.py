@@ -74,7 +74,9 @@ def read_file(name: str, data: bytes, answer: TableAnswer | None = None) -> Outc
         return refusal(name, data[:SNIFFED_BYTES])
     if reader is read_table:
         return read_table(data, name, answer)
-    return read_mahle(data, answer) if reader is read_mahle else reader(data)
+    if reader is read_mahle or reader is read_tcx:
+        return reader(data, answer)
+    return reader(data)
 
 
 def read_gzip(name: str, data: bytes, answer: TableAnswer | None = None) -> Outcome:

@@ -9,7 +9,7 @@ from math import floor
 from backend.domain.table_answer import TableAnswer
 from backend.ingest.mahle.document import KIND, QUESTION, Document
 from backend.ingest.mahle.walk import TRUNCATED, Listener, Walk, Walked
-from backend.ingest.outcome import COMPLETE, PARTIAL, ImportedRide, Outcome, rejected
+from backend.ingest.outcome import COMPLETE, NEEDS_MAPPING, PARTIAL, ImportedRide, Outcome, rejected
 
 POINTS_MAX = 2_000_000
 MEMBERS = re.compile(
@@ -36,7 +36,7 @@ def read_mahle(data: bytes, answer: TableAnswer | None = None) -> Outcome:
     clock = document.clock(answer, walked.trouble is not None)
     if clock is None:
         detail = f"A {KIND} that does not say: time_zone. Say it once, and every such file is read."
-        return replace(rejected("needs_mapping", detail), question=QUESTION)
+        return replace(rejected(NEEDS_MAPPING, detail), question=QUESTION)
     return outcome_of(document.rides(*clock), walked, document, len(data))
 
 

@@ -1,6 +1,7 @@
 """GPX 1.0 and 1.1: each track a ride, with the extensions of head units and services.
 
-A track without times is a route somebody drew, not a ride. Between two segments of a track the
+A track without times is a route somebody drew, not a ride. Times are UTC by the schema, also where
+they name no zone; the intake says so then. Between two segments of a track the
 receiver was off, or had no reception: a pause.
 """
 
@@ -12,7 +13,7 @@ from math import isfinite
 
 from backend.domain.noted import INSTRUMENTS_MAX, PAUSES_MAX, Instrument, Noted, Pause
 from backend.ingest.outcome import Outcome
-from backend.ingest.tracks.rides import Track, outcome_of, refused
+from backend.ingest.tracks.rides import Clock, Track, outcome_of, refused
 from backend.ingest.tracks.walk import Listener, Shape, Texts, UnsafeXml, as_utf8, walk
 
 SHAPE = Shape("trkpt", ("gpx", "trk", "trkseg"))
@@ -49,6 +50,7 @@ class GpxReader:
 
     def __init__(self) -> None:
         self.tracks: list[Track] = []
+        self._clock = Clock()
         self.instruments: tuple[Instrument, ...] = ()
         self._last_s = float("nan")
         self._new_segment = False
@@ -59,7 +61,7 @@ class GpxReader:
             told = Instrument("recorder", product=attributes["creator"][:100])
             self.instruments = (*self.instruments, told)
         elif name == "trk":
-            self.tracks.append(Track())
+            self.tracks.append(Track(self._clock))
             self._last_s = float("nan")
         elif name == "trkseg":
             self._new_segment = True
@@ -76,7 +78,7 @@ class GpxReader:
     def point(self, texts: Texts) -> None:
         """A point of the latest track."""
         if not self.tracks:
-            self.tracks.append(Track())
+            self.tracks.append(Track(self._clock))
         track = self.tracks[-1]
         time_s = track.add(texts)
         if self._new_segment and self._last_s < time_s and len(track.noted.pauses) < PAUSES_MAX:

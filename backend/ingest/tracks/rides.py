@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from datetime import UTC, tzinfo
 from math import floor
 
+from backend.domain.intake import Intake
 from backend.domain.noted import Noted, within
 from backend.ingest.cells import Growing, as_written, iso_moment, step_of, unix_seconds
 from backend.ingest.columns import rides_of_columns
@@ -37,10 +39,39 @@ FIELDS = {
 UNITS = {"runcadence": "rpm", "course": "deg", "bearing": "deg", "wtemp": "degC", "depth": "m"}
 
 
+class Clock:
+    """Moments of a file as Unix time. zone: of those that name none."""
+
+    def __init__(self, zone: tzinfo = UTC) -> None:
+        self._zone = zone
+        self._naive = self._zoned = False
+
+    def unix_s(self, text: str) -> float:
+        """Of ISO 8601, NaN for what is none."""
+        moment = iso_moment(text)
+        if moment is not None and moment.tzinfo is None:
+            self._naive = True
+            moment = moment.replace(tzinfo=self._zone)
+        elif moment is not None:
+            self._zoned = True
+        return unix_seconds(moment)
+
+    @property
+    def lacks_zone(self) -> bool:
+        """Whether no moment named a zone: a single one that does not was damaged."""
+        return self._naive and not self._zoned
+
+    @property
+    def taken_as(self) -> dict[str, str]:
+        """What the file does not say of its times, for the intake."""
+        return {"time_zone": str(self._zone)} if self._naive else {}
+
+
 @dataclass
 class Track:
     """One ride's points as they come."""
 
+    clock: Clock
     sport: str | None = None
     points: Growing = field(default_factory=Growing)
     noted: Noted = field(default_factory=Noted)
@@ -51,7 +82,7 @@ class Track:
         for told, text in texts.items():
             name = told.lower()
             if name == "time":
-                time_s = unix_seconds(iso_moment(text))
+                time_s = self.clock.unix_s(text)
                 cells[TIME] = repr(time_s)
             else:
                 cells.setdefault(FIELDS.get(name, channel_name(name)), text)
@@ -77,7 +108,14 @@ def rides_of(track: Track) -> list[ImportedRide]:
     }
     fields = tuple(as_written(rule, columns) for rule in rules_of(named, track.sport))
     found = rides_of_columns(times, columns, fields, track.sport, track.points.unread)
-    return [replace(ride, noted=within(track.noted, *ride.span_s)) for ride in found]
+    return [
+        replace(
+            ride,
+            noted=within(track.noted, *ride.span_s),
+            intake=replace(ride.intake or Intake(), taken_as=track.clock.taken_as),
+        )
+        for ride in found
+    ]
 
 
 def outcome_of(tracks: Sequence[Track], walked: Walked, length: int, what: str) -> Outcome:
@@ -111,4 +149,4 @@ def refused() -> Outcome:
     )
 
 
-__all__ = ["Track", "UnsafeXml", "outcome_of", "refused", "rides_of"]
+__all__ = ["Clock", "Track", "UnsafeXml", "outcome_of", "refused", "rides_of"]

@@ -1,21 +1,26 @@
 """TCX (Training Center Database v2): each activity a ride, with its laps and its device.
 
-Positions are optional: a ride on a roller has none. Speed and power are those of the extension
-ActivityExtension v2. A course is a plan, not a ride.
+Positions are optional: a ride on a roller has none. Times that name no zone are not read before
+somebody says it, as a table's. Speed and power are those of the extension ActivityExtension v2. A
+course is a plan, not a ride.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import UTC
 from math import isfinite
 
 import numpy as np
 
 from backend.domain.noted import LAPS_MAX, Instrument, Lap, Noted
-from backend.ingest.cells import iso_moment, number, unix_seconds
-from backend.ingest.outcome import Outcome, rejected
-from backend.ingest.tracks.rides import Track, outcome_of, refused
+from backend.domain.standards.zones import zone_of
+from backend.domain.table_answer import TableAnswer, TableQuestion
+from backend.ingest.cells import number
+from backend.ingest.outcome import NEEDS_MAPPING, Outcome, rejected
+from backend.ingest.tracks.rides import Clock, Track, outcome_of, refused
 from backend.ingest.tracks.walk import Listener, Shape, Texts, UnsafeXml, as_utf8, walk
 
 SHAPE = Shape("Trackpoint", ("Activity", "Course", "Lap", "Creator"))
@@ -49,9 +54,10 @@ class Activity:
     device: dict[str, str] = field(default_factory=dict)
 
 
-def read_tcx(data: bytes) -> Outcome:
-    """A TCX file -> what came of it. Never raises on any bytes."""
-    reader = TcxReader()
+def read_tcx(data: bytes, answer: TableAnswer | None = None) -> Outcome:
+    """A TCX file -> what came of it. Never raises on any bytes. answer: the zone, where asked."""
+    zone = zone_of(answer.time_zone) if answer and answer.time_zone else None
+    reader = TcxReader(clock := Clock(zone or UTC))
     listener = Listener(reader.opened, reader.closed, reader.told, reader.point)
     try:
         walked = walk(as_utf8(data), SHAPE, listener)
@@ -60,6 +66,10 @@ def read_tcx(data: bytes) -> Outcome:
     activities = [one for one in reader.activities if one.track.points.rows]
     if not activities and reader.courses:
         return rejected("no_records", "The file holds a course: a plan, not the record of a ride.")
+    if clock.lacks_zone and zone is None:
+        question = question_of(activities)
+        detail = f"A {question.kind} that does not say: time_zone. Say it once, and every such "
+        return replace(rejected(NEEDS_MAPPING, f"{detail}file is read."), question=question)
     for activity in activities:
         activity.track.noted = Noted(laps=laps_of(activity), instruments=device_of(activity))
     tracks = [activity.track for activity in activities]
@@ -69,7 +79,8 @@ def read_tcx(data: bytes) -> Outcome:
 class TcxReader:
     """Builds activities of what the walk meets."""
 
-    def __init__(self) -> None:
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
         self.activities: list[Activity] = []
         self.courses = 0
         self._in_course = self._in_device = False
@@ -78,13 +89,13 @@ class TcxReader:
         """An activity, a course, a lap or a device begins."""
         if name == "Activity":
             told = attributes.get("Sport", "").lower()[:SPORT_LENGTH_MAX]
-            self.activities.append(Activity(Track(SPORTS.get(told, told or None))))
+            self.activities.append(Activity(Track(self._clock, SPORTS.get(told, told or None))))
             self._in_course = False
         elif name == "Course":
             self.courses += 1
             self._in_course = True
         elif name == "Lap" and not self._in_course:
-            start_s = unix_seconds(iso_moment(attributes.get("StartTime", "")))
+            start_s = self._clock.unix_s(attributes.get("StartTime", ""))
             laps = self._latest().laps
             if len(laps) < LAPS_MAX:
                 laps.append(LapTold(start_s))
@@ -121,8 +132,15 @@ class TcxReader:
 
     def _latest(self) -> Activity:
         if not self.activities:
-            self.activities.append(Activity(Track()))
+            self.activities.append(Activity(Track(self._clock)))
         return self.activities[-1]
+
+
+def question_of(activities: Sequence[Activity]) -> TableQuestion:
+    """What must be said before; files of one device share the answer."""
+    devices = {name for one in activities if (name := one.device.get("Name"))}
+    kind = f"TCX file of {min(devices)}" if devices else "TCX file"
+    return TableQuestion(hashlib.sha256(kind.encode()).hexdigest(), kind, time_zone=True)
 
 
 def laps_of(activity: Activity) -> tuple[Lap, ...]:

@@ -8,6 +8,7 @@ of a small file.
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -17,6 +18,7 @@ import pytest
 from tcxreader.tcxreader import TCXReader
 
 from backend.domain.noted import Instrument, Pause
+from backend.domain.table_answer import TableAnswer
 from backend.ingest.formats import read_file
 from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide
 from tests.fakes.track_files import (
@@ -113,6 +115,35 @@ def test_laps_and_the_device_of_a_tcx_file_are_kept() -> None:
         ),
     )
     assert ride.sport == "cycling"
+
+
+def naive(file: bytes) -> bytes:
+    return re.sub(rb"(T\d\d:\d\d:\d\d(?:\.\d+)?)Z", rb"\1", file)
+
+
+def test_a_tcx_file_without_a_zone_is_asked_about_and_read_as_is_said() -> None:
+    asked = read_file("ride", naive(TCX))
+
+    assert (asked.state, asked.code, asked.rides) == (REJECTED, "needs_mapping", ())
+    assert asked.question is not None
+    assert (asked.question.kind, asked.question.time_zone) == ("TCX file of Edge 530", True)
+
+    (ride,) = read_file("ride", naive(TCX), TableAnswer("Asia/Kolkata")).rides
+
+    # Half past five earlier than the same clock in London.
+    assert ride.started_us == (START_S - 19_800) * 1_000_000
+    assert [lap.from_s for lap in ride.noted.laps] == [0.0, 30.0]
+    assert ride.intake is not None
+    assert ride.intake.taken_as == {"time_zone": "Asia/Kolkata"}
+
+
+def test_a_gpx_file_without_a_zone_is_in_utc_by_its_schema_and_says_so() -> None:
+    ride, told = only_ride(naive(GPX)), only_ride(GPX)
+
+    assert ride.started_us == told.started_us
+    assert ride.intake is not None
+    assert told.intake is not None
+    assert (ride.intake.taken_as, told.intake.taken_as) == ({"time_zone": "UTC"}, {})
 
 
 def test_each_track_and_each_activity_is_a_ride() -> None:
