@@ -29,5 +29,10 @@ MEANING: dict[str, str] = {
     "temperature": "What the sensor may have walked while its temperature changed.",
     "combined": "All contributions together, as the root of the sum of their squares.",
     "expanded": "Within this of the reading the torque lies in 95 of 100 cases.",
+    "circumference": "How far the bike goes in one turn of its wheel; its speed rests on it.",
+    "cut_off": "How fast the bike really is when it says that it is at its limit.",
+    "pulses_per_turn": "How often the speed sensor fires in one turn of the wheel.",
+    "cadence": "What the bike says of the crank's turns less what was counted.",
+    "gain_ratio": "What the legs gave on a climb, as a share of what the torque sensor told.",
     "en": "A difference in units of what its uncertainty explains: up to 1 it is explained.",
 }

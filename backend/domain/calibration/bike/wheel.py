@@ -1,0 +1,147 @@
+"""Wheel circumference, speed pulses per turn and cadence: what the legal cut-off rests on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from backend.domain.calibration.plain import Plain
+from backend.domain.calibration.student import coverage_factor
+from backend.errors import FieldError, InvalidRequest
+
+ROOT_3 = math.sqrt(3.0)
+CIRCUMFERENCE_MIN_M, CIRCUMFERENCE_MAX_M = 0.8, 2.6
+"""Wheels of 12 to 29 inch and the widest tyre."""
+
+GPS_LEAST_M = 1000.0
+"""Shorter, and both ends' positions decide: 5 m in 500 m are a whole percent."""
+
+GPS_END_M = 5.0
+"""Limit of a position at either end of a track under an open sky."""
+
+GPS_PATH_SHARE = 0.005
+"""Limit of what corners cut off and noise adds along a track of one point a second."""
+
+SLIP_SHARE = 0.002
+"""Limit of what a rolling tyre under load and a rolled-out one differ by."""
+
+
+@dataclass(frozen=True, slots=True)
+class Circumference(Plain):
+    """expanded_m: for 95.45 %, coverage its factor. method: `roll_out` or `gps`."""
+
+    circumference_m: float
+    standard_m: float
+    coverage: float
+    expanded_m: float
+    method: str
+
+
+@dataclass(frozen=True, slots=True)
+class CutOff(Plain):
+    """What a kept circumference does to a limit. true_kmh: what is ridden when the bike says
+    `limit_kmh`. lawful: with all of the uncertainty it stays at or below `limit_kmh` plus what the
+    law's test allows."""
+
+    limit_kmh: float
+    true_kmh: float
+    expanded_kmh: float
+    lawful: bool
+
+
+def roll_out(distances_m: Sequence[float], turns: float, tape_limit_m: float) -> Circumference:
+    """From a mark on the ground to the next, rider on the saddle, each over `turns` turns.
+
+    distances_m: (n,), n >= 2 repeats. tape_limit_m: half width of what tape and marks may be off.
+    Raises InvalidRequest naming every field at fault.
+    """
+    faults = []
+    each = np.asarray(distances_m, np.float64)
+    if each.size < 2 or not (np.isfinite(each).all() and (each > 0).all()):
+        faults.append(_fault("distances_m", "two rolls or more, each above 0 m, are needed"))
+    if not (math.isfinite(turns) and turns > 0):
+        faults.append(_fault("turns", "the turns of a roll must be above 0"))
+    if not (math.isfinite(tape_limit_m) and tape_limit_m >= 0):
+        faults.append(_fault("tape_limit_m", "the limit must be 0 m or more"))
+    _raise(faults)
+    mean_m = float(each.mean()) / turns
+    scatter = float(each.std(ddof=1)) / math.sqrt(each.size) / turns
+    limits = math.hypot(tape_limit_m / turns, SLIP_SHARE * mean_m) / ROOT_3
+    return _circumference(mean_m, scatter, each.size - 1, limits, "roll_out")
+
+
+def from_gps(distance_m: float, turns: float) -> Circumference:
+    """From a ride's track and the turns its speed sensor counted on the same stretch.
+
+    Raises InvalidRequest, also for a track that is too short to tell.
+    """
+    faults = []
+    if not (math.isfinite(distance_m) and distance_m >= GPS_LEAST_M):
+        faults.append(_fault("distance_m", f"a track of {GPS_LEAST_M:g} m or more is needed"))
+    if not (math.isfinite(turns) and turns > 0):
+        faults.append(_fault("turns", "the turns of the ride must be above 0"))
+    _raise(faults)
+    ends = math.sqrt(2.0) * GPS_END_M / distance_m
+    share = math.sqrt(ends**2 + GPS_PATH_SHARE**2 + (1 / turns) ** 2) / ROOT_3
+    mean_m = distance_m / turns
+    return _circumference(mean_m, 0.0, None, share * mean_m, "gps")
+
+
+def cut_off(
+    kept_m: float, measured: Circumference, limit_kmh: float, tolerance_pct: float = 0.0
+) -> CutOff:
+    """The bike counts turns and multiplies by `kept_m`: a wheel that is larger is faster."""
+    true_kmh = limit_kmh * measured.circumference_m / kept_m
+    expanded = limit_kmh * measured.expanded_m / kept_m
+    most = limit_kmh * (1 + tolerance_pct / 100)
+    return CutOff(limit_kmh, true_kmh, expanded, true_kmh + expanded <= most)
+
+
+def pulses_per_turn(pulses: Sequence[int], turns: Sequence[int]) -> int | None:
+    """Whole pulses that all counts agree on; None where they do not, which is a magnet missed.
+
+    pulses, turns: (n,) of the wheel turned by hand; a count at either end may be one off.
+    """
+    each = {
+        round(counted / turned)
+        for counted, turned in zip(pulses, turns, strict=True)
+        if turned > 0 and abs(counted - round(counted / turned) * turned) <= 1
+    }
+    judged = sum(turned > 0 for turned in turns)
+    agreeing = sum(
+        turned > 0 and abs(counted - round(counted / turned) * turned) <= 1
+        for counted, turned in zip(pulses, turns, strict=True)
+    )
+    return each.pop() if len(each) == 1 and agreeing == judged else None
+
+
+def cadence_error_rpm(told_rpm: float, crank_turns: int, duration_s: float) -> tuple[float, float]:
+    """What the unit tells less what was counted, and the expanded uncertainty of the counting:
+    half a turn of a crank that started and ended anywhere near its mark, and 0.2 s of a hand."""
+    counted_rpm = 60 * crank_turns / duration_s
+    share = math.hypot(0.05 / crank_turns, 0.2 / duration_s) / ROOT_3
+    return told_rpm - counted_rpm, 2 * counted_rpm * share
+
+
+def _circumference(
+    mean_m: float, scatter: float, freedom: int | None, limits: float, method: str
+) -> Circumference:
+    if not CIRCUMFERENCE_MIN_M <= mean_m <= CIRCUMFERENCE_MAX_M:
+        _raise([_fault("circumference_m", f"{mean_m:.3f} m is no bicycle's wheel: 0.8 to 2.6 m")])
+    standard = math.hypot(scatter, limits)
+    effective = freedom * standard**4 / scatter**4 if freedom and scatter else None
+    coverage = coverage_factor(effective)
+    return Circumference(mean_m, standard, coverage, coverage * standard, method)
+
+
+def _fault(field: str, message: str) -> FieldError:
+    return FieldError(field, "out_of_range", f"{field}: {message}")
+
+
+def _raise(faults: list[FieldError]) -> None:
+    if faults:
+        listed = "; ".join(fault.message for fault in faults)
+        raise InvalidRequest(f"wheel: {listed}", "invalid_wheel", faults)
