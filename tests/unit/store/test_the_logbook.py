@@ -13,6 +13,7 @@ from zoneinfo import ZoneInfo
 
 import numpy as np
 import pytest
+from sqlalchemy import Connection
 
 from backend.domain.channels import ChannelSpec
 from backend.domain.logbook.calendar import last_months, last_weeks
@@ -217,6 +218,24 @@ def test_many_rides_are_tagged_all_or_none(store: Store) -> None:
     assert store.rides.get(one).tags == ("Rain", "holiday")
     with pytest.raises(InvalidRequest):
         store.rides.patch(one, tags=["x" * 41])
+
+
+def test_while_many_rides_are_tagged_others_write(
+    store: Store, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rides = [added(store, f"2026-07-{day:02}T08:00+00:00", minutes=1) for day in range(1, 6)]
+    monkeypatch.setattr("backend.store.logbook.book.RIDES_AT_ONCE", 2)
+    write, held = store.database.write, []
+
+    def counted(work: Callable[[Connection], None]) -> None:
+        held.append(work)
+        write(work)
+
+    monkeypatch.setattr(store.database, "write", counted)
+    store.logbook.tag(rides, ["Rain"], [])
+
+    assert len(held) == 3
+    assert {store.rides.get(ride).tags for ride in rides} == {("Rain",)}
 
 
 def test_tags_outlast_the_database(reopen: Callable[..., Store], tmp_path: Path) -> None:
