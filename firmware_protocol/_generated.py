@@ -26,8 +26,8 @@ MOVING_RPM = 5.0
 STANDING_S = 20
 RESTING_KMH = 0.5
 RESTING_MOTOR_RPM = 30.0
-IMAGE_LENGTH = 427
-SCHEMA_HASH = bytes.fromhex("98723465fd9eea78")
+IMAGE_LENGTH = 455
+SCHEMA_HASH = bytes.fromhex("94530cc790e7004d")
 
 
 class Status(IntEnum):
@@ -2405,6 +2405,54 @@ PARAMETERS: tuple[Parameter, ...] = (
         increasing=False, access=1, image_offset=426,
         default="TIME_CONSTANT",
         doc="How the rider's torque is averaged over the pedal stroke: with the time constant torque_filter_s, or over the last half turn of the crank, at any cadence.",
+    ),
+    Parameter(
+        id=0x0650, name="sensor_offset_counts_per_k", group="sensor",
+        type="f32", unit="counts/K", shape=(),
+        length=4, min=-100.0, max=100.0, enum=None,
+        increasing=False, access=1, image_offset=427, record="CALIBRATION", may_be_none=True,
+        default=None,
+        doc="How far the torque sensor's reading without load moves for each kelvin that the sensor is warmer than sensor_reference_degc; none: not corrected.",
+    ),
+    Parameter(
+        id=0x0651, name="sensor_gain_share_per_k", group="sensor",
+        type="f32", unit="1/K", shape=(),
+        length=4, min=-0.002, max=0.002, enum=None,
+        increasing=False, access=1, image_offset=431, record="CALIBRATION", may_be_none=True,
+        default=None,
+        doc="By which share the torque sensor's gain changes for each kelvin that the sensor is warmer than sensor_reference_degc; none: not corrected.",
+    ),
+    Parameter(
+        id=0x0652, name="sensor_reference_degc", group="sensor",
+        type="f32", unit="degC", shape=(),
+        length=4, min=-40.0, max=85.0, enum=None,
+        increasing=False, access=1, image_offset=435, record="CALIBRATION", may_be_none=True,
+        default=None,
+        doc="Temperature of the torque sensor at which its offset and gain hold as they stand; none: not corrected for temperature.",
+    ),
+    Parameter(
+        id=0x0653, name="calibrated_at_utc_s", group="calibration",
+        type="u32", unit="s", shape=(),
+        length=4, min=0, max=4294967295, enum=None,
+        increasing=False, access=1, image_offset=439, record="CALIBRATION",
+        default=0,
+        doc="When the torque sensor was calibrated, in seconds since 1970 (UTC); 0: not known.",
+    ),
+    Parameter(
+        id=0x0654, name="calibration_number", group="calibration",
+        type="u32", unit="", shape=(),
+        length=4, min=0, max=4294967295, enum=None,
+        increasing=False, access=1, image_offset=443, record="CALIBRATION",
+        default=0,
+        doc="Number of the calibration that the unit has; 0: the factory's.",
+    ),
+    Parameter(
+        id=0x0655, name="calibration_certificate", group="calibration",
+        type="u8", unit="", shape=(8,),
+        length=1, min=0, max=255, enum=None,
+        increasing=False, access=1, image_offset=447, record="CALIBRATION",
+        default=(0, 0, 0, 0, 0, 0, 0, 0),
+        doc="First 8 bytes of the SHA-256 of the calibration's certificate; all 0: there is none.",
     ),
 )
 PARAMETER_BY_NAME = {parameter.name: parameter for parameter in PARAMETERS}

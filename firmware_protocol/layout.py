@@ -8,16 +8,18 @@ import struct
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Self, TypeAlias
 
-Value: TypeAlias = "float | int | str | list[Value]"
-"""A parameter in a configuration: a number, a text, a choice, or nested lists."""
+Value: TypeAlias = "float | int | str | list[Value] | None"
+"""A parameter in a configuration: a number, a text, a choice, nested lists, or none."""
 
-Default: TypeAlias = "float | int | str | tuple[Default, ...]"
-ParameterType: TypeAlias = Literal["f32", "u8", "u16", "text"]
+Default: TypeAlias = "float | int | str | tuple[Default, ...] | None"
+ParameterType: TypeAlias = Literal["f32", "u8", "u16", "u32", "text"]
 
 STRUCT_CODES = {"u8": "B", "u16": "H", "u32": "I", "u64": "Q", "i16": "h", "i32": "i", "f32": "f"}
 HALF_BITS = 16
 HALF_MASK = 0xFFFF
 HIGH_HALF = struct.Struct("<H")
+NONE_BITS = 0x7FC00000
+"""The one float32 that says none: the quiet NaN without a payload. No other NaN is a value."""
 MISSING = -32768
 """The telemetry count that stands for no value."""
 
@@ -137,6 +139,8 @@ class Parameter:
     """Least distance of neighbours in an increasing list, to a hundredth."""
     record: str = "TUNABLE"
     """The record of the unit's flash that keeps it."""
+    may_be_none: bool = False
+    """A single float may have no value; on the wire and in flash that is NONE_BITS."""
 
     @property
     def count(self) -> int:

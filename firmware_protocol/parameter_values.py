@@ -13,7 +13,7 @@ from firmware_protocol._generated import ENUM_BY_NAME
 from firmware_protocol.layout import Parameter, Value
 from firmware_protocol.spelling import member_of, word_of, words_of
 
-INTEGER_LIMITS = {"u8": 0xFF, "u16": 0xFFFF}
+INTEGER_LIMITS = {"u8": 0xFF, "u16": 0xFFFF, "u32": 0xFFFFFFFF}
 
 STEP_SHARE = np.float32(0.99)
 """Of the least distance of two points: decimals that are so far apart may be nearer as float32."""
@@ -49,6 +49,8 @@ def problem_of_form(row: Parameter, element: Value) -> tuple[str, str] | None:
         if choice_number(row, element) is not None:
             return None
         return "NOT_A_CHOICE", f"must be one of {', '.join(choices_of(row))}"
+    if element is None and row.may_be_none:
+        return None
     if isinstance(element, bool) or not isinstance(element, int | float):
         return "NOT_A_NUMBER", "must be a number"
     if row.type == "f32":

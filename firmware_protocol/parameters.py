@@ -1,8 +1,9 @@
 """The configuration as a dictionary, as the unit's image, and as the items that change it.
 
 Names are the registry's. Values are floats and ints, str for texts, the one spelling of choices
-("fuzzy", "PB"; any case is taken), nested lists for shapes. The check here is the host's, before
-anything is sent; the unit checks again for itself.
+("fuzzy", "PB"; any case is taken), nested lists for shapes, None for a value that
+may be none and is. The check here is the host's, before anything is sent; the unit checks again for
+itself.
 """
 
 import struct
@@ -18,7 +19,7 @@ from firmware_protocol._generated import (
     PARAMETER_BY_NAME,
     PARAMETERS,
 )
-from firmware_protocol.layout import STRUCT_CODES, Default, Parameter, Value
+from firmware_protocol.layout import NONE_BITS, STRUCT_CODES, Default, Parameter, Value
 from firmware_protocol.parameter_values import (
     BadValue,
     ParameterViolation,
@@ -144,7 +145,7 @@ def _violations_of(row: Parameter, value: Value) -> Iterator[ParameterViolation]
             yield violation_at(row, index, *problem)
             before = None
             continue
-        if row.type == "text" or row.enum is not None:
+        if row.type == "text" or row.enum is not None or element is None:
             continue
         number = float32(element)
         problem = problem_of_range(row, number)
@@ -162,6 +163,8 @@ def _packed(row: Parameter, element: Value) -> bytes:
         number = choice_number(row, element)
         assert number is not None
         return bytes([number])
+    if element is None:
+        return struct.pack("<I", NONE_BITS)
     if row.type == "f32":
         return struct.pack("<f", float32(element))
     assert isinstance(element, int | float)
@@ -179,12 +182,15 @@ def _unpack_parameter(row: Parameter, image: bytes) -> Value:
 
 
 def _unpacked(row: Parameter, element: bytes) -> Value:
-    """One element; a text that is not UTF-8 shows U+FFFD, an unknown choice its number.
+    """One element; a text that is not UTF-8 shows U+FFFD, an unknown choice its number, and what is
+    none is None.
 
     A float is the shortest decimal that is the same float32: 0.01, not 0.009999999776.
     """
     if row.type == "text":
         return element.rstrip(b"\0").decode(errors="replace")
+    if row.may_be_none and struct.unpack("<I", element)[0] == NONE_BITS:
+        return None
     number: float | int = struct.unpack("<" + STRUCT_CODES[row.type], element)[0]
     if row.enum is not None:
         names = {int(member): word_of(member.name) for member in ENUM_BY_NAME[row.enum]}

@@ -5,7 +5,7 @@ With a table for a preset it is a unit as it leaves the factory, with this table
 
 from typing import Any
 
-from firmware_protocol._generated import PARAMETER_BY_NAME, Access
+from firmware_protocol._generated import PARAMETER_BY_NAME, PARAMETERS, Access
 from firmware_protocol.parameters import default_config, unpack_image
 from sim_device import preset
 from sim_device.configure import read_image, write_config
@@ -14,7 +14,7 @@ from sim_device.lockstep import LockstepUnit
 FACTORY = "factory"
 """In a preset's place: the unit as it leaves the factory."""
 
-OF_THE_BIKE = {"sensor_offset_counts", "sensor_gain_nm_per_count", "wheel_circumference_m"}
+OF_THE_BIKE = {row.name for row in PARAMETERS if row.record == "CALIBRATION"}
 """Of the dealer's settings those that are measured on one bike."""
 
 MARKET = "eu_epac"

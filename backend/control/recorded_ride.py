@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from backend.domain.energy import KMH_PER_MS, RADIANS_PER_S_PER_RPM
 from backend.errors import InvalidRequest
+from sim_device.firmware.python import law
 
 STANDING_MS = 0.3
 ENGAGED_NM = 5.0
@@ -70,8 +71,9 @@ def recorded(columns: Columns, config: Mapping[str, Any], step_s: float) -> Reco
     speed_ms = np.nan_to_num(columns["speed_kmh"]) / KMH_PER_MS
     cadence_rad_s = np.nan_to_num(columns["cadence_rpm"]) * RADIANS_PER_S_PER_RPM
     if "rider_torque_raw" in columns:
-        counts = columns["rider_torque_raw"] - config["sensor_offset_counts"]
-        rider_nm = counts * config["sensor_gain_nm_per_count"]
+        degc = columns.get("sensor_temperature_degc", np.nan)
+        counts = columns["rider_torque_raw"]
+        rider_nm = law.rider_torque_nm(config, counts, degc).astype(np.float64)
     else:
         rider_nm = columns["rider_torque_nm"]
     motor_rad_s = cadence_rad_s * config["gear_ratio"]

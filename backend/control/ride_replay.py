@@ -57,6 +57,7 @@ def replay(
     battery_current_a: npt.ArrayLike = np.nan,
     motor_temperature_degc: npt.ArrayLike = np.nan,
     controller_temperature_degc: npt.ArrayLike = np.nan,
+    sensor_temperature_degc: npt.ArrayLike = np.nan,
     step_s: float = law.STEP_S,
 ) -> Replay:
     """A ride from rest through the law.
@@ -66,7 +67,8 @@ def replay(
     battery_current_a, motor_temperature_degc: (n,); without them the law keeps the margin at the
     battery's limit that it keeps in a unit that cannot measure them. brake, walk_button, inhibit,
     torque_age_ms, controller_temperature_degc: (n,); without them nothing is pressed or faulty, the
-    torque is fresh and the controller cool.
+    torque is fresh and the controller cool. sensor_temperature_degc: (n,); without it the counts
+    are not corrected for temperature.
     step_s: time between samples. A sample that is not finite gives no assist and is counted under
     `input_refused`. Raises InvalidRequest for what the law refuses.
     """
@@ -81,6 +83,7 @@ def replay(
             "battery_current_a": battery_current_a,
             "motor_temperature_degc": motor_temperature_degc,
             "controller_temperature_degc": controller_temperature_degc,
+            "sensor_temperature_degc": sensor_temperature_degc,
             "torque_age_ms": torque_age_ms,
             "mode": mode,
             "brake": brake,

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from backend.errors import FieldError
 
-Value: TypeAlias = "float | int | str | list[Value]"
+Value: TypeAlias = "float | int | str | list[Value] | None"
 Config: TypeAlias = Mapping[str, Value]
 
 NO_TRIAL = (
@@ -59,7 +59,7 @@ class ParameterRow:
     """What a parameter is. choices: of an enumeration, None for numbers and texts.
 
     access: who may change it: rider, dealer or factory. length: bytes a text may have, None for
-    numbers.
+    numbers. may_be_none: whether the unit takes it without a value.
     """
 
     id: int
@@ -75,6 +75,7 @@ class ParameterRow:
     choices: tuple[str, ...] | None
     length: int | None
     description: str
+    may_be_none: bool = False
 
 
 @dataclass(frozen=True)

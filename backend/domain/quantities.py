@@ -23,6 +23,7 @@ UNITS: dict[str, str] = {
     "us": "µs",
     "hz": "Hz",
     "degc": "°C",
+    "k": "K",
     "deg": "deg",
     "m": "m",
     "kg": "kg",
@@ -52,13 +53,14 @@ def plain(value: float, digits: int) -> str:
 def unit_of(name: str) -> str:
     """The unit of a physical name as people read it; empty if the name has no dimension.
 
-    `unit_of("motor_torque_nm_max")` is `Nm`, `unit_of("assist_ramp_up_nm_per_s")` is `Nm/s`.
+    `unit_of("motor_torque_nm_max")` is `Nm`, `unit_of("assist_ramp_up_nm_per_s")` is `Nm/s`, and of
+    a share (`gain_share_per_k`) `1/K`.
     """
     words = name.split("_")
     if words[-1] in BOUNDS:
         words = words[:-1]
     if len(words) < 2 or words[-1] not in UNITS:
         return ""
-    if len(words) >= 4 and words[-2] == "per" and words[-3] in UNITS:
-        return f"{UNITS[words[-3]]}/{UNITS[words[-1]]}"
+    if len(words) >= 4 and words[-2] == "per":
+        return f"{UNITS.get(words[-3], '1')}/{UNITS[words[-1]]}"
     return UNITS[words[-1]]

@@ -22,7 +22,7 @@ PAGE_BYTES = 512
 BLOCKS_SUFFIX = ".ebll"
 ERASED = b"\xff"
 
-CONFIG, SCHEMA, DATA, EVENT, SYNC, END = range(1, 7)
+CONFIG, SCHEMA, DATA, EVENT, SYNC, END, CONFIG_REST = range(1, 8)
 EVENT_FIELDS = struct.Struct("<QBH")
 # One for each event, behind all of them; a log of an older unit ends before them.
 EVENT_FLAGS_HIGH = struct.Struct("<H")

@@ -29,6 +29,7 @@ from backend.domain.standards.fit import EPOCH_S
 from backend.domain.unit_key import ebl_key
 from backend.ingest.blocks import (
     CONFIG,
+    CONFIG_REST,
     DATA,
     END,
     EVENT,
@@ -49,6 +50,7 @@ from firmware_protocol._generated import CHANNELS, PARAMETER_BY_NAME, LogEvent
 from firmware_protocol.layout import HALF_BITS
 
 CONFIG_HEAD = struct.Struct("<12s8sII")
+REST_HEAD = struct.Struct("<I")
 SCHEMA_HEAD = struct.Struct("<IB")
 SCHEMA_CHANNEL = struct.Struct("<Bf")
 GEAR_RATIO = struct.Struct("<f")
@@ -177,7 +179,7 @@ def context_of(blocks: Sequence[Block], notes: list[str]) -> RideContext:
         return RideContext()
     payload = configs[0].payload
     uid, _schema_hash, generation, crc32 = CONFIG_HEAD.unpack_from(payload)
-    image = payload[CONFIG_HEAD.size :]
+    image = payload[CONFIG_HEAD.size :] + rest_of_image(blocks, crc32)
     gear_ratio = gear_ratio_in(image) if zlib.crc32(image) == crc32 else None
     return RideContext(
         unit_key=ebl_key(uid.hex()),
@@ -186,6 +188,13 @@ def context_of(blocks: Sequence[Block], notes: list[str]) -> RideContext:
         config_crc32=crc32,
         gear_ratio=gear_ratio,
     )
+
+
+def rest_of_image(blocks: Sequence[Block], crc32: int) -> bytes:
+    """What of this configuration's image a CONFIG block had no room for; nothing of a short one."""
+    head = REST_HEAD.pack(crc32)
+    rests = (b.payload for b in blocks if b.type == CONFIG_REST)
+    return next((payload[len(head) :] for payload in rests if payload.startswith(head)), b"")
 
 
 def gear_ratio_in(image: bytes) -> float | None:

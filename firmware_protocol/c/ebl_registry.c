@@ -170,6 +170,18 @@ const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT] = {
      offsetof(ebl_config, sensor_offset_counts_factory), -30000.0f, 30000.0f, 0.0f},
     {0x0640, 426, EBL_TYPE_U8, 1, 1, EBL_ACCESS_DEALER, EBL_RECORD_TUNABLE, 2,
      offsetof(ebl_config, torque_filter), 0.0f, 1.0f, 0.0f},
+    {0x0650, 427, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, EBL_RECORD_CALIBRATION, 8,
+     offsetof(ebl_config, sensor_offset_counts_per_k), -100.0f, 100.0f, 0.0f},
+    {0x0651, 431, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, EBL_RECORD_CALIBRATION, 8,
+     offsetof(ebl_config, sensor_gain_share_per_k), -0.002f, 0.002f, 0.0f},
+    {0x0652, 435, EBL_TYPE_F32, 1, 4, EBL_ACCESS_DEALER, EBL_RECORD_CALIBRATION, 8,
+     offsetof(ebl_config, sensor_reference_degc), -40.0f, 85.0f, 0.0f},
+    {0x0653, 439, EBL_TYPE_U32, 1, 4, EBL_ACCESS_DEALER, EBL_RECORD_CALIBRATION, 0,
+     offsetof(ebl_config, calibrated_at_utc_s), 0.0f, 4294967295.0f, 0.0f},
+    {0x0654, 443, EBL_TYPE_U32, 1, 4, EBL_ACCESS_DEALER, EBL_RECORD_CALIBRATION, 0,
+     offsetof(ebl_config, calibration_number), 0.0f, 4294967295.0f, 0.0f},
+    {0x0655, 447, EBL_TYPE_U8, 8, 1, EBL_ACCESS_DEALER, EBL_RECORD_CALIBRATION, 0,
+     offsetof(ebl_config, calibration_certificate), 0.0f, 255.0f, 0.0f},
 };
 
 const ebl_order ebl_orders[EBL_ORDER_COUNT] = {
@@ -322,6 +334,12 @@ void ebl_config_default(ebl_config *config)
         .sensor_gain_nm_per_count_factory = 0.01f,
         .sensor_offset_counts_factory = 0.0f,
         .torque_filter = EBL_TORQUE_FILTER_TIME_CONSTANT,
+        .sensor_offset_counts_per_k = EBL_NONE,
+        .sensor_gain_share_per_k = EBL_NONE,
+        .sensor_reference_degc = EBL_NONE,
+        .calibrated_at_utc_s = 0,
+        .calibration_number = 0,
+        .calibration_certificate = {0, 0, 0, 0, 0, 0, 0, 0},
     };
     *config = factory;
 }

@@ -11,11 +11,11 @@
 #define EBL_MTU 544
 #define EBL_MAX_OUTSTANDING 4
 #define EBL_CONTROL_PERIOD_US 10000
-#define EBL_IMAGE_LENGTH 427
+#define EBL_IMAGE_LENGTH 455
 #define EBL_MESSAGE_COUNT 47
 #define EBL_EVENT_COUNT 13
 #define EBL_EVENT_HEAD_LENGTH 5
-#define EBL_PARAMETER_COUNT 51
+#define EBL_PARAMETER_COUNT 57
 #define EBL_ORDER_COUNT 1
 #define EBL_BAND_COUNT 3
 #define EBL_RETIRED_COUNT 1
@@ -24,7 +24,7 @@
 #define EBL_FAULTS_ASSIST_OFF 491519
 #define EBL_FAULTS_LATCHED 488443
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 5059
+#define EBL_SCHEMA_LENGTH 5232
 #define EBL_MOVING_KMH 1.0f
 #define EBL_MOVING_RPM 5.0f
 #define EBL_STANDING_S 20u
@@ -397,6 +397,12 @@ enum {
     EBL_PARAMETER_SENSOR_GAIN_NM_PER_COUNT_FACTORY = 0x0632,
     EBL_PARAMETER_SENSOR_OFFSET_COUNTS_FACTORY = 0x0633,
     EBL_PARAMETER_TORQUE_FILTER = 0x0640,
+    EBL_PARAMETER_SENSOR_OFFSET_COUNTS_PER_K = 0x0650,
+    EBL_PARAMETER_SENSOR_GAIN_SHARE_PER_K = 0x0651,
+    EBL_PARAMETER_SENSOR_REFERENCE_DEGC = 0x0652,
+    EBL_PARAMETER_CALIBRATED_AT_UTC_S = 0x0653,
+    EBL_PARAMETER_CALIBRATION_NUMBER = 0x0654,
+    EBL_PARAMETER_CALIBRATION_CERTIFICATE = 0x0655,
 };
 
 enum {
@@ -440,13 +446,24 @@ typedef struct {
     uint16_t length;
 } ebl_event_row;
 
-typedef enum { EBL_TYPE_U8 = 0, EBL_TYPE_U16 = 1, EBL_TYPE_F32 = 2, EBL_TYPE_TEXT = 3 } ebl_type;
+typedef enum {
+    EBL_TYPE_U8 = 0,
+    EBL_TYPE_U16 = 1,
+    EBL_TYPE_F32 = 2,
+    EBL_TYPE_TEXT = 3,
+    EBL_TYPE_U32 = 4
+} ebl_type;
 
 enum {
     EBL_PARAMETER_INCREASING = 1, /* each element is greater than the one before */
     EBL_PARAMETER_CHOICE = 2,     /* an enumeration: 0 to max */
-    EBL_PARAMETER_RATCHET = 4     /* going down is free, going up needs a token */
+    EBL_PARAMETER_RATCHET = 4,    /* going down is free, going up needs a token */
+    EBL_PARAMETER_NONE = 8        /* it may have no value: EBL_NONE_BITS */
 };
+
+/* The one float that says none: a quiet NaN without a payload. */
+#define EBL_NONE_BITS 0x7fc00000u
+#define EBL_NONE __builtin_nanf("")
 
 typedef struct {
     uint16_t id;
@@ -550,6 +567,12 @@ typedef struct {
     float sensor_gain_nm_per_count_factory;
     float sensor_offset_counts_factory;
     uint8_t torque_filter;
+    float sensor_offset_counts_per_k;
+    float sensor_gain_share_per_k;
+    float sensor_reference_degc;
+    uint32_t calibrated_at_utc_s;
+    uint32_t calibration_number;
+    uint8_t calibration_certificate[8];
 } ebl_config;
 
 extern const ebl_message ebl_messages[EBL_MESSAGE_COUNT];

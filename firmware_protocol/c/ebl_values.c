@@ -75,13 +75,31 @@ static int is_text(const uint8_t *text, size_t length)
     return at == length;
 }
 
-static float number(const ebl_parameter *parameter, const uint8_t *element)
+float ebl_element_number(const ebl_parameter *parameter, const uint8_t *element)
 {
     switch (parameter->type) {
     case EBL_TYPE_U8: return (float)ebl_get_u8(element);
     case EBL_TYPE_U16: return (float)ebl_get_u16(element);
+    case EBL_TYPE_U32: return (float)ebl_get_u32(element);
     default: return ebl_get_f32(element);
     }
+}
+
+static int is_none(const ebl_parameter *parameter, const uint8_t *element)
+{
+    return (parameter->flags & EBL_PARAMETER_NONE) != 0 && ebl_get_u32(element) == EBL_NONE_BITS;
+}
+
+/* Written so that a NaN is out of range. */
+int ebl_element_is_allowed(const ebl_parameter *parameter, const uint8_t *element)
+{
+    float value;
+
+    if (parameter->type == EBL_TYPE_TEXT || is_none(parameter, element)) {
+        return 1;
+    }
+    value = ebl_element_number(parameter, element);
+    return value >= parameter->min && value <= parameter->max;
 }
 
 static uint8_t range_violation(const ebl_parameter *parameter, float value)
@@ -109,7 +127,10 @@ static void parameter_check(const ebl_parameter *parameter, const uint8_t *bytes
             }
             continue;
         }
-        float value = number(parameter, element);
+        if (is_none(parameter, element)) {
+            continue;
+        }
+        float value = ebl_element_number(parameter, element);
         uint8_t code = range_violation(parameter, value);
         int rises = (parameter->flags & EBL_PARAMETER_INCREASING) != 0 && index > 0;
         if (code == NO_VIOLATION && rises && value - before < STEP_SHARE * parameter->least_step) {

@@ -10,6 +10,12 @@
 /* The count of a value: rounded to nearest, clamped to +-32767; not finite gives EBL_MISSING. */
 int16_t ebl_channel_counts(float scale, float value);
 
+/* An element's number, of any type but text. A u32 is rounded. */
+float ebl_element_number(const ebl_parameter *parameter, const uint8_t *element);
+
+/* True if an element may stand alone: a text, a number in range, or none where that is a value. */
+int ebl_element_is_allowed(const ebl_parameter *parameter, const uint8_t *element);
+
 typedef struct {
     uint16_t id;
     uint8_t index; /* element of the parameter, in the order of the image */

@@ -5,12 +5,12 @@ Two pieces of memory are described, neither of which is a processor's: see `ABOU
 
 from firmware_protocol.generate.registry import NOTICE, Registry
 from firmware_protocol.generate.tables import Table
-from firmware_protocol.layout import HALF_BITS, Channel, Parameter
+from firmware_protocol.layout import HALF_BITS, NONE_BITS, Channel, Parameter
 
 LIVE_ROW = 0x10000
 FACTORY = 2
 COUNT_MAX = 32767
-DATATYPES = {"f32": "FLOAT32_IEEE", "u8": "UBYTE", "u16": "UWORD"}
+DATATYPES = {"f32": "FLOAT32_IEEE", "u8": "UBYTE", "u16": "UWORD", "u32": "ULONG"}
 MASK_BITS = 15
 """Flags travel as an int16 channel: bit 15 would be its sign."""
 HIGH = "_high"
@@ -162,7 +162,9 @@ def _characteristics(registry: Registry, row: Parameter) -> list[str]:
 
 
 def _note(registry: Registry, row: Parameter) -> str:
-    """What a token is needed for, beside READ_ONLY."""
+    """What a token is needed for, beside READ_ONLY; and what stands for no value."""
+    if row.may_be_none:
+        return f"NaN (0x{NONE_BITS:08X}): none."
     if row.ratchet:
         return "Goes up only with a token (ratchet)."
     for band in registry.bands:

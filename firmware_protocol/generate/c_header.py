@@ -23,13 +23,24 @@ typedef struct {
     uint16_t length;
 } ebl_event_row;
 
-typedef enum { EBL_TYPE_U8 = 0, EBL_TYPE_U16 = 1, EBL_TYPE_F32 = 2, EBL_TYPE_TEXT = 3 } ebl_type;
+typedef enum {
+    EBL_TYPE_U8 = 0,
+    EBL_TYPE_U16 = 1,
+    EBL_TYPE_F32 = 2,
+    EBL_TYPE_TEXT = 3,
+    EBL_TYPE_U32 = 4
+} ebl_type;
 
 enum {
     EBL_PARAMETER_INCREASING = 1, /* each element is greater than the one before */
     EBL_PARAMETER_CHOICE = 2,     /* an enumeration: 0 to max */
-    EBL_PARAMETER_RATCHET = 4     /* going down is free, going up needs a token */
+    EBL_PARAMETER_RATCHET = 4,    /* going down is free, going up needs a token */
+    EBL_PARAMETER_NONE = 8        /* it may have no value: EBL_NONE_BITS */
 };
+
+/* The one float that says none: a quiet NaN without a payload. */
+#define EBL_NONE_BITS 0x7fc00000u
+#define EBL_NONE __builtin_nanf("")
 
 typedef struct {
     uint16_t id;

@@ -63,7 +63,7 @@ def _parameter_row(registry: Registry, parameter: Parameter) -> str:
     if parameter.enum is not None:
         high = max(registry.enum(parameter.enum).members.values())
     flags = int(parameter.increasing) + 2 * int(parameter.enum is not None)
-    flags += 4 * int(parameter.ratchet)
+    flags += 4 * int(parameter.ratchet) + 8 * int(parameter.may_be_none)
     access = next(n for n, v in registry.enum("access").members.items() if v == parameter.access)
     return (
         f"    {{0x{parameter.id:04x}, {parameter.image_offset}, EBL_TYPE_{parameter.type.upper()},"
@@ -112,6 +112,8 @@ def _initialiser(registry: Registry, parameter: Parameter) -> str:
     choices = registry.enum(parameter.enum).members if parameter.enum else {}
 
     def text(value: object) -> str:
+        if value is None:
+            return "EBL_NONE"
         if isinstance(value, tuple):
             return "{" + ", ".join(text(item) for item in value) + "}"
         if isinstance(value, str):

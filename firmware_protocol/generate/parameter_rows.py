@@ -11,20 +11,32 @@ from typing import Any
 from firmware_protocol.generate.tables import SIZES, BadRegistry, Table
 from firmware_protocol.layout import STRUCT_CODES, Default, Parameter, ParameterType
 
-GROUPS = ("sensor", "assist", "fuzzy", "second_table", "limits", "market", "drivetrain")
+GROUPS = (
+    "sensor",
+    "calibration",
+    "assist",
+    "fuzzy",
+    "second_table",
+    "limits",
+    "market",
+    "drivetrain",
+)
 """What a page shows together."""
 
-TYPES: tuple[ParameterType, ...] = ("f32", "u8", "u16", "text")
+TYPES: tuple[ParameterType, ...] = ("f32", "u8", "u16", "u32", "text")
 REQUIRED = {"id", "name", "group", "type", "unit", "default", "access", "doc"}
 OPTIONAL = {"shape", "length", "min", "max", "enum", "increasing", "least_step", "ratchet"}
-OPTIONAL |= {"record"}
+OPTIONAL |= {"record", "none"}
 
 MAKERS_RECORDS = ("MARKET", "FACTORY")
 """Records of parameters that nobody changes without a token of the maker."""
 
-IMAGE_BYTES_MAX = 448
-"""A ride log's block of 512 bytes keeps the whole image beside 32 of header, 4 of CRC and 28 that
-say whose it is. The unit's C does not compile beyond it (`config_fits` in ride_log_pages.c)."""
+IMAGE_BYTES_MAX = 912
+"""Two blocks of a ride log keep the whole image: 444 bytes beside what says whose it is, and the
+rest. The unit's C does not compile beyond it (`rest_fits` in ride_log/pages.c)."""
+
+U32_MAX = 4294967295
+"""The unit compares numbers as float32, which has not all of these: a u32 has its whole range."""
 
 COUNT_MAX = 255
 """Elements of a parameter: their number travels as a u8."""
@@ -49,7 +61,7 @@ def parameters(rows: list[dict[str, Any]], enums: tuple[Table, ...]) -> tuple[Pa
         found.append(parameter)
     if offset > IMAGE_BYTES_MAX:
         raise BadRegistry(
-            f"the configuration has {offset} bytes, and a ride log's block has room for "
+            f"the configuration has {offset} bytes, and two blocks of a ride log have room for "
             f"{IMAGE_BYTES_MAX}: a parameter needs a smaller type, or the log another block"
         )
     return tuple(found)
@@ -67,6 +79,8 @@ def _check_keys(row: dict[str, Any]) -> None:
         raise BadRegistry(f"{name}: an id is 0x0001 to 0xFFFF")
     if row["group"] not in GROUPS:
         raise BadRegistry(f"{name}: a group is one of {', '.join(GROUPS)}")
+    if "none" in row and (row["none"], row["type"], row.get("shape")) != ("nan", "f32", None):
+        raise BadRegistry(f'{name}: only a single f32 may be none, and "nan" says so')
     if row["type"] not in TYPES:
         raise BadRegistry(f"{name}: a type is one of {', '.join(TYPES)}")
     if (row["type"] == "text") != ("length" in row):
@@ -88,13 +102,14 @@ def _parameter(row: dict[str, Any], tables: dict[str, dict[str, int]], offset: i
         max=row.get("max"),
         enum=row.get("enum"),
         increasing=row.get("increasing", False),
-        default=_tuples(row["default"]),
+        default=None if "none" in row and row["default"] == "none" else _tuples(row["default"]),
         access=tables["access"][row["access"]],
         image_offset=offset,
         doc=row["doc"],
         ratchet=row.get("ratchet", False),
         least_step=row.get("least_step", 0.0),
         record=row.get("record", "TUNABLE"),
+        may_be_none="none" in row,
     )
 
 
@@ -115,6 +130,8 @@ def _check_kind(row: Parameter, tables: dict[str, dict[str, int]]) -> None:
         raise BadRegistry(f"{row.name}: what the maker keeps, only the maker changes")
     if row.ratchet and (row.type == "text" or row.enum is not None):
         raise BadRegistry(f"{row.name}: only numbers can be a ratchet")
+    if row.type == "u32" and (row.min, row.max, row.ratchet) != (0, U32_MAX, False):
+        raise BadRegistry(f"{row.name}: a u32 has its whole range, 0 to {U32_MAX}, and no ratchet")
     limits = [limit is not None for limit in (row.min, row.max)]
     if limits != [row.type != "text" and row.enum is None] * 2:
         raise BadRegistry(f"{row.name}: numbers need min and max, others have none")
@@ -125,7 +142,7 @@ def _check_default(row: Parameter, tables: dict[str, dict[str, int]]) -> None:
     if _shape(row.default) != row.shape:
         raise BadRegistry(f"{row.name}: its default must have the shape {list(row.shape)}")
     before: float | None = None
-    for value in _flat(row.default):
+    for value in _flat(row.default) if row.default is not None else ():
         if isinstance(value, str):
             fits = (
                 value in tables[row.enum]
@@ -161,6 +178,7 @@ def _shape(value: Default) -> tuple[int, ...]:
 def _flat(value: Default) -> list[float | int | str]:
     if isinstance(value, tuple):
         return [one for item in value for one in _flat(item)]
+    assert value is not None
     return [value]
 
 

@@ -180,7 +180,8 @@ def _parameter(row: Parameter) -> list[str]:
         f"        increasing={row.increasing}, access={row.access},"
         f" image_offset={row.image_offset},{' ratchet=True,' if row.ratchet else ''}"
         f"{f' least_step={row.least_step},' if row.increasing else ''}"
-        f"{'' if row.record == 'TUNABLE' else f' record={_quoted(row.record)},'}",
+        f"{'' if row.record == 'TUNABLE' else f' record={_quoted(row.record)},'}"
+        f"{' may_be_none=True,' if row.may_be_none else ''}",
         f"        default={default},",
         f"        doc={_quoted(row.doc)},",
         "    ),",

@@ -76,6 +76,7 @@ def _parameters(registry: Registry) -> list[str]:
             limits = "UTF-8, zero-filled"
         extra = f", increasing by {row.least_step} at least" if row.increasing else ""
         extra += ", ratchet" if row.ratchet else ""
+        extra += ", or none" if row.may_be_none else ""
         extra += bands.get(row.name, "")
         lines += [f"### 0x{row.id:04X} {row.name}", "", row.doc, ""]
         lines += [

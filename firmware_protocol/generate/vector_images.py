@@ -9,11 +9,13 @@ from collections.abc import Iterator
 from typing import Any
 
 from firmware_protocol.generate.registry import Registry
-from firmware_protocol.layout import STRUCT_CODES, Parameter
+from firmware_protocol.layout import NONE_BITS, STRUCT_CODES, Parameter
 
 Violation = tuple[int, int, str]
 Row = tuple[str, dict[int, bytes], list[Violation]]
 
+OTHER_NANS = (NONE_BITS | 0x80000000, NONE_BITS + 1, 0x7F800001)
+"""Negative, with a payload, signalling: none of them says none."""
 NOT_TEXTS = {
     "a lone continuation byte": b"\x80",
     "an overlong slash": b"\xc0\xaf",
@@ -78,7 +80,8 @@ def _number_rows(row: Parameter, at: int, last: int) -> Iterator[Row]:
     least, most = struct.pack(code, row.min), struct.pack(code, row.max)
     below, above = [(row.id, last, "BELOW_MIN")], [(row.id, last, "ABOVE_MAX")]
     yield f"{row.name}: largest", {at: most}, []
-    yield f"{row.name}: above the largest", {at: _stepped(code, most, 1)}, above
+    if most != b"\xff" * row.length:
+        yield f"{row.name}: above the largest", {at: _stepped(code, most, 1)}, above
     if row.increasing:
         before = at - row.length
         flat = [(row.id, last, "NOT_INCREASING")]
@@ -94,9 +97,12 @@ def _number_rows(row: Parameter, at: int, last: int) -> Iterator[Row]:
         if row.type == "f32" or row.min > 0:
             yield f"{row.name}: below the least", {at: _stepped(code, least, -1)}, below
     if row.type == "f32":
+        not_finite = [(row.id, last, "NOT_FINITE")]
         for value in (float("nan"), float("inf"), float("-inf")):
-            not_finite = [(row.id, last, "NOT_FINITE")]
-            yield f"{row.name}: {value}", {at: struct.pack("<f", value)}, not_finite
+            found = [] if row.may_be_none and value != value else not_finite
+            yield f"{row.name}: {value}", {at: struct.pack("<f", value)}, found
+        for bits in OTHER_NANS if row.may_be_none else ():
+            yield f"{row.name}: NaN {bits:08x}", {at: struct.pack("<I", bits)}, not_finite
 
 
 def _denormal_points(row: Parameter) -> tuple[dict[int, bytes], list[Violation]]:

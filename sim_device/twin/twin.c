@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-#include "assist.h" // assist_step
+#include "assist.h"  // assist_step
+#include "float32.h" // float32_missing
 
 #define KMH_PER_MS 3.6
 #define RPM_PER_RAD_S (30.0 / 3.14159265358979323846)
@@ -90,6 +91,7 @@ static double assist_nm(ride *self, size_t at, double rider_nm, double chainring
         .battery_current_a = (float)self->current_a,
         .motor_temperature_degc = (float)road->motor_degc[at],
         .controller_temperature_degc = (float)road->controller_degc[at],
+        .sensor_temperature_degc = float32_missing(), /* as the counts were made of torque */
         .mode = road->mode[at],
         .brake = (uint8_t)brake,
     };

@@ -46,6 +46,9 @@ def rough_ride(seed: int) -> npt.NDArray[np.void]:
             "controller_temperature_degc": np.where(
                 random.random(STEPS) < 0.5, np.nan, random.uniform(60, 105, STEPS)
             ),
+            "sensor_temperature_degc": np.where(
+                random.random(STEPS) < 0.1, np.nan, random.uniform(-300, 300, STEPS)
+            ),
             "torque_age_ms": np.where(random.random(STEPS) < 0.02, 51, random.integers(0, 40)),
             "walk_button": np.repeat(random.random(STEPS // 50) < 0.3, 50),
             "inhibit": np.repeat(random.random(STEPS // 50) < 0.05, 50),
@@ -65,6 +68,9 @@ def config_of(inference: str, falling: str) -> dict[str, Any]:
         "fuzzy_gain_points": [0.05, 0.11, 0.27, 0.33, 0.48],
         "assist_cutoff_band_kmh": 2.0,
         "sensor_offset_counts": 12.5,
+        "sensor_offset_counts_per_k": 1.75,
+        "sensor_gain_share_per_k": None if falling == "no_gain" else -3e-4,
+        "sensor_reference_degc": 22.5,
         "mode_tapers": ["none", "none", "japan_1_to_1", "taper_speeds", "japan_2_to_1"],
         "mode_tables": [0, 0, 0, 0, 1],
         "mode_ramp_up_nm_per_s": [2000, 150, 90, 300, 2000],

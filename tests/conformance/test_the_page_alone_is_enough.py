@@ -20,7 +20,7 @@ import pytest
 
 from sim_device.lockstep import LockstepUnit
 from tests.conformance.from_the_page.client import Client
-from tests.conformance.from_the_page.log_download import block_types, downloaded, listed
+from tests.conformance.from_the_page.log_download import blocks_of, downloaded, listed
 from tests.conformance.from_the_page.page import Page
 from tests.conformance.from_the_page.wire import Frame, Receiver, crc32, stuffed, unstuffed
 
@@ -28,7 +28,7 @@ FOLDER = Path(__file__).parent / "from_the_page"
 NONCE = bytes(range(8))
 ACTIVE = 0
 CONFIRMED = 2
-CONFIG, SCHEMA, DATA = 1, 2, 3
+CONFIG, SCHEMA, DATA, CONFIG_REST = 1, 2, 3, 7
 SPEED_LIMITS_KMH = (10.0, 30.0)
 
 
@@ -241,9 +241,13 @@ def test_it_fetches_a_ride_log_and_proves_it(wire: Wire, host: Client) -> None:
     name = {"log_id": log["log_id"], "generation": log["generation"]}
     told = host.ask("LOG_CRC", {**name, "offset": 0, "length": len(whole)})
     assert told.fields["crc32"] == crc32(whole)
-    kinds = block_types(whole)
-    assert kinds[:2] == [CONFIG, SCHEMA]
+    blocks = blocks_of(whole)
+    kinds = [kind for kind, _ in blocks]
+    assert kinds[:3] == [CONFIG, CONFIG_REST, SCHEMA]
     assert DATA in kinds
+    config, rest = blocks[0][1], blocks[1][1]
+    assert config[28:] + rest[4:] == active_image(host)
+    assert config[24:28] == rest[:4] == crc32(active_image(host)).to_bytes(4, "little")
     kept = host.ask("LOG_CONFIRM", {**name, "length": len(whole), "crc32": crc32(whole)})
     assert kept.status == "OK"
     assert number(listed(host)[0]["flags"]) & CONFIRMED

@@ -164,6 +164,29 @@ def test_raw_counts_become_newton_metres_by_the_calibration_that_was_written(
     assert now["rider_torque_nm"] == pytest.approx(expected_nm, abs=gain + 0.01)
 
 
+def test_a_calibration_is_kept_with_its_certificate_and_what_is_not_known_of_it(
+    server: SpindleServer, device: str
+) -> None:
+    calibration = server.get(f"/devices/{device}/calibration")
+    assert calibration["sensor_reference_degc"] == 20.0
+    record = {
+        "sensor_offset_counts_per_k": 1.5,
+        "sensor_gain_share_per_k": None,
+        "sensor_reference_degc": 23.5,
+        "calibrated_at_utc_s": 1795443600,
+        "calibration_number": 3,
+        "calibration_certificate": [0, 17, 34, 51, 170, 187, 204, 255],
+    }
+
+    server.ask("PUT", f"/devices/{device}/calibration", json=calibration | record)
+
+    assert server.get(f"/devices/{device}/calibration") == calibration | record
+    rows = server.get(f"/devices/{device}/parameters")["items"]
+    assert {row["name"] for row in rows if row["may_be_none"]} == {*list(record)[:3]}
+    whole = server.get(f"/devices/{device}/config")["parameters"]
+    assert whole["sensor_gain_share_per_k"] is None
+
+
 @pytest.mark.parametrize(
     ("part", "newer"), [("calibration", "torque_filter"), ("limits", "assist_cutoff_extra_kmh")]
 )

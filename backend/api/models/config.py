@@ -13,7 +13,7 @@ from backend.api.models.base import Answer, Question
 Number = StrictInt | Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Scalar = Number | StrictStr
 Row = Annotated[list[Scalar], Field(max_length=64)]
-ParameterValue = Scalar | Row | Annotated[list[Row], Field(max_length=64)]
+ParameterValue = Scalar | Row | Annotated[list[Row], Field(max_length=64)] | None
 Parameters = dict[str, ParameterValue]
 CONFIRM_S_MAX = 255
 TOKEN_PATTERN = "^[0-9a-fA-F]{144}$"
@@ -49,7 +49,10 @@ class Parameter(Answer):
     max: float | None
     default: ParameterValue
     access: Literal["rider", "dealer", "factory"]
-    value: ParameterValue | None
+    value: ParameterValue
+    may_be_none: bool = Field(
+        default=False, description="Whether `null` is a value: a correction that is not known."
+    )
     free: Free | None = Field(
         default=None, description="Only of parameters that are held near the factory's value."
     )
@@ -107,8 +110,8 @@ class Live(Answer):
 
 class Change(Answer):
     name: str
-    old: ParameterValue | None
-    new: ParameterValue | None
+    old: ParameterValue
+    new: ParameterValue
 
 
 class ConfigChange(Answer):

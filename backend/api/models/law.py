@@ -68,14 +68,29 @@ class AssistModes(LawModel):
     mode_at_start: int = Field(ge=0, le=4)
 
 
+PER_K = "For each kelvin above `sensor_reference_degc`; null: not corrected."
+
+
 class Calibration(LawModel):
     """How raw counts become newton metres, and how they are filtered.
 
-    `torque_filter` may be missing in what is written.
+    What has a default may be missing in what is written.
     """
 
     sensor_offset_counts: float
     sensor_gain_nm_per_count: float
+    sensor_offset_counts_per_k: float | None = Field(default=None, description=PER_K)
+    sensor_gain_share_per_k: float | None = Field(default=None, description=PER_K)
+    sensor_reference_degc: float | None = Field(
+        default=None, description="Null: nothing is corrected for temperature."
+    )
+    calibrated_at_utc_s: int | None = Field(
+        default=None, ge=0, description="Seconds since 1970; 0 where it is not known."
+    )
+    calibration_number: int | None = Field(default=None, ge=0, description="0: the factory's.")
+    calibration_certificate: list[int] | None = Field(
+        default=None, description="First 8 bytes of its SHA-256; all 0 where there is none."
+    )
     torque_filter: TorqueFilter | None = Field(
         default=None,
         description="Averages with `torque_filter_s`, or over the last half turn of the crank.",

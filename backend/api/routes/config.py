@@ -230,8 +230,8 @@ def put_calibration(
     confirm_s: ConfirmS = 0,
     token: Token = None,
 ) -> Any:
-    """Writes offset, gain and filters in one transaction."""
-    written = body.model_dump(exclude_none=True)
+    """Writes sensor, filters and the record of a calibration in one transaction."""
+    written = body.model_dump(exclude_unset=True)
     change = services.tuning.write_part(
         device_id, "calibration", written, reason, if_match, confirm_s, token, author
     )

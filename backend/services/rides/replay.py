@@ -38,6 +38,8 @@ OPTIONAL = (
     "controller_temperature_degc",
     "torque_age_ms",
 )
+SENSOR_DEGC = "sensor_temperature_degc"
+"""What raw readings are corrected by; torques that were recorded are, by the unit."""
 FLAGS = "input_flags"
 LIMITS = "limit_flags"
 COMPARED = (
@@ -140,7 +142,15 @@ def read_columns(reader: RideReader, start: int = 0, stop: int | None = None) ->
             f"needs one at least every {PERIOD_US_MAX // 1000} ms.",
             code="too_slow",
         )
-    names = [*NEEDED, torque, *OPTIONAL, FLAGS, LIMITS, *(channel.name for channel in COMPARED)]
+    names = [
+        *NEEDED,
+        torque,
+        *OPTIONAL,
+        SENSOR_DEGC,
+        FLAGS,
+        LIMITS,
+        *(channel.name for channel in COMPARED),
+    ]
     spans = [span.rows(reader.period_us) for span in reader.ride.filled]
     read = reader.values(names, start, stop)
     return {name: held(values, spans, start) for name, values in read.items()}
@@ -180,6 +190,7 @@ def law_inputs(columns: Mapping[str, Values]) -> dict[str, npt.ArrayLike]:
     }
     if "rider_torque_raw" in columns:
         inputs["torque_raw_counts"] = columns["rider_torque_raw"]
+        inputs[SENSOR_DEGC] = columns.get(SENSOR_DEGC, np.nan)
     else:
         inputs["rider_torque_nm"] = columns["rider_torque_nm"]
     inputs["mode"] = np.nan_to_num(columns["assist_mode"]).astype(np.uint8)

@@ -21,7 +21,7 @@ class ConfigView:
     parameters: dict[str, Value]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ParameterView(ParameterRow):
     """A parameter, its value in the unit now, and its band; None: it has none."""
 

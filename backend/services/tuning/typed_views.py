@@ -110,8 +110,8 @@ def _assist_modes() -> ConfigPart:
 
 
 def _calibration(table: ParameterTable) -> ConfigPart:
-    """The sensor's group; what the maker gave it is told and not written."""
-    names = table.group("sensor")
+    """Sensor and record of its calibration; what the maker gave it is told and not written."""
+    names = table.group("sensor") + table.group("calibration")
     told = {name: itemgetter(name) for name in names if name in table.factory}
     return _by_name(tuple(name for name in names if name not in told), told)
 

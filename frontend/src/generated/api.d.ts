@@ -662,7 +662,7 @@ export interface paths {
         get: operations["get_calibration"];
         /**
          * Put Calibration
-         * @description Writes offset, gain and filters in one transaction.
+         * @description Writes sensor, filters and the record of a calibration in one transaction.
          */
         put: operations["put_calibration"];
         post?: never;
@@ -1779,7 +1779,7 @@ export interface components {
              * @description By registry name, as a unit's configuration or an entry of the library has them. Those of sensor, wheel and drivetrain stay as they were on the ride.
              */
             parameters?: {
-                [key: string]: number | string | (number | string)[] | (number | string)[][];
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
             };
             fuzzy_table?: components["schemas"]["FuzzyTable"] | null;
             /** @description Shares speed and torque-rate points with the first. */
@@ -1910,13 +1910,43 @@ export interface components {
          * Calibration
          * @description How raw counts become newton metres, and how they are filtered.
          *
-         *     `torque_filter` may be missing in what is written.
+         *     What has a default may be missing in what is written.
          */
         Calibration: {
             /** Sensor Offset Counts */
             sensor_offset_counts: number;
             /** Sensor Gain Nm Per Count */
             sensor_gain_nm_per_count: number;
+            /**
+             * Sensor Offset Counts Per K
+             * @description For each kelvin above `sensor_reference_degc`; null: not corrected.
+             */
+            sensor_offset_counts_per_k?: number | null;
+            /**
+             * Sensor Gain Share Per K
+             * @description For each kelvin above `sensor_reference_degc`; null: not corrected.
+             */
+            sensor_gain_share_per_k?: number | null;
+            /**
+             * Sensor Reference Degc
+             * @description Null: nothing is corrected for temperature.
+             */
+            sensor_reference_degc?: number | null;
+            /**
+             * Calibrated At Utc S
+             * @description Seconds since 1970; 0 where it is not known.
+             */
+            calibrated_at_utc_s?: number | null;
+            /**
+             * Calibration Number
+             * @description 0: the factory's.
+             */
+            calibration_number?: number | null;
+            /**
+             * Calibration Certificate
+             * @description First 8 bytes of its SHA-256; all 0 where there is none.
+             */
+            calibration_certificate?: number[] | null;
             /**
              * Torque Filter
              * @description Averages with `torque_filter_s`, or over the last half turn of the crank.
@@ -2064,7 +2094,7 @@ export interface components {
             limits?: components["schemas"]["Limits"] | null;
             /** Parameters */
             parameters?: {
-                [key: string]: number | string | (number | string)[] | (number | string)[][];
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
             };
         };
         /** Change */
@@ -2339,7 +2369,7 @@ export interface components {
             crc32: number;
             /** Parameters */
             parameters: {
-                [key: string]: number | string | (number | string)[] | (number | string)[][];
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
             };
         };
         /**
@@ -2371,14 +2401,14 @@ export interface components {
              * @description The whole configuration as it was read back.
              */
             parameters: {
-                [key: string]: number | string | (number | string)[] | (number | string)[][];
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
             };
         };
         /** ConfigPatch */
         ConfigPatch: {
             /** Parameters */
             parameters: {
-                [key: string]: number | string | (number | string)[] | (number | string)[][];
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
             };
             /**
              * Reason
@@ -2763,7 +2793,7 @@ export interface components {
         /** DocumentParameter */
         DocumentParameter: {
             /** Value */
-            value: number | string | (number | string)[] | (number | string)[][];
+            value: number | string | (number | string)[] | (number | string)[][] | null;
             /** Unit */
             unit: string;
             /**
@@ -3530,7 +3560,7 @@ export interface components {
         /** LibraryParameter */
         LibraryParameter: {
             /** Value */
-            value: number | string | (number | string)[] | (number | string)[][];
+            value: number | string | (number | string)[] | (number | string)[][] | null;
             /**
              * Unit
              * @description Empty for a number without one, and for a text or a choice.
@@ -3684,7 +3714,7 @@ export interface components {
         Live: {
             /** Parameters */
             parameters: {
-                [key: string]: number | string | (number | string)[] | (number | string)[][];
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
             };
             /** Remaining S */
             remaining_s: number | null;
@@ -3698,7 +3728,7 @@ export interface components {
         LiveRequest: {
             /** Parameters */
             parameters: {
-                [key: string]: number | string | (number | string)[] | (number | string)[][];
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
             };
             /**
              * Ttl S
@@ -3805,7 +3835,7 @@ export interface components {
         ModeCurvesRequest: {
             /** Parameters */
             parameters: {
-                [key: string]: number | string | (number | string)[] | (number | string)[][];
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
             };
             /**
              * Rider Torque Nm
@@ -3892,7 +3922,7 @@ export interface components {
             /** Max */
             max: number | null;
             /** Default */
-            default: number | string | (number | string)[] | (number | string)[][];
+            default: number | string | (number | string)[] | (number | string)[][] | null;
             /**
              * Access
              * @enum {string}
@@ -3900,6 +3930,12 @@ export interface components {
             access: "rider" | "dealer" | "factory";
             /** Value */
             value: number | string | (number | string)[] | (number | string)[][] | null;
+            /**
+             * May Be None
+             * @description Whether `null` is a value: a correction that is not known.
+             * @default false
+             */
+            may_be_none: boolean;
             /** @description Only of parameters that are held near the factory's value. */
             free: components["schemas"]["Free"] | null;
             /** Choices */
@@ -4094,7 +4130,7 @@ export interface components {
             duration_s: components["schemas"]["ProposalFigure"];
             /** Parameters */
             parameters: {
-                [key: string]: number | string | (number | string)[] | (number | string)[][];
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
             };
             /** Changed */
             changed: components["schemas"]["Change"][];
@@ -4262,7 +4298,7 @@ export interface components {
              * @description By registry name, as a unit's configuration or an entry of the library has them. Those of sensor, wheel and drivetrain stay as they were on the ride.
              */
             parameters?: {
-                [key: string]: number | string | (number | string)[] | (number | string)[][];
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
             };
             fuzzy_table?: components["schemas"]["FuzzyTable"] | null;
             /** @description Shares speed and torque-rate points with the first. */
@@ -5663,7 +5699,7 @@ export interface components {
         TorqueSurfaceRequest: {
             /** Parameters */
             parameters: {
-                [key: string]: number | string | (number | string)[] | (number | string)[][];
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
             };
             /**
              * Mode

@@ -331,6 +331,36 @@ export const PARAMETERS = {
     least_step: 0.0,
     ratchet: false,
   },
+  sensor_offset_counts_per_k: {
+    length: 4,
+    least_step: 0.0,
+    ratchet: false,
+  },
+  sensor_gain_share_per_k: {
+    length: 4,
+    least_step: 0.0,
+    ratchet: false,
+  },
+  sensor_reference_degc: {
+    length: 4,
+    least_step: 0.0,
+    ratchet: false,
+  },
+  calibrated_at_utc_s: {
+    length: 4,
+    least_step: 0.0,
+    ratchet: false,
+  },
+  calibration_number: {
+    length: 4,
+    least_step: 0.0,
+    ratchet: false,
+  },
+  calibration_certificate: {
+    length: 1,
+    least_step: 0.0,
+    ratchet: false,
+  },
 } as const satisfies Record<string, ParameterRow>;
 
 export type ParameterName = keyof typeof PARAMETERS;

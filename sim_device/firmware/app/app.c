@@ -5,7 +5,7 @@
 #include "float32.h"           // float32_max, float32_min, float32_missing
 #include "market.h"            // market_profile_of
 #include "private/report.h"    // report_faults_cleared, report_faults_set
-#include "private/unit.h"      // app
+#include "private/unit.h"      // app, config_sensor_as_drawn
 #include "requests/dispatch.h" // dispatch_frame
 #include "requests/services.h" // requests_log_poll
 
@@ -92,6 +92,7 @@ void app_factory_config(ebl_config *config, uint8_t market_number)
     config->market = market_number;
     config->assist_cutoff_kmh = float32_min(config->assist_cutoff_kmh, cutoff_kmh);
     config->assist_cutoff_extra_kmh = cutoff_kmh - config->assist_cutoff_kmh;
+    config_sensor_as_drawn(config);
 }
 
 int app_provision(const hal *board, const ebl_config *config)
@@ -184,6 +185,7 @@ static void assist_input_from(const hal_inputs *inputs, float speed_kmh, uint8_t
     input->battery_current_a = inputs->battery_current_a;
     input->motor_temperature_degc = inputs->motor_temperature_degc;
     input->controller_temperature_degc = inputs->controller_temperature_degc;
+    input->sensor_temperature_degc = inputs->sensor_temperature_degc;
     input->torque_age_ms = inputs->torque_age_ms;
     input->mode = mode;
     input->brake = inputs->brake;

@@ -74,7 +74,7 @@ static float apply_sensor(const assist_config *config, assist_state *state,
     float push_nm = 0.0f;
 
     if (torque_is_fresh(input)) {
-        output->rider_torque_nm = sensor_torque_nm(config, input->torque_raw_counts);
+        output->rider_torque_nm = sensor_torque_nm(config, input);
         push_nm = output->rider_torque_nm;
         half_turn_note(&state->turn, config->step_s, input->cadence_rpm, push_nm);
         state->torque_filtered_nm = stroke_average_nm(config, state, push_nm);

@@ -42,6 +42,12 @@ void assist_interrupted(assist_state *state);
 size_t assist_run(const assist_config *config, assist_state *state, const assist_input *inputs,
                   assist_output *outputs, size_t count);
 
+/* What the law takes readings of the torque sensor for, (count) each; a temperature of NaN corrects
+ * nothing. For whoever looks at recorded readings. */
+void assist_rider_torque_run(const assist_config *config, const float *torque_raw_counts,
+                             const float *sensor_temperature_degc, float *rider_torque_nm,
+                             size_t count);
+
 /* Torque at the motor's shaft by its current, less what the motor's own drag takes: what it really
  * gives, whatever it was told. NaN where the current or the speed is. A motor that spins free in
  * its clutch draws for its drag alone: 0. */

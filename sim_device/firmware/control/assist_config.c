@@ -1,14 +1,28 @@
 /* Is this a configuration a bike can have? The registry's ranges are narrower; these only make sure
  * that no step divides by zero, overflows or reads past an array. */
-#include "assist.h" // assist_config_check
-#include "market.h" // MARKET_COUNT
+#include "assist.h"  // assist_config_check
+#include "float32.h" // float32_abs
+#include "market.h"  // MARKET_COUNT
 
 static const float LARGEST = 1.0e6f;
 static const float SMALLEST = 1.0e-6f;
 
+/* Times the 200 K of sensor.c less than one: more push never reads as less. */
+static const float GAIN_SHARE_PER_K_MAX = 0.0045f;
+
 static int positive(float value) { return value >= SMALLEST && value <= LARGEST; }
 
 static int not_negative(float value) { return value >= 0.0f && value <= LARGEST; }
+
+/* NaN is none. */
+static int none_or_within(float value, float limit) { return !(float32_abs(value) > limit); }
+
+static int temperature_accepted(const assist_config *config)
+{
+    return none_or_within(config->sensor_offset_counts_per_k, LARGEST) &&
+           none_or_within(config->sensor_gain_share_per_k, GAIN_SHARE_PER_K_MAX) &&
+           none_or_within(config->sensor_reference_degc, LARGEST);
+}
 
 static int sensor_accepted(const assist_config *config)
 {
@@ -61,7 +75,8 @@ static int limits_accepted(const assist_config *config)
 int assist_config_check(const assist_config *config)
 {
     if (!positive(config->step_s)) return ASSIST_CONFIG_REFUSED;
-    if (!sensor_accepted(config) || !law_accepted(config) || !limits_accepted(config)) {
+    if (!sensor_accepted(config) || !temperature_accepted(config) || !law_accepted(config) ||
+        !limits_accepted(config)) {
         return ASSIST_CONFIG_REFUSED;
     }
     if (!positive(config->gear_ratio) || !positive(config->motor_torque_constant_nm_per_a) ||

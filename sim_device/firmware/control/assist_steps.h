@@ -15,7 +15,7 @@ static inline void trace_note(assist_trace *trace, unsigned step, float torque_n
 }
 
 /* sensor.c */
-float sensor_torque_nm(const assist_config *config, float torque_raw_counts);
+float sensor_torque_nm(const assist_config *config, const assist_input *input);
 
 /* half_turn.c: keeps the mean over the last half turn, told the torque of every step. */
 void half_turn_note(half_turn *turn, float step_s, float cadence_rpm, float torque_nm);

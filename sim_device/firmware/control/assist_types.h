@@ -46,6 +46,9 @@ typedef struct {
     float step_s; /* control period, 0.01 s */
     float sensor_offset_counts;
     float sensor_gain_nm_per_count;
+    float sensor_offset_counts_per_k; /* NaN: none, as the two below */
+    float sensor_gain_share_per_k;
+    float sensor_reference_degc;
     uint8_t torque_filter; /* assist_filter */
     float torque_filter_s; /* of ASSIST_FILTER_TIME_CONSTANT */
     float torque_rate_interval_s;
@@ -89,6 +92,7 @@ typedef struct {
     float battery_current_a;      /* NaN: not measured; the battery's limit keeps a margin */
     float motor_temperature_degc; /* NaN: not measured; the battery's limit takes it as hot */
     float controller_temperature_degc;
+    float sensor_temperature_degc; /* NaN: not measured; the reading is taken as it is */
     uint16_t torque_age_ms; /* since torque_raw_counts was measured; too old ends the assist */
     uint8_t mode;           /* slot 0 to 4; any other is refused */
     uint8_t brake;

@@ -64,19 +64,7 @@ static void judge(rotor_receiver *receiver, uint32_t word)
     }
 }
 
-/* The end of the word's range says that the converter is at its end: that is told as it is. */
-static float compensated(const rotor_receiver *receiver, const rotor_calibration *calibration,
-                         int16_t counts)
-{
-    float warmer_k = (float)receiver->temperature_degc - calibration->reference_degc;
-    float zero = calibration->zero_counts_per_k * warmer_k;
-
-    if (counts == 32767 || counts == -32767) return (float)counts;
-    return ((float)counts - zero) / (1.0f + calibration->span_share_per_k * warmer_k);
-}
-
-void rotor_receiver_exchange(rotor_receiver *receiver, const rotor_calibration *calibration,
-                             int present, uint32_t word)
+void rotor_receiver_exchange(rotor_receiver *receiver, int present, uint32_t word)
 {
     if (present) {
         judge(receiver, word);
@@ -92,8 +80,7 @@ void rotor_receiver_exchange(rotor_receiver *receiver, const rotor_calibration *
     if (receiver->exchanges < ROTOR_WORDS_PER_READING) return;
     receiver->exchanges = 0;
     if (receiver->good > 0) {
-        receiver->torque_raw_counts =
-            compensated(receiver, calibration, receiver->counts[receiver->good / 2]);
+        receiver->torque_raw_counts = (float)receiver->counts[receiver->good / 2];
         receiver->age_ms = DELAY_MS;
     }
     receiver->good = 0;

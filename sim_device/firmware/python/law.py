@@ -41,6 +41,7 @@ INPUT_DTYPE = np.dtype(
         ("battery_current_a", np.float32),
         ("motor_temperature_degc", np.float32),
         ("controller_temperature_degc", np.float32),
+        ("sensor_temperature_degc", np.float32),
         ("torque_age_ms", np.uint16),
         ("mode", np.uint8),
         ("brake", np.uint8),
@@ -55,6 +56,7 @@ INPUT_DEFAULTS = {
     "battery_current_a": np.nan,
     "motor_temperature_degc": np.nan,
     "controller_temperature_degc": np.nan,
+    "sensor_temperature_degc": np.nan,
     "torque_age_ms": 0,
     "walk_button": 0,
     "inhibit": 0,
@@ -297,6 +299,28 @@ def assist_run(
     """
     outputs = AssistLaw(config, step_s, in_range).run(pack_inputs(inputs))
     return {name: outputs[name] for name in OUTPUT_DTYPE.names or ()}
+
+
+def rider_torque_nm(
+    config: Config, torque_raw_counts: npt.ArrayLike, sensor_temperature_degc: npt.ArrayLike
+) -> Floats:
+    """What the unit makes of readings of its torque sensor, float32 (n,); NaN stays NaN.
+
+    config: the parameters of the sensor; what is missing of them is as by default.
+    torque_raw_counts: (n,). sensor_temperature_degc: (n,) or one; NaN is not corrected for.
+    """
+    native = native_config({**default_config(), **config})
+    counts = _vector(torque_raw_counts, "torque_raw_counts")
+    degc = _vector(np.broadcast_to(sensor_temperature_degc, counts.shape), "temperature")
+    torques = np.empty(counts.size, np.float32)
+    lib.assist_rider_torque_run(
+        native,
+        ffi.from_buffer("float[]", counts),
+        ffi.from_buffer("float[]", degc),
+        ffi.from_buffer("float[]", torques, require_writable=True),
+        torques.size,
+    )
+    return torques
 
 
 def steady_ratios(config: Config, mode: int, speeds_kmh: npt.ArrayLike) -> Floats:

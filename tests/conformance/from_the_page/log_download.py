@@ -54,8 +54,8 @@ def downloaded(client: Client, log: Fields, window: int = 8) -> bytes:
     return b"".join(here[offset] for offset in sorted(here))
 
 
-def block_types(log: bytes) -> list[int]:
-    """The types of the whole blocks of a log, by their check values."""
+def blocks_of(log: bytes) -> list[tuple[int, bytes]]:
+    """Type and payload of the whole blocks of a log, by their check values."""
     found = []
     for at in range(0, len(log), BLOCK_BYTES):
         magic, version, kind, length = struct.unpack_from("<4sBBH", log, at)
@@ -63,5 +63,5 @@ def block_types(log: bytes) -> list[int]:
         if (magic, version) == (b"EBLL", 1) and log[end : end + 4] == crc32(log[at:end]).to_bytes(
             4, "little"
         ):
-            found.append(kind)
+            found.append((kind, log[at + 32 : end]))
     return found

@@ -15,6 +15,8 @@ REGISTRY_SPELLING = {"°C": "degC", "Ω": "ohm"}
         ("motor_torque_nm_max", "Nm"),
         ("assist_ramp_up_nm_per_s", "Nm/s"),
         ("sensor_gain_nm_per_count", "Nm/count"),
+        ("sensor_offset_counts_per_k", "counts/K"),
+        ("sensor_gain_share_per_k", "1/K"),
         ("assist_ratio", ""),
         ("s", ""),
     ],

@@ -22,7 +22,10 @@ from backend.ingest.ride_logs import read_blocks
 from firmware_protocol._generated import SCHEMA_HASH
 from firmware_protocol.parameters import default_config, pack_image
 
-CONFIG, SCHEMA, DATA, EVENT, SYNC, END = range(1, 7)
+CONFIG, SCHEMA, DATA, EVENT, SYNC, END, CONFIG_REST = range(1, 8)
+# Of a unit of release 0.5: it fits one block. A longer one goes on in a CONFIG_REST.
+IMAGE_BYTES_0_5 = 427
+IMAGE_BYTES_OF_A_CONFIG = 444
 ROWS = 10
 T0_US = 5_000_000
 PERIOD_US = 100_000
@@ -51,7 +54,7 @@ def block(
 
 
 def config_block(seq: int = 0, **changes: int) -> bytes:
-    image = pack_image(default_config())
+    image = pack_image(default_config())[:IMAGE_BYTES_0_5]
     payload = UID + SCHEMA_HASH + struct.pack("<II", 4, zlib.crc32(image)) + image
     return block(CONFIG, seq, payload, **changes)
 
@@ -222,6 +225,21 @@ def test_the_check_value_decides_and_the_next_block_is_found_at_any_byte() -> No
     assert (outcome.state, outcome.code) == ("partial", "damaged")
     assert outcome.completeness == pytest.approx(9 / 11)
     assert speeds(data) == expected([0, 1, 3, 5, 6, 7])
+
+
+@pytest.mark.parametrize(("rest_of", "gear_ratio"), [(0, 40.34), (1, None)])
+def test_a_configuration_goes_on_in_the_next_block(rest_of: int, gear_ratio: float | None) -> None:
+    image = pack_image(default_config())
+    crc32 = zlib.crc32(image)
+    head = UID + SCHEMA_HASH + struct.pack("<II", 4, crc32)
+    config = block(CONFIG, 0, head + image[:IMAGE_BYTES_OF_A_CONFIG])
+    rest = struct.pack("<I", crc32 + rest_of) + image[IMAGE_BYTES_OF_A_CONFIG:]
+    data = b"".join([config, block(CONFIG_REST, 11, rest), *whole_log()[1:]])
+
+    (ride,) = read_blocks(data).rides
+
+    assert ride.context.config_crc32 == crc32
+    assert ride.context.gear_ratio == gear_ratio
 
 
 def test_order_and_repetition_make_no_difference() -> None:

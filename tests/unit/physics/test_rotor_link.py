@@ -25,7 +25,6 @@ class Link:
         lib.rotor_link_seed(self.state, seed)
         self.receiver: Any = ffi.new("rotor_receiver *")
         lib.rotor_receiver_init(self.receiver, 20)
-        self.calibration: Any = ffi.new("rotor_calibration *")
         self.angle_deg = 0.0
 
     def run(self, words: int, counts: int = 2448, lost: int = 0, turn_per_s: float = 1.0) -> None:
@@ -33,7 +32,7 @@ class Link:
             self.angle_deg = (self.angle_deg + 360.0 * turn_per_s / WORDS_PER_S) % 360.0
             lib.rotor_link_exchange(self.config, self.state, counts, 21, self.angle_deg, lost)
             state = self.state
-            lib.rotor_receiver_exchange(self.receiver, self.calibration, state.present, state.word)
+            lib.rotor_receiver_exchange(self.receiver, state.present, state.word)
 
     @property
     def undetected(self) -> int:
@@ -129,7 +128,7 @@ def test_the_median_hides_a_word_that_lied() -> None:
     link.run(5)
 
     forged = lib.rotor_link_word(30_000, 21, int(link.receiver.sequence))
-    lib.rotor_receiver_exchange(link.receiver, link.calibration, 1, forged)
+    lib.rotor_receiver_exchange(link.receiver, 1, forged)
     link.run(4)
 
     assert link.receiver.torque_raw_counts == 2448
@@ -163,22 +162,11 @@ def test_a_rotor_that_started_anew_costs_one_word() -> None:
     assert link.receiver.torque_raw_counts == 2448
 
 
-def test_the_word_s_temperature_takes_the_drift_out_of_the_torque() -> None:
+def test_a_reading_is_told_as_it_came_however_warm_the_sensor() -> None:
     link = Link()
-    link.calibration.zero_counts_per_k = 2.0
-    link.calibration.span_share_per_k = 2e-4
-    link.calibration.reference_degc = 20.0
-    warm_counts = round((2448 * (1 + 2e-4 * 1)) + 2)
 
-    link.run(5, counts=warm_counts)
-
-    assert link.receiver.torque_raw_counts == pytest.approx(2448, abs=1)
-
-
-def test_the_end_of_the_range_is_told_as_it_is_however_warm_the_sensor() -> None:
-    link = Link()
-    link.calibration.zero_counts_per_k = 2.0
+    link.run(10, counts=2451)
+    assert (link.receiver.torque_raw_counts, link.receiver.temperature_degc) == (2451, 21)
 
     link.run(10, counts=32767)
-
     assert link.receiver.torque_raw_counts == 32767

@@ -17,7 +17,7 @@ from sim_device.firmware.python import wire
 from sim_device.firmware.python.law import AssistLaw, LawRefused, gain_points
 
 BOUNDED = [row for row in PARAMETERS if row.min is not None and row.max is not None]
-LARGEST = {"u8": 255, "u16": 65535}
+LARGEST = {"u8": 255, "u16": 65535, "u32": 4294967295}
 
 
 def beside(row: Parameter) -> list[float | int]:

@@ -410,7 +410,7 @@ def test_flash_without_room_for_two_slots_is_not_written() -> None:
     assert (unit.flash() == 0xFF).all()
 
 
-@pytest.mark.parametrize("block_bytes", [64, 128, 331, 1024])
+@pytest.mark.parametrize("block_bytes", [80, 128, 331, 1024])
 def test_slots_of_any_number_of_blocks_work(block_bytes: int) -> None:
     unit = BenchUnit(flash_block_bytes=block_bytes, flash_bytes=block_bytes * 24)
 

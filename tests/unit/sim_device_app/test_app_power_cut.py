@@ -23,7 +23,7 @@ from tests.fakes.config_flash import AT_CONFIRMED, AT_RECORDS, AT_TABLE, AT_VOID
 
 OLD_CUTOFF_KMH = 21.0
 NEW_CUTOFF_KMH = 19.0
-BLOCK_BYTES, BLOCKS = 256, 3
+BLOCK_BYTES, BLOCKS = 256, 4
 """Small blocks: fewer dull steps of erasing."""
 
 SLOT_BYTES = BLOCKS * BLOCK_BYTES

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from sim_device.firmware.python._native import lib
 
-from backend.ingest.blocks import CONFIG, DATA, END, EVENT, SCHEMA, scan
+from backend.ingest.blocks import CONFIG, CONFIG_REST, DATA, END, EVENT, SCHEMA, scan
 from backend.ingest.ride_logs import read_blocks
 from firmware_protocol._generated import (
     CHANNELS,
@@ -115,7 +115,7 @@ def test_description_and_configuration_come_again_every_minute() -> None:
 
     blocks = scan(fetch(unit, logs(unit)[0])).blocks
 
-    assert [block.type for block in blocks[:2]] == [CONFIG, SCHEMA]
+    assert [block.type for block in blocks[:3]] == [CONFIG, CONFIG_REST, SCHEMA]
     assert blocks[-1].type == END
     starts = [block.t0_us / 1e6 for block in blocks if block.type == SCHEMA]
     assert len(starts) == 3

@@ -34,6 +34,7 @@ def _row(row: Parameter, default: Value) -> ParameterRow:
         choices=choices_of(row) if row.enum else None,
         length=row.length if row.type == "text" else None,
         description=row.doc,
+        may_be_none=row.may_be_none,
     )
 
 

@@ -158,6 +158,7 @@ def _meaning(row: Parameter) -> tuple[object, ...]:
         row.increasing,
         Access(row.access).name,
         row.ratchet,
+        row.may_be_none,
     )
 
 
@@ -176,6 +177,7 @@ def _their_meaning(row: Mapping[str, Any], schema: Mapping[str, Any]) -> tuple[o
         row.get("increasing", False),
         row.get("access"),
         row.get("ratchet", False),
+        row.get("none") is not None,
     )
 
 

@@ -13,6 +13,7 @@ const parameter = (name: string): Parameter => ({
   group: 'limits',
   type: 'f32',
   shape: [],
+  may_be_none: false,
   unit: 'km/h',
   min: 0,
   max: 25,

@@ -10,7 +10,7 @@ const OF_TABLES = ['fuzzy', 'second_table']
 export function groupsOf(parameters: readonly Parameter[], device: Device | null): string[] {
   const elsewhere = [
     ...(can(device, 'fuzzy_table') ? OF_TABLES : []),
-    ...(hasPage(device, 'sensor') ? ['sensor'] : []),
+    ...(hasPage(device, 'sensor') ? ['sensor', 'calibration'] : []),
   ]
   const found = [...new Set(parameters.map((parameter) => parameter.group))]
   const here = found.filter((group) => !elsewhere.includes(group))

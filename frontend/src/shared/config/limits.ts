@@ -6,6 +6,9 @@ export type Fault =
   | { code: 'not_a_number' | 'not_text' }
   | { code: 'below_min' | 'above_max' | 'not_increasing'; bound: number }
 
+/** What a value is made of; null where it may be none. */
+export type Element = number | string | null
+
 export interface FieldFault {
   name: string
   path: number[]
@@ -40,7 +43,8 @@ function isTooNear(before: number, point: number, step: number): boolean {
   return f(f(point) - f(before)) < f(f(0.99) * f(step))
 }
 
-function elementFault(parameter: Parameter, element: number | string): Fault | null {
+function elementFault(parameter: Parameter, element: Element): Fault | null {
+  if (element === null) return parameter.may_be_none ? null : { code: 'not_a_number' }
   if (parameter.type === 'text') {
     const bytes = new TextEncoder().encode(String(element)).length
     return bytes > (rows[parameter.name]?.length ?? Infinity) ? { code: 'not_text' } : null
@@ -57,7 +61,7 @@ function elementFault(parameter: Parameter, element: number | string): Fault | n
 export function walk(
   value: ParameterValue,
   path: number[],
-  visit: (element: number | string, path: number[]) => void,
+  visit: (element: Element, path: number[]) => void,
 ): void {
   if (Array.isArray(value)) value.forEach((v, i) => walk(v as ParameterValue, [...path, i], visit))
   else visit(value, path)

@@ -3,7 +3,7 @@ import type { Parameter, ParameterValue } from '../api/types'
 import type { Locale } from '../i18n/locale.svelte'
 import type { Units } from '../units/units.svelte'
 import type { DraftChange, ConfigDraft } from './config_draft.svelte'
-import { faultsOf, walk, type Fault } from './limits'
+import { faultsOf, walk, type Element, type Fault } from './limits'
 import { isFactorys, needsToken, ratchetMove } from './ratchet'
 
 export const LABELS = ['NB', 'NS', 'ZO', 'PS', 'PB'] as const
@@ -78,8 +78,8 @@ function tokenText(
   locale: Locale,
   units: Units,
   parameter: Parameter,
-  old: number | string | undefined,
-  value: number | string,
+  old: Element | undefined,
+  value: Element,
 ): string | null {
   const { free } = parameter
   const left = free && typeof value === 'number' && !(value >= free.min && value <= free.max)
@@ -163,17 +163,17 @@ function elementText(
   locale: Locale,
   units: Units,
   parameter: Parameter | undefined,
-  element: number | string | undefined,
+  element: Element | undefined,
 ): string {
-  if (element === undefined) return '—'
+  if (element === undefined || element === null) return '—'
   if (typeof element === 'string') return choiceLabel(locale, element)
   const unit = parameter?.unit ?? ''
   if (!Number.isFinite(element)) return '—'
   return `${shownTyped(element, unit, units)} ${units.label(unit)}`.trim()
 }
 
-function elementAt(value: ParameterValue, path: number[]): number | string | undefined {
+function elementAt(value: ParameterValue, path: number[]): Element | undefined {
   let at: unknown = value
   for (const index of path) at = (at as unknown[])[index]
-  return at as number | string | undefined
+  return at as Element | undefined
 }

@@ -58,6 +58,7 @@ function parameter(name: string): Parameter {
     group,
     type: 'f32',
     shape: [],
+    may_be_none: false,
     unit: '',
     min,
     max,

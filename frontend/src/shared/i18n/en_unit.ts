@@ -11,6 +11,12 @@ type OfTheRegistry =
 export const enUnit = {
   'parameter.sensor_offset_counts': 'Sensor offset',
   'parameter.sensor_gain_nm_per_count': 'Sensor gain',
+  'parameter.sensor_offset_counts_per_k': 'Sensor offset, change with temperature',
+  'parameter.sensor_gain_share_per_k': 'Sensor gain, change with temperature',
+  'parameter.sensor_reference_degc': 'Temperature of the calibration',
+  'parameter.calibrated_at_utc_s': 'Calibrated on',
+  'parameter.calibration_number': 'Number of the calibration',
+  'parameter.calibration_certificate': 'Certificate',
   'parameter.torque_filter': 'Torque averaging',
   'parameter.torque_filter_s': 'Torque averaging time',
   'parameter.torque_rate_interval_ms': 'Torque rate interval',
@@ -62,6 +68,7 @@ export const enUnit = {
   'parameter.sensor_offset_counts_factory': "Sensor offset, the factory's",
 
   'group.sensor': 'Sensor',
+  'group.calibration': 'Calibration',
   'group.fuzzy': 'Fuzzy table',
   'group.second_table': 'Second fuzzy table',
 

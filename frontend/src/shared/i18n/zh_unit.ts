@@ -4,6 +4,12 @@ import type { enUnit } from './en_unit'
 export const zhUnit: Record<keyof typeof enUnit, string> = {
   'parameter.sensor_offset_counts': '传感器零点',
   'parameter.sensor_gain_nm_per_count': '传感器增益',
+  'parameter.sensor_offset_counts_per_k': '传感器零点随温度的变化',
+  'parameter.sensor_gain_share_per_k': '传感器增益随温度的变化',
+  'parameter.sensor_reference_degc': '标定时的温度',
+  'parameter.calibrated_at_utc_s': '标定时间',
+  'parameter.calibration_number': '标定序号',
+  'parameter.calibration_certificate': '证书',
   'parameter.torque_filter': '扭矩平均方式',
   'parameter.torque_filter_s': '扭矩平均时间',
   'parameter.torque_rate_interval_ms': '扭矩变化率间隔',
@@ -55,6 +61,7 @@ export const zhUnit: Record<keyof typeof enUnit, string> = {
   'parameter.sensor_offset_counts_factory': '传感器零点（出厂值）',
 
   'group.sensor': '传感器',
+  'group.calibration': '标定',
   'group.fuzzy': '模糊规则表',
   'group.second_table': '第二模糊规则表',
 

@@ -2,7 +2,8 @@
 
 #include <string.h>
 
-#include "ebl_bytes.h" // ebl_get_u16, ebl_get_f32
+#include "ebl_bytes.h"  // ebl_get_u16
+#include "ebl_values.h" // ebl_element_is_allowed
 
 #define ITEM_HEADER_LENGTH 4
 
@@ -13,22 +14,7 @@ typedef struct {
     const uint8_t *values;
 } item;
 
-/* True if a value of this parameter may stand alone; order between values is VALIDATE's. */
-static int value_is_in_range(const ebl_parameter *parameter, const uint8_t *bytes)
-{
-    float value;
-
-    switch (parameter->type) {
-    case EBL_TYPE_U8: value = (float)bytes[0]; break;
-    case EBL_TYPE_U16: value = (float)ebl_get_u16(bytes); break;
-    case EBL_TYPE_F32: value = ebl_get_f32(bytes); break;
-    default: return 1;
-    }
-    /* Written so that NaN is out of range. */
-    return value >= parameter->min && value <= parameter->max;
-}
-
-/* Reads one item. Its length in bytes goes to `used`. */
+/* Reads one item. Its length in bytes goes to `used`. Order between values is VALIDATE's. */
 static uint8_t item_read(item *read, const uint8_t *bytes, size_t length, uint8_t access,
                          size_t *used, uint16_t *detail)
 {
@@ -52,7 +38,7 @@ static uint8_t item_read(item *read, const uint8_t *bytes, size_t length, uint8_
     values_length = (size_t)read->count * read->parameter->length;
     if (length - ITEM_HEADER_LENGTH < values_length) return EBL_STATUS_LENGTH;
     for (size_t at = 0; at < values_length; at += read->parameter->length) {
-        if (!value_is_in_range(read->parameter, read->values + at)) return EBL_STATUS_RANGE;
+        if (!ebl_element_is_allowed(read->parameter, read->values + at)) return EBL_STATUS_RANGE;
     }
     *used = ITEM_HEADER_LENGTH + values_length;
     return EBL_STATUS_OK;

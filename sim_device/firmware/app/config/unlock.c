@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "ebl_bytes.h"  // ebl_put_u32, ebl_put_u64
-#include "ebl_values.h" // ebl_band_holds
+#include "ebl_values.h" // ebl_band_holds, ebl_element_number
 #include "monocypher.h" // crypto_verify64
 #include "signature.h"  // SIGNATURE_KEY_LENGTH, signature_is_valid
 
@@ -157,21 +157,15 @@ int unlock_drop(unlock *self)
     return was_granted;
 }
 
-static float number_at(const ebl_parameter *parameter, const uint8_t *bytes)
-{
-    switch (parameter->type) {
-    case EBL_TYPE_U8: return (float)bytes[0];
-    case EBL_TYPE_U16: return (float)ebl_get_u16(bytes);
-    default: return ebl_get_f32(bytes);
-    }
-}
-
 /* Written so that a value that is no number counts as raised. */
 static int is_raised(const ebl_parameter *parameter, const uint8_t *active, const uint8_t *staged)
 {
     for (size_t at = 0; at < (size_t)parameter->count * parameter->length;
          at += parameter->length) {
-        if (!(number_at(parameter, staged + at) <= number_at(parameter, active + at))) return 1;
+        if (!(ebl_element_number(parameter, staged + at) <=
+              ebl_element_number(parameter, active + at))) {
+            return 1;
+        }
     }
     return 0;
 }

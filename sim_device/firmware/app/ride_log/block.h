@@ -15,7 +15,8 @@ enum {
     RIDE_LOG_DATA = 3,
     RIDE_LOG_EVENT = 4,
     RIDE_LOG_SYNC = 5,
-    RIDE_LOG_END = 6
+    RIDE_LOG_END = 6,
+    RIDE_LOG_CONFIG_REST = 7
 };
 
 typedef struct {

@@ -14,7 +14,7 @@
 
 enum { IDLE = 0, STARTING, RECORDING, CLOSING };
 enum { SPARE_NONE = 0, SPARE_ERASING, SPARE_READY };
-enum { DUE_CONFIG = 1, DUE_SCHEMA = 2, DUE_SYNC = 4, DUE_ALL = 7 };
+enum { DUE_CONFIG = 1, DUE_SCHEMA = 2, DUE_SYNC = 4, DUE_ALL = 7, DUE_CONFIG_REST = 8 };
 enum { REASON_STANDSTILL = 0, REASON_FULL = 1 };
 
 void ride_log_init(ride_log *log, const hal *board)
@@ -224,7 +224,10 @@ static int block_choose(ride_log *log, const config_store *config, const hal *bo
     if (log->due & DUE_CONFIG) {
         ride_log_config_put(payload, config, board, header);
         log->config_generation = config->generation;
-        log->due &= (uint8_t)~DUE_CONFIG;
+        log->due = (uint8_t)((log->due & ~DUE_CONFIG) | DUE_CONFIG_REST);
+    } else if (log->due & DUE_CONFIG_REST) {
+        ride_log_config_rest_put(payload, config, header);
+        log->due &= (uint8_t)~DUE_CONFIG_REST;
     } else if (log->due & DUE_SCHEMA) {
         ride_log_schema_put(payload, header);
         log->due &= (uint8_t)~DUE_SCHEMA;
@@ -285,7 +288,7 @@ static void repeat_check(ride_log *log, const config_store *config, uint64_t now
         log->due |= DUE_ALL;
     }
     if (config->generation != log->config_generation) log->due |= DUE_CONFIG;
-    if (log->state == RECORDING && log->seq + 3u >= pages_max(log)) {
+    if (log->state == RECORDING && log->seq + 4u >= pages_max(log)) {
         log->state = CLOSING;
         log->totals.reason = REASON_FULL;
     }

@@ -14,7 +14,9 @@ enum {
     CONFIG_AT_GENERATION = CONFIG_AT_SCHEMA_HASH + EBL_SCHEMA_HASH_LENGTH,
     CONFIG_AT_CRC = CONFIG_AT_GENERATION + 4,
     CONFIG_AT_IMAGE = CONFIG_AT_CRC + 4,
-    CONFIG_LENGTH = CONFIG_AT_IMAGE + EBL_IMAGE_LENGTH,
+    CONFIG_IMAGE_LENGTH = RIDE_LOG_PAYLOAD_BYTES - CONFIG_AT_IMAGE,
+    REST_AT_IMAGE = 4,
+    REST_LENGTH = REST_AT_IMAGE + EBL_IMAGE_LENGTH - CONFIG_IMAGE_LENGTH,
     SCHEMA_HEAD_LENGTH = 5,
     SCHEMA_CHANNEL_LENGTH = 5,
     SCHEMA_LENGTH = SCHEMA_HEAD_LENGTH + SCHEMA_CHANNEL_LENGTH * EBL_CHANNEL_COUNT,
@@ -25,7 +27,8 @@ enum {
 };
 
 /* Whatever the registry becomes, a block must hold these whole. */
-typedef char config_fits[CONFIG_LENGTH <= RIDE_LOG_PAYLOAD_BYTES ? 1 : -1];
+typedef char there_is_a_rest[EBL_IMAGE_LENGTH > CONFIG_IMAGE_LENGTH ? 1 : -1];
+typedef char rest_fits[REST_LENGTH <= RIDE_LOG_PAYLOAD_BYTES ? 1 : -1];
 typedef char schema_fits[SCHEMA_LENGTH <= RIDE_LOG_PAYLOAD_BYTES ? 1 : -1];
 typedef char events_fit
     [(EVENT_LENGTH + EVENT_HIGH_LENGTH) * RIDE_LOG_EVENTS_MAX <= RIDE_LOG_PAYLOAD_BYTES ? 1 : -1];
@@ -40,9 +43,18 @@ void ride_log_config_put(uint8_t *payload, const config_store *config, const hal
     memcpy(payload + CONFIG_AT_SCHEMA_HASH, ebl_schema_hash, EBL_SCHEMA_HASH_LENGTH);
     ebl_put_u32(payload + CONFIG_AT_GENERATION, config->generation);
     ebl_put_u32(payload + CONFIG_AT_CRC, config->crc32);
-    memcpy(payload + CONFIG_AT_IMAGE, config->image, EBL_IMAGE_LENGTH);
+    memcpy(payload + CONFIG_AT_IMAGE, config->image, CONFIG_IMAGE_LENGTH);
     header->type = RIDE_LOG_CONFIG;
-    header->length = CONFIG_LENGTH;
+    header->length = RIDE_LOG_PAYLOAD_BYTES;
+}
+
+void ride_log_config_rest_put(uint8_t *payload, const config_store *config, ride_log_header *header)
+{
+    ebl_put_u32(payload, config->crc32);
+    memcpy(payload + REST_AT_IMAGE, config->image + CONFIG_IMAGE_LENGTH,
+           EBL_IMAGE_LENGTH - CONFIG_IMAGE_LENGTH);
+    header->type = RIDE_LOG_CONFIG_REST;
+    header->length = REST_LENGTH;
 }
 
 void ride_log_schema_put(uint8_t *payload, ride_log_header *header)

@@ -33,6 +33,8 @@ uint32_t ride_log_row_period_us(void);
 
 void ride_log_config_put(uint8_t *payload, const config_store *config, const hal *board,
                          ride_log_header *header);
+void ride_log_config_rest_put(uint8_t *payload, const config_store *config,
+                              ride_log_header *header);
 void ride_log_schema_put(uint8_t *payload, ride_log_header *header);
 void ride_log_events_put(uint8_t *payload, const ride_log_event *events, uint8_t count,
                          ride_log_header *header);

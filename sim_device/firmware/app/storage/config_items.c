@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "ebl_bytes.h"    // ebl_get_u16, ebl_put_f32
-#include "ebl_values.h"   // ebl_image_violations
+#include "ebl_values.h"   // ebl_element_is_allowed, ebl_image_violations
 #include "config_image.h" // config_image_default, config_image_is_valid
 
 /* Elements are read into a piece of this length; the longest is a table's name. */
@@ -20,15 +20,7 @@ static void count_up(uint8_t *counter)
     if (*counter < UINT8_MAX) (*counter)++;
 }
 
-static float number_at(const ebl_parameter *parameter, const uint8_t *element)
-{
-    switch (parameter->type) {
-    case EBL_TYPE_U8: return (float)element[0];
-    case EBL_TYPE_U16: return (float)ebl_get_u16(element);
-    default: return ebl_get_f32(element);
-    }
-}
-
+/* Of a number that was out of range: a u32 never is. */
 static void number_put(const ebl_parameter *parameter, uint8_t *element, float value)
 {
     switch (parameter->type) {
@@ -43,19 +35,14 @@ static void number_put(const ebl_parameter *parameter, uint8_t *element, float v
 static void element_take(const ebl_parameter *parameter, uint8_t *element, uint8_t *place,
                          config_tally *tally)
 {
-    float value;
+    if (!ebl_element_is_allowed(parameter, element)) {
+        float value = ebl_element_number(parameter, element);
+        int is_choice = (parameter->flags & EBL_PARAMETER_CHOICE) != 0;
 
-    if (parameter->type != EBL_TYPE_TEXT) {
-        value = number_at(parameter, element);
-        if (!(value >= parameter->min && value <= parameter->max)) {
-            int is_choice = (parameter->flags & EBL_PARAMETER_CHOICE) != 0;
-
-            count_up(&tally->clamped);
-            if (parameter->id == EBL_PARAMETER_MARKET) tally->market_unknown = 1;
-            if (is_choice || value != value) return;
-            number_put(parameter, element,
-                       value < parameter->min ? parameter->min : parameter->max);
-        }
+        count_up(&tally->clamped);
+        if (parameter->id == EBL_PARAMETER_MARKET) tally->market_unknown = 1;
+        if (is_choice || value != value) return;
+        number_put(parameter, element, value < parameter->min ? parameter->min : parameter->max);
     }
     memcpy(place, element, parameter->length);
 }
@@ -148,8 +135,29 @@ int config_items_read(const hal *board, size_t address, size_t length, uint8_t *
     return 0;
 }
 
+void config_sensor_as_drawn(ebl_config *config)
+{
+    config->sensor_offset_counts_per_k = 2.0f;
+    config->sensor_gain_share_per_k = -2e-4f;
+    config->sensor_reference_degc = 20.0f;
+}
+
+static void sensor_as_drawn(uint8_t *image)
+{
+    ebl_config config;
+
+    ebl_config_unpack(&config, image);
+    config_sensor_as_drawn(&config);
+    ebl_config_pack(&config, image);
+}
+
 void config_items_account(uint8_t *image, config_tally *tally, uint8_t records)
 {
+    /* Firmware without these parameters corrected every reading for a sensor as drawn. */
+    if (is_found(tally, EBL_PARAMETER_SENSOR_GAIN_NM_PER_COUNT) &&
+        !is_found(tally, EBL_PARAMETER_SENSOR_REFERENCE_DEGC)) {
+        sensor_as_drawn(image);
+    }
     for (size_t i = 0; i < EBL_BAND_COUNT; i++) {
         const ebl_band *band = &ebl_bands[i];
 
@@ -213,6 +221,7 @@ void config_items_default(uint8_t *image, uint8_t records)
         if ((records >> ebl_parameters[row].record & 1u) == 0) continue;
         default_put(image, defaults, &ebl_parameters[row]);
     }
+    if ((records >> EBL_RECORD_CALIBRATION & 1u) != 0) sensor_as_drawn(image);
     if ((records >> EBL_RECORD_FACTORY & 1u) != 0) return;
     for (size_t i = 0; i < EBL_BAND_COUNT; i++) {
         if ((records >> ebl_parameter_find(ebl_bands[i].id)->record & 1u) == 0) continue;

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "ebl_registry.h" // EBL_PARAMETER_COUNT
+#include "ebl_registry.h" // EBL_PARAMETER_COUNT, ebl_config
 #include "hal.h"          // hal
 
 #define CONFIG_ITEM_HEAD_LENGTH 4
@@ -40,6 +40,10 @@ typedef struct {
  * of what it became. Negative where the flash cannot be read. */
 int config_value_read(const hal *board, const config_item *item, uint8_t *image,
                       config_tally *tally);
+
+/* How the readings of a sensor as drawn move with its temperature: what its maker knows of every
+ * one before it is calibrated. */
+void config_sensor_as_drawn(ebl_config *config);
 
 /* Counts the parameters of these records (a bit each) that nothing was found of. What a factory
  * measured before there was a parameter for it is what the unit has had since. */

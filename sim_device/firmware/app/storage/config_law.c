@@ -44,6 +44,9 @@ void config_law_from(const ebl_config *config, assist_config *assist)
     assist->step_s = (float)EBL_CONTROL_PERIOD_US / US_PER_S;
     assist->sensor_offset_counts = config->sensor_offset_counts;
     assist->sensor_gain_nm_per_count = config->sensor_gain_nm_per_count;
+    assist->sensor_offset_counts_per_k = config->sensor_offset_counts_per_k;
+    assist->sensor_gain_share_per_k = config->sensor_gain_share_per_k;
+    assist->sensor_reference_degc = config->sensor_reference_degc;
     assist->torque_filter = config->torque_filter;
     assist->torque_filter_s = config->torque_filter_s;
     assist->torque_rate_interval_s = (float)config->torque_rate_interval_ms / MS_PER_S;

@@ -1,6 +1,6 @@
 /* The law as a program of its own, without Python: an image and float32 records in, float32 out.
  *
- * Standard input: one image of the configuration, then one input record (13 floats) a step.
+ * Standard input: one image of the configuration, then one input record (14 floats) a step.
  * Standard output: one output record (9 floats) a step. Floats are in the machine's byte order.
  * Ends with 0 at the end of the input, 1 for a broken record, 2 for a configuration the law
  * refuses. A test compares it bit for bit with the law's other two doors. */
@@ -10,7 +10,7 @@
 #include "ebl_registry.h"       // EBL_IMAGE_LENGTH, ebl_config_unpack
 #include "storage/config_law.h" // config_law_from
 
-#define INPUT_FLOATS 13
+#define INPUT_FLOATS 14
 #define OUTPUT_FLOATS 9
 
 static assist_input input_of(const float *floats)
@@ -25,11 +25,12 @@ static assist_input input_of(const float *floats)
     input.battery_current_a = floats[5];
     input.motor_temperature_degc = floats[6];
     input.controller_temperature_degc = floats[7];
-    input.torque_age_ms = (uint16_t)floats[8];
-    input.mode = (uint8_t)floats[9];
-    input.brake = (uint8_t)floats[10];
-    input.walk_button = (uint8_t)floats[11];
-    input.inhibit = (uint8_t)floats[12];
+    input.sensor_temperature_degc = floats[8];
+    input.torque_age_ms = (uint16_t)floats[9];
+    input.mode = (uint8_t)floats[10];
+    input.brake = (uint8_t)floats[11];
+    input.walk_button = (uint8_t)floats[12];
+    input.inhibit = (uint8_t)floats[13];
     return input;
 }
 

@@ -6,21 +6,10 @@
 #define MS_PER_S 1000.0
 #define SPEED_AGE_MS_MAX 60000.0
 
-rotor_calibration senses_rotor_calibration(void)
-{
-    const rotor_calibration as_drawn = {
-        .zero_counts_per_k = 2.0f,
-        .span_share_per_k = 2e-4f,
-        .reference_degc = 20.0f,
-    };
-    return as_drawn;
-}
-
 void senses_rotor_exchange(const physics_state *state, rotor_receiver *receiver)
 {
     if (!state->link.arrived) return;
-    const rotor_calibration calibration = senses_rotor_calibration();
-    rotor_receiver_exchange(receiver, &calibration, state->link.present, state->link.word);
+    rotor_receiver_exchange(receiver, state->link.present, state->link.word);
 }
 
 static const electric_values NOTHING = {0};

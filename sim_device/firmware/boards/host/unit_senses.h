@@ -6,9 +6,6 @@
 #include "physics.h"        // physics_state
 #include "rotor_receiver.h" // rotor_receiver
 
-/* The coefficients that a sensor as drawn has; what a specimen has differs. */
-rotor_calibration senses_rotor_calibration(void);
-
 /* Gives the receiver the exchange of the physics step that has just ended, if there was one. */
 void senses_rotor_exchange(const physics_state *state, rotor_receiver *receiver);
 
