@@ -14,6 +14,7 @@ from typing import Any
 
 from firmware_protocol._generated import Market
 from firmware_protocol.spelling import words_of
+from sim_device import sensor_state
 from sim_device.controls import SPEED_FACTOR_MAX, SPEED_FACTOR_MIN
 from sim_device.emulated import EmulatedSetup
 from sim_device.emulator import BOARD, BOARD_VARIABLE, EmulatorError
@@ -79,6 +80,11 @@ def _add_unit(unit: argparse.ArgumentParser) -> None:
         default=os.environ.get(BOARD_VARIABLE, HOST_BOARD),
         choices=(HOST_BOARD, BOARD),
         help="where the firmware runs: here, or on a microcontroller in QEMU (default %(default)s)",
+    )
+    unit.add_argument(
+        "--sensor",
+        choices=sensor_state.names(),
+        help="the state of its torque sensor: sound as the thesis' two, worn or broken",
     )
     unit.add_argument("--seed", type=int, default=0, help="makes noise and serial number")
     unit.add_argument(
@@ -182,6 +188,7 @@ def _bike(arguments: argparse.Namespace, **firmware: Any) -> LockstepUnit:
         arguments.seed,
         name="process",
         scenario=arguments.scenario,
+        sensor=arguments.sensor,
         speed_factor=arguments.speed,
         clock="virtual" if arguments.virtual else "real",
         **firmware,

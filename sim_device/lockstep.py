@@ -24,6 +24,7 @@ from sim_device.scenario_phase import (
     ScenarioError,
 )
 from sim_device.scenario_script import Script
+from sim_device.sensor_state import SensorState, state_of
 
 US_PER_S: Final[int] = 1_000_000
 
@@ -70,6 +71,7 @@ class LockstepUnit:
         name: tells units with equal seeds apart.
         scenario: a live scenario to ride from the start: its name, its file's path or as read.
         bike: `part.name` -> value, over the pinned bike W1.
+        sensor: the state of its torque sensor (sim_device.sensor_state), in every scenario.
         flash: the flash of an earlier life. log: that for ride logs.
         market: whose law a new unit is made for, by name; one with a flash keeps its own.
         unlock_key: the maker's public key; without one no limit can be raised again.
@@ -92,6 +94,7 @@ class LockstepUnit:
         name: str = "lockstep",
         scenario: str | ScenarioFile | None = None,
         bike: dict[str, float] | None = None,
+        sensor: str | None = None,
         flash: bytes | None = None,
         log: bytes | None = None,
         market: str = "eu_epac",
@@ -108,7 +111,9 @@ class LockstepUnit:
         self.speed_factor = speed_factor
         self.clock = clock
         self.owed_us = 0
+        self._sensor = state_of(sensor) if sensor is not None else SensorState({})
         self._bike: dict[str, float] = {"road.source": 0.0, "road.mass_kg": 100.0} | (bike or {})
+        self._bike |= self._sensor.bike
         self._dyno_nm = 0.0
         self._phase = Phase(seconds=1.0)
         self._scripted = self._phase
@@ -133,6 +138,9 @@ class LockstepUnit:
             write_config(self.unit, config_overrides)
         if ridden is not None:
             self._start(ridden)
+        else:
+            self._by_hand = self._sensor.by_hand()
+            self._perform(self._phase)
 
     def advance(self, seconds: float) -> None:
         """Lets `seconds` of the unit's time pass, through the phases of a running scenario."""
@@ -296,11 +304,11 @@ class LockstepUnit:
         self.unit.change_bike(values)
 
     def _start(self, scenario: ScenarioFile) -> None:
-        self._by_hand = {}
+        self._by_hand = self._sensor.by_hand()
         self._leave_scenario_bike()
         if scenario.bike:
             self._before_scenario = {path: self._bike_value(path) for path in scenario.bike}
-            self._change_bike(scenario.bike)
+            self._change_bike(scenario.bike | self._sensor.bike)
             self.unit.renew()
         if scenario.speed_kmh is not None:
             self.unit.place(scenario.speed_kmh, self.seed)

@@ -30,7 +30,7 @@ READY_TIMEOUT_S = 15.0
 STOP_TIMEOUT_S = 2.0
 LOOK_EVERY_S = 0.1
 NAME_DEFAULT = "unit"
-SETTINGS = ("seed", "speed", "clock", "scenario", "flash", "market", "unlock_key", "baud")
+SETTINGS = ("seed", "speed", "clock", "scenario", "flash", "market", "unlock_key", "baud", "sensor")
 CLOCKS = ("real", "virtual")
 # What the noise of the physics is begun with is 64 bits wide there and has a sign.
 SEED_MAX = 2**63 - 1
@@ -40,8 +40,8 @@ COMPLAINT_CHARACTERS_MAX = 600
 
 @dataclass(frozen=True)
 class SimulatedAddress:
-    """`sim` or `sim:NAME?seed=&speed=&clock=&scenario=&flash=&market=&unlock_key=&baud=`, taken
-    apart.
+    """`sim` or `sim:NAME?seed=&speed=&clock=&scenario=&flash=&market=&unlock_key=&baud=&sensor=`,
+    taken apart.
 
     Each name is a unit of its own: without a seed the name makes one, so two names never share a
     serial number. clock: `real`, or `virtual` for time that passes only when told to. scenario:
@@ -49,7 +49,7 @@ class SimulatedAddress:
     configuration. market: whose law it was made for, `eu_epac` unless told; a flash that is there
     keeps its own. unlock_key: file with the maker's public key; without one the unit's limits only
     go down. baud: its line has a rate like a real one, from 115200 bit/s on, and this is the rate
-    to ask for.
+    to ask for. sensor: the state of its torque sensor, of sim_device.sensor_state.
     """
 
     name: str
@@ -61,6 +61,7 @@ class SimulatedAddress:
     clock: str = "real"
     baud: int | None = None
     market: str | None = None
+    sensor: str | None = None
 
     @classmethod
     def parse(cls, url: str) -> SimulatedAddress:
@@ -91,7 +92,8 @@ class SimulatedAddress:
             raise InvalidRequest(f"{url}: bytes take time on a line with a rate; clock=real.")
         scenario, flash = settings.get("scenario"), settings.get("flash")
         key, market = settings.get("unlock_key"), settings.get("market")
-        return cls(name, seed, speed, scenario, flash, key, clock, baud, market)
+        sensor = settings.get("sensor")
+        return cls(name, seed, speed, scenario, flash, key, clock, baud, market, sensor)
 
     @property
     def memory_name(self) -> str:
@@ -118,6 +120,8 @@ class SimulatedAddress:
             words += ["--flash", self.flash]
         if self.market is not None:
             words += ["--market", self.market]
+        if self.sensor is not None:
+            words += ["--sensor", self.sensor]
         if self.unlock_key is not None:
             words += ["--unlock-key", self.unlock_key]
         return words

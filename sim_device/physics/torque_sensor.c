@@ -72,6 +72,8 @@ static double felt_nm(const torque_sensor_config *config, torque_sensor_state *s
     if (config->bending_share > 0.0) {
         felt += config->bending_share * torque_nm * cos(crank_angle_rad);
     }
+    /* The left pedal is on its way down in the first half of the turn. */
+    felt *= 1.0 + 0.5 * copysign(config->side_share, config->side_share * sin(crank_angle_rad));
     const double warmer_k = state->gauge_degc - config->reference_degc;
     felt *= config->gain * (1.0 + config->span_share_per_k * warmer_k);
     felt += config->zero_nm_per_k * warmer_k + config->nm_per_count * config->zero_counts;

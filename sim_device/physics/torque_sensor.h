@@ -35,6 +35,7 @@ typedef struct {
     double gain;           /* 1 is a true sensor; Table 3-1's rig shows 1.00419 (thesis_checks 3) */
     double noise_nm;       /* standard deviation of one word */
     double bending_share;  /* cross-talk of the pedal's bending moment, in phase with the crank */
+    double side_share;     /* how much more of the left pedal's push is felt than of the right's */
     double hysteresis_nm;  /* width of the loop over full scale (Prandtl-Ishlinskii) */
     double creep_share;    /* what a held torque adds in the end */
     double creep_s;        /* first order */
