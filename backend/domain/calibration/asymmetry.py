@@ -16,8 +16,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from backend.domain.calibration.coefficients import Numbers
-from backend.domain.calibration.fit import Data, Fit
+from backend.domain.calibration.fit import ROOT_3, Data, Fit
 from backend.domain.calibration.plain import Plain
+from backend.domain.calibration.setup import Setup
 
 ANGLE_SPAN_RAD = math.radians(30.0)
 """Less, and a bending in the crank's plane changes by less than its own uncertainty."""
@@ -42,8 +43,9 @@ class Asymmetry(Plain):
     bending_across: Share | None = None
 
 
-def asymmetry(data: Data, fit: Fit) -> Asymmetry | None:
-    """None with loads on one side only."""
+def asymmetry(setup: Setup, data: Data, fit: Fit) -> Asymmetry | None:
+    """None with loads on one side only. Two cranks are two arms: what either may be off by is in
+    the uncertainty of their difference."""
     loaded = data.load_nm > 0
     if not (data.side[loaded] > 0).any() or not (data.side[loaded] < 0).any():
         return None
@@ -57,7 +59,9 @@ def asymmetry(data: Data, fit: Fit) -> Asymmetry | None:
     left = np.array([residual.residual_nm for residual in fit.residuals]) * counts_per_nm
     values, standard = _regressed(np.stack(columns, axis=1), left, data.own_variance)
     shares = [Share(float(v), float(s)) for v, s in zip(values[2:], standard[2:], strict=True)]
-    return Asymmetry(*shares)
+    arms = math.sqrt(2.0) * setup.arm_limit_m / setup.arm_m / ROOT_3
+    level = Share(shares[0].share, math.hypot(shares[0].standard, arms))
+    return Asymmetry(level, *shares[1:])
 
 
 def _regressed(columns: Numbers, left: Numbers, own_variance: Numbers) -> tuple[Numbers, Numbers]:

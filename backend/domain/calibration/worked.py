@@ -64,7 +64,7 @@ def work_out(
         side_figures(setup, captures, found) if found else (),
         zero_return_nm(captures, fitted.coefficients),
         budget(setup, captures, fitted),
-        asymmetry(data_of(setup, captures), fitted),
+        asymmetry(setup, data_of(setup, captures), fitted),
         verifications(setup, captures, fitted),
     )
     return Worked(

@@ -148,6 +148,24 @@ def test_what_was_not_measured_is_a_condition_and_never_a_pass() -> None:
     }
 
 
+def test_temperature_coefficients_come_only_from_captures_that_tell_them() -> None:
+    """Loads at 12 and 32 degrees tell both; zeros there but loads at one only that of the zero."""
+    captures = Workshop(OBEYS["drifted"], 4).captures()
+    cold_loads = [c for c in captures if c.state.kind != "load" or c.state.sensor_degc == 12.0]
+    untold = [replace(c, state=replace(c.state, sensor_degc=None)) for c in captures]
+
+    assert fit(SETUP, captures).temperature == "both"
+    offset = fit(SETUP, cold_loads)
+    assert (offset.temperature, offset.temperature_span_k) == ("offset", 20.0)
+    assert offset.coefficients.gain_share_per_k is None
+    assert offset.coefficients.offset_counts_per_k == pytest.approx(
+        2.0, abs=offset.expanded("offset_counts_per_k")
+    )
+    none = fit(SETUP, untold)
+    assert (none.temperature, none.temperature_span_k) == ("none", None)
+    assert none.coefficients.reference_degc is None
+
+
 def test_limits_are_the_most_particular_and_say_whose_they_are() -> None:
     table = (Limits(), Limits("maker", "japan", None), Limits("maker", None, "City 7"))
 
