@@ -126,7 +126,7 @@ def entries(source: Path | IO[bytes]) -> Iterator[Entry | Left]:
         except DAMAGE as error:
             told = f"The archive cannot be opened: {error}. Send it again."
             raise BrokenArchive(rejected("container_damaged", told)) from None
-        infos = [info for info in archive.infolist() if not info.is_dir()]
+        infos = [info for info in archive.infolist() if not is_folder(info)]
         if len(infos) > ENTRIES_MAX:
             raise BrokenArchive(
                 rejected("too_large", f"The archive has {len(infos)} files; {ENTRIES_MAX} at most.")
@@ -173,6 +173,11 @@ def titles_of(archive: zipfile.ZipFile, infos: list[zipfile.ZipInfo], bounds: Bo
     return Titles(by_name, tuple(by_start))
 
 
+def is_folder(info: zipfile.ZipInfo) -> bool:
+    """As `is_dir`, which raises for a name that is empty."""
+    return info.filename.endswith("/")
+
+
 def opened(
     archive: zipfile.ZipFile,
     info: zipfile.ZipInfo,
@@ -181,7 +186,7 @@ def opened(
     within: str = "",
 ) -> Iterator[Entry]:
     """A file of an archive, or those of the archive that it is. within: name of that archive."""
-    name = unlike(f"{within}{info.filename}"[-200:], seen)
+    name = unlike(f"{within}{info.filename or 'unnamed'}"[-200:], seen)
     bounds.count += 1
     if bounds.count > ENTRIES_MAX:
         yield Entry(name, info.file_size, None, "too_large", f"More than {ENTRIES_MAX} files.")
@@ -215,7 +220,7 @@ def nested(data: bytes, name: str, bounds: Bounds, seen: set[str], deep: bool) -
         return
     with inner:
         for info in inner.infolist():
-            if not info.is_dir():
+            if not is_folder(info):
                 yield from opened(inner, info, bounds, seen, within=f"{name}/")
         if isinstance(inner, Salvaged):
             yield Entry(name, len(data), None, "truncated", CUT)

@@ -141,6 +141,12 @@ def test_an_archive_within_is_opened_and_one_within_that_is_not() -> None:
     }
 
 
+def test_a_file_without_a_name_is_one_like_any_other() -> None:
+    nul = zipped({"?.fit": RIDE, "b.fit": RIDE}).replace(b"?.fit", b"\0.fit")
+
+    assert codes(nul) == {"unnamed": None, "b.fit": None}
+
+
 def test_what_is_no_ride_is_told_file_by_file() -> None:
     data = zipped({"a.fit": RIDE, "b.jpg": b"\xff\xd8\xff\xe0", "c.txt": b"words", "d.fit": b""})
 
