@@ -1,18 +1,22 @@
 """atheris on what the host reads: the wire, CSV, FIT, GPX, TCX and Mahle's JSON, ride logs of
-units, and what tells them apart.
+units, archives, and what tells them apart.
 
-Usage: python -m tests.fuzz.host wire|csv|fit|track|mahle|log|head [libFuzzer options]. Only what is
-promised may be raised: nothing at all by decoders, an Outcome by readers.
+Usage: python -m tests.fuzz.host wire|csv|fit|track|mahle|log|archive|head [libFuzzer options].
+Only what is promised may be raised: nothing at all by decoders, an Outcome by readers.
 """
 
 import gzip
+import io
 import sys
+import zipfile
+from contextlib import suppress
 
 import atheris
 
 with atheris.instrument_imports(include=["firmware_protocol", "backend"]):
     from backend.domain.table_answer import TableAnswer
     from backend.ingest.blocks import Block, put_block, scan
+    from backend.ingest.containers.archive import BrokenArchive, Entry, entries
     from backend.ingest.formats import SNIFFED_BYTES, read_file, refused_by_head
     from backend.ingest.mahle import read_mahle
     from backend.ingest.ride_logs import read_blocks
@@ -20,6 +24,7 @@ with atheris.instrument_imports(include=["firmware_protocol", "backend"]):
     from firmware_protocol.framing import FrameDecoder, encode_frame
     from tests.fakes.fit_file import definition, enclosed
     from tests.fakes.mahle_file import mahle_file, mahle_ride
+    from tests.fakes.zip_file import zipped
 
 
 TABLE_HEADS = [
@@ -47,6 +52,7 @@ TRACK_PIECES = [
     *(b'<Activity Sport="Biking">', b"</Activity>", b"<Course>", b"</Course>", b"<Creator>"),
     *(b'<Lap StartTime="2023-11-14T22:13:20Z">', b"</Lap>", b"<TotalTimeSeconds>", b"</Creator>"),
     *(b"<Trackpoint>", b"</Trackpoint>", b"<Time>2023-11-14T22:13:20Z</Time>", b"<Value>", b"<x:y"),
+    *(b"<Time>2023-11-14T22:13:21</Time>", b"<HeartRateBpm>"),
     *(
         b"<Watts>150</Watts>",
         b"9e99",
@@ -164,7 +170,10 @@ def track(data: bytes) -> None:
         file += from_input.PickValueInList(TRACK_PIECES)
         if from_input.ConsumeIntInRange(0, 3) == 0:
             file += from_input.ConsumeBytes(from_input.ConsumeIntInRange(0, 12))
-    assert read_file("ride", file).state
+    asked = read_file("ride", file)
+    assert asked.state
+    if asked.question is not None:
+        assert read_file("ride", file, TableAnswer("Europe/Berlin")).code != "needs_mapping"
 
 
 def mahle(data: bytes) -> None:
@@ -182,6 +191,19 @@ def mahle(data: bytes) -> None:
     assert asked.state
     if asked.question is not None:
         assert read_mahle(file, TableAnswer("Europe/Berlin")).code != "needs_mapping"
+
+
+def archive(data: bytes) -> None:
+    """A ZIP with an archive within, cut and changed anywhere: files, each told apart, or a
+    reason."""
+    from_input = atheris.FuzzedDataProvider(data)
+    file = bytearray(from_input.PickValueInList(ARCHIVES))
+    del file[from_input.ConsumeIntInRange(0, len(file)) :]
+    while from_input.remaining_bytes() and file:
+        file[from_input.ConsumeIntInRange(0, len(file) - 1)] = from_input.ConsumeIntInRange(0, 255)
+    with suppress(BrokenArchive):
+        names = [told.name for told in entries(io.BytesIO(file)) if isinstance(told, Entry)]
+        assert len(set(names)) == len(names)
 
 
 def head(data: bytes) -> None:
@@ -247,8 +269,18 @@ def any_block(from_input: atheris.FuzzedDataProvider) -> Block:
     return Block(0, number(0, 2), kind, log_id, boot_id, seq, t0_us, n, schema_id, payload)
 
 
+RIDE_FILE = enclosed(definition(0, 0, [(0, 1, 0)]) + b"\x00\x04")
+ARCHIVES = [
+    zipped(
+        {"a.fit": RIDE_FILE, "in.zip": zipped({"b.fit": RIDE_FILE}), "c": b""}, packing, streamed
+    )
+    for packing in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
+    for streamed in (False, True)
+]
+
+
 def main() -> None:
-    targets = (wire, csv, fit, track, mahle, log, head)
+    targets = (wire, csv, fit, track, mahle, log, archive, head)
     target = next(target for target in targets if target.__name__ == sys.argv[1])
     atheris.Setup([sys.argv[0], *sys.argv[2:]], target)
     atheris.Fuzz()

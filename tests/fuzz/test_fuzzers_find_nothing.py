@@ -51,7 +51,9 @@ def test_no_input_found_breaks_the_unit(
     assert harness.executions(done.stderr) > 100
 
 
-@pytest.mark.parametrize("target", ["wire", "csv", "fit", "track", "mahle", "log", "head"])
+@pytest.mark.parametrize(
+    "target", ["wire", "csv", "fit", "track", "mahle", "log", "archive", "head"]
+)
 def test_no_input_found_breaks_the_host(target: str, tmp_path: Path) -> None:
     pytest.importorskip("atheris", reason="atheris has no wheel for this machine")
 

@@ -13,7 +13,6 @@ import random
 import struct
 import tracemalloc
 import zipfile
-from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
@@ -22,16 +21,9 @@ from backend.ingest import COMPLETE, PARTIAL, REJECTED, BrokenArchive, Entry, Le
 from backend.ingest.containers import archive, gz
 from backend.ingest.formats import read_file, refused_by_head
 from tests.fakes.fit_file import START_S, commute, fit_file
+from tests.fakes.zip_file import zipped
 
 RIDE = fit_file(commute(120))
-
-
-def zipped(files: Mapping[str, bytes], packing: int = zipfile.ZIP_DEFLATED) -> bytes:
-    held = io.BytesIO()
-    with zipfile.ZipFile(held, "w", packing) as made:
-        for name, data in files.items():
-            made.writestr(name, data)
-    return held.getvalue()
 
 
 def files_of(data: bytes) -> tuple[list[Entry], Left]:
@@ -195,34 +187,13 @@ def test_bounds_of_number_and_of_the_whole(monkeypatch: pytest.MonkeyPatch) -> N
         files_of(many)
 
 
-class NoSeeking(io.BytesIO):
-    """As a download that is packed while it is sent: sizes stand behind each file."""
-
-    def seekable(self) -> bool:
-        return False
-
-    def seek(self, *_: int) -> int:
-        raise io.UnsupportedOperation
-
-    def tell(self) -> int:
-        raise io.UnsupportedOperation
-
-
-def packed(files: Mapping[str, bytes], packing: int, streamed: bool) -> bytes:
-    held = NoSeeking() if streamed else io.BytesIO()
-    with zipfile.ZipFile(held, "w", packing) as made:
-        for name, data in files.items():
-            made.writestr(name, data)
-    return held.getvalue()
-
-
 @pytest.mark.parametrize("streamed", [False, True])
 @pytest.mark.parametrize("packing", [zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED])
 def test_every_whole_file_comes_out_of_an_archive_that_was_cut_anywhere(
     packing: int, streamed: bool
 ) -> None:
     files = {f"{n}.fit": RIDE[: 2000 + n] for n in range(3)}
-    sound = packed(files, packing, streamed)
+    sound = zipped(files, packing, streamed)
     ends = [sound.index(f"{n}.fit".encode()) - 30 for n in (1, 2)] + [sound.index(b"PK\x01\x02")]
 
     for cut in range(40, len(sound), 97):

@@ -6,10 +6,8 @@ Method: the real store; files read here, in the threads of the lanes; archives b
 from __future__ import annotations
 
 import gzip
-import io
 import struct
-import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -23,18 +21,11 @@ from backend.services.rides.review import Rides
 from backend.store import Store, open_store
 from backend.store.upkeep.rebuild import rebuild_store
 from tests.fakes.fit_file import START_S, commute, fit_file
+from tests.fakes.zip_file import zipped
 
 DAY_S = 86_400
 FIRST, SECOND, THIRD = (fit_file(commute(120, START_S + day * DAY_S)) for day in range(3))
 PAGE = b"<html>502</html>"
-
-
-def zipped(files: Mapping[str, bytes]) -> bytes:
-    held = io.BytesIO()
-    with zipfile.ZipFile(held, "w", zipfile.ZIP_DEFLATED) as made:
-        for name, data in files.items():
-            made.writestr(name, data)
-    return held.getvalue()
 
 
 def read_here(path: Path, name: str) -> Outcome:
