@@ -192,13 +192,12 @@ static void refused_default(uint8_t *image, const uint8_t *defaults, uint16_t id
     }
 }
 
-int config_items_settle(uint8_t *image, config_tally *tally)
+/* Not inlined: its image must not lie on the stack beneath the checks of the law, the deepest. */
+__attribute__((noinline)) static void refused_settle(uint8_t *image, config_tally *tally)
 {
     ebl_refusal found[REFUSALS_AT_ONCE];
     uint8_t defaults[EBL_IMAGE_LENGTH];
 
-    if (config_image_points_spread(image) > 0) count_up(&tally->clamped);
-    if (config_image_is_valid(image)) return 1;
     config_image_default(defaults);
     for (int round = 0; round < SETTLE_ROUNDS_MAX; round++) {
         size_t count = ebl_image_violations(image, found, REFUSALS_AT_ONCE);
@@ -209,6 +208,13 @@ int config_items_settle(uint8_t *image, config_tally *tally)
             count_up(&tally->clamped);
         }
     }
+}
+
+int config_items_settle(uint8_t *image, config_tally *tally)
+{
+    if (config_image_points_spread(image) > 0) count_up(&tally->clamped);
+    if (config_image_is_valid(image)) return 1;
+    refused_settle(image, tally);
     return config_image_is_valid(image);
 }
 
