@@ -8,7 +8,11 @@ from collections.abc import Mapping
 from typing import Any
 
 
+def canonical_text(body: Mapping[str, Any]) -> str:
+    """ASCII, whatever the order of the names. body: plain JSON."""
+    return json.dumps(body, sort_keys=True, separators=(",", ":"))
+
+
 def sha256_of(body: Mapping[str, Any]) -> str:
-    """In hex, whatever the order of the names. body: plain JSON."""
-    text = json.dumps(body, sort_keys=True, separators=(",", ":"))
-    return hashlib.sha256(text.encode()).hexdigest()
+    """Of its canonical text, in hex. body: plain JSON."""
+    return hashlib.sha256(canonical_text(body).encode()).hexdigest()

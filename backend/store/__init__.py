@@ -1,6 +1,7 @@
-"""SQL and objects: rides, revisions, the library, units, uploads; the only door to SQLAlchemy and
-pyarrow."""
+"""SQL and objects: rides, revisions, the library, units, uploads, calibrations; the only door to
+SQLAlchemy and pyarrow."""
 
+from backend.store.calibrations import CalibrationStore, KeptCalibration, KeptCapture
 from backend.store.configurations import LibraryStore, RevisionLog
 from backend.store.logbook.book import Home, Logbook
 from backend.store.logbook.cards import CardStore
@@ -17,8 +18,11 @@ from backend.store.upkeep.backup import StorePlace, backup_of, place_of
 from backend.store.uploads import Upload, UploadStore, Verdict
 
 __all__ = [
+    "CalibrationStore",
     "CardStore",
     "Home",
+    "KeptCalibration",
+    "KeptCapture",
     "LibraryStore",
     "Logbook",
     "MarkStore",

@@ -23,7 +23,9 @@ MISSING, EMPTY, DAMAGED, FOREIGN, OK = "missing", "empty", "damaged", "foreign",
 # Every schema has these.
 OURS = frozenset({"ride", "upload"})
 # Tables whose rows somebody would miss, of every schema.
-MISSED = frozenset({"ride", "upload", "device", "config_revision", "unit", "revision"})
+MISSED = frozenset(
+    {"ride", "upload", "device", "config_revision", "unit", "revision", "calibration"}
+)
 
 
 @dataclass(frozen=True)
@@ -129,6 +131,9 @@ def view_of(connection: Connection) -> DatabaseView:
     rides = values("SELECT object_key FROM ride WHERE object_key IS NOT NULL")
     originals = values("SELECT object_key FROM upload WHERE object_key IS NOT NULL")
     objects = frozenset(rides) | frozenset(originals)
+    if "calibration" in tables:
+        closed = values("SELECT sha256 FROM calibration WHERE sha256 IS NOT NULL")
+        objects |= {content_key("calibrations", sha256, ".json") for sha256 in closed}
     arrived = values("SELECT sha256 FROM upload WHERE sha256 IS NOT NULL")
     known = objects | {content_key("originals", sha256) for sha256 in arrived}
     discarded: list[str] = []

@@ -4,7 +4,8 @@
     rides/ab/<sha256>.parquet   a finished ride
     rides/ab/<sha256>.json      its sidecar: what a person wrote about it
     originals/ab/<sha256>       a file as it came
-    lost+found/...              what was in `rides` and `originals` and the database did not know
+    calibrations/ab/<sha256>.json   a closed calibration: captures, certificate, what was done
+    lost+found/...              what was in these three and the database did not know
 
 An object appears under its key all at once or not at all: it is written beside, flushed, renamed,
 and the folder is flushed. Only what is named here is ever looked at, moved or removed: the folder
@@ -31,7 +32,7 @@ from backend.store.trouble import WriteWatch, write_a_little
 
 STAGING = ".staging"
 STAGED_NAME = re.compile(r"[0-9a-f]{16}")
-KINDS = ("rides", "originals")
+KINDS = ("rides", "originals", "calibrations")
 LOST_FOUND = "lost+found"
 # What owners said of tables: small files that no database names.
 TABLES = "tables"

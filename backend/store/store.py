@@ -14,6 +14,7 @@ from types import TracebackType
 
 from backend.domain.ride import Ride, iso_utc
 from backend.errors import StoreError
+from backend.store.calibrations import CalibrationStore
 from backend.store.configurations import CertificateStore, LibraryStore, RevisionLog
 from backend.store.deletion import SPOOL, Deletions
 from backend.store.discard import discarded_keys
@@ -25,7 +26,7 @@ from backend.store.look import look_at
 from backend.store.marks import MarkStore
 from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
 from backend.store.rides import Orphan, RideStore
-from backend.store.soundness import Soundness
+from backend.store.soundness import Expected, Soundness
 from backend.store.sql.advisory import fence
 from backend.store.sql.database import Database, is_postgresql, shown
 from backend.store.sql.database_url import check_url
@@ -42,7 +43,7 @@ NAMED_MAX = 10
 
 class Store:
     """Everything that is kept: `rides`, `cards`, `logbook`, `marks`, `revisions`, `library`,
-    `certificates`, `units`, `uploads`.
+    `certificates`, `calibrations`, `units`, `uploads`.
 
     closing: lets go of the locks.
     """
@@ -61,6 +62,7 @@ class Store:
         self.revisions = RevisionLog(database)
         self.library = LibraryStore(database)
         self.certificates = CertificateStore(database)
+        self.calibrations = CalibrationStore(database, objects, self.soundness)
         self.units = UnitStore(database)
         self.cards = CardStore(database)
         self.logbook = Logbook(database, objects)
@@ -102,6 +104,7 @@ class Store:
                 finished.append(ride.id)
                 tell_of_orphan(orphan, ride)
         known = self.rides.object_keys() | self.uploads.object_keys()
+        known |= self.calibrations.object_keys()
         self.deletions.sweep(None)
         self._put_aside(known | self.database.read(discarded_keys))
         return finished
@@ -116,7 +119,7 @@ class Store:
 
     def scrub(self, now_us: int) -> None:
         """Verify a few of the objects, all of them within a day."""
-        self.soundness.scrub(now_us, self.rides.expected_objects)
+        self.soundness.scrub(now_us, self._expected_objects)
 
     def close(self) -> None:
         """Finish what is being written and let go of database and folder."""
@@ -132,6 +135,10 @@ class Store:
         trace: TracebackType | None,
     ) -> None:
         self.close()
+
+    def _expected_objects(self) -> Iterator[Expected]:
+        yield from self.rides.expected_objects()
+        yield from self.calibrations.expected_objects()
 
     def _put_aside(self, known: set[str]) -> None:
         """Move what the database does not know to `lost+found/`; nothing is unlinked."""

@@ -1,4 +1,4 @@
-"""The tables: rides with tails, pyramids and figures, uploads, units, bikes, configurations.
+"""The tables: rides with tails and figures, uploads, units, bikes, configurations, calibrations.
 
 Times are microseconds since 1970 UTC in BIGINT, because SQLite drops time zones. Primary keys are
 BIGINT on PostgreSQL and the rowid on SQLite: a blob table without one doubles in size, since
@@ -152,6 +152,36 @@ certificate = Table(
     Column("sha256", String(64), nullable=False),
     Column("body", JSON, nullable=False),
     Column("created_us", BigInteger, nullable=False),
+)
+
+# A calibration of a unit's torque sensor. open_for: the unit while the job is open, so that there
+# is one; null once it is closed, and then sha256 names its file. body: all but the captures.
+calibration = Table(
+    "calibration",
+    metadata,
+    key(),
+    Column("unit_key", Text, ForeignKey("unit.key"), nullable=False, index=True),
+    Column("bike_id", KEY, ForeignKey("bike.id"), index=True),
+    Column("model", Text, index=True),
+    Column("open_for", Text, unique=True),
+    Column("body", JSON, nullable=False),
+    Column("author", String(128), nullable=False),
+    Column("author_proof", String(16)),
+    Column("opened_us", BigInteger, nullable=False),
+    Column("closed_us", BigInteger),
+    Column("sha256", String(64), unique=True),
+)
+
+# Appended; struck: by whom, when and why it does not count any more.
+calibration_capture = Table(
+    "calibration_capture",
+    metadata,
+    key(),
+    Column("calibration_id", KEY, ForeignKey("calibration.id"), nullable=False),
+    Column("number", Integer, nullable=False),
+    Column("body", JSON, nullable=False),
+    Column("struck", JSON(none_as_null=True)),
+    UniqueConstraint("calibration_id", "number"),
 )
 
 # part_of: the container it came in, which is an upload too.

@@ -14,6 +14,7 @@ from pathlib import PurePosixPath
 
 from backend.domain.ride import iso_utc
 from backend.errors import StoreError
+from backend.store.calibrations.restored import is_calibration
 from backend.store.identity import belonging
 from backend.store.look import DatabaseView, LiveRecording, look_at
 from backend.store.objects import SIDECAR_SUFFIX, FileObjects, file_sha256, open_objects
@@ -25,7 +26,8 @@ from backend.store.store import saying_where
 HEARTBEAT_LATE_US = 30_000_000
 OBJECT_NAME = re.compile(
     r"(rides/([0-9a-f]{2})/(\2[0-9a-f]{62})\.(parquet|json))|"
-    r"(originals/([0-9a-f]{2})/(\6[0-9a-f]{62}))"
+    r"(originals/([0-9a-f]{2})/(\6[0-9a-f]{62}))|"
+    r"(calibrations/([0-9a-f]{2})/(\9[0-9a-f]{62})\.json)"
 )
 
 
@@ -136,7 +138,7 @@ def damage_of(objects: FileObjects, key: str) -> str | None:
     if OBJECT_NAME.fullmatch(key) is None:
         return "it has no name that Spindle gives"
     try:
-        if key.endswith(SIDECAR_SUFFIX):
+        if key.endswith(SIDECAR_SUFFIX) and not is_calibration(key):
             objects.read_json(key)
         elif file_sha256(objects.local_path(key)) != PurePosixPath(key).name.split(".")[0]:
             return "its bytes do not hash to its name"

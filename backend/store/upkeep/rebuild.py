@@ -20,6 +20,7 @@ from pathlib import Path, PurePosixPath
 from sqlalchemy import Connection, insert, select
 
 from backend.errors import InvalidRequest, StoreError
+from backend.store.calibrations.restored import bring_back_calibration, is_calibration
 from backend.store.deletion import FILLED, MADE, join_source
 from backend.store.digest import digest
 from backend.store.facts import KeptRide, Original, kept_ride
@@ -56,14 +57,16 @@ NONSENSE = (KeyError, TypeError, ValueError, AttributeError, InvalidRequest)
 class Rebuilt:
     """What a rebuild did.
 
-    rides: added now. rides_before: there already. lacking: what older files do not tell, by key.
-    not_taken: files that are no whole ride, with the reason. superseded: rides of which there is a
-    fuller version. set_aside: files of the destroyed database, under their new names.
+    rides, calibrations: added now. rides_before: there already. lacking: what older files do not
+    tell, by key. not_taken: files that are not whole, with the reason. superseded: rides of
+    which there is a fuller version. set_aside: files of the destroyed database, under their new
+    names.
     """
 
     store_id: str
     rides: int = 0
     rides_before: int = 0
+    calibrations: int = 0
     lacking: dict[str, tuple[str, ...]] = field(default_factory=dict)
     not_taken: dict[str, str] = field(default_factory=dict)
     superseded: list[str] = field(default_factory=list)
@@ -176,10 +179,24 @@ def bring_back(
     named = {one.sha256 for ride in kept for one in files_of(ride)}
     here = {PurePosixPath(key).name: key for key in keys if key.startswith("originals/")}
     known = {key for key in here.values() if key in view.known_keys}
+    bring_back_calibrations(database, objects, keys, report)
     report.originals_without_ride = sorted(
         key for sha256, key in here.items() if sha256 not in named and key not in known
     )
     report.originals_missing = sorted(content_key("originals", s) for s in named - here.keys())
+
+
+def bring_back_calibrations(
+    database: Database, objects: FileObjects, keys: Iterable[str], report: Rebuilt
+) -> None:
+    """Add every closed calibration whose file is whole. One that was open was in SQL alone."""
+    for key in filter(is_calibration, keys):
+        try:
+            if (reason := damage_of(objects, key)) is not None:
+                raise StoreError(f"{key} is no whole calibration: {reason}.")
+            report.calibrations += bring_back_calibration(database, objects, key)
+        except StoreError as error:
+            report.not_taken[key] = error.message
 
 
 def files_of(kept: KeptRide) -> Iterable[Original]:
@@ -286,6 +303,8 @@ def arrived(path: Path) -> tuple[int, int]:
 def told(report: Rebuilt) -> Iterable[str]:
     """The report in lines for people."""
     yield f"{report.rides} rides brought back, {report.rides_before} were there already."
+    if report.calibrations:
+        yield f"{report.calibrations} calibrations brought back."
     for name in report.set_aside:
         yield f"The destroyed database is kept as {name}."
     for key, lacks in report.lacking.items():

@@ -1,0 +1,197 @@
+"""Goal: what was captured is kept whatever happens: one open job of a unit, numbers that are never
+used again, a closed job that is a file, in the check, the backup and the rebuild.
+
+Method: a real store in a folder; the disk fails once between file and database.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from backend.errors import Conflict, NotFound, ObjectDamaged, StoreError
+from backend.store import Store, backup_of, open_store
+from backend.store.calibrations.jobs import key_of
+from backend.store.objects import Disk
+from backend.store.upkeep.check import check_store
+from backend.store.upkeep.rebuild import rebuild_store
+from tests.unit.store.conftest import OpenStore
+from tests.unit.store.test_a_backup_is_a_store import unpacked
+
+UNIT = "ebl:SP-1"
+
+
+def same(body: Any) -> Any:
+    return body
+
+
+def urls(folder: Path, database: str = "spindle.db") -> tuple[str, str]:
+    return f"sqlite:///{folder}/{database}", (folder / "objects").as_uri()
+
+
+def captured(store: Store, job_id: int, count: int = 3) -> None:
+    for mean in range(count):
+        store.calibrations.capture(
+            job_id, lambda n, body, mean=mean: ({"number": n, "mean_counts": mean}, body)
+        )
+
+
+def closed(store: Store, unit: str = UNIT) -> int:
+    """A job of three captures, the second struck, closed with a certificate of the others."""
+    job, _ = store.calibrations.open(unit, "SP mid", {"setup": None}, "Ada")
+    captured(store, job.id)
+    store.calibrations.strike(job.id, 2, {"reason": "it swung"}, same)
+    counted = [dict(one.body) for one in store.calibrations.captures(job.id) if one.struck is None]
+    store.calibrations.close(
+        job.id, lambda body: {**body, "verdict": "pass"}, {"captures": counted}
+    )
+    return job.id
+
+
+def test_a_unit_has_one_open_job_and_another_unit_its_own(store: Store) -> None:
+    first, was_new = store.calibrations.open(UNIT, "SP mid", {"setup": None}, "Ada")
+    again, is_new = store.calibrations.open(UNIT, "SP mid", {"setup": 1}, "Ben")
+    other, _ = store.calibrations.open("ebl:SP-2", "SP mid", {}, "")
+
+    assert (was_new, is_new) == (True, False)
+    assert again == first
+    assert (first.author, first.author_proof, other.author_proof) == ("Ada", "stated", None)
+    assert first.bike_id == store.units.bike_of(UNIT) or first.bike_id is not None
+    assert [job.id for job in store.calibrations.list(model="SP mid")] == [other.id, first.id]
+    assert [job.id for job in store.calibrations.list(unit_key=UNIT)] == [first.id]
+
+
+def test_a_struck_capture_stays_and_its_number_is_not_used_again(
+    store: Store, reopen: OpenStore
+) -> None:
+    job, _ = store.calibrations.open(UNIT, None, {"fit": 1}, "")
+    captured(store, job.id)
+
+    store.calibrations.strike(job.id, 3, {"reason": "wrong mass"}, lambda body: {"fit": None})
+    store.calibrations.strike(job.id, 3, {"reason": "again"}, same)
+    captured(store, job.id, 1)
+    store.close()
+
+    kept = reopen().calibrations
+    assert [(one.number, one.struck) for one in kept.captures(job.id)] == [
+        (1, None),
+        (2, None),
+        (3, {"reason": "wrong mass"}),
+        (4, None),
+    ]
+    assert kept.get(job.id).body == {"fit": None}
+    with pytest.raises(NotFound):
+        kept.strike(job.id, 9, {"reason": ""}, same)
+
+
+def test_what_a_change_refuses_changes_nothing(store: Store) -> None:
+    job, _ = store.calibrations.open(UNIT, None, {"fit": 1}, "")
+
+    def refuse(body: Any) -> Any:
+        raise Conflict("not now")
+
+    with pytest.raises(Conflict):
+        store.calibrations.change(job.id, refuse)
+    with pytest.raises(Conflict):
+        store.calibrations.capture(job.id, lambda n, body: refuse(body))
+
+    assert store.calibrations.get(job.id).body == {"fit": 1}
+    assert store.calibrations.captures(job.id) == ()
+
+
+def test_a_closed_job_is_a_file_named_by_its_bytes_and_changes_no_more(store: Store) -> None:
+    job_id = closed(store)
+
+    job = store.calibrations.get(job_id)
+    data = store.calibrations.file(job)
+
+    assert hashlib.sha256(data).hexdigest() == job.sha256
+    document = json.loads(data)
+    assert [one["number"] for one in document["certificate"]["captures"]] == [1, 3]
+    assert [one["number"] for one in document["job"]["captures"]] == [2]
+    assert document["job"]["body"]["verdict"] == job.body["verdict"] == "pass"
+    for refused in (
+        lambda: captured(store, job_id),
+        lambda: store.calibrations.strike(job_id, 1, {}, same),
+        lambda: store.calibrations.close(job_id, same, None),
+    ):
+        with pytest.raises(Conflict, match="closed"):
+            refused()
+    # The unit may be calibrated again.
+    assert store.calibrations.open(UNIT, None, {}, "")[1]
+
+
+def test_a_disk_that_fails_while_closing_leaves_the_job_open(
+    reopen: OpenStore, tmp_path: Path
+) -> None:
+    class Failing(Disk):
+        fails = False
+
+        def flush_folder(self, path: Path) -> None:
+            if self.fails:
+                raise OSError("no more")
+            super().flush_folder(path)
+
+    disk = Failing()
+    store = reopen(disk)
+    job, _ = store.calibrations.open(UNIT, None, {}, "")
+    captured(store, job.id)
+    disk.fails = True
+    with pytest.raises(StoreError):
+        store.calibrations.close(job.id, same, None)
+    disk.fails = False
+    store.close()
+
+    again = reopen()
+    assert again.calibrations.get(job.id).closed_us is None
+    # What the crash left is nobody's and was put aside.
+    assert list((tmp_path / "objects" / "calibrations").rglob("*.json")) == []
+    again.calibrations.close(job.id, same, None)
+    again.close()
+    assert check_store(*urls(tmp_path)).is_fine
+
+
+def test_check_backup_and_rebuild_know_it(store: Store, tmp_path: Path) -> None:
+    job_id = closed(store)
+    job, captures = store.calibrations.get(job_id), store.calibrations.captures(job_id)
+    assert job.sha256 is not None
+    file = tmp_path / "objects" / key_of(job.sha256)
+
+    with open_store(*unpacked(b"".join(backup_of(store, "1")), tmp_path / "other")) as other:
+        assert other.calibrations.file(other.calibrations.get(job_id)) == file.read_bytes()
+    store.close()
+    assert check_store(*urls(tmp_path)).is_fine
+
+    (tmp_path / "spindle.db").unlink()
+    report = rebuild_store(*urls(tmp_path))
+    again = rebuild_store(*urls(tmp_path))
+
+    assert (report.calibrations, again.calibrations, report.not_taken) == (1, 0, {})
+    with open_store(*urls(tmp_path)) as rebuilt:
+        (found,) = rebuilt.calibrations.list()
+        assert (found.body, found.author, found.sha256) == (job.body, "Ada", job.sha256)
+        assert (found.opened_us, found.closed_us) == (job.opened_us, job.closed_us)
+        assert sorted(rebuilt.calibrations.captures(found.id), key=lambda one: one.number) == list(
+            captures
+        )
+    assert check_store(*urls(tmp_path)).is_fine
+
+
+def test_a_flipped_bit_is_found_and_nothing_of_it_is_sent(store: Store, tmp_path: Path) -> None:
+    job = store.calibrations.get(closed(store))
+    assert job.sha256 is not None
+    file = tmp_path / "objects" / key_of(job.sha256)
+    data = bytearray(file.read_bytes())
+    data[20] ^= 1
+    file.write_bytes(data)
+
+    with pytest.raises(ObjectDamaged, match="Restore it"):
+        store.calibrations.file(job)
+    store.scrub(10**18)
+
+    assert list(store.soundness.damaged) == [key_of(job.sha256)]
+    assert [one.key for one in check_store(*urls(tmp_path)).damaged] == [key_of(job.sha256)]
