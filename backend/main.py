@@ -30,6 +30,7 @@ from backend.device.families import FAMILIES, Families
 from backend.errors import LinkError, SpindleError, StoreError
 from backend.ingest import Readers
 from backend.link import kind_of
+from backend.services.calibration.calibrations import open_calibrations
 from backend.services.health import Health
 from backend.services.imports.collect import Collect
 from backend.services.imports.mapping import TableMapping
@@ -86,8 +87,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
     """
     check(settings)
     with contextlib.ExitStack() as closing:
-        store = open_store(settings.db, settings.objects)
-        closing.callback(store.close)
+        store = closing.enter_context(open_store(settings.db, settings.objects))
         last_seen = closing.enter_context(contextlib.closing(LastSeen(store.units)))
         devices = make_devices(settings, store, last_seen, families)
         certificates = KeptCertificates(store.certificates, __version__)
@@ -129,6 +129,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             dashboards=dashboards,
             mark=MarkMoment(recorder, store.marks, devices.get),
             tuning=tuning,
+            calibrations=open_calibrations(devices, store.calibrations, tuning, __version__),
             live=LiveTuning(devices),
             preview=Preview(),
             library=library,

@@ -26,7 +26,7 @@ from backend.api.models.device import (
     Simulation,
     Snapshot,
 )
-from backend.api.models.law import FuzzyTable, Limits, Table
+from backend.api.models.law import FuzzyTable, Table, UnitLimits
 from backend.api.models.ride import Ride, RideList, Series
 from backend.cli.client import Server, default_server
 from backend.errors import NoAnswer, RequestRefused
@@ -161,9 +161,9 @@ class Unit:
         path, body = f"{self._path}/fuzzy-table", value.model_dump()
         return ConfigChange.model_validate(self._server.ask("PUT", path, params=query, json=body))
 
-    def limits(self) -> Limits:
+    def limits(self) -> UnitLimits:
         """What the unit enforces whatever a table says, and where assist ends because of it."""
-        return Limits.model_validate(self._server.ask("GET", f"{self._path}/limits"))
+        return UnitLimits.model_validate(self._server.ask("GET", f"{self._path}/limits"))
 
     def confirm(self) -> ConfigChange:
         """Keep what is on trial."""

@@ -13,6 +13,7 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 from backend.api import docs, errors, live, pages
 from backend.api.problem import Problem, refusals
 from backend.api.routes import (
+    calibrations,
     comparison,
     config,
     devices,
@@ -71,7 +72,8 @@ def create_app(settings: ApiSettings, services: Services | None = None) -> FastA
     api = APIRouter(prefix=PREFIX)
     # Before the rides: what several rides tell together is at no ride's number.
     told = (logbook, comparison, insight, rides, proposals)
-    parts = (health, store, devices, logs, config, law, library, *told, uploads, tables, live)
+    of_units = (devices, logs, config, calibrations)
+    parts = (health, store, *of_units, law, library, *told, uploads, tables, live)
     for module in parts:
         api.include_router(module.router)
     app.include_router(api)

@@ -10,6 +10,7 @@ from fastapi import Depends
 from starlette.requests import HTTPConnection
 
 if TYPE_CHECKING:
+    from backend.services.calibration.calibrations import Calibrations
     from backend.services.health import Health
     from backend.services.imports.collect import Collect
     from backend.services.imports.mapping import TableMapping
@@ -52,6 +53,7 @@ class Services:
     dashboards: Dashboards
     mark: MarkMoment
     tuning: Tuning
+    calibrations: Calibrations
     live: LiveTuning
     preview: Preview
     library: Library

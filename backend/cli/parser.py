@@ -9,6 +9,7 @@ from typing import Any
 from backend import __version__
 from backend.cli import (
     calibrate,
+    calibration_job,
     device,
     device_live,
     device_log,
@@ -44,6 +45,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_ride(verbs)
     _add_store(verbs)
     _add_law(verbs)
+    _add_calibrate(verbs)
     _add_unlock(verbs)
     return parser
 
@@ -286,15 +288,61 @@ def _add_law(verbs: Any) -> None:
     command.add_argument("--revision", type=int, help="of the unit; what it has now if absent")
     command.add_argument("--library", metavar="ID", help="an entry's, instead of a unit's")
     command.set_defaults(second=False)
-    group = _group(verbs, "calibrate", "the torque sensor's figures")
-    command = _asking(
-        group, "evaluate", calibrate.evaluate, help="linearity, hysteresis, or a certificate again"
-    )
-    command.add_argument(
-        "file",
-        type=Path,
-        help="JSON: full_scale_nm, load_nm, forward, reverse; or a certificate, without a server",
-    )
+
+
+def _add_calibrate(verbs: Any) -> None:
+    words = "the torque sensor: start, setup, capture, drop, fit, write, verify, restore, close ..."
+    group = _group(verbs, "calibrate", words)
+    command = _asking(group, "start", calibration_job.start, help="open one, or find the open one")
+    command.add_argument("unit", nargs="?", help="whose; may be left out when there is only one")
+    command = _on_job(group, "setup", calibration_job.setup, "instruments and plan from a file")
+    command.add_argument("file", type=Path, help="JSON, as in docs/calibration.md")
+    command = _on_job(group, "capture", calibration_job.capture, "take what hangs there once still")
+    command.add_argument("--zero", action="store_true", help="nothing hangs there")
+    command.add_argument("--kg", type=float, help="what hangs there; the next step if absent")
+    _add_place(command)
+    command.add_argument("--stroke", type=int, default=1, help="1, 2 ... (1)")
+    command.add_argument("--direction", choices=["loading", "unloading"], default="loading")
+    command = _on_job(group, "drop", calibration_job.drop, "strike a capture out")
+    command.add_argument("number", type=int, help="its number in `show`")
+    command.add_argument("--reason", default="", help="why; kept with it")
+    _on_job(group, "fit", calibration_job.fit, "what follows from the captures, and the judgement")
+    for verb, words in (
+        ("write", "what was fitted into the unit"),
+        ("restore", "the old one"),
+    ):
+        command = _on_job(group, verb, calibration_job.change, words)
+        command.add_argument("--reason", default="", help="why; kept with the revision")
+        command.add_argument("--token", metavar="HEX", help="of `spindle unlock sign`")
+        command.set_defaults(verb=verb)
+    command = _on_job(group, "verify", calibration_job.verify, "compare a mass that was not fitted")
+    command.add_argument("--kg", type=float, required=True, help="what hangs there")
+    _add_place(command)
+    _on_job(group, "close", calibration_job.close, "nothing of it changes any more")
+    _on_job(group, "show", calibration_job.show, "all of one")
+    command = _asking(group, "list", calibration_job.list_jobs, help="newest first")
+    command.add_argument("--unit", help="of this one")
+    command = _on_job(group, "certificate", calibration_job.certificate, "the file for `evaluate`")
+    command.add_argument("--output", "-o", type=Path, help="a file; standard output if absent")
+    words = "linearity, hysteresis, or a certificate again"
+    command = _asking(group, "evaluate", calibrate.evaluate, help=words)
+    words = "JSON: full_scale_nm, load_nm, forward, reverse; or a certificate, without a server"
+    command.add_argument("file", type=Path, help=words)
+
+
+def _on_job(group: Any, name: str, run: Any, words: str) -> argparse.ArgumentParser:
+    """A verb of one calibration."""
+    command = _asking(group, name, run, help=words)
+    words = "number of the calibration; may be left out when only one is open"
+    command.add_argument("--job", type=int, metavar="N", help=words)
+    return command
+
+
+def _add_place(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--side", choices=["left", "right"], default="right")
+    command.add_argument("--angle", type=float, default=0.0, help="of the crank: 0 level, forward")
+    words = "seconds to wait until it is still (60)"
+    command.add_argument("--wait", type=float, default=60.0, metavar="S", help=words)
 
 
 def _add_unlock(verbs: Any) -> None:

@@ -1,1 +1,2 @@
-"""Use cases, one verb each. Rides and imports know tuning and units; units know no other room."""
+"""Use cases, one verb each. Rides, imports and calibration know tuning and units; units know no
+other room."""

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from backend.api.models.base import Answer, Question
 from backend.api.models.config import Parameters
-from backend.api.models.law import AssistModes, FuzzyTable, Limits
+from backend.api.models.law import AssistModes, FuzzyTable, UnitLimits
 
 CHANGES = {"fuzzy_table", "second_table", "assist_modes", "limits"}
 
@@ -26,7 +26,7 @@ class CertificateRequest(Question):
         default=None, description="Shares speed and torque-rate points with the first."
     )
     assist_modes: AssistModes | None = None
-    limits: Limits | None = None
+    limits: UnitLimits | None = None
     parameters: Parameters = Field(default_factory=dict, max_length=400)
 
     def changes(self) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from backend.api.models.base import Answer
-from backend.api.models.config import Change
+from backend.api.models.config import ParameterChange
 from backend.api.models.insight import CrankTorque
 from backend.api.models.law import FuzzyTable
 from backend.api.models.library import CellChange
@@ -96,7 +96,7 @@ class TablesApart(Answer):
 class SettingsApart(Answer):
     a: SideSettings
     b: SideSettings
-    differences: list[Change] | None = Field(
+    differences: list[ParameterChange] | None = Field(
         description="From A to B by parameter; null unless both are known."
     )
     tables: list[TablesApart] = Field(description="Those of which anything differs.")

@@ -108,7 +108,7 @@ class Live(Answer):
     expires_at: datetime | None
 
 
-class Change(Answer):
+class ParameterChange(Answer):
     name: str
     old: ParameterValue
     new: ParameterValue
@@ -126,7 +126,7 @@ class ConfigChange(Answer):
     verified: bool = Field(
         description="Whether the last comparison that this make of unit allows was made."
     )
-    changed: list[Change]
+    changed: list[ParameterChange]
     expires_at: datetime | None
     parameters: Parameters = Field(description="The whole configuration as it was read back.")
 
@@ -144,7 +144,7 @@ class Revision(Answer):
     state: str
     generation: int | None
     crc32: int | None
-    changed: list[Change]
+    changed: list[ParameterChange]
     unit_key: str = Field(description="Whose configuration it was, over whatever connection.")
 
 

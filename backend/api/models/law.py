@@ -116,7 +116,7 @@ class Calibration(LawModel):
     )
 
 
-class Limits(LawModel):
+class UnitLimits(LawModel):
     """What the unit enforces after the law, whatever the table says.
 
     The last three may be missing in what is written; only the maker changes the market.
@@ -168,7 +168,7 @@ class PointGains(Answer):
 class LintRequest(Question):
     fuzzy_table: FuzzyTable
     assist_modes: AssistModes | None = None
-    limits: Limits | None = None
+    limits: UnitLimits | None = None
     table: Table = Field(
         default="first",
         description="Which of the unit's tables this is: modes that use the other are not judged.",
@@ -225,7 +225,7 @@ class TwoDefinitions(Answer):
     range: float
 
 
-class Fit(Answer):
+class LineFit(Answer):
     slope: float
     offset_nm: float
 
@@ -241,7 +241,7 @@ class Evaluation(Answer):
     hysteresis_pct: float
     repeatability_pct: TwoDefinitions
     total_pct: TwoDefinitions
-    fit: Fit
+    fit: LineFit
     linearity_against_line_pct: LinearityAgainstLines
     worst: dict[str, float | str | None] = Field(
         description="Where each figure has its largest value."

@@ -8,7 +8,7 @@ from typing import Any, Literal
 from pydantic import Field
 
 from backend.api.models.base import Answer, Question
-from backend.api.models.config import Change, ParameterValue
+from backend.api.models.config import ParameterChange, ParameterValue
 from backend.api.models.law import FuzzyTable, Label, Table
 
 PARAMETERS_MAX = 400
@@ -189,7 +189,7 @@ class TableComparison(Answer):
 class Comparison(Answer):
     left: LookedAt
     right: LookedAt
-    parameters: list[Change] = Field(
+    parameters: list[ParameterChange] = Field(
         description="What differs; of a table beside a configuration what the table has. Null "
         "where a side says nothing of it."
     )

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from backend.api.models.base import Answer, Question
-from backend.api.models.config import Change, Parameters
+from backend.api.models.config import ParameterChange, Parameters
 from backend.api.models.library import LibraryEntry
 
 Objective = Literal["more_range", "gentler_start", "flatter_at_the_limit"]
@@ -58,7 +58,7 @@ class ProposalCandidate(Answer):
     battery_wh_per_km: ProposalFigure
     duration_s: ProposalFigure
     parameters: Parameters
-    changed: list[Change]
+    changed: list[ParameterChange]
     certificate_sha256: str
     document: LibraryEntry = Field(description="The same, as `POST /library` takes it.")
 

@@ -7,7 +7,7 @@ from typing import Any, Literal
 from pydantic import Field
 
 from backend.api.models.base import Answer, Question
-from backend.api.models.law import AssistModes, FuzzyTable, Label, Law, Limits, Table
+from backend.api.models.law import AssistModes, FuzzyTable, Label, Law, Table, UnitLimits
 
 CHANGES = {"fuzzy_table", "second_table", "assist_modes", "limits"}
 
@@ -44,7 +44,7 @@ class WhyRequest(Question):
         default=None, description="Shares speed and torque-rate points with the first."
     )
     assist_modes: AssistModes | None = None
-    limits: Limits | None = None
+    limits: UnitLimits | None = None
 
     def parts(self) -> tuple[dict[str, Any], dict[str, Any]]:
         """The state, and what takes the place of the configuration's."""

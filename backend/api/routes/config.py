@@ -22,7 +22,7 @@ from backend.api.models.config import (
     RevisionList,
     SinceChange,
 )
-from backend.api.models.law import AssistModes, Calibration, FuzzyTable, Limits, Table
+from backend.api.models.law import AssistModes, Calibration, FuzzyTable, Table, UnitLimits
 from backend.api.models.why import Why, WhyRequest
 from backend.api.problem import refusals
 from backend.api.services import Provided
@@ -238,7 +238,7 @@ def put_calibration(
     return _stamped(change, response)
 
 
-@router.get("/limits", operation_id="get_limits", response_model=Limits)
+@router.get("/limits", operation_id="get_limits", response_model=UnitLimits)
 def get_limits(device_id: str, services: Provided, response: Response) -> Any:
     """What the unit enforces whatever the table says, and where assist ends because of it."""
     return _tagged(services.tuning.read_part(device_id, "limits"), response)
@@ -247,7 +247,7 @@ def get_limits(device_id: str, services: Provided, response: Response) -> Any:
 @router.put("/limits", operation_id="put_limits", response_model=ConfigChange)
 def put_limits(
     device_id: str,
-    body: Limits,
+    body: UnitLimits,
     services: Provided,
     response: Response,
     author: Author,

@@ -56,23 +56,22 @@ def crank_out_of_level(
 
 
 def _order(captures: Sequence[Capture]) -> list[Refusal]:
-    strokes: dict[tuple[object, ...], list[Capture]] = {}
-    for capture in sorted(captures, key=lambda capture: capture.number):
-        state = capture.state
-        if state.kind == "load":
-            key = (state.side, state.crank_angle_deg, state.stroke, state.direction)
-            strokes.setdefault(key, []).append(capture)
+    """Against the capture just before it at the same pedal: a step may be repeated later, if it is
+    come to from the same side."""
     found = []
-    for stroke in strokes.values():
-        sign = 1.0 if stroke[0].state.direction == "loading" else -1.0
-        for before, after in pairwise(stroke):
-            if sign * (after.state.mass_kg - before.state.mass_kg) < 0:
-                sentence = (
-                    f"{after.state.mass_kg:g} kg after {before.state.mass_kg:g} kg while"
-                    f" {after.state.direction}: a sensor that was loaded further reads otherwise"
-                )
-                numbers = (before.number, after.number)
-                found.append(Refusal("order", sentence, after.state.mass_kg, captures=numbers))
+    for before, after in pairwise(sorted(captures, key=lambda capture: capture.number)):
+        was, state = before.state, after.state
+        alike = (was.side, was.crank_angle_deg) == (state.side, state.crank_angle_deg)
+        if state.kind != "load" or not alike:
+            continue
+        sign = 1.0 if state.direction == "loading" else -1.0
+        if sign * (state.mass_kg - was.mass_kg) < 0:
+            sentence = (
+                f"{state.mass_kg:g} kg after {was.mass_kg:g} kg while {state.direction}: a sensor"
+                " that was loaded further reads otherwise"
+            )
+            numbers = (before.number, after.number)
+            found.append(Refusal("order", sentence, state.mass_kg, captures=numbers))
     return found
 
 

@@ -21,7 +21,7 @@ from backend.store.calibrations.kept import (
     KeptCalibration,
     KeptCapture,
     document_of,
-    numbers_of,
+    told_captures,
 )
 from backend.store.objects import FileObjects, content_key
 from backend.store.soundness import WORDS, Expected, Soundness
@@ -168,7 +168,7 @@ class CalibrationStore:
         """
         job = self._database.read(lambda connection: open_job(connection, job_id))
         captures = self.captures(job_id)
-        told = set(numbers_of(certificate))
+        told = {one["number"] for one in told_captures(certificate or {})}
         job = replace(job, body=dict(work(job.body)), closed_us=now_us())
         apart = tuple(one for one in captures if one.struck is not None or one.number not in told)
         document = document_of(job, apart, certificate)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
 Body = Mapping[str, Any]
 
-FORMAT = "spindle-calibration"
-CERTIFICATE, JOB = "certificate", "job"
+DOCUMENT, JOB = "document", "job"
 
 
 @dataclass(frozen=True)
@@ -46,15 +45,13 @@ class KeptCalibration:
 def document_of(
     job: KeptCalibration, apart: tuple[KeptCapture, ...], certificate: Body | None
 ) -> dict[str, Any]:
-    """A closed job's file, which alone brings the job back.
+    """A closed job's file: the certificate, if there is one, and what brings the job back.
 
-    certificate: as domain.calibration makes it, with the captures that count; None without a fit.
-    apart: the captures that are not in it.
+    certificate: as domain.calibration makes it; its document holds the captures that count. apart:
+    the captures that are not in it.
     """
     return {
-        "format": FORMAT,
-        "version": 1,
-        CERTIFICATE: None if certificate is None else dict(certificate),
+        **({DOCUMENT: None} if certificate is None else certificate),
         JOB: {
             "unit_key": job.unit_key,
             "model": job.model,
@@ -68,6 +65,7 @@ def document_of(
     }
 
 
-def numbers_of(certificate: Body | None) -> Iterator[int]:
-    """The captures that a certificate holds."""
-    return (int(one["number"]) for one in (certificate or {}).get("captures", ()))
+def told_captures(file: Body) -> Sequence[Body]:
+    """The captures in the document of a file or certificate."""
+    captures: Sequence[Body] = (file.get(DOCUMENT) or {"captures": ()})["captures"]
+    return captures

@@ -10,7 +10,7 @@ from sqlalchemy import Connection, insert, select
 
 from backend.errors import StoreError
 from backend.store.calibrations.jobs import KIND
-from backend.store.calibrations.kept import CERTIFICATE, JOB
+from backend.store.calibrations.kept import JOB, told_captures
 from backend.store.objects import FileObjects
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
@@ -65,7 +65,6 @@ def job_row(document: Mapping[str, Any]) -> dict[str, Any]:
 
 def capture_rows(document: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Every capture of a file: those of its certificate, and those it leaves out."""
-    certificate = document[CERTIFICATE] or {"captures": ()}
-    told = [{"number": one["number"], "body": one} for one in certificate["captures"]]
+    told = [{"number": one["number"], "body": one} for one in told_captures(document)]
     apart = document[JOB]["captures"]
     return told + [{name: one[name] for name in ("number", "body", "struck")} for one in apart]

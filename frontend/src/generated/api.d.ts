@@ -696,6 +696,254 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/calibrations": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Calibrations
+         * @description Calibrations, newest first, of a unit or a bike where it is named.
+         */
+        get: operations["list_calibrations"];
+        put?: never;
+        /**
+         * Open Calibration
+         * @description Opens a calibration of a connected unit; 200 with the open one where there is one.
+         */
+        post: operations["open_calibration"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/calibrations/{calibration_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Calibration Job
+         * @description All of a calibration: plan, captures, what follows from them, what was written, and the
+         *     earlier ones of the bike and the model.
+         */
+        get: operations["get_calibration_job"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/calibrations/{calibration_id}/reading": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Calibration Reading
+         * @description What the sensor reads now: the last 10 s, whether a capture can be taken, and why not.
+         */
+        get: operations["get_calibration_reading"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/calibrations/{calibration_id}/setup": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Set Up Calibration
+         * @description Gives it its instruments and plan. A fit of before is one no more; captures stay.
+         */
+        put: operations["set_up_calibration"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/calibrations/{calibration_id}/captures": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Capture
+         * @description Takes the newest 3 s as a reading of what hangs there. Refused with every reason unless they
+         *     are steady.
+         */
+        post: operations["capture"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/calibrations/{calibration_id}/captures/{number}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Strike Capture
+         * @description Strikes a capture out: it counts no more, and stays with the reason.
+         */
+        delete: operations["strike_capture"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/calibrations/{calibration_id}/fit": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Fit Calibration
+         * @description Holds what follows from the captures as the fit; refused by name where they contradict.
+         */
+        post: operations["fit_calibration"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/calibrations/{calibration_id}/write": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Write Calibration
+         * @description Writes coefficients and record in one transaction, read back and compared. After an unknown
+         *     outcome repeating it finds out.
+         */
+        post: operations["write_calibration"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/calibrations/{calibration_id}/verify": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Verify Calibration
+         * @description Takes a reading at a mass that the fit has not seen and compares it.
+         */
+        post: operations["verify_calibration"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/calibrations/{calibration_id}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore Calibration
+         * @description Writes back what the unit had before.
+         */
+        post: operations["restore_calibration"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/calibrations/{calibration_id}/close": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Close Calibration
+         * @description Closes it: nothing of it changes any more, and it is a file.
+         */
+        post: operations["close_calibration"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/calibrations/{calibration_id}/certificate": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Calibration Certificate
+         * @description The certificate as the file that `spindle calibrate evaluate` reads: the closed one's as it
+         *     is kept; of an open one with a fit, as it would be now.
+         */
+        get: operations["get_calibration_certificate"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/surface": {
         parameters: {
             query?: never;
@@ -1805,6 +2053,19 @@ export interface components {
             status: "ok";
         };
         /**
+         * AmongModel
+         * @description Against the median of the model's units. deviations: how many of their robust standard
+         *     deviations the gain is away; None if they are all alike.
+         */
+        AmongModel: {
+            /** Units */
+            units: number;
+            /** Gain Pct */
+            gain_pct: number;
+            /** Deviations */
+            deviations: number | null;
+        };
+        /**
          * AssistMode
          * @description One of the five slots the rider's switch selects.
          */
@@ -1857,6 +2118,17 @@ export interface components {
             mode_at_start: number;
         };
         /**
+         * Asymmetry
+         * @description left_right: (right - left) / mean of the slopes, crank level. bending_level, bending_across:
+         *     None without captures over enough of the crank's angle. Two angles cannot tell the two apart:
+         *     then all of it is called level.
+         */
+        Asymmetry: {
+            left_right: components["schemas"]["Share"];
+            bending_level?: components["schemas"]["Share"] | null;
+            bending_across?: components["schemas"]["Share"] | null;
+        };
+        /**
          * Band
          * @description Time from `low` up to `high`; null for no end.
          */
@@ -1905,6 +2177,25 @@ export interface components {
             min: (number | null)[];
             /** Max */
             max: (number | null)[];
+        };
+        /**
+         * Budget
+         * @description Over torque_nm (k,). coverage: the factor at each, 2 or more; expanded = coverage x combined,
+         *     for 95.45 %.
+         */
+        Budget: {
+            /** Torque Nm */
+            torque_nm: number[];
+            /** Contributions */
+            contributions: components["schemas"]["Contribution"][];
+            /** Combined Nm */
+            combined_nm: number[];
+            /** Degrees Of Freedom */
+            degrees_of_freedom: (number | null)[];
+            /** Coverage */
+            coverage: number[];
+            /** Expanded Nm */
+            expanded_nm: number[];
         };
         /**
          * Calibration
@@ -1980,6 +2271,114 @@ export interface components {
          * @enum {string}
          */
         Capability: "read_config" | "write_config" | "unit_trial" | "stream" | "rider_torque" | "calibrate" | "live_set" | "logs" | "unlock" | "unit_limits" | "unique_id" | "restart_to_apply" | "fuzzy_table" | "assist_modes" | "limits" | "simulation";
+        /**
+         * CaptureRequest
+         * @description What hangs there now. The sensor's temperature is the unit's to tell.
+         */
+        CaptureRequest: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "zero" | "load";
+            /** Side */
+            side?: ("left" | "right") | null;
+            /**
+             * Mass Kg
+             * @default 0
+             */
+            mass_kg: number;
+            /**
+             * Arm M
+             * @description The setup's if null.
+             */
+            arm_m?: number | null;
+            /**
+             * Crank Angle Deg
+             * @description 0: the crank level and forward; positive: pedal going down.
+             * @default 0
+             */
+            crank_angle_deg: number;
+            /**
+             * Stroke
+             * @default 1
+             */
+            stroke: number;
+            /** Direction */
+            direction?: ("loading" | "unloading") | null;
+        };
+        /**
+         * CaptureTold
+         * @description One capture, without its raw counts, which the certificate has.
+         */
+        CaptureTold: {
+            /** Number */
+            number: number;
+            state: components["schemas"]["State"];
+            /** Load Nm */
+            load_nm: number;
+            /** Mean Counts */
+            mean_counts: number;
+            /** Deviation Counts */
+            deviation_counts: number;
+            /** Count */
+            count: number;
+            /**
+             * Rejected
+             * @description Samples left out as outliers.
+             */
+            rejected: number;
+            /** Duration S */
+            duration_s: number;
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+            /**
+             * Found Nm
+             * @description By the coefficients that the unit had.
+             */
+            found_nm: number | null;
+            /**
+             * Fitted Nm
+             * @description By those of the fit.
+             */
+            fitted_nm: number | null;
+            /**
+             * Unit Nm
+             * @description What the unit itself told then.
+             */
+            unit_nm: number | null;
+            struck: components["schemas"]["Struck"] | null;
+            /**
+             * Refusals
+             * @description Those that name this capture.
+             */
+            refusals: components["schemas"]["Refusal"][];
+        };
+        /**
+         * Cause
+         * @description Why it is no pass, or what else to know (`note`). figure, allowed, expanded: percent, where
+         *     there are such numbers.
+         */
+        Cause: {
+            /** Code */
+            code: string;
+            /**
+             * Weight
+             * @enum {string}
+             */
+            weight: "note" | "conditional" | "fail";
+            /** Sentence */
+            sentence: string;
+            /** Figure */
+            figure?: number | null;
+            /** Allowed */
+            allowed?: number | null;
+            /** Expanded */
+            expanded?: number | null;
+        };
         /**
          * Cell
          * @description Between two speed points: the assist per rider torque that any mode asks for at most, and
@@ -2070,6 +2469,26 @@ export interface components {
             created_at: string | null;
         };
         /**
+         * CertificateFile
+         * @description What `spindle calibrate evaluate` reads; docs/calibration.md says what is in it.
+         */
+        CertificateFile: {
+            /** Document */
+            document: {
+                [key: string]: unknown;
+            } | null;
+            /** Sha256 */
+            sha256?: string | null;
+            /** Written */
+            written?: {
+                [key: string]: unknown;
+            } | null;
+            /** Job */
+            job?: {
+                [key: string]: unknown;
+            } | null;
+        };
+        /**
          * CertificateRequest
          * @description Of a unit's configuration, one of its revisions, an entry of the library, or the law's
          *     defaults; tables, modes, limits and parameters take the place of theirs.
@@ -2091,20 +2510,28 @@ export interface components {
             /** @description Shares speed and torque-rate points with the first. */
             second_table?: components["schemas"]["FuzzyTable"] | null;
             assist_modes?: components["schemas"]["AssistModes"] | null;
-            limits?: components["schemas"]["Limits"] | null;
+            limits?: components["schemas"]["UnitLimits"] | null;
             /** Parameters */
             parameters?: {
                 [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
             };
         };
-        /** Change */
+        /**
+         * Change
+         * @description Since the last one of this bike. *_en: the change in its expanded uncertainty; above 1 the
+         *     sensor has changed.
+         */
         Change: {
-            /** Name */
-            name: string;
-            /** Old */
-            old: number | string | (number | string)[] | (number | string)[][] | null;
-            /** New */
-            new: number | string | (number | string)[] | (number | string)[][] | null;
+            /** Days */
+            days: number;
+            /** Offset Nm */
+            offset_nm: number;
+            /** Offset En */
+            offset_en: number;
+            /** Gain Pct */
+            gain_pct: number;
+            /** Gain En */
+            gain_en: number;
         };
         /**
          * Charge
@@ -2133,6 +2560,22 @@ export interface components {
              * @description Null also where a third took nothing.
              */
             range_km_most: number | null;
+        };
+        /**
+         * Check
+         * @description passed: None where nobody could tell. figure, allowed: in the unit the code implies.
+         */
+        Check: {
+            /** Code */
+            code: string;
+            /** Passed */
+            passed: boolean | null;
+            /** Sentence */
+            sentence: string;
+            /** Figure */
+            figure: number | null;
+            /** Allowed */
+            allowed: number | null;
         };
         /**
          * Claim
@@ -2224,6 +2667,36 @@ export interface components {
             limits: components["schemas"]["TimeAtLimit"][];
             curves: components["schemas"]["RideCurves"];
             trust: components["schemas"]["Trust"];
+        };
+        /**
+         * Coefficients
+         * @description None: no correction of that kind. The unit's law applies the same equation in C.
+         *
+         *     torque_nm = (raw - offset_counts - offset_counts_per_k dt) gain_nm_per_count
+         *                 (1 + gain_share_per_k dt), dt from reference_degc.
+         */
+        Coefficients: {
+            /** Offset Counts */
+            offset_counts: number;
+            /** Gain Nm Per Count */
+            gain_nm_per_count: number;
+            /** Offset Counts Per K */
+            offset_counts_per_k?: number | null;
+            /** Gain Share Per K */
+            gain_share_per_k?: number | null;
+            /** Reference Degc */
+            reference_degc?: number | null;
+        };
+        /**
+         * Common
+         * @description One cause that all loads share. shift: of each coefficient in `Fit.names`, for one standard
+         *     uncertainty of the cause.
+         */
+        Common: {
+            /** Cause */
+            cause: string;
+            /** Shift */
+            shift: number[];
         };
         /** CompareRequest */
         CompareRequest: {
@@ -2357,7 +2830,7 @@ export interface components {
              * Parameters
              * @description What differs; of a table beside a configuration what the table has. Null where a side says nothing of it.
              */
-            parameters: components["schemas"]["Change"][];
+            parameters: components["schemas"]["ParameterChange"][];
             /** @description Null where a side has no table. */
             tables: components["schemas"]["TableComparison"] | null;
         };
@@ -2393,7 +2866,7 @@ export interface components {
              */
             verified: boolean;
             /** Changed */
-            changed: components["schemas"]["Change"][];
+            changed: components["schemas"]["ParameterChange"][];
             /** Expires At */
             expires_at: string | null;
             /**
@@ -2475,6 +2948,18 @@ export interface components {
             rollback_cause: ("asked" | "time_out" | "restart" | "unknown") | null;
         };
         /**
+         * Contribution
+         * @description standard_nm: at each torque of the budget. degrees_of_freedom: None is infinitely many.
+         */
+        Contribution: {
+            /** Cause */
+            cause: string;
+            /** Standard Nm */
+            standard_nm: number[];
+            /** Degrees Of Freedom */
+            degrees_of_freedom: number | null;
+        };
+        /**
          * CrankApart
          * @description B less A, bin by bin; null unless both are known.
          */
@@ -2519,6 +3004,20 @@ export interface components {
             lag_deg: number | null;
             /** Lag Ms */
             lag_ms: number | null;
+        };
+        /**
+         * Curve
+         * @description Means of all strokes and sides at each load (k,), in Nm: the residuals' shape and loop.
+         */
+        Curve: {
+            /** Load Nm */
+            load_nm: number[];
+            /** Residual Nm */
+            residual_nm: number[];
+            /** Loop Nm */
+            loop_nm: (number | null)[];
+            /** Captures */
+            captures: number[];
         };
         /**
          * Cut
@@ -2859,7 +3358,7 @@ export interface components {
             hysteresis_pct: number;
             repeatability_pct: components["schemas"]["TwoDefinitions"];
             total_pct: components["schemas"]["TwoDefinitions"];
-            fit: components["schemas"]["Fit"];
+            fit: components["schemas"]["LineFit"];
             linearity_against_line_pct: components["schemas"]["LinearityAgainstLines"];
             /**
              * Worst
@@ -3107,12 +3606,30 @@ export interface components {
              */
             name: string;
         };
-        /** Fit */
+        /**
+         * Fit
+         * @description covariance: of the coefficients in `names`, from the scatter alone. repeatability_nm:
+         *     standard deviation of one capture beyond its own noise. temperature: `both`, `offset` or
+         *     `none`, with `temperature_span_k` that the captures cover; None where none was told.
+         */
         Fit: {
-            /** Slope */
-            slope: number;
-            /** Offset Nm */
-            offset_nm: number;
+            coefficients: components["schemas"]["Coefficients"];
+            /** Names */
+            names: string[];
+            /** Covariance */
+            covariance: number[][];
+            /** Common */
+            common: components["schemas"]["Common"][];
+            /** Repeatability Nm */
+            repeatability_nm: number;
+            /** Degrees Of Freedom */
+            degrees_of_freedom: number;
+            /** Temperature */
+            temperature: string;
+            /** Temperature Span K */
+            temperature_span_k: number | null;
+            /** Residuals */
+            residuals: components["schemas"]["Residual"][];
         };
         /**
          * Free
@@ -3198,6 +3715,52 @@ export interface components {
             from_pct: number | null;
             /** To Pct */
             to_pct: number | null;
+        };
+        /**
+         * Gravity
+         * @description What a kilogram weighs here.
+         *
+         *     standard_ms2: standard uncertainty. source: `given`, or `place` with latitude and height.
+         */
+        Gravity: {
+            /** Gravity Ms2 */
+            gravity_ms2: number;
+            /** Standard Ms2 */
+            standard_ms2: number;
+            /**
+             * Source
+             * @enum {string}
+             */
+            source: "given" | "place";
+            /** Latitude Deg */
+            latitude_deg?: number | null;
+            /** Height M */
+            height_m?: number | null;
+        };
+        /**
+         * GravityAt
+         * @description Of a place, by the normal gravity of WGS 84 with its free-air correction.
+         */
+        GravityAt: {
+            /** Latitude Deg */
+            latitude_deg: number;
+            /** Height M */
+            height_m: number;
+            /**
+             * Height Standard M
+             * @default 50
+             */
+            height_standard_m: number;
+        };
+        /** GravityGiven */
+        GravityGiven: {
+            /** Gravity Ms2 */
+            gravity_ms2: number;
+            /**
+             * Standard Ms2
+             * @description Its standard uncertainty.
+             */
+            standard_ms2: number;
         };
         /** Health */
         Health: {
@@ -3335,6 +3898,164 @@ export interface components {
             taken_as: {
                 [key: string]: string;
             };
+        };
+        /**
+         * Job
+         * @description All of a calibration, so that a page has nothing to work out.
+         */
+        Job: {
+            /** Id */
+            id: number;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "setup" | "capturing" | "fitted" | "written" | "verified" | "closed";
+            /** Unit Key */
+            unit_key: string;
+            /** Bike Id */
+            bike_id: number | null;
+            /** Model */
+            model: string | null;
+            /**
+             * Opened At
+             * Format: date-time
+             */
+            opened_at: string;
+            /** Closed At */
+            closed_at: string | null;
+            /** Author */
+            author: string;
+            /** Author Proof */
+            author_proof: "stated" | null;
+            /**
+             * File Sha256
+             * @description Of the file of a closed one.
+             */
+            file_sha256: string | null;
+            result: components["schemas"]["Result"];
+            /**
+             * Device Id
+             * @description The connection its unit is on now.
+             */
+            device_id: string | null;
+            /** Serial Number */
+            serial_number: string | null;
+            /** Firmware Version */
+            firmware_version: string | null;
+            /** Market */
+            market: string | null;
+            /**
+             * May
+             * @description What can be done now.
+             */
+            may: ("setup" | "capture" | "fit" | "write" | "verify" | "restore" | "close")[];
+            /**
+             * Found
+             * @description The unit's record when the job was opened.
+             */
+            found: {
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
+            };
+            setup: components["schemas"]["Setup"] | null;
+            /** @description The newest of another job here. */
+            suggested_setup: components["schemas"]["Setup"] | null;
+            /** Steps */
+            steps: components["schemas"]["Step"][];
+            /**
+             * Next Step
+             * @description Index into `steps`; null: all are done.
+             */
+            next_step: number | null;
+            /**
+             * Checks
+             * @description Of this moment; empty without a connection.
+             */
+            checks: components["schemas"]["Check"][];
+            /** Captures */
+            captures: components["schemas"]["CaptureTold"][];
+            /** @description All that follows from setup and captures. */
+            worked: components["schemas"]["Worked"] | null;
+            /** Fitted At */
+            fitted_at: string | null;
+            /**
+             * Certificate Sha256
+             * @description What the unit's record is written with.
+             */
+            certificate_sha256: string | null;
+            /** Record */
+            record: components["schemas"]["RecordLine"][];
+            /** Changes */
+            changes: components["schemas"]["RecordChange"][];
+            /**
+             * Unsure
+             * @description Begun, and nobody knows whether the unit has it; repeating it finds out.
+             */
+            unsure: ("write" | "restore") | null;
+            /** Earlier Of Bike */
+            earlier_of_bike: components["schemas"]["JobSummary"][];
+            /** Earlier Of Model */
+            earlier_of_model: components["schemas"]["JobSummary"][];
+            /** @description Since the last one of this unit. */
+            change: components["schemas"]["Change"] | null;
+            among_model: components["schemas"]["AmongModel"] | null;
+        };
+        /** JobList */
+        JobList: {
+            /** Items */
+            items: components["schemas"]["JobSummary"][];
+        };
+        /** JobRequest */
+        JobRequest: {
+            /** Device Id */
+            device_id: string;
+        };
+        /** JobSummary */
+        JobSummary: {
+            /** Id */
+            id: number;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "setup" | "capturing" | "fitted" | "written" | "verified" | "closed";
+            /** Unit Key */
+            unit_key: string;
+            /** Bike Id */
+            bike_id: number | null;
+            /** Model */
+            model: string | null;
+            /**
+             * Opened At
+             * Format: date-time
+             */
+            opened_at: string;
+            /** Closed At */
+            closed_at: string | null;
+            /** Author */
+            author: string;
+            /** Author Proof */
+            author_proof: "stated" | null;
+            /**
+             * File Sha256
+             * @description Of the file of a closed one.
+             */
+            file_sha256: string | null;
+            result: components["schemas"]["Result"];
+        };
+        /**
+         * Judgement
+         * @description verdict: by the heaviest cause. limits: those that were used.
+         */
+        Judgement: {
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "pass" | "conditional" | "fail";
+            /** Causes */
+            causes: components["schemas"]["Cause"][];
+            limits: components["schemas"]["Limits"];
         };
         /**
          * KnownAnswer
@@ -3631,37 +4352,79 @@ export interface components {
         };
         /**
          * Limits
-         * @description What the unit enforces after the law, whatever the table says.
+         * @description Percent of full scale, unless the name says otherwise.
          *
-         *     The last three may be missing in what is written; only the maker changes the market.
+         *     source: who says so. expanded_pct: of the whole budget, k = 2. reference_pct: of what arm,
+         *     masses, gravity and level leave open, k = 2. gain_change_pct: of the unit's gain, found against
+         *     kept. left_right_pct, bending_pct: of the load.
          */
         Limits: {
-            /** Assist Cutoff Kmh */
-            assist_cutoff_kmh: number;
-            /** Assist Cutoff Band Kmh */
-            assist_cutoff_band_kmh: number;
-            /** Motor Torque Nm Max */
-            motor_torque_nm_max: number;
-            /** Battery Current A Max */
-            battery_current_a_max: number;
-            /** Battery Voltage V Min */
-            battery_voltage_v_min: number;
-            /** Motor Speed Rpm Max */
-            motor_speed_rpm_max: number;
-            /** Pedal Stop Ms */
-            pedal_stop_ms: number;
             /**
-             * Market
-             * @description Whose law has the last word.
+             * Source
+             * @default example limits
              */
-            market?: ("eu_epac" | "uk" | "us_class_1" | "us_class_2" | "us_class_3" | "japan" | "china") | null;
-            /** Assist Cutoff Extra Kmh */
-            assist_cutoff_extra_kmh?: number | null;
+            source: string;
+            /** Market */
+            market?: string | null;
+            /** Model */
+            model?: string | null;
             /**
-             * Effective Assist Cutoff Kmh
-             * @description Where assist ends: `assist_cutoff_kmh`, or less where the market allows less. Told by the unit's own code; not looked at when it is written. Null while the unit has lost settings, which its faults tell.
+             * Linearity Pct
+             * @default 0.7
              */
-            readonly effective_assist_cutoff_kmh?: number | null;
+            linearity_pct: number;
+            /**
+             * Hysteresis Pct
+             * @default 0.3
+             */
+            hysteresis_pct: number;
+            /**
+             * Repeatability Pct
+             * @default 0.6
+             */
+            repeatability_pct: number;
+            /**
+             * Zero Return Pct
+             * @default 0.3
+             */
+            zero_return_pct: number;
+            /**
+             * Total Pct
+             * @default 1
+             */
+            total_pct: number;
+            /**
+             * Expanded Pct
+             * @default 1
+             */
+            expanded_pct: number;
+            /**
+             * Reference Pct
+             * @default 0.5
+             */
+            reference_pct: number;
+            /**
+             * Left Right Pct
+             * @default 1
+             */
+            left_right_pct: number;
+            /**
+             * Bending Pct
+             * @default 1
+             */
+            bending_pct: number;
+            /**
+             * Gain Change Pct
+             * @default 1
+             */
+            gain_change_pct: number;
+        };
+        /** LineFit */
+        LineFit: {
+            /** Slope */
+            slope: number;
+            /** Offset Nm */
+            offset_nm: number;
         };
         /** LinearityAgainstLines */
         LinearityAgainstLines: {
@@ -3685,7 +4448,7 @@ export interface components {
         LintRequest: {
             fuzzy_table: components["schemas"]["FuzzyTable"];
             assist_modes?: components["schemas"]["AssistModes"] | null;
-            limits?: components["schemas"]["Limits"] | null;
+            limits?: components["schemas"]["UnitLimits"] | null;
             /**
              * Table
              * @description Which of the unit's tables this is: modes that use the other are not judged.
@@ -3789,6 +4552,34 @@ export interface components {
              * @description Why nothing could be measured.
              */
             not_felt: string | null;
+        };
+        /**
+         * Mass
+         * @description One weight of the set: of a class of OIML R 111, or weighed to within `limit_kg`.
+         */
+        Mass: {
+            /** Name */
+            name: string;
+            /** Mass Kg */
+            mass_kg: number;
+            /** Mass Class */
+            mass_class?: ("E2" | "F1" | "F2" | "M1" | "M2" | "M3") | null;
+            /** Limit Kg */
+            limit_kg?: number | null;
+        };
+        /**
+         * MassRequest
+         * @description One weight: of a class of OIML R 111, or weighed to within `limit_kg`.
+         */
+        MassRequest: {
+            /** Name */
+            name: string;
+            /** Mass Kg */
+            mass_kg: number;
+            /** Mass Class */
+            mass_class?: ("E2" | "F1" | "F2" | "M1" | "M2" | "M3") | null;
+            /** Limit Kg */
+            limit_kg?: number | null;
         };
         /**
          * ModeCurve
@@ -3943,12 +4734,37 @@ export interface components {
             /** Description */
             description: string;
         };
+        /** ParameterChange */
+        ParameterChange: {
+            /** Name */
+            name: string;
+            /** Old */
+            old: number | string | (number | string)[] | (number | string)[][] | null;
+            /** New */
+            new: number | string | (number | string)[] | (number | string)[][] | null;
+        };
         /** ParameterList */
         ParameterList: {
             /** Items */
             items: components["schemas"]["Parameter"][];
             /** Next */
             next: string | null;
+        };
+        /**
+         * Past
+         * @description An earlier calibration. *_expanded: k = 2.
+         */
+        Past: {
+            /** At Utc Us */
+            at_utc_us: number;
+            /** Offset Counts */
+            offset_counts: number;
+            /** Offset Expanded */
+            offset_expanded: number;
+            /** Gain Nm Per Count */
+            gain_nm_per_count: number;
+            /** Gain Expanded */
+            gain_expanded: number;
         };
         /**
          * Pause
@@ -4001,6 +4817,22 @@ export interface components {
              * Format: date-time
              */
             to: string;
+        };
+        /**
+         * Piecewise
+         * @description To be added to a reading: correction_nm at reading_nm (k,), ascending; standard_nm of each.
+         *
+         *     significant: the largest correction is beyond twice its own standard uncertainty.
+         */
+        Piecewise: {
+            /** Reading Nm */
+            reading_nm: number[];
+            /** Correction Nm */
+            correction_nm: number[];
+            /** Standard Nm */
+            standard_nm: number[];
+            /** Significant */
+            significant: boolean;
         };
         /** PointGains */
         PointGains: {
@@ -4133,7 +4965,7 @@ export interface components {
                 [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
             };
             /** Changed */
-            changed: components["schemas"]["Change"][];
+            changed: components["schemas"]["ParameterChange"][];
             /** Certificate Sha256 */
             certificate_sha256: string;
             /** @description The same, as `POST /library` takes it. */
@@ -4191,6 +5023,97 @@ export interface components {
             deviation: components["schemas"]["Deviation"];
         };
         /**
+         * Reading
+         * @description The sensor now; null where nothing comes.
+         */
+        Reading: {
+            /** Device Id */
+            device_id: string | null;
+            /** Steady */
+            steady: boolean;
+            /**
+             * Steady S
+             * @description For how long a capture could have been taken.
+             */
+            steady_s: number;
+            /**
+             * Reasons
+             * @description Why it may not be captured.
+             */
+            reasons: components["schemas"]["Refusal"][];
+            /** T S */
+            t_s: number[];
+            /** Raw Counts */
+            raw_counts: (number | null)[];
+            /** Mean Counts */
+            mean_counts: number | null;
+            /** Deviation Counts */
+            deviation_counts: number | null;
+            /** Window S */
+            window_s: number;
+            /** Found Nm */
+            found_nm: number | null;
+            /** Fitted Nm */
+            fitted_nm: number | null;
+            /** Unit Nm */
+            unit_nm: number | null;
+            /** Sensor Degc */
+            sensor_degc: number | null;
+            /** Cadence Rpm */
+            cadence_rpm: number | null;
+            /** Speed Kmh */
+            speed_kmh: number | null;
+            /** Checks */
+            checks: components["schemas"]["Check"][];
+        };
+        /** RecordChange */
+        RecordChange: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "write" | "restore";
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+            /** Author */
+            author: string;
+            /** Reason */
+            reason: string;
+            /** Record */
+            record: {
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
+            };
+            /** Before */
+            before: {
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
+            };
+            /** Generation */
+            generation: number;
+            /** Certificate Sha256 */
+            certificate_sha256: string | null;
+        };
+        /** RecordLine */
+        RecordLine: {
+            /** Name */
+            name: string;
+            /** Found */
+            found: number | string | (number | string)[] | (number | string)[][] | null;
+            /** Planned */
+            planned: number | string | (number | string)[] | (number | string)[][] | null;
+            /** Free Min */
+            free_min: number | null;
+            /** Free Max */
+            free_max: number | null;
+            /**
+             * Beyond
+             * @description Whether the new value needs the maker's token.
+             */
+            beyond: boolean;
+        };
+        /**
          * RecorderHealth
          * @description Rows of rides since the server started; those that never came from the unit are no rows.
          */
@@ -4210,6 +5133,30 @@ export interface components {
              * @description On the way to the store, or waiting for it.
              */
             rows_waiting: number;
+        };
+        /**
+         * Refusal
+         * @description figure: the number that decides, in the unit the code implies; None where it is no number.
+         *
+         *     values: what the sentence tells besides, by name, for a text in another language. captures:
+         *     the numbers of those at fault.
+         */
+        Refusal: {
+            /** Code */
+            code: string;
+            /** Sentence */
+            sentence: string;
+            /** Figure */
+            figure?: number | null;
+            /** Values */
+            values?: {
+                [key: string]: number | string;
+            };
+            /**
+             * Captures
+             * @default []
+             */
+            captures: number[];
         };
         /**
          * Replay
@@ -4312,6 +5259,42 @@ export interface components {
             mode: "open_loop";
         };
         /**
+         * Residual
+         * @description Of one capture: what the coefficients read there, and how much that is above the load.
+         */
+        Residual: {
+            /** Capture */
+            capture: number;
+            /** Load Nm */
+            load_nm: number;
+            /** Reading Nm */
+            reading_nm: number;
+            /** Residual Nm */
+            residual_nm: number;
+        };
+        /**
+         * Result
+         * @description What a job came to; null without a fit.
+         */
+        Result: {
+            /** Verdict */
+            verdict: ("pass" | "conditional" | "fail") | null;
+            past: components["schemas"]["Past"] | null;
+            /**
+             * Expanded Nm
+             * @description The largest of the budget, k = 2.
+             */
+            expanded_nm: number | null;
+            /** Linearity Pct */
+            linearity_pct: number | null;
+            /** Hysteresis Pct */
+            hysteresis_pct: number | null;
+            /** Verified */
+            verified: boolean;
+            /** Certificate Sha256 */
+            certificate_sha256: string | null;
+        };
+        /**
          * Revision
          * @description Who changed what, when and why.
          */
@@ -4345,7 +5328,7 @@ export interface components {
             /** Crc32 */
             crc32: number | null;
             /** Changed */
-            changed: components["schemas"]["Change"][];
+            changed: components["schemas"]["ParameterChange"][];
             /**
              * Unit Key
              * @description Whose configuration it was, over whatever connection.
@@ -5089,12 +6072,165 @@ export interface components {
              * Differences
              * @description From A to B by parameter; null unless both are known.
              */
-            differences: components["schemas"]["Change"][] | null;
+            differences: components["schemas"]["ParameterChange"][] | null;
             /**
              * Tables
              * @description Those of which anything differs.
              */
             tables: components["schemas"]["TablesApart"][];
+        };
+        /**
+         * Setup
+         * @description Instruments and plan.
+         *
+         *     arm_m: from the spindle's axis to the pedal's. arm_limit_m, level_limit_deg: half widths of
+         *     what arm and crank angle may be. loads_kg: what is hung on in turn, without the zero. strokes:
+         *     up and down again, of each side. angles_deg: 0 is the crank level and forward, positive the
+         *     pedal going down. resolution_counts: the reading's step. gain_nm_per_count: what the unit was
+         *     made with, which the slope is judged against. thermometer_limit_k: half width, of the sensor's
+         *     own thermometer. *_limit_*_per_k: what a sensor drifts by at most if nobody measured it.
+         */
+        Setup: {
+            /** Arm M */
+            arm_m: number;
+            /** Arm Limit M */
+            arm_limit_m: number;
+            gravity: components["schemas"]["Gravity"];
+            /** Masses */
+            masses: components["schemas"]["Mass"][];
+            /** Loads Kg */
+            loads_kg: number[];
+            /** Full Scale Nm */
+            full_scale_nm: number;
+            /** Gain Nm Per Count */
+            gain_nm_per_count: number;
+            /**
+             * Strokes
+             * @default 2
+             */
+            strokes: number;
+            /**
+             * Sides
+             * @default [
+             *       "right",
+             *       "left"
+             *     ]
+             */
+            sides: ("left" | "right")[];
+            /**
+             * Angles Deg
+             * @default [
+             *       0
+             *     ]
+             */
+            angles_deg: number[];
+            /**
+             * Level Limit Deg
+             * @default 2
+             */
+            level_limit_deg: number;
+            /**
+             * Resolution Counts
+             * @default 1
+             */
+            resolution_counts: number;
+            /**
+             * Thermometer Limit K
+             * @default 0.5
+             */
+            thermometer_limit_k: number;
+            /**
+             * Zero Limit Nm Per K
+             * @default 0.02
+             */
+            zero_limit_nm_per_k: number;
+            /**
+             * Span Limit Share Per K
+             * @default 0.0002
+             */
+            span_limit_share_per_k: number;
+        };
+        /**
+         * SetupRequest
+         * @description Instruments and plan. The gain that the unit was made with is the unit's to tell.
+         */
+        SetupRequest: {
+            /**
+             * Arm M
+             * @description From the spindle's axis to the pedal's.
+             */
+            arm_m: number;
+            /**
+             * Arm Limit M
+             * @description Half width of what it may be.
+             */
+            arm_limit_m: number;
+            /** Gravity */
+            gravity: components["schemas"]["GravityAt"] | components["schemas"]["GravityGiven"];
+            /** Masses */
+            masses: components["schemas"]["MassRequest"][];
+            /**
+             * Loads Kg
+             * @description What is hung on in turn, without the zero.
+             */
+            loads_kg: number[];
+            /** Full Scale Nm */
+            full_scale_nm: number;
+            /**
+             * Strokes
+             * @default 2
+             */
+            strokes: number;
+            /**
+             * Sides
+             * @default [
+             *       "right",
+             *       "left"
+             *     ]
+             */
+            sides: ("left" | "right")[];
+            /**
+             * Angles Deg
+             * @default [
+             *       0
+             *     ]
+             */
+            angles_deg: number[];
+            /**
+             * Level Limit Deg
+             * @default 2
+             */
+            level_limit_deg: number;
+            /**
+             * Resolution Counts
+             * @default 1
+             */
+            resolution_counts: number;
+            /**
+             * Thermometer Limit K
+             * @default 0.5
+             */
+            thermometer_limit_k: number;
+            /**
+             * Zero Limit Nm Per K
+             * @default 0.02
+             */
+            zero_limit_nm_per_k: number;
+            /**
+             * Span Limit Share Per K
+             * @default 0.0002
+             */
+            span_limit_share_per_k: number;
+        };
+        /**
+         * Share
+         * @description A share of the load and its standard uncertainty.
+         */
+        Share: {
+            /** Share */
+            share: number;
+            /** Standard */
+            standard: number;
         };
         /**
          * Side
@@ -5130,6 +6266,38 @@ export interface components {
              * @enum {string}
              */
             table: "first" | "second";
+        };
+        /**
+         * SideFigures
+         * @description Of one pedal at the crank's first planned angle, percent of full scale.
+         *
+         *     linearity_load, linearity_line: against the loads and against their least-squares line.
+         *     slope: of that line. total_*: root of the squares with repeatability by deviation and by range.
+         */
+        SideFigures: {
+            /**
+             * Side
+             * @enum {string}
+             */
+            side: "left" | "right";
+            /** Strokes */
+            strokes: number;
+            /** Linearity Load Pct */
+            linearity_load_pct: number;
+            /** Linearity Line Pct */
+            linearity_line_pct: number;
+            /** Hysteresis Pct */
+            hysteresis_pct: number;
+            /** Repeatability Deviation Pct */
+            repeatability_deviation_pct: number;
+            /** Repeatability Range Pct */
+            repeatability_range_pct: number;
+            /** Total Deviation Pct */
+            total_deviation_pct: number;
+            /** Total Range Pct */
+            total_range_pct: number;
+            /** Slope */
+            slope: number;
         };
         /** SideSettings */
         SideSettings: {
@@ -5401,6 +6569,54 @@ export interface components {
             };
         };
         /**
+         * State
+         * @description What was known while the counts were taken.
+         *
+         *     side, direction: None at zero where they make no difference. mass_kg: all that hangs on the
+         *     pedal. arm_m: None is the setup's. sensor_degc: None where the unit does not tell it.
+         */
+        State: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "zero" | "load" | "verify";
+            /** Side */
+            side?: ("left" | "right") | null;
+            /**
+             * Mass Kg
+             * @default 0
+             */
+            mass_kg: number;
+            /** Arm M */
+            arm_m?: number | null;
+            /**
+             * Crank Angle Deg
+             * @default 0
+             */
+            crank_angle_deg: number;
+            /**
+             * Stroke
+             * @default 1
+             */
+            stroke: number;
+            /** Direction */
+            direction?: ("loading" | "unloading") | null;
+            /** Sensor Degc */
+            sensor_degc?: number | null;
+        };
+        /** Step */
+        Step: {
+            state: components["schemas"]["State"];
+            /** Load Nm */
+            load_nm: number;
+            /**
+             * Capture
+             * @description The newest that counts; null: to be done.
+             */
+            capture: number | null;
+        };
+        /**
          * StorePlace
          * @description The database and the folder of rides and files, with what they hold.
          */
@@ -5429,6 +6645,18 @@ export interface components {
              * @description On the disk of the folder.
              */
             free_bytes: number;
+        };
+        /** Struck */
+        Struck: {
+            /** Reason */
+            reason: string;
+            /** Author */
+            author: string;
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
         };
         /** Surface */
         Surface: {
@@ -5784,6 +7012,40 @@ export interface components {
             /** Range */
             range: number;
         };
+        /**
+         * UnitLimits
+         * @description What the unit enforces after the law, whatever the table says.
+         *
+         *     The last three may be missing in what is written; only the maker changes the market.
+         */
+        UnitLimits: {
+            /** Assist Cutoff Kmh */
+            assist_cutoff_kmh: number;
+            /** Assist Cutoff Band Kmh */
+            assist_cutoff_band_kmh: number;
+            /** Motor Torque Nm Max */
+            motor_torque_nm_max: number;
+            /** Battery Current A Max */
+            battery_current_a_max: number;
+            /** Battery Voltage V Min */
+            battery_voltage_v_min: number;
+            /** Motor Speed Rpm Max */
+            motor_speed_rpm_max: number;
+            /** Pedal Stop Ms */
+            pedal_stop_ms: number;
+            /**
+             * Market
+             * @description Whose law has the last word.
+             */
+            market?: ("eu_epac" | "uk" | "us_class_1" | "us_class_2" | "us_class_3" | "japan" | "china") | null;
+            /** Assist Cutoff Extra Kmh */
+            assist_cutoff_extra_kmh?: number | null;
+            /**
+             * Effective Assist Cutoff Kmh
+             * @description Where assist ends: `assist_cutoff_kmh`, or less where the market allows less. Told by the unit's own code; not looked at when it is written. Null while the unit has lost settings, which its faults tell.
+             */
+            readonly effective_assist_cutoff_kmh?: number | null;
+        };
         /** UnitLog */
         UnitLog: {
             /** Log Id */
@@ -5924,6 +7186,52 @@ export interface components {
             share: number | null;
             /** Motor Wh */
             motor_wh: number | null;
+        };
+        /**
+         * Verification
+         * @description One verifying capture. expanded_nm: of the difference, k = 2, without what arm, masses and
+         *     gravity leave open: both used the same. en: the difference in those; 1 or less agrees
+         *     (ISO/IEC 17043, B.3). unseen: no capture of the fit had this mass.
+         */
+        Verification: {
+            /** Capture */
+            capture: number;
+            /** Load Nm */
+            load_nm: number;
+            /** Reading Nm */
+            reading_nm: number;
+            /** Difference Nm */
+            difference_nm: number;
+            /** Expanded Nm */
+            expanded_nm: number;
+            /** En */
+            en: number;
+            /** Unseen */
+            unseen: boolean;
+        };
+        /**
+         * VerifyRequest
+         * @description A mass that the fit has not seen.
+         */
+        VerifyRequest: {
+            /**
+             * Side
+             * @enum {string}
+             */
+            side: "left" | "right";
+            /** Mass Kg */
+            mass_kg: number;
+            /**
+             * Arm M
+             * @description The setup's if null.
+             */
+            arm_m?: number | null;
+            /**
+             * Crank Angle Deg
+             * @description 0: the crank level and forward; positive: pedal going down.
+             * @default 0
+             */
+            crank_angle_deg: number;
         };
         /**
          * WearCounters
@@ -6121,7 +7429,7 @@ export interface components {
             /** @description Shares speed and torque-rate points with the first. */
             second_table?: components["schemas"]["FuzzyTable"] | null;
             assist_modes?: components["schemas"]["AssistModes"] | null;
-            limits?: components["schemas"]["Limits"] | null;
+            limits?: components["schemas"]["UnitLimits"] | null;
         };
         /**
          * WhySettings
@@ -6171,6 +7479,28 @@ export interface components {
              * @description The limit it is, where it took or gave something.
              */
             limit: string | null;
+        };
+        /**
+         * Worked
+         * @description What comes out. With refusals, or too few captures, nothing is fitted: None and empty.
+         */
+        Worked: {
+            /** Refusals */
+            refusals: components["schemas"]["Refusal"][];
+            fit: components["schemas"]["Fit"] | null;
+            curve: components["schemas"]["Curve"] | null;
+            piecewise: components["schemas"]["Piecewise"] | null;
+            asymmetry: components["schemas"]["Asymmetry"] | null;
+            /** Figures */
+            figures: components["schemas"]["SideFigures"][];
+            /** As Found */
+            as_found: components["schemas"]["SideFigures"][];
+            /** Zero Return Nm */
+            zero_return_nm: number | null;
+            budget: components["schemas"]["Budget"] | null;
+            /** Verifications */
+            verifications: components["schemas"]["Verification"][];
+            judgement: components["schemas"]["Judgement"];
         };
         /**
          * Problem
@@ -9422,7 +10752,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Limits"];
+                    "application/json": components["schemas"]["UnitLimits"];
                 };
             };
             /** @description Forbidden */
@@ -9513,7 +10843,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["Limits"];
+                "application/json": components["schemas"]["UnitLimits"];
             };
         };
         responses: {
@@ -9591,6 +10921,783 @@ export interface operations {
             };
             /** @description Gateway Timeout */
             504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_calibrations: {
+        parameters: {
+            query?: {
+                unit_key?: string | null;
+                bike_id?: number | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["JobList"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    open_calibration: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["JobRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_calibration_job: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_calibration_reading: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Reading"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    set_up_calibration: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SetupRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    capture: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
+            };
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CaptureRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    strike_capture: {
+        parameters: {
+            query?: {
+                /** @description Why; kept. */
+                reason?: string;
+            };
+            header?: {
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
+            };
+            path: {
+                calibration_id: number;
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    fit_calibration: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    write_calibration: {
+        parameters: {
+            query?: {
+                /** @description Why; kept. */
+                reason?: string;
+                /** @description The maker's answer to the `challenge` of a refusal `token_needed`. */
+                token?: string | null;
+            };
+            header?: {
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
+            };
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    verify_calibration: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
+            };
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["VerifyRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    restore_calibration: {
+        parameters: {
+            query?: {
+                /** @description Why; kept. */
+                reason?: string;
+                /** @description The maker's answer to the `challenge` of a refusal `token_needed`. */
+                token?: string | null;
+            };
+            header?: {
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
+            };
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    close_calibration: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
+                "spindle-author"?: string | null;
+            };
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_calibration_certificate: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CertificateFile"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };

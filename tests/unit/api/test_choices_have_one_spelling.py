@@ -1,4 +1,5 @@
-"""Goal: the API's description spells every choice in lower case, but for the labels of rules.
+"""Goal: the API's description spells every choice in lower case, but for the labels of rules and
+the classes of weights.
 
 Method: every enumeration of the whole OpenAPI document, and a request as version 0.2 sent it.
 """
@@ -11,15 +12,18 @@ from typing import Any
 import pytest
 
 from backend.api.app import ApiSettings, create_app
-from backend.api.models.law import AssistMode, FuzzyTable, Limits
+from backend.api.models.law import AssistMode, FuzzyTable, UnitLimits
 from backend.control import law_defaults
 from backend.domain.assist_mode import LAWS, TAPERS
+from backend.domain.calibration.setup import CLASS_SHARE
 from backend.domain.fuzzy_table import INFERENCES, THESIS_TABLE
 from firmware_protocol._generated import Inference, Law, Market, Taper
 from firmware_protocol.spelling import RULE_LABELS, words_of
 
 LIMITS = {
-    name: law_defaults()[name] for name, field in Limits.model_fields.items() if field.is_required()
+    name: law_defaults()[name]
+    for name, field in UnitLimits.model_fields.items()
+    if field.is_required()
 }
 
 
@@ -39,7 +43,8 @@ def test_every_enumeration_of_the_description_is_in_lower_case() -> None:
 
     assert {"mamdani_centroid", "eu_epac", "factory", "latched"} <= found
     assert found >= RULE_LABELS
-    assert [one for one in sorted(found - RULE_LABELS) if one != one.lower()] == []
+    names = RULE_LABELS | set(CLASS_SHARE)
+    assert [one for one in sorted(found - names) if one != one.lower()] == []
 
 
 @pytest.mark.parametrize(
@@ -53,10 +58,10 @@ def test_the_typed_parts_know_the_registry_s_choices(words: tuple[str, ...], tab
 
 @pytest.mark.parametrize("market", ["JAPAN", "japan"])
 def test_a_market_is_taken_in_any_case_and_told_in_lower(market: str) -> None:
-    taken = Limits(**LIMITS, market=market)  # type: ignore[arg-type]
+    taken = UnitLimits(**LIMITS, market=market)  # type: ignore[arg-type]
 
     assert taken.model_dump()["market"] == "japan"
-    assert set(words_of(Market)) == set(choices(Limits.model_json_schema()))
+    assert set(words_of(Market)) == set(choices(UnitLimits.model_json_schema()))
 
 
 def test_what_parameters_said_up_to_version_0_2_fits_the_typed_parts() -> None:

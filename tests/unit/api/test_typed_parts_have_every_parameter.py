@@ -6,12 +6,12 @@ Method: the registry's groups beside the models of the parts that are made of th
 import pytest
 from pydantic import BaseModel
 
-from backend.api.models.law import Calibration, Limits
+from backend.api.models.law import Calibration, UnitLimits
 from firmware_protocol._generated import PARAMETERS
 
 
 @pytest.mark.parametrize(
-    ("groups", "model"), [({"sensor"}, Calibration), ({"limits", "market"}, Limits)]
+    ("groups", "model"), [({"sensor"}, Calibration), ({"limits", "market"}, UnitLimits)]
 )
 def test_every_parameter_of_the_part_has_a_field(groups: set[str], model: type[BaseModel]) -> None:
     names = {row.name for row in PARAMETERS if row.group in groups}

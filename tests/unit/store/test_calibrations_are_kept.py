@@ -47,7 +47,7 @@ def closed(store: Store, unit: str = UNIT) -> int:
     store.calibrations.strike(job.id, 2, {"reason": "it swung"}, same)
     counted = [dict(one.body) for one in store.calibrations.captures(job.id) if one.struck is None]
     store.calibrations.close(
-        job.id, lambda body: {**body, "verdict": "pass"}, {"captures": counted}
+        job.id, lambda body: {**body, "verdict": "pass"}, {"document": {"captures": counted}}
     )
     return job.id
 
@@ -111,7 +111,7 @@ def test_a_closed_job_is_a_file_named_by_its_bytes_and_changes_no_more(store: St
 
     assert hashlib.sha256(data).hexdigest() == job.sha256
     document = json.loads(data)
-    assert [one["number"] for one in document["certificate"]["captures"]] == [1, 3]
+    assert [one["number"] for one in document["document"]["captures"]] == [1, 3]
     assert [one["number"] for one in document["job"]["captures"]] == [2]
     assert document["job"]["body"]["verdict"] == job.body["verdict"] == "pass"
     for refused in (

@@ -1,0 +1,235 @@
+"""Calibration of a torque sensor as it is asked for and told."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, Field
+
+from backend.api.models.base import Answer, Question
+from backend.api.models.config import ParameterValue
+from backend.domain.calibration.capture import State
+from backend.domain.calibration.judgement.history import AmongModel, Change, Past
+from backend.domain.calibration.prechecks import Check
+from backend.domain.calibration.refusal import Refusal
+from backend.domain.calibration.setup import MassClass, Setup, Side
+from backend.domain.calibration.worked import Worked
+
+Record = dict[str, ParameterValue | None]
+JobState = Literal["setup", "capturing", "fitted", "written", "verified", "closed"]
+Action = Literal["setup", "capture", "fit", "write", "verify", "restore", "close"]
+Verdict = Literal["pass", "conditional", "fail"]
+Angle = Annotated[
+    float,
+    Field(gt=-85, lt=85, description="0: the crank level and forward; positive: pedal going down."),
+]
+REASON_MAX = 400
+
+
+class JobRequest(Question):
+    device_id: str = Field(max_length=400)
+
+
+class GravityAt(Question):
+    """Of a place, by the normal gravity of WGS 84 with its free-air correction."""
+
+    latitude_deg: float = Field(ge=-90, le=90)
+    height_m: float = Field(ge=-500, le=9000)
+    height_standard_m: float = Field(default=50.0, ge=0, le=1000)
+
+
+class GravityGiven(Question):
+    gravity_ms2: float = Field(ge=9.76, le=9.84)
+    standard_ms2: float = Field(ge=0, le=0.05, description="Its standard uncertainty.")
+
+
+class MassRequest(Question):
+    """One weight: of a class of OIML R 111, or weighed to within `limit_kg`."""
+
+    name: str = Field(min_length=1, max_length=60)
+    mass_kg: float = Field(ge=0.1, le=200)
+    mass_class: MassClass | None = None
+    limit_kg: float | None = Field(default=None, ge=0, le=10)
+
+
+class SetupRequest(Question):
+    """Instruments and plan. The gain that the unit was made with is the unit's to tell."""
+
+    arm_m: float = Field(ge=0.05, le=1.0, description="From the spindle's axis to the pedal's.")
+    arm_limit_m: float = Field(ge=0, le=0.05, description="Half width of what it may be.")
+    gravity: GravityAt | GravityGiven
+    masses: list[MassRequest] = Field(min_length=1, max_length=50)
+    loads_kg: list[Annotated[float, Field(gt=0, le=200)]] = Field(
+        min_length=1, max_length=50, description="What is hung on in turn, without the zero."
+    )
+    full_scale_nm: float = Field(ge=5, le=1000)
+    strokes: int = Field(default=2, ge=1, le=10)
+    sides: list[Side] = Field(default=["right", "left"], min_length=1, max_length=2)
+    angles_deg: list[Angle] = Field(default=[0.0], min_length=1, max_length=12)
+    level_limit_deg: float = Field(default=2.0, ge=0, le=10)
+    resolution_counts: float = Field(default=1.0, ge=0, le=1000)
+    thermometer_limit_k: float = Field(default=0.5, ge=0, le=10)
+    zero_limit_nm_per_k: float = Field(default=0.02, ge=0)
+    span_limit_share_per_k: float = Field(default=2e-4, ge=0)
+
+
+class CaptureRequest(Question):
+    """What hangs there now. The sensor's temperature is the unit's to tell."""
+
+    kind: Literal["zero", "load"]
+    side: Side | None = None
+    mass_kg: float = Field(default=0.0, ge=0, le=200)
+    arm_m: float | None = Field(default=None, ge=0.05, le=1.0, description="The setup's if null.")
+    crank_angle_deg: Angle = 0.0
+    stroke: int = Field(default=1, ge=1, le=100)
+    direction: Literal["loading", "unloading"] | None = None
+
+
+class VerifyRequest(Question):
+    """A mass that the fit has not seen."""
+
+    side: Side
+    mass_kg: float = Field(gt=0, le=200)
+    arm_m: float | None = Field(default=None, ge=0.05, le=1.0, description="The setup's if null.")
+    crank_angle_deg: Angle = 0.0
+
+
+class Step(Answer):
+    state: State
+    load_nm: float
+    capture: int | None = Field(description="The newest that counts; null: to be done.")
+
+
+class Struck(Answer):
+    reason: str
+    author: str
+    at: datetime
+
+
+class CaptureTold(Answer):
+    """One capture, without its raw counts, which the certificate has."""
+
+    number: int
+    state: State
+    load_nm: float
+    mean_counts: float
+    deviation_counts: float
+    count: int
+    rejected: int = Field(description="Samples left out as outliers.")
+    duration_s: float
+    at: datetime
+    found_nm: float | None = Field(description="By the coefficients that the unit had.")
+    fitted_nm: float | None = Field(description="By those of the fit.")
+    unit_nm: float | None = Field(description="What the unit itself told then.")
+    struck: Struck | None
+    refusals: list[Refusal] = Field(description="Those that name this capture.")
+
+
+class RecordLine(Answer):
+    name: str
+    found: ParameterValue | None
+    planned: ParameterValue | None
+    free_min: float | None
+    free_max: float | None
+    beyond: bool = Field(description="Whether the new value needs the maker's token.")
+
+
+class RecordChange(Answer):
+    kind: Literal["write", "restore"]
+    at: datetime
+    author: str
+    reason: str
+    record: Record
+    before: Record
+    generation: int
+    certificate_sha256: str | None
+
+
+class Result(Answer):
+    """What a job came to; null without a fit."""
+
+    verdict: Verdict | None
+    past: Past | None
+    expanded_nm: float | None = Field(description="The largest of the budget, k = 2.")
+    linearity_pct: float | None
+    hysteresis_pct: float | None
+    verified: bool
+    certificate_sha256: str | None
+
+
+class JobSummary(Answer):
+    id: int
+    state: JobState
+    unit_key: str
+    bike_id: int | None
+    model: str | None
+    opened_at: datetime
+    closed_at: datetime | None
+    author: str
+    author_proof: Literal["stated"] | None
+    file_sha256: str | None = Field(description="Of the file of a closed one.")
+    result: Result
+
+
+class JobList(BaseModel):
+    items: list[JobSummary]
+
+
+class Job(JobSummary):
+    """All of a calibration, so that a page has nothing to work out."""
+
+    device_id: str | None = Field(description="The connection its unit is on now.")
+    serial_number: str | None
+    firmware_version: str | None
+    market: str | None
+    may: list[Action] = Field(description="What can be done now.")
+    found: Record = Field(description="The unit's record when the job was opened.")
+    setup: Setup | None
+    suggested_setup: Setup | None = Field(description="The newest of another job here.")
+    steps: list[Step]
+    next_step: int | None = Field(description="Index into `steps`; null: all are done.")
+    checks: list[Check] = Field(description="Of this moment; empty without a connection.")
+    captures: list[CaptureTold]
+    worked: Worked | None = Field(description="All that follows from setup and captures.")
+    fitted_at: datetime | None
+    certificate_sha256: str | None = Field(description="What the unit's record is written with.")
+    record: list[RecordLine]
+    changes: list[RecordChange]
+    unsure: Literal["write", "restore"] | None = Field(
+        description="Begun, and nobody knows whether the unit has it; repeating it finds out."
+    )
+    earlier_of_bike: list[JobSummary]
+    earlier_of_model: list[JobSummary]
+    change: Change | None = Field(description="Since the last one of this unit.")
+    among_model: AmongModel | None
+
+
+class Reading(Answer):
+    """The sensor now; null where nothing comes."""
+
+    device_id: str | None
+    steady: bool
+    steady_s: float = Field(description="For how long a capture could have been taken.")
+    reasons: list[Refusal] = Field(description="Why it may not be captured.")
+    t_s: list[float]
+    raw_counts: list[int | None]
+    mean_counts: float | None
+    deviation_counts: float | None
+    window_s: float
+    found_nm: float | None
+    fitted_nm: float | None
+    unit_nm: float | None
+    sensor_degc: float | None
+    cadence_rpm: float | None
+    speed_kmh: float | None
+    checks: list[Check]
+
+
+class CertificateFile(BaseModel):
+    """What `spindle calibrate evaluate` reads; docs/calibration.md says what is in it."""
+
+    document: dict[str, Any] | None
+    sha256: str | None = None
+    written: dict[str, Any] | None = None
+    job: dict[str, Any] | None = None

@@ -1,0 +1,1 @@
+"""Calibration jobs: a sensor read under known loads, fitted, written, verified, certified."""

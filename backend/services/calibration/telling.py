@@ -1,0 +1,184 @@
+"""Kept jobs as views."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from backend.domain.calibration.capture import Capture
+from backend.domain.calibration.coefficients import Coefficients
+from backend.domain.calibration.judgement.history import Past, past_of
+from backend.domain.calibration.plain import from_plain, to_plain
+from backend.domain.calibration.worked import Worked, work_out
+from backend.services.calibration.body import (
+    Body,
+    counting,
+    is_written,
+    moment,
+    setup_in,
+)
+from backend.services.calibration.certificates import limits_in
+from backend.services.calibration.record import coefficients_of
+from backend.services.calibration.views import (
+    CaptureView,
+    JobSummary,
+    RecordChange,
+    RecordLine,
+    Result,
+    Struck,
+)
+from backend.store import KeptCalibration, KeptCapture
+
+SAME = 1e-6
+"""As a share: parameters are 32 bit, and equal to a part in ten million."""
+
+
+def worked_of(body: Body, captures: Sequence[KeptCapture]) -> Worked | None:
+    """All that follows from a job's setup and captures; None before both are there."""
+    setup, counted = setup_in(body), counting(captures)
+    if setup is None or not counted:
+        return None
+    return work_out(setup, counted, coefficients_of(body["found"]), limits_in(body))
+
+
+def state_of(job: KeptCalibration, worked: Worked | None) -> str:
+    """Where a job stands, as of JobView."""
+    if job.closed_us is not None:
+        return "closed"
+    if is_written(job.body):
+        seen = worked is not None and any(entry.unseen for entry in worked.verifications)
+        return "verified" if seen else "written"
+    if job.body["setup"] is None:
+        return "setup"
+    return "capturing" if job.body["fitted_us"] is None else "fitted"
+
+
+def result_of(body: Body, worked: Worked | None, certificate_sha256: str | None) -> Result:
+    """What a job comes to as it stands."""
+    if worked is None or worked.fit is None or worked.budget is None:
+        return Result(None if worked is None else worked.judgement.verdict)
+    return Result(
+        worked.judgement.verdict,
+        past_of(worked.fit, body["fitted_us"] or 0),
+        max(worked.budget.expanded_nm),
+        max((side.linearity_line_pct for side in worked.figures), default=None),
+        max((side.hysteresis_pct for side in worked.figures), default=None),
+        is_written(body) and any(entry.unseen for entry in worked.verifications),
+        certificate_sha256,
+    )
+
+
+def result_json(result: Result) -> dict[str, Any]:
+    """A result as it is kept with a closed job."""
+    past = None if result.past is None else to_plain(result.past)
+    return {**{name: getattr(result, name) for name in Result.__dataclass_fields__}, "past": past}
+
+
+def result_in(body: Body) -> Result:
+    """The result of a closed job; nothing of an open one."""
+    told = body["result"]
+    if told is None:
+        return Result()
+    past = None if told["past"] is None else from_plain(Past, told["past"])
+    return Result(**{**told, "past": past})
+
+
+def summary_of(job: KeptCalibration, worked: Worked | None = None) -> JobSummary:
+    """One line of a list. worked: of an open job whose state is told to the end."""
+    return JobSummary(
+        id=job.id,
+        state=state_of(job, worked),
+        unit_key=job.unit_key,
+        bike_id=job.bike_id,
+        model=job.model,
+        opened_at=moment(job.opened_us),
+        closed_at=None if job.closed_us is None else moment(job.closed_us),
+        author=job.author,
+        author_proof=job.author_proof,
+        file_sha256=job.sha256,
+        result=result_in(job.body),
+    )
+
+
+def capture_views(
+    body: Body, captures: Sequence[KeptCapture], worked: Worked | None
+) -> Iterator[CaptureView]:
+    """All of them, struck ones too; a job has no capture before its setup."""
+    setup = setup_in(body)
+    if setup is None:
+        return
+    found = coefficients_of(body["found"])
+    fitted = worked.fit.coefficients if worked is not None and worked.fit is not None else None
+    refusals = () if worked is None else worked.refusals
+    for one in captures:
+        capture = from_plain(Capture, one.body)
+        yield CaptureView(
+            number=capture.number,
+            state=capture.state,
+            load_nm=capture.state.load_nm(setup),
+            mean_counts=capture.mean_counts,
+            deviation_counts=capture.deviation_counts,
+            count=capture.count,
+            rejected=len(capture.rejected),
+            duration_s=capture.duration_s,
+            at=moment(capture.at_utc_us),
+            found_nm=reading_nm(found, capture.mean_counts, capture.state.sensor_degc),
+            fitted_nm=reading_nm(fitted, capture.mean_counts, capture.state.sensor_degc),
+            unit_nm=body["unit_nm"].get(str(capture.number)),
+            struck=None
+            if one.struck is None
+            else Struck(one.struck["reason"], one.struck["author"], moment(one.struck["at_us"])),
+            refusals=tuple(
+                refusal
+                for refusal in refusals
+                if one.struck is None and capture.number in refusal.captures
+            ),
+        )
+
+
+def reading_nm(
+    coefficients: Coefficients | None, counts: float | None, degc: float | None
+) -> float | None:
+    """One reading by coefficients; None where either is not there."""
+    if coefficients is None or counts is None:
+        return None
+    known = None if degc is None else [degc]
+    return float(coefficients.torque_nm([counts], known)[0])
+
+
+def record_lines(body: Body, planned: Body | None) -> Iterator[RecordLine]:
+    """The unit's record as it was found, beside what is to be written."""
+    for name, found in body["found"].items():
+        value = None if planned is None else planned.get(name)
+        low, high = body["free"].get(name, (None, None))
+        beyond = value is not None and low is not None and not low <= value <= high
+        yield RecordLine(name, found, value, low, high, beyond)
+
+
+def record_changes(body: Body) -> tuple[RecordChange, ...]:
+    """What was done to the unit's record, oldest first."""
+    return tuple(
+        RecordChange(
+            kind=one["kind"],
+            at=moment(one["at_us"]),
+            author=one["author"],
+            reason=one["reason"],
+            record=one["record"],
+            before=one["before"],
+            generation=one["generation"],
+            certificate_sha256=one["certificate_sha256"],
+        )
+        for one in body["changes"]
+    )
+
+
+def has_record(parameters: Body, record: Body) -> bool:
+    """Whether a unit's parameters are a record, as 32 bit numbers are."""
+    return all(same(parameters.get(name), value) for name, value in record.items())
+
+
+def same(one: Any, other: Any) -> bool:
+    """Whether two values of a parameter are one."""
+    if isinstance(one, float) and isinstance(other, int | float):
+        return abs(one - other) <= SAME * max(abs(one), abs(other))
+    return bool(one == other)
