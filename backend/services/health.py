@@ -115,8 +115,9 @@ class Health:
 
 
 def told_of_damage(keys: Collection[str]) -> str:
-    """How many rides are damaged, the first of them, and what to do."""
+    """How many files are damaged, the first of them, and what to do."""
     return (
-        f"Files of rides that are damaged or missing: {len(keys)}, one of them {min(keys)}. "
+        f"Files of rides or calibrations that are damaged or missing: {len(keys)}, one of them "
+        f"{min(keys)}. "
         "Restore them from a backup; the list of rides and `spindle store check` name each."
     )

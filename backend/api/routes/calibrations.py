@@ -98,10 +98,10 @@ def set_up_calibration(calibration_id: JobId, body: SetupRequest, services: Prov
     response_model=Job,
     responses=refusals(404, 409),
 )
-def capture(calibration_id: JobId, body: CaptureRequest, services: Provided, author: Author) -> Any:
+def capture(calibration_id: JobId, body: CaptureRequest, services: Provided) -> Any:
     """Takes the newest 3 s as a reading of what hangs there. Refused with every reason unless they
     are steady."""
-    services.calibrations.jobs.capture(calibration_id, state_of(body.model_dump()), author)
+    services.calibrations.jobs.capture(calibration_id, state_of(body.model_dump()))
     return services.calibrations.show.get(calibration_id)
 
 
@@ -161,12 +161,10 @@ def write_calibration(
     response_model=Job,
     responses=refusals(404, 409),
 )
-def verify_calibration(
-    calibration_id: JobId, body: VerifyRequest, services: Provided, author: Author
-) -> Any:
+def verify_calibration(calibration_id: JobId, body: VerifyRequest, services: Provided) -> Any:
     """Takes a reading at a mass that the fit has not seen and compares it."""
     state = state_of({"kind": "verify", **body.model_dump()})
-    services.calibrations.jobs.capture(calibration_id, state, author)
+    services.calibrations.jobs.capture(calibration_id, state)
     return services.calibrations.show.get(calibration_id)
 
 

@@ -74,7 +74,7 @@ def require_unwritten(body: Body) -> None:
         raise Conflict(
             "The unit has what was fitted. Restore the old calibration first, or close this one "
             "and open another.",
-            "written",
+            "already_written",
         )
 
 

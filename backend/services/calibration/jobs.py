@@ -121,7 +121,7 @@ class CalibrationJobs:
 
         self._store.change(job_id, work)
 
-    def capture(self, job_id: int, state: State, author: str) -> None:
+    def capture(self, job_id: int, state: State) -> None:
         """Take the newest steady window as a capture. The state's temperature is the unit's to say.
 
         Raises Conflict with a field for each reason why not, NotFound, InvalidRequest.
@@ -187,7 +187,7 @@ class CalibrationJobs:
                 for refusal in worked.refusals
             ]
             message = "; ".join(fault.message for fault in faults)
-            raise Conflict(f"Not fitted: {message}.", faults[0].code, faults)
+            raise Conflict(f"Not fitted: {message}.", "captures_contradict", faults)
         if worked is None or worked.fit is None:
             raise Conflict("The captures do not suffice for a fit.", "too_few_captures")
         at_us = int(self._now_s() * 1e6)
@@ -208,7 +208,7 @@ class CalibrationJobs:
         if seen is None or reasons:
             faults = [FieldError("readings", one.code, one.sentence) for one in reasons]
             message = "; ".join(fault.message for fault in faults)
-            raise Conflict(f"Not steady for {WINDOW_S:g} s: {message}.", faults[0].code, faults)
+            raise Conflict(f"Not steady for {WINDOW_S:g} s: {message}.", "not_steady", faults)
         return seen
 
     def _require_unseen(self, job_id: int, state: State) -> None:

@@ -44,10 +44,15 @@ def coefficients_of(record: Mapping[str, Any]) -> Coefficients | None:
 def record_to_write(
     found: Mapping[str, Any], coefficients: Coefficients, calibrated_us: int, sha256: str
 ) -> dict[str, Any]:
-    """What goes into a unit with the record `found`: only what it has a place for."""
-    record: dict[str, Any] = {
-        parameter: getattr(coefficients, name) for name, parameter in PARAMETER_OF.items()
-    }
+    """What goes into a unit with the record `found`: only what it has a place for.
+
+    A temperature coefficient that the captures could not tell stays as it was: at the reference,
+    where they were taken, it changes nothing.
+    """
+    record: dict[str, Any] = {}
+    for name, parameter in PARAMETER_OF.items():
+        value = getattr(coefficients, name)
+        record[parameter] = found.get(parameter) if value is None else value
     record[CALIBRATED_AT] = calibrated_us // 1_000_000
     record[NUMBER] = int(found.get(NUMBER) or 0) + 1
     record[CERTIFICATE] = list(bytes.fromhex(sha256)[:CERTIFICATE_BYTES])

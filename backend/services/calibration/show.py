@@ -84,9 +84,9 @@ class CalibrationShow:
             record=tuple(record_lines(body, None if planned is None else planned[0])),
             changes=record_changes(body),
             unsure=None if body["pending"] is None else body["pending"]["kind"],
-            earlier_of_bike=self._earlier(job, [o for o in others if o.unit_key == job.unit_key]),
+            earlier_of_bike=self._earlier(job, [o for o in others if is_of_bike(o, job)]),
             earlier_of_model=self._earlier(
-                job, [o for o in others if o.model == job.model and o.unit_key != job.unit_key]
+                job, [o for o in others if o.model == job.model and not is_of_bike(o, job)]
             ),
             change=None
             if now is None
@@ -139,6 +139,11 @@ class CalibrationShow:
             if past is not None and one.model == job.model and one.unit_key != job.unit_key:
                 newest.setdefault(one.unit_key, past)
         return list(newest.values())
+
+
+def is_of_bike(one: KeptCalibration, job: KeptCalibration) -> bool:
+    """Whether a job was of another's bike, be it with another unit."""
+    return one.unit_key == job.unit_key or (one.bike_id is not None and one.bike_id == job.bike_id)
 
 
 def pasts(jobs: Iterator[KeptCalibration]) -> Sequence[Past]:

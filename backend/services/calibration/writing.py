@@ -68,7 +68,7 @@ class CalibrationRecord:
         if planned is None:
             raise kept.not_fitted()
         if kept.is_written(job.body):
-            raise Conflict("The unit has what was fitted already.", "written")
+            raise Conflict("The unit has what was fitted already.", "already_written")
         record, made = planned
         certificate = job.body["certificate"] or written_part(made)
         reason = reason or f"Calibration {job_id}, certificate {certificate['sha256'][:16]}"
@@ -93,7 +93,7 @@ class CalibrationRecord:
             raise Conflict(
                 "Nobody knows yet whether the unit has what was begun to be written: repeat that "
                 "first.",
-                "unsure",
+                "write_unsure",
             )
         captures = self._store.captures(job_id)
         made = certificate_of(job, kept.counting(captures), self._software)

@@ -233,7 +233,7 @@ def open_job(connection: Connection, job_id: int) -> KeptCalibration:
     """A job that may be changed. Raises NotFound, Conflict for a closed one."""
     job = job_of(connection, job_id)
     if job.closed_us is not None:
-        raise Conflict(f"Calibration {job_id} is closed; open another one.", "closed")
+        raise Conflict(f"Calibration {job_id} is closed; open another one.", "calibration_closed")
     return job
 
 

@@ -11206,10 +11206,7 @@ export interface operations {
     capture: {
         parameters: {
             query?: never;
-            header?: {
-                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
-                "spindle-author"?: string | null;
-            };
+            header?: never;
             path: {
                 calibration_id: number;
             };
@@ -11460,10 +11457,7 @@ export interface operations {
     verify_calibration: {
         parameters: {
             query?: never;
-            header?: {
-                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. */
-                "spindle-author"?: string | null;
-            };
+            header?: never;
             path: {
                 calibration_id: number;
             };

@@ -117,7 +117,8 @@ def test_the_reading_tells_why_it_may_not_be_taken(client: TestClient, bench: Wo
     assert [one["code"] for one in silent["reasons"]] == ["no_readings"]
     assert silent["raw_counts"] == []
     assert [one["code"] for one in short["reasons"]] == ["too_short"]
-    assert (refused.status_code, refused.json()["code"]) == (409, "too_short")
+    assert (refused.status_code, refused.json()["code"]) == (409, "not_steady")
+    assert [one["code"] for one in refused.json()["errors"]] == ["too_short"]
     assert (steady["steady"], steady["reasons"]) == (True, [])
     assert 5.0 <= steady["steady_s"] <= 6.5
     assert len(steady["raw_counts"]) == len(steady["t_s"]) <= 250

@@ -113,7 +113,7 @@ class Workshop:
         """Hang what is said, or something else, and take the reading."""
         state = state_of(body)
         self.hang(state.mass_kg if hung_kg is None else hung_kg, state.crank_angle_deg)
-        self.use.jobs.capture(self.job, state, "Ada")
+        self.use.jobs.capture(self.job, state)
 
     def capture_all(self, wrong_at: int | None = None) -> None:
         """Every step that is to be done; at one of them another mass hangs than is said."""

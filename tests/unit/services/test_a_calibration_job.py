@@ -15,8 +15,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from backend.domain.calibration.capture import State
 from backend.domain.calibration.certificate import evaluate
+from backend.domain.calibration.coefficients import Coefficients
 from backend.errors import Conflict, InvalidRequest, NoAnswer, NotFound, NotStandingStill
+from backend.services.calibration.record import PARAMETER_OF, coefficients_of, record_to_write
 from tests.unit.services.calibration_job import (
     LOADS_KG,
     SETUP,
@@ -128,7 +131,7 @@ def test_a_load_that_swings_is_not_taken_and_the_reason_is_told(bench: Workshop)
 
     reading = bench.use.show.reading(bench.job)
     with pytest.raises(Conflict) as error:
-        bench.use.jobs.capture(bench.job, state(10.0), "Ada")
+        bench.use.jobs.capture(bench.job, state(10.0))
 
     assert not reading.steady
     assert "swinging" in refused(error)
@@ -142,7 +145,7 @@ def test_a_bike_that_moves_is_not_taken(bench: Workshop) -> None:
     bench.read(bench.random.normal(500, 6, 400), speed_kmh=0.4)
 
     with pytest.raises(Conflict) as error:
-        bench.use.jobs.capture(bench.job, state(10.0), "Ada")
+        bench.use.jobs.capture(bench.job, state(10.0))
 
     assert refused(error) == ["turning"]
 
@@ -151,12 +154,12 @@ def test_the_same_seconds_are_not_taken_twice(bench: Workshop) -> None:
     bench.open()
     bench.use.jobs.set_up(bench.job, SETUP)
     bench.hang(10.0)
-    bench.use.jobs.capture(bench.job, state(10.0), "Ada")
+    bench.use.jobs.capture(bench.job, state(10.0))
 
     with pytest.raises(Conflict) as error:
-        bench.use.jobs.capture(bench.job, state(25.0), "Ada")
+        bench.use.jobs.capture(bench.job, state(25.0))
     bench.hang(25.0)
-    bench.use.jobs.capture(bench.job, state(25.0), "Ada")
+    bench.use.jobs.capture(bench.job, state(25.0))
 
     assert refused(error) == ["too_short"]
     first, second = bench.view().captures
@@ -172,7 +175,7 @@ def test_seconds_before_a_silence_are_not_now(bench: Workshop) -> None:
     bench.now_s += 60
 
     with pytest.raises(Conflict) as error:
-        bench.use.jobs.capture(bench.job, state(10.0), "Ada")
+        bench.use.jobs.capture(bench.job, state(10.0))
 
     assert refused(error) == ["no_readings"]
     assert bench.view().checks == ()
@@ -297,7 +300,7 @@ def test_a_unit_that_is_away_loses_nothing(bench: Workshop) -> None:
     assert bench.opener.tried.wait(20)
 
     with pytest.raises(Conflict, match="is not connected"):
-        bench.use.jobs.capture(bench.job, state(10.0), "Ada")
+        bench.use.jobs.capture(bench.job, state(10.0))
     with pytest.raises((Conflict, NoAnswer)):
         bench.use.jobs.open(bench.device, "Ada")
 
@@ -334,6 +337,24 @@ def test_every_field_at_fault_is_named(bench: Workshop) -> None:
     assert [fault.field for fault in error.value.fields] == ["arm_m", "strokes"]
 
 
+def test_temperature_coefficients_that_nobody_measured_stay_as_they_were() -> None:
+    """At 24 degC the old and the new record differ by what was found there; 10 K above by the
+    same, since both walk by 2 counts/K, but for the gain, which is 1 % another."""
+    old = Coefficients(10.0, 0.01, 2.0, -2e-4, 20.0)
+    found = {name: getattr(old, short) for short, name in PARAMETER_OF.items()}
+    fitted = Coefficients(30.0, 0.0101, None, None, 24.0)
+
+    record = record_to_write(found, fitted, 1_700_000_000_000_000, "ab" * 32)
+
+    now = coefficients_of(record)
+    assert now == Coefficients(30.0, 0.0101, 2.0, -2e-4, 24.0)
+    assert now.torque_nm([4000.0], [24.0]) == fitted.torque_nm([4000.0], [24.0])
+    apart = [float((now.torque_nm([10.0], [t]) - old.torque_nm([10.0], [t]))[0]) for t in (24, 34)]
+    assert apart[0] == pytest.approx(apart[1], rel=0.02)
+    # What the unit has no place for is not written.
+    assert set(record) == set(found)
+
+
 def test_the_last_calibrations_of_the_bike_tell_what_moved(bench: Workshop) -> None:
     first = bench.fitted()
     bench.use.record.write(first.id, "", "Ada")
@@ -348,7 +369,5 @@ def test_the_last_calibrations_of_the_bike_tell_what_moved(bench: Workshop) -> N
     assert second.found[GAIN] == pytest.approx(TRUE_GAIN, rel=2e-3)
 
 
-def state(mass_kg: float) -> Any:
-    from backend.domain.calibration.capture import State
-
+def state(mass_kg: float) -> State:
     return State("load", "right", mass_kg, direction="loading")
