@@ -80,6 +80,12 @@ def test_a_table_that_does_not_say_its_units_is_asked_about_once(
     # Ten in the morning in Dublin's summer; 119 s at 5 m/s.
     assert {ride["started_at"][:16] for ride in rides} == {"2026-05-01T09:00", "2026-05-02T09:00"}
     assert [ride["summary"]["distance_km"] for ride in rides] == [pytest.approx(0.6, 0.02)] * 2
+    page.goto(f"{fresh.url}/settings")
+    known = page.get_by_test_id("known-tables")
+    expect(known).to_contain_text("speed: m/s · Europe/Dublin")
+    known.get_by_role("button", name="Forget what was said of time, speed, cadence").click()
+    expect(known).to_have_count(0)
+    assert fresh.get("/tables")["items"] == []
 
 
 def done_of(page: Page) -> int:

@@ -30,6 +30,13 @@ export const en = {
   restore_start: 'Start from it:',
   restore_rebuild: 'If only the database is damaged, this makes it anew from the rides’ own files:',
   place: 'FOLDER',
+  tables: 'Tables you answered for',
+  tables_note:
+    'What you said of tables that do not name their units or time zone, by their columns. ' +
+    'Forget an answer to be asked again with the next such file; rides that were read stay.',
+  rows_a_second: '{count} rows a second',
+  forget: 'Forget',
+  forget_named: 'Forget what was said of {columns}',
 }
 
 export type SettingsKey = keyof typeof en

@@ -26,4 +26,10 @@ export const zh: Record<SettingsKey, string> = {
   restore_start: '从该文件夹启动：',
   restore_rebuild: '若只有数据库损坏，可由骑行自身的文件重建：',
   place: '文件夹',
+  tables: '您回答过的表格',
+  tables_note:
+    '您对未说明单位或时区的表格所作的回答，按列名保存。忘记后，下一个同类文件会再次询问；已读取的骑行不变。',
+  rows_a_second: '每秒 {count} 行',
+  forget: '忘记',
+  forget_named: '忘记对 {columns} 的回答',
 }
