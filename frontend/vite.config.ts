@@ -8,7 +8,8 @@ const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
 // What most pages need in one file, and pages of a kind in another: dozens of tiny ones compress
 // worse than they save.
 const MOST = [
-  'api|context|device/(?!FaultMoment|fault_moment|moment_)|stream|ui|units',
+  'api/(?!pair_of_rides|upload)',
+  'context|device/(?!FaultMoment|fault_moment|moment_)|stream|ui|units',
   'charts/(plotly\\.ts|strip_chart\\.ts|[Ss]park)',
   'config/(config_draft|drafts|limits|page_draft|parameter_text|ratchet|trial|two_tables)',
   'i18n/(?!zh)',
@@ -23,9 +24,11 @@ const GROUPS = [
   chunk('unit', `shared/(${MOST.join('|')})`),
   chunk('moment', 'shared/device/(FaultMoment|fault_moment|moment_)'),
   chunk('traces', 'shared/charts/(Traces|SeriesTable|trace_line|trace_window|ride_view)'),
-  chunk('rides', 'features/rides/(?!ride/|insight/|home/(ManyRides|Standing))'),
+  chunk('apart', 'shared/config/(SettingsApart|SmallTable)'),
+  chunk('rides', 'features/rides/(?!ride/|insight/|compare/|home/(ManyRides|Standing))'),
   chunk('try', 'features/try/(?!proposals)'),
   chunk('ride', 'features/rides/ride/'),
+  chunk('compare', 'features/rides/compare/'),
   chunk('insight', 'features/rides/insight'),
   chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet)'),
   chunk('settings', 'features/settings'),

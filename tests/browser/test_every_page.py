@@ -50,6 +50,10 @@ PAGES = {
     "library": ("/tune/library", "[data-testid=difference-map][data-draws]"),
     "rides": ("/rides", "[data-testid=ride-table]"),
     "ride": ("/rides/{ride}", "[data-testid=traces][data-draws]"),
+    "compare": (
+        "/rides/compare?a={ride}&b={ride}&b_from_s=5",
+        "[data-testid=traces][data-draws]",
+    ),
     "sensor": ("/sensor", "[data-parameter=sensor_offset_counts]"),
     "service": ("/service", "[data-testid=fault-box], section"),
     "settings": ("/settings", "fieldset"),

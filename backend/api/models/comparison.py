@@ -132,6 +132,13 @@ class SeriesBeside(Answer):
     )
 
 
+class AxisGap(Answer):
+    """A stretch without samples; one in which the bike stood has no length on the way."""
+
+    from_x: float
+    to_x: float
+
+
 class ComparedSeries(Answer):
     """Both rides in bins of equal length. A bin has the least and greatest value of the rows that
     begin in it, else of the row that still holds; in a gap null."""
@@ -141,8 +148,8 @@ class ComparedSeries(Answer):
     end_x: float = Field(description="Of the axis: where the longer of both ends.")
     x: list[float] = Field(description="Edges of the bins, one more than there are bins.")
     channels: list[SeriesBeside]
-    a_gaps: list[tuple[float, float]]
-    b_gaps: list[tuple[float, float]]
+    a_gaps: list[AxisGap]
+    b_gaps: list[AxisGap]
 
 
 class CrankApart(Answer):

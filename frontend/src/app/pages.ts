@@ -9,6 +9,7 @@ const screen = (load: () => Promise<Screen>): Loader => load as Loader
 
 export const loaders: Record<PageName, Loader> = {
   bike: screen(() => import('../features/bike/BikePage.svelte')),
+  compare: screen(() => import('../features/rides/compare/ComparePage.svelte')),
   connect: screen(() => import('../features/connect/ConnectPage.svelte')),
   live: screen(() => import('../features/live/LivePage.svelte')),
   tune: screen(() => import('../features/tune/TunePage.svelte')),

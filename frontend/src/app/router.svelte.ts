@@ -7,6 +7,7 @@ export type TunePage = (typeof TUNE_PAGES)[number]
 export type PageName =
   | TunePage
   | 'bike'
+  | 'compare'
   | 'connect'
   | 'live'
   | 'rides'
@@ -41,6 +42,7 @@ export function tunePath(page: TunePage): string {
 
 export function readRoute(path: string): Route {
   const [first = '', second = '', ...rest] = path.split('/').slice(1)
+  if (path.replace(/\/$/, '') === '/rides/compare') return { page: 'compare', id: '' }
   if (first === 'rides' && second && rest.length === 0) {
     return { page: 'ride', id: decodeURIComponent(second) }
   }

@@ -8,6 +8,7 @@ it.each([
   ['/live', { page: 'live', id: '' }],
   ['/rides', { page: 'rides', id: '' }],
   ['/rides/12', { page: 'ride', id: '12' }],
+  ['/rides/compare', { page: 'compare', id: '' }],
   ['/rides/12/more', { page: 'unknown', id: '' }],
   ['/tune', { page: 'tune', id: '' }],
   ['/tune/modes', { page: 'modes', id: '' }],

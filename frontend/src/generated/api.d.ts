@@ -2129,6 +2129,16 @@ export interface components {
             bending_across?: components["schemas"]["Share"] | null;
         };
         /**
+         * AxisGap
+         * @description A stretch without samples; one in which the bike stood has no length on the way.
+         */
+        AxisGap: {
+            /** From X */
+            from_x: number;
+            /** To X */
+            to_x: number;
+        };
+        /**
          * Band
          * @description Time from `low` up to `high`; null for no end.
          */
@@ -2789,15 +2799,9 @@ export interface components {
             /** Channels */
             channels: components["schemas"]["SeriesBeside"][];
             /** A Gaps */
-            a_gaps: [
-                number,
-                number
-            ][];
+            a_gaps: components["schemas"]["AxisGap"][];
             /** B Gaps */
-            b_gaps: [
-                number,
-                number
-            ][];
+            b_gaps: components["schemas"]["AxisGap"][];
         };
         /**
          * ComparedSide

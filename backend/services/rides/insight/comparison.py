@@ -297,8 +297,8 @@ def rounded(values: Values, digits: int) -> list[float | None]:
     return [None if value != value else value for value in np.round(values, digits).tolist()]
 
 
-def gaps_of(side: Side, laid: Laid) -> list[tuple[float, float]]:
-    """Stretches of the axis without samples; one in which the bike stood has no length."""
+def gaps_of(side: Side, laid: Laid) -> list[dict[str, float]]:
+    """Stretches of the axis without samples, as the API tells them."""
     start_s = side.reader.times_us(side.start, side.stop) / 1e6
     last = len(start_s) - 1
 
@@ -306,7 +306,7 @@ def gaps_of(side: Side, laid: Laid) -> list[tuple[float, float]]:
         return float(laid.at[min(int(np.searchsorted(start_s, t_s)), last)])
 
     inside = [gap for gap in side.ride.gaps if gap.to_s > start_s[0] and gap.from_s < start_s[-1]]
-    return [(place(gap.from_s), place(gap.to_s)) for gap in inside]
+    return [{"from_x": place(gap.from_s), "to_x": place(gap.to_s)} for gap in inside]
 
 
 def bins_apart(a: Sequence[float], b: Sequence[float]) -> list[float]:

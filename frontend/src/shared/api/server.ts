@@ -68,7 +68,7 @@ export class Server {
   /** What comes in as a file. */
   readonly files: FileServer
 
-  constructor(private readonly http: Http) {
+  constructor(readonly http: Http) {
     this.files = new FileServer(http)
   }
 

@@ -42,6 +42,15 @@ export type RideKind = Omit<
 >
 export type RiderHome = Schemas['RiderHome']
 export type PeriodTotals = Schemas['PeriodTotals']
+export type RideComparison = Schemas['RideComparison']
+export type ComparedFigure = Schemas['ComparedFigure']
+export type ToldFigure = Schemas['ToldFigure']
+export type ComparedChannel = Schemas['ComparedChannel']
+export type ComparedSeries = Schemas['ComparedSeries']
+export type ComparedCrank = Schemas['ComparedCrank']
+/** Two windows of rides. */
+export type ComparedPair = operations['compare_rides']['parameters']['query']
+export type ComparedPart = operations['compare_ride_series']['parameters']['query']
 export type Track = Schemas['Track']
 export type RideMark = Schemas['RideMark']
 export type RideEvent = Schemas['RideEvent']

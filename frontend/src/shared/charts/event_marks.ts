@@ -22,7 +22,7 @@ export interface MarkedEvent extends RideEvent {
 
 export interface EventWords {
   kind: (kind: Kind) => string
-  moment: (t_s: number) => string
+  moment: (t_s: number, step_s?: number) => string
   /** Where a moment lies on the axis. */
   at: (t_s: number) => number
 }

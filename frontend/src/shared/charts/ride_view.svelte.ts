@@ -1,12 +1,24 @@
 // The window of a ride on screen and the series that fills it: the newest window wins, and the old
 // curve stays until the new one is there.
 import { Refusal } from '../api/client'
+import type { Series } from '../api/series'
 import type { Server } from '../api/server'
 import { Pace } from '../context/pace'
 import { timeAxis, type LaidAxis, type TraceAxis } from './trace_axis'
 import { TraceWindow, type TimeWindow } from './trace_window.svelte'
 
 const PACE_MS = 60 // a drag asks this often at most
+
+/** Asks for the series of a window; without ends, of all there is. */
+export type AskSeries = (
+  channels: string[],
+  query: { px: number; axis: Series['axis']; from_s?: number; to_s?: number },
+  signal: AbortSignal,
+) => Promise<Series>
+
+export function ofRide(server: Server, id: number): AskSeries {
+  return (channels, query, signal) => server.series(id, channels, query, signal)
+}
 
 export class RideView extends TraceWindow {
   channels = $state.raw<string[]>([])
@@ -15,17 +27,17 @@ export class RideView extends TraceWindow {
   /** Width of the plot it was asked for last. */
   px = 1000
   private asked = new AbortController()
-  private wanted: TraceAxis | LaidAxis = timeAxis
   private readonly pace = new Pace(PACE_MS)
 
   constructor(
-    private readonly server: Server,
-    private readonly ride_id: number,
+    readonly ask: AskSeries,
     channels: string[],
     duration_s: number,
     window: TimeWindow | null,
+    private wanted: TraceAxis | LaidAxis = timeAxis,
   ) {
     super(duration_s, window)
+    this.axis = wanted
     this.channels = channels
   }
 
@@ -62,7 +74,7 @@ export class RideView extends TraceWindow {
     const wanted = { px: Math.max(100, Math.round(px / 100) * 100), axis: axis.kind }
     const query = this.whole ? wanted : { ...wanted, ...this.window }
     try {
-      const series = await this.server.series(this.ride_id, this.channels, query, signal)
+      const series = await this.ask(this.channels, query, signal)
       if (signal.aborted) return
       this.series = series
       this.axis = 'refined' in axis ? axis.refined(series) : axis

@@ -9,7 +9,6 @@ import type { TraceWindow } from './trace_window.svelte'
 import {
   binLine,
   MARKS_PX,
-  moment,
   type Span,
   type TraceLine,
   type TraceRow,
@@ -45,7 +44,7 @@ export function traceData(
   units: Units,
   words: FigureWords,
 ): object[] {
-  const moments = hoverMoments(series)
+  const moments = hoverMoments(series, words)
   return rows.flatMap((row, i) =>
     row.lines.flatMap((line) => {
       const channel = series.channels.find((c) => c.name === line.channel)
@@ -55,7 +54,7 @@ export function traceData(
       return {
         type: 'scatter',
         mode: 'lines',
-        name: words.channel(line.channel),
+        name: words.channel(line.name ?? line.channel),
         x,
         y: y.map((value) => units.show(value, row.unit)),
         yaxis: axisName(i),
@@ -88,7 +87,7 @@ export function axisName(i: number): string {
   return i === 0 ? 'y' : `y${i + 1}`
 }
 
-function hoverMoments(series: Series): string[] {
+function hoverMoments(series: Series, { moment }: EventWords): string[] {
   const step = (series.to_s - series.from_s) / 2000
   const same = series.kind === 'rows'
   return Array.from(series.t_first_s).flatMap((first, i) => {

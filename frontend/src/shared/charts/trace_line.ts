@@ -48,6 +48,8 @@ export interface Traced {
   /** A moment that is looked at: keys and a press on the plot move it. */
   cursor?: Cursor
   summary: string
+  /** What a place of the axis is called, where it is no moment of a ride. */
+  place?: (x: number, step?: number) => string
   /** Buttons that zoom and move, where the page has none of its own. */
   tools?: boolean
 }

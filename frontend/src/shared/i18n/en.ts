@@ -33,6 +33,7 @@ export const en = {
   'page.library': 'Library',
   'page.rides': 'Rides',
   'page.ride': 'Ride',
+  'page.compare': 'Two rides compared',
   'page.sensor': 'Calibrate',
   'page.service': 'Service',
   'page.settings': 'Settings',

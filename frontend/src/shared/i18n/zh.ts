@@ -33,6 +33,7 @@ export const zh: Record<Key, string> = {
   'page.library': '调校库',
   'page.rides': '骑行',
   'page.ride': '骑行详情',
+  'page.compare': '两次骑行对比',
   'page.sensor': '标定',
   'page.service': '维护',
   'page.settings': '设置',

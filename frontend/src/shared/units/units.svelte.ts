@@ -16,6 +16,7 @@ const metric: Record<string, Shown> = {
   'km/h': plain('km/h', 1),
   Nm: plain('Nm', 1),
   degC: plain('°C', 1),
+  'degC apart': plain('°C', 1), // a difference has no zero of its own
   km: plain('km', 2),
   rpm: plain('rpm', 0),
   W: plain('W', 0),
@@ -42,6 +43,7 @@ const imperial: Record<string, Shown> = {
   'Nm/s': { unit: 'lbf·ft/s', factor: 0.737562, offset: 0, digits: 1 },
   'Nm/count': { unit: 'lbf·ft/count', factor: 0.737562, offset: 0, digits: 5 },
   degC: { unit: '°F', factor: 1.8, offset: 32, digits: 0 },
+  'degC apart': { unit: '°F', factor: 1.8, offset: 0, digits: 1 },
   'm/s²': { unit: 'ft/s²', factor: 3.28084, offset: 0, digits: 2 },
   'm of altitude': { unit: 'ft', factor: 3.28084, offset: 0, digits: 0 },
   km: { unit: 'mi', factor: 0.621371, offset: 0, digits: 2 },

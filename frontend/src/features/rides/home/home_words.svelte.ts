@@ -55,6 +55,7 @@ export const en = {
   no_motor: 'no motor data',
   no_power: 'no power data',
   chosen: '{count} chosen',
+  compare: 'Compare',
   tag: 'Tag…',
   delete: 'Delete…',
   files: 'Export…',

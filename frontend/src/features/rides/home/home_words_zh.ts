@@ -53,6 +53,7 @@ export const zh: Record<HomeKey, string> = {
   no_motor: '无电机数据',
   no_power: '无功率数据',
   chosen: '已选 {count} 次',
+  compare: '对比',
   tag: '标签…',
   delete: '删除…',
   files: '导出…',

@@ -2,7 +2,7 @@
 import { NewestAnswer } from '$shared/api/newest_answer.svelte'
 import type { Server } from '$shared/api/server'
 import type { Ride, RideEnergy, Track } from '$shared/api/types'
-import { RideView } from '$shared/charts/ride_view.svelte'
+import { ofRide, RideView } from '$shared/charts/ride_view.svelte'
 import { LaidAxis, timeAxis, type AxisKind, type TraceAxis } from '$shared/charts/trace_axis'
 import type { Cursor, TraceRow } from '$shared/charts/trace_line'
 import { CursorReading } from './cursor_reading.svelte'
@@ -44,7 +44,7 @@ export class RideLook implements Cursor {
     this.reading = new CursorReading(server, ride)
     const drawn = all.length > 0 && this.end_s > 0 && ride.state === 'done'
     this.view = drawn
-      ? new RideView(server, ride.id, this.channels, this.end_s, windowIn(query))
+      ? new RideView(ofRide(server, ride.id), this.channels, this.end_s, windowIn(query))
       : null
     const t_s = numberIn(query, 't_s')
     if (t_s !== null) this.move(t_s)

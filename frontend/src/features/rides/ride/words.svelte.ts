@@ -57,6 +57,8 @@ export const en = {
   in_gap: 'no sample here',
   why: 'Why this much assist?',
   why_short: 'why',
+  compare: 'Compare with…',
+  compare_window: 'Compare this window with…',
   go_to: 'Show {at} in the traces',
   why_at: 'Why this much assist at {at}?',
   events: 'Events',

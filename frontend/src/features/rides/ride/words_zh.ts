@@ -54,6 +54,8 @@ export const zh: Record<RideKey, string> = {
   in_gap: '此处无样本',
   why: '为什么助力这么多？',
   why_short: '原因',
+  compare: '与…对比',
+  compare_window: '将此时间段与…对比',
   go_to: '在曲线中显示 {at}',
   why_at: '{at} 时为什么助力这么多？',
   events: '事件',

@@ -1,0 +1,207 @@
+// How two rides are looked at: windows, axis, channels, cursor, and the address that holds them.
+import { NewestAnswer } from '$shared/api/newest_answer.svelte'
+import { PairOfRides } from '$shared/api/pair_of_rides'
+import type { Server } from '$shared/api/server'
+import type {
+  ComparedChannel,
+  ComparedCrank,
+  ComparedPair,
+  RideComparison,
+} from '$shared/api/types'
+import { RideView } from '$shared/charts/ride_view.svelte'
+import { timeAxis, type TraceAxis } from '$shared/charts/trace_axis'
+import type { Cursor, Span } from '$shared/charts/trace_line'
+import { inOrder, seriesOf, usualOf } from './compared'
+
+export const KINDS = ['time', 'distance', 'crank'] as const
+export type By = (typeof KINDS)[number]
+export type SideName = 'a' | 'b'
+
+export interface Side {
+  /** Null until one is chosen. */
+  id: number | null
+  /** Seconds since the ride's start; null for its ends. */
+  from_s: number | null
+  to_s: number | null
+}
+
+const wayAxis: TraceAxis = { kind: 'distance', at: (x) => x, moment: (x) => x }
+
+export class CompareLook implements Cursor {
+  readonly told = new NewestAnswer<RideComparison>()
+  readonly crank = new NewestAnswer<ComparedCrank>()
+  a = $state.raw<Side>({ id: null, from_s: null, to_s: null })
+  b = $state.raw<Side>({ id: null, from_s: null, to_s: null })
+  by = $state<By>('time')
+  names = $state.raw<string[]>([])
+  view = $state.raw<RideView | null>(null)
+  /** Of either, on the axis. */
+  gaps = $state.raw<Span[]>([])
+  /** The place that is looked at: seconds or metres since the start. */
+  t_s = $state<number | null>(null)
+  private readonly asks: PairOfRides
+  private wanted: string[]
+  private span: { from_s: number; to_s: number } | null
+
+  constructor({ http }: Server, query: URLSearchParams) {
+    this.asks = new PairOfRides(http)
+    const number = (name: string) => {
+      const text = query.get(name)
+      return text !== null && Number.isFinite(Number(text)) ? Number(text) : null
+    }
+    const side = (name: SideName): Side => ({
+      id: number(name),
+      from_s: number(`${name}_from_s`),
+      to_s: number(`${name}_to_s`),
+    })
+    this.a = side('a')
+    this.b = side('b')
+    this.by = KINDS.find((kind) => kind === query.get('by')) ?? 'time'
+    this.wanted = query.get('show')?.split(',') ?? []
+    const [low, high] = [number('from_x'), number('to_x')]
+    this.span = low !== null && high !== null && high > low ? { from_s: low, to_s: high } : null
+    this.t_s = number('x')
+  }
+
+  /** What is asked for; null until both rides are chosen. */
+  get pair(): ComparedPair | null {
+    const { a, b } = this
+    if (a.id === null || b.id === null) return null
+    const ends = { a_from_s: a.from_s, a_to_s: a.to_s, b_from_s: b.from_s, b_to_s: b.to_s }
+    const known = Object.entries(ends).filter(([, value]) => value !== null)
+    return { a: a.id, b: b.id, ...Object.fromEntries(known) }
+  }
+
+  get channels(): ComparedChannel[] {
+    return inOrder(this.told.answer?.channels ?? [])
+  }
+
+  get shown(): ComparedChannel[] {
+    return this.channels.filter(({ name }) => this.names.includes(name))
+  }
+
+  /** Whether an axis can be told of both. */
+  offers(by: By): boolean {
+    const { answer } = this.told
+    return by !== 'distance' || !!(answer?.a.length_m && answer.b.length_m)
+  }
+
+  async load(): Promise<void> {
+    const { pair } = this
+    this.view?.stop()
+    this.view = null
+    if (!pair) return
+    await this.told.ask((signal) => this.asks.figures(pair, signal))
+    const { answer } = this.told
+    if (!answer) return
+    const known = answer.channels.map(({ name }) => name)
+    const wanted = this.wanted.filter((name) => known.includes(name))
+    this.names = wanted.length > 0 ? wanted : usualOf(answer.channels)
+    this.lay(this.offers(this.by) ? this.by : 'time', true)
+  }
+
+  /** Chooses a side anew; what was looked at of the old ones is over. */
+  choose(name: SideName, side: Side): void {
+    this[name] = side
+    this.forget()
+    void this.load()
+  }
+
+  swap(): void {
+    ;[this.a, this.b] = [this.b, this.a]
+    this.forget()
+    void this.load()
+  }
+
+  lay(by: By, first = false): void {
+    if (!first) this.forget()
+    this.by = by
+    this.view?.stop()
+    this.view = null
+    const [pair, answer] = [this.pair, this.told.answer]
+    if (!pair || !answer) return
+    if (by === 'crank') {
+      void this.crank.ask((signal) => this.asks.crank(pair, signal))
+      return
+    }
+    if (this.names.length === 0) return
+    const length = by === 'time' ? 'length_s' : 'length_m'
+    const lengths = [answer.a[length], answer.b[length]]
+    const ask = async (
+      channels: string[],
+      { px, from_s, to_s }: { px: number; from_s?: number; to_s?: number },
+      signal: AbortSignal,
+    ) => {
+      const part = { from_x: from_s ?? 0, to_x: to_s ?? null }
+      const query = { ...pair, by, channels: channels.join(','), px, ...part }
+      const told = await this.asks.series(query, signal)
+      const gaps = [...told.a_gaps, ...told.b_gaps]
+      this.gaps = gaps.map(({ from_x, to_x }) => ({ from_s: from_x, to_s: to_x }))
+      return seriesOf(told)
+    }
+    const end = Math.max(...lengths.map((one) => one ?? 0))
+    const axis = by === 'time' ? timeAxis : wayAxis
+    this.view = new RideView(ask, this.names, end, this.span, axis)
+  }
+
+  /** Shows or hides a channel; the last one stays. */
+  toggle(name: string): void {
+    const on = this.names.includes(name)
+    const names = on ? this.names.filter((one) => one !== name) : [...this.names, name]
+    if (names.length === 0) return
+    this.names = names
+    this.wanted = names
+    this.view?.choose(names, this.view.px)
+  }
+
+  readonly move = (t_s: number): void => {
+    if (!this.view) return
+    this.t_s = Math.max(0, Math.min(t_s, this.view.duration_s))
+  }
+
+  /** Acts on a key; false where it means nothing here. */
+  key({ key, shiftKey }: { key: string; shiftKey: boolean }): boolean {
+    const { view } = this
+    if (!view || !key.startsWith('Arrow')) return false
+    const { from_s, to_s } = view.window
+    const step = ((to_s - from_s) / 100) * (shiftKey ? 10 : 1)
+    const from = this.t_s ?? (from_s + to_s) / 2
+    if (key === 'ArrowLeft') this.move(Math.max(from_s, from - step))
+    else if (key === 'ArrowRight') this.move(Math.min(to_s, from + step))
+    else return false
+    return true
+  }
+
+  /** What a link holds, so that it shows what its sender saw. */
+  get query(): string {
+    const told: string[] = []
+    for (const name of ['a', 'b'] as const) {
+      const { id, from_s, to_s } = this[name]
+      if (id !== null) told.push(`${name}=${id}`)
+      if (from_s !== null) told.push(`${name}_from_s=${from_s}`)
+      if (to_s !== null) told.push(`${name}_to_s=${to_s}`)
+    }
+    const { by, view, names, t_s } = this
+    if (by !== 'time') told.push(`by=${by}`)
+    if (names.length > 0 && names.join() !== usualOf(this.channels).join()) {
+      told.push(`show=${names.map(encodeURIComponent).join()}`)
+    }
+    if (view && !view.whole) {
+      const { from_s, to_s } = view.window
+      told.push(`from_x=${from_s.toFixed(2)}`, `to_x=${to_s.toFixed(2)}`)
+    }
+    if (view && t_s !== null) told.push(`x=${t_s.toFixed(2)}`)
+    return told.length > 0 ? `?${told.join('&')}` : ''
+  }
+
+  stop(): void {
+    this.told.stop()
+    this.crank.stop()
+    this.view?.stop()
+  }
+
+  private forget(): void {
+    this.span = null
+    this.t_s = null
+  }
+}
