@@ -30,6 +30,16 @@ class Panel:
     channels: tuple[str, ...]
 
 
+TITLES_ZH = {
+    "Speed": "速度",
+    "Torque at the crank": "曲柄力矩",
+    "Power": "功率",
+    "Gain": "增益",
+}
+"""A title in Chinese, by itself in English."""
+TIME = {"en": "Time (s)", "zh": "时间 (s)"}
+SHOWN = {"en": "{shown} points shown of {rows}", "zh": "显示 {rows} 个点中的 {shown} 个"}
+
 PANELS = (
     Panel("Speed", "km/h", ("speed_kmh",)),
     Panel("Torque at the crank", "Nm", ("rider_torque_nm", "motor_torque_crank_nm")),
@@ -38,11 +48,12 @@ PANELS = (
 )
 
 
-def figure(ride: RideReader, names: Sequence[str] | None, pixels: int) -> Any:
+def figure(ride: RideReader, names: Sequence[str] | None, pixels: int, language: str = "en") -> Any:
     """A plotly Figure of a ride; its `to_plotly_json()` is {"data": [...], "layout": {...}}.
 
     names: channels to draw, one row for each unit; None for the usual rows, as far as the ride
-    has their channels. pixels: width of the plot. Raises InvalidRequest for unknown channels.
+    has their channels. pixels: width of the plot. language: of the titles, `en` or `zh`.
+    Raises InvalidRequest for unknown channels.
     """
     from plotly.subplots import make_subplots
 
@@ -55,10 +66,11 @@ def figure(ride: RideReader, names: Sequence[str] | None, pixels: int) -> Any:
     for row, panel in enumerate(panels, start=1):
         for name in panel.channels:
             made.add_trace(curve(shown, offered[name]), row=row, col=1)
-        title = f"{panel.title} ({panel.unit})" if panel.title and panel.unit else ""
-        made.update_yaxes(title_text=title or panel.title or panel.unit, row=row, col=1)
-    made.update_xaxes(title_text="s", row=rows, col=1)
-    told = f"{len(shown.t_first_s)} points shown of {shown.rows}"
+        title = TITLES_ZH.get(panel.title, "") if language == "zh" else panel.title
+        both = f"{title} ({panel.unit})" if title and panel.unit else ""
+        made.update_yaxes(title_text=both or title or panel.unit, row=row, col=1)
+    made.update_xaxes(title_text=TIME[language], row=rows, col=1)
+    told = SHOWN[language].format(shown=len(shown.t_first_s), rows=shown.rows)
     made.update_layout(
         template="none",
         hovermode="x unified",

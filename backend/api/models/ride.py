@@ -126,6 +126,24 @@ class Instrument(Answer):
     battery_status: str | None
 
 
+class Stated(Answer):
+    """A figure as the device that recorded stated it, by its own rules: none of `summary`."""
+
+    name: str = Field(
+        description="Of FIT's profile or of the file: `lev_battery_consumption`, `unknown_177`."
+    )
+    value: float
+    unit: str = Field(description="Empty for none, and where nothing tells it.")
+
+
+class Statement(Answer):
+    """What the device stated of one whole session, which may reach beyond the ride."""
+
+    from_s: float
+    to_s: float
+    figures: list[Stated]
+
+
 class RideEvent(Answer):
     """A fault that came or went (value: bits of `fault_flags`), the mode chosen (its slot), or a
     moment that somebody marked (its number)."""
@@ -211,6 +229,10 @@ class Ride(Answer):
     laps: list[Lap] = Field(description="As the file tells them; empty for none.")
     pauses: list[Pause] = Field(description="Of the timer of the device that recorded.")
     instruments: list[Instrument] = Field(description="What recorded the file's ride.")
+    statements: list[Statement] = Field(
+        description="What that device stated of the whole ride; a session of several rides is with "
+        "each. Never mixed with `summary`, which is of the ride's own rows."
+    )
     upload_id: str | None
     object_bytes: int | None
     damage: Literal["missing", "wrong_size", "changed", "unreadable"] | None = Field(

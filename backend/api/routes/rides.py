@@ -139,9 +139,10 @@ def get_ride_figure(
     services: Provided,
     channels: Channels = None,
     px: Annotated[int, Query(ge=1, le=10_000)] = 1200,
+    language: Literal["en", "zh"] = "en",
 ) -> Any:
-    """The traces of a ride as a Plotly figure."""
-    return whole(Figure, services.rides.figure(ride_id, channel_names(channels), px))
+    """The traces of a ride as a Plotly figure, its titles in a language."""
+    return whole(Figure, services.rides.figure(ride_id, channel_names(channels), px, language))
 
 
 @router.get(

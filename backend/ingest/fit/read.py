@@ -27,6 +27,7 @@ from backend.ingest.fit.profile import (
     ProfileField,
 )
 from backend.ingest.fit.salvage import Salvage, Salvaging
+from backend.ingest.fit.stated import statements_of
 from backend.ingest.fit.walk import sound_parts
 from backend.ingest.outcome import COMPLETE, PARTIAL, ImportedRide, Outcome, rejected
 from backend.ingest.own_channels import rules_of, values_of
@@ -96,7 +97,8 @@ def rides_of(data: bytes, cells: np.typing.NDArray[np.uint8], part: Part) -> lis
     """The rides of one file of the chain."""
     described = descriptions(data, part.of(FIELD_DESCRIPTION))
     records = table_of(cells, part.of(RECORD), RECORD_FIELDS, described)
-    noted = noted_of(data, cells, part)
+    stated, unread = statements_of(cells, part, described, records.time_s)
+    noted = replace(noted_of(data, cells, part), statements=stated)
     found: list[ImportedRide] = []
     for sport, rows in legs_of(records, table_of(cells, part.of(SESSION), SESSION_FIELDS)):
         leg = records.of_rows(rows)
@@ -106,7 +108,7 @@ def rides_of(data: bytes, cells: np.typing.NDArray[np.uint8], part: Part) -> lis
             values_of(columns),
             rules_of(columns, sport),
             sport,
-            leg.unread,
+            leg.unread if found else leg.unread | unread,
         )
     return [replace(ride, noted=within(noted, *ride.span_s)) for ride in found]
 

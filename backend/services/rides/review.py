@@ -119,10 +119,14 @@ class Rides:
         return track(self._store.rides.reader(ride_id))
 
     def figure(
-        self, ride_id: int, channels: Sequence[str] | None = None, pixels: int = 1000
+        self,
+        ride_id: int,
+        channels: Sequence[str] | None = None,
+        pixels: int = 1000,
+        language: str = "en",
     ) -> dict[str, object]:
         """The ride as a Plotly figure; see `backend.views.figure`."""
-        drawn = figure(self._store.rides.reader(ride_id), channels, pixels)
+        drawn = figure(self._store.rides.reader(ride_id), channels, pixels, language)
         told: dict[str, object] = drawn.to_plotly_json()
         return told
 

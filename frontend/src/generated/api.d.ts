@@ -1602,7 +1602,7 @@ export interface paths {
         };
         /**
          * Get Ride Figure
-         * @description The traces of a ride as a Plotly figure.
+         * @description The traces of a ride as a Plotly figure, its titles in a language.
          */
         get: operations["get_ride_figure"];
         put?: never;
@@ -5432,6 +5432,11 @@ export interface components {
              * @description What recorded the file's ride.
              */
             instruments: components["schemas"]["Instrument"][];
+            /**
+             * Statements
+             * @description What that device stated of the whole ride; a session of several rides is with each. Never mixed with `summary`, which is of the ride's own rows.
+             */
+            statements: components["schemas"]["Statement"][];
             /** Upload Id */
             upload_id: string | null;
             /** Object Bytes */
@@ -6608,6 +6613,36 @@ export interface components {
             direction?: ("loading" | "unloading") | null;
             /** Sensor Degc */
             sensor_degc?: number | null;
+        };
+        /**
+         * Stated
+         * @description A figure as the device that recorded stated it, by its own rules: none of `summary`.
+         */
+        Stated: {
+            /**
+             * Name
+             * @description Of FIT's profile or of the file: `lev_battery_consumption`, `unknown_177`.
+             */
+            name: string;
+            /** Value */
+            value: number;
+            /**
+             * Unit
+             * @description Empty for none, and where nothing tells it.
+             */
+            unit: string;
+        };
+        /**
+         * Statement
+         * @description What the device stated of one whole session, which may reach beyond the ride.
+         */
+        Statement: {
+            /** From S */
+            from_s: number;
+            /** To S */
+            to_s: number;
+            /** Figures */
+            figures: components["schemas"]["Stated"][];
         };
         /** Step */
         Step: {
@@ -13742,6 +13777,7 @@ export interface operations {
                 /** @description Names separated by commas; absent means all of them. */
                 channels?: string | null;
                 px?: number;
+                language?: "en" | "zh";
             };
             header?: never;
             path: {

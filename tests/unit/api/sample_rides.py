@@ -40,6 +40,7 @@ SAMPLE_RIDE: dict[str, Any] = {
     "laps": [],
     "pauses": [],
     "instruments": [],
+    "statements": [],
     "upload_id": None,
     "object_bytes": 4096,
     "damage": None,

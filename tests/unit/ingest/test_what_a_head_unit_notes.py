@@ -13,7 +13,17 @@ import fitdecode
 import numpy as np
 import pytest
 
-from backend.domain.noted import Instrument, Lap, Noted, Pause, noted_from_json, noted_to_json
+from backend.domain.noted import (
+    Instrument,
+    Lap,
+    Noted,
+    Pause,
+    Stated,
+    Statement,
+    noted_from_json,
+    noted_to_json,
+    within,
+)
 from backend.domain.ride import find_gaps
 from backend.ingest.fit import read_fit
 from backend.ingest.fit.noted_words import (
@@ -22,12 +32,13 @@ from backend.ingest.fit.noted_words import (
     LOCAL_KINDS,
     MANUFACTURERS,
 )
+from backend.ingest.fit.stated import SESSION_FIELDS
 from backend.ingest.outcome import ImportedRide
 from tests.fakes.fit_file import FIT_EPOCH_S, START_S, definition, enclosed
 
 NOW = START_S - FIT_EPOCH_S
 ENUM, UINT8, UINT16, UINT32, UINT32Z, TEXT = 0x00, 0x02, 0x84, 0x86, 0x8C, 0x07
-RECORD, LAP, EVENT, DEVICE_INFO = 20, 19, 21, 23
+RECORD, SESSION, LAP, EVENT, DEVICE_INFO = 20, 18, 19, 21, 23
 STOP_ALL, START = 4, 0
 
 
@@ -169,3 +180,103 @@ def test_notes_survive_being_written_and_a_newer_version_s_words() -> None:
     assert noted_from_json(body) == noted
     assert noted_from_json(newer) == noted
     assert noted_from_json(None) == Noted()
+
+
+def an_e_bikes_session(times: bool = True) -> bytes:
+    """Ten seconds, and what the device says of them: some of it contradicts the records."""
+    body = definition(0, RECORD, [(253, 4, UINT32), (7, 2, UINT16)])
+    for second in range(10):
+        body += struct.pack("<BIH", 0, NOW + second, 200)
+    fields = [
+        (253, 4, UINT32),
+        (2, 4, UINT32),
+        (3, 4, 0x85),
+        (7, 4, UINT32),
+        (9, 4, UINT32),
+        (11, 2, UINT16),
+        (14, 2, UINT16),
+        (124, 4, UINT32),
+        (20, 2, UINT16),
+        (48, 4, UINT32),
+        (129, 2, UINT16),
+        (130, 2, UINT16),
+        (131, 1, UINT8),
+        (177, 2, UINT16),
+        (65, 8, UINT32),
+        (22, 2, UINT16),
+    ]
+    when, start = (NOW + 9, NOW) if times else (0xFFFFFFFF, 0xFFFFFFFF)
+    elapsed = 9000 if times else 0xFFFFFFFF
+    told = (603979776, elapsed, 8050, 31, 0xFFFF, 8056, 222, 2100, 84, 250, 69, 400, 1, 2, 0xFFFF)
+    body += definition(1, SESSION, fields)
+    body += struct.pack("<BIIiIIHHIHIHHBHIIH", 1, when, start, *told)
+    return enclosed(body)
+
+
+def test_what_a_session_states_is_what_fitdecode_reads_and_stands_beside_ours() -> None:
+    file = an_e_bikes_session()
+
+    (ride,) = read_fit(file).rides
+
+    (statement,) = ride.noted.statements
+    told = {figure.name: (figure.value, figure.unit) for figure in statement.figures}
+    with fitdecode.FitReader(io.BytesIO(file)) as reader:
+        (theirs,) = (
+            message
+            for message in reader
+            if isinstance(message, fitdecode.FitDataMessage) and message.name == "session"
+        )
+    for name in (
+        "total_elapsed_time",
+        "total_distance",
+        "total_calories",
+        "avg_power",
+        "total_work",
+        "avg_lev_motor_power",
+        "max_lev_motor_power",
+        "lev_battery_consumption",
+    ):
+        assert told[name][0] == pytest.approx(theirs.get_value(name)), name
+    assert told["lev_battery_consumption"] == (34.5, "%")
+    # Only the wider of two fields of one meaning has a value.
+    wider = [field.value for field in theirs.fields if field.name == "enhanced_avg_speed"]
+    assert told["avg_speed"][0] in wider
+    assert told["avg_speed"] == (8.056, "m/s")
+    # What the profile does not know is listed under its number; a place is no figure.
+    assert told["unknown_177"] == (400.0, "")
+    assert not any("position" in name for name in told)
+    # What was not told is not there: it is no zero.
+    assert "total_ascent" not in told
+    assert ride.intake is not None
+    assert ride.intake.fields_unread == {"session_unknown_65": 1}
+    # The device's mean is not the records'.
+    assert {channel.name for channel in ride.rows.channels} == {"rider_power_w"}
+    assert (ride.rows.counts["rider_power_w"] == 200).all()
+
+
+def test_a_session_without_times_is_of_the_records() -> None:
+    (ride,) = read_fit(an_e_bikes_session(times=False)).rides
+
+    (statement,) = ride.noted.statements
+    assert (statement.from_s, statement.to_s) == (0.0, 9.0)
+
+
+def test_a_statement_is_never_cut_and_comes_back_from_json() -> None:
+    whole = Noted(statements=(Statement(100.0, 500.0, (Stated("total_work", 9.0, "J"),)),))
+
+    of_second = within(whole, 300.0, 200.0)
+
+    assert of_second.statements == (Statement(-200.0, 200.0, whole.statements[0].figures),)
+    assert within(whole, 600.0, 100.0).statements == ()
+    assert noted_from_json(noted_to_json(of_second)) == of_second
+    # As a version wrote it that knew no statements.
+    assert noted_from_json({"laps": [], "pauses": [], "instruments": []}) == Noted()
+
+
+def test_every_figure_of_a_session_is_that_of_fitdecodes_profile() -> None:
+    theirs = fitdecode.profile.MESSAGE_TYPES[SESSION].fields
+
+    for number, ours in SESSION_FIELDS.items():
+        field = theirs[number]
+        assert ours.name == field.name.replace("enhanced_", ""), number
+        assert (ours.scale, ours.offset) == (field.scale or 1, field.offset or 0), number

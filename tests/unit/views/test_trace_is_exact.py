@@ -276,3 +276,14 @@ def test_the_figure_draws_every_extreme_and_leaves_gaps_open() -> None:
     assert curve.connectgaps is False
     assert drawn.layout.meta["shown"].endswith("(min/max)")
     assert isinstance(drawn.to_plotly_json()["data"][0]["y"], list | tuple), "no base64"
+
+
+@pytest.mark.slow
+def test_the_figures_titles_are_in_the_language_that_is_asked_for() -> None:
+    english, chinese = (figure(RIDE, None, 500, language) for language in ("en", "zh"))
+
+    assert english.layout.yaxis.title.text == "Torque at the crank (Nm)"
+    assert chinese.layout.yaxis.title.text == "曲柄力矩 (Nm)"
+    assert chinese.layout.xaxis.title.text == "时间 (s)"
+    # What programs go by stays.
+    assert [curve.name for curve in chinese.data] == [curve.name for curve in english.data]

@@ -44,7 +44,7 @@ class RideReport:
             facts=facts(reader.ride),
             version=__version__,
             figures=figures(reader.ride, energy),
-            traces=traces(reader),
+            traces=traces(reader, language),
             energy=energy,
             effort=self._effort(ride_id, threshold_power_w, heart_rate_bpm_max),
             diagnosis=self._diagnosis(ride_id),
@@ -67,9 +67,9 @@ def figures(ride: Ride, energy: dict[str, Any]) -> dict[str, float | None]:
     return {**summary, "ascent_m": energy["climb"]["ascent_m"] if energy["climb"] else None}
 
 
-def traces(reader: RideReader) -> Any:
+def traces(reader: RideReader, language: str) -> Any:
     """The usual rows; None for a ride that has none of them."""
-    drawn = figure(reader, None, PIXELS)
+    drawn = figure(reader, None, PIXELS, language)
     if not drawn.data:
         return None
     rows = sum(1 for _ in drawn.select_yaxes())
