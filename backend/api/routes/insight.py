@@ -83,7 +83,8 @@ def report_of_ride(
     threshold_power_w: ThresholdPower = None,
     heart_rate_bpm_max: HeartRateMax = None,
 ) -> StreamingResponse:
-    """The ride as one HTML file that needs nothing else: figures, traces, energy, zones, health."""
+    """The ride as one HTML file that needs nothing else: figures, track, traces, energy, zones,
+    torque round the crank, health. It tells where the ride went, to its ends."""
     return as_file(
         services.insight.report(ride_id, language, threshold_power_w, heart_rate_bpm_max)
     )

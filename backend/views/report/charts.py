@@ -52,6 +52,31 @@ def curve_chart(curve: Sequence[Mapping[str, Any]], title: str) -> Any:
     return drawn.update_xaxes(type="log", title_text="s")
 
 
+def crank_chart(crank: Mapping[str, Any], names: Mapping[str, str]) -> Any:
+    """Mean torque over the crank's angle, rider and motor beside one another."""
+    from plotly.graph_objects import Figure, Scatter
+
+    kinds = (("rider_nm", "torque", RIDER_COLOUR, "solid"), ("motor_nm", "motor", MOTOR_COLOUR,
+             "dash"))  # fmt: skip
+    lines = []
+    for key, name, colour, dash in kinds:
+        values = crank[key]
+        if values is not None:
+            step_deg = 360.0 / len(values)
+            lines.append(
+                Scatter(
+                    name=names[name],
+                    x=[step_deg * (place + 0.5) for place in range(len(values))],
+                    y=[round(value, 2) for value in values],
+                    mode="lines",
+                    line={"color": colour, "dash": dash, "width": 2},
+                )
+            )
+    drawn = sized(Figure(lines), "", "Nm").update_layout(showlegend=len(lines) > 1)
+    ticks = {"tickvals": [0, 90, 180, 270, 360], "range": [0, 360]}
+    return drawn.update_xaxes(title_text=names["crank_axis"], **ticks)
+
+
 def sized(drawn: Any, title: str, unit: str) -> Any:
     """A chart as the report has it."""
     drawn.update_layout(

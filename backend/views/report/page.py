@@ -12,8 +12,11 @@ from html import escape
 from typing import Any
 
 from backend.domain.quantities import plain
-from backend.views.report.charts import curve_chart, energy_chart, zones_chart
+from backend.domain.ride_events import RideEvent
+from backend.views.report.charts import crank_chart, curve_chart, energy_chart, zones_chart
+from backend.views.report.track_map import track_map
 from backend.views.report.words import WORDS
+from backend.views.track import Track
 
 PICTURE = {"displaylogo": False, "plotlyServerURL": "", "responsive": True}
 FIGURES = (
@@ -40,6 +43,12 @@ dl{display:grid;grid-template-columns:repeat(auto-fill,minmax(9rem,1fr));gap:.6r
 dt{font-size:.85rem;color:#4a5753}dd{margin:0;font-size:1.15rem;font-weight:600}
 .quiet{color:#4a5753;font-size:.85rem}.two{display:grid;grid-template-columns:1fr 1fr;gap:1rem}
 section{break-inside:avoid}
+.map{display:block;width:100%;background:#f1f3ef;border-radius:5px;print-color-adjust:exact}
+.map path,.key path{fill:none;stroke-linejoin:round}.map path[fill]{fill:#00795a}
+.map text{font-size:13px;fill:#4b5956}
+.map .b{font-weight:650;fill:#10201d;paint-order:stroke;stroke:#f1f3ef;stroke-width:3px}
+.key{width:48px;height:14px;vertical-align:middle}
+.keys{display:flex;flex-wrap:wrap;gap:.2rem 1.4rem;margin:.4rem 0}
 @media(max-width:700px){.two{grid-template-columns:1fr}}
 @media print{body{margin:0;max-width:none}.modebar{display:none}}
 """
@@ -47,16 +56,20 @@ section{break-inside:avoid}
 
 @dataclass(frozen=True)
 class Told:
-    """What a report is made of: title, facts below it, figures by name, and the answers that the
-    API gives. traces: a plotly Figure, None for a ride without any."""
+    """What a report is made of: title, facts below it, figures by name, where and in which modes
+    it went, and the answers that the API gives. traces: a plotly Figure, None for a ride without
+    any."""
 
     title: str
     facts: str
     version: str
     figures: Mapping[str, float | None]
+    track: Track
+    events: Sequence[RideEvent]
     traces: Any
     energy: Mapping[str, Any]
     effort: Mapping[str, Any]
+    pedalling: Mapping[str, Any]
     diagnosis: Mapping[str, Any]
 
 
@@ -73,10 +86,14 @@ def page(told: Told, language: str) -> Iterator[str]:
     yield "</script></head><body>"
     yield f'<h1>{escape(told.title)}</h1><p class="quiet">{escape(told.facts)}</p>'
     yield figures(told.figures, words)
+    names = {mode["mode"]: mode["name"] for mode in told.energy["modes"]}
+    if drawn := track_map(told.track, told.events, names, words):
+        yield f"<section><h2>{words['map']}</h2>{drawn}</section>"
     if told.traces is not None:
         yield f"<section><h2>{words['traces']}</h2>{picture(told.traces)}</section>"
     yield from energy(told.energy, words)
     yield from effort(told.effort, words)
+    yield crank(told.pedalling["crank"], words)
     yield health(told.diagnosis, words)
     made = words["made"].format(version=told.version)
     yield f'<p class="quiet">{escape(made)}</p></body></html>'
@@ -165,6 +182,23 @@ def effort(told: Mapping[str, Any], words: Mapping[str, str]) -> Iterator[str]:
     if told["power_curve"]:
         yield f"<div>{picture(curve_chart(told['power_curve'], words['power_curve']))}</div>"
     yield "</section>"
+
+
+def crank(told: Mapping[str, Any] | None, words: Mapping[str, str]) -> str:
+    """Torque round the crank, where it was recorded fast enough to tell."""
+    if told is None:
+        return ""
+    facts = [words["dead_spot"].format(angle=number(told["dead_spot_deg"], 0))]
+    if told["left_share"] is not None:
+        share = number(100.0 * told["left_share"], 0)
+        facts.insert(0, words["left_share"].format(share=share))
+    if told["lag_deg"] is not None:
+        angle, late_ms = number(told["lag_deg"], 0), number(told["lag_ms"], 0)
+        facts.append(words["lag"].format(angle=angle, late_ms=late_ms))
+    return (
+        f"<section><h2>{words['crank']}</h2>{picture(crank_chart(told, words))}"
+        f"<p>{escape(' '.join(facts))}</p></section>"
+    )
 
 
 def health(told: Mapping[str, Any], words: Mapping[str, str]) -> str:

@@ -1494,7 +1494,8 @@ export interface paths {
         };
         /**
          * Report Of Ride
-         * @description The ride as one HTML file that needs nothing else: figures, traces, energy, zones, health.
+         * @description The ride as one HTML file that needs nothing else: figures, track, traces, energy, zones,
+         *     torque round the crank, health. It tells where the ride went, to its ends.
          */
         get: operations["report_of_ride"];
         put?: never;

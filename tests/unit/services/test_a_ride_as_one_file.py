@@ -10,6 +10,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,8 @@ import pytest
 
 from backend.services.rides.insight.questions import Insight
 from backend.store import Store, open_store
+from backend.views.insight.crank import CrankTorque, crank_torque
+from backend.views.report.page import crank
 from backend.views.report.words import EN, ZH
 from tests.unit.services.test_why_a_moment_was_as_it_was import ROWS, config_of, kept
 
@@ -70,6 +73,29 @@ def test_what_people_wrote_is_text_and_no_markup(store: Store) -> None:
 
     assert "<img" not in said
     assert "<script>a" not in said
+
+
+def test_torque_round_the_crank_is_drawn_where_it_can_be_told(store: Store) -> None:
+    # 30 s at 60 rpm and 100 Hz: hardest with the cranks level, least at their dead spots.
+    turned = np.radians(np.arange(3000) * 3.6)
+    rider = 20.0 - 10.0 * np.cos(2.0 * turned)
+    # The motor swings as much, 18 degrees later: 50 ms.
+    motor = 20.0 - 10.0 * np.cos(2.0 * (turned - np.radians(18.0)))
+    told = crank_torque(
+        np.degrees(turned) % 360.0, rider, motor, np.full(3000, 60.0), np.full(3000, 0.01)
+    )
+    assert isinstance(told, CrankTorque)
+
+    english, chinese = (crank(asdict(told), words) for words in (EN, ZH))
+
+    assert "50 % of the work in the left leg’s half." in english
+    assert "18° or 50 ms later" in english
+    assert "左腿半圈做功占 50 %。" in chinese
+    assert crank(None, EN) == ""
+    # Of a ride of ten seconds, as of one without positions, nothing is drawn.
+    said = without_the_library(report_of(store, kept(store)))
+    assert EN["crank"] not in said
+    assert "<svg" not in said
 
 
 @pytest.mark.slow

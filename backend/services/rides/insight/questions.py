@@ -21,4 +21,4 @@ class Insight:
         self.diagnosis = Diagnosis(store, config_of)
         self.comparison = RideComparison(store, config_of)
         self.pedalling = RidePedalling(store, config_of)
-        self.report = RideReport(store, self.energy, self.effort, self.diagnosis)
+        self.report = RideReport(store, self.energy, self.effort, self.pedalling, self.diagnosis)

@@ -12,9 +12,11 @@ from backend.services.rides.export import Export, stem
 from backend.services.rides.insight.diagnosis import Diagnosis
 from backend.services.rides.insight.effort import RideEffort
 from backend.services.rides.insight.energy import RideEnergy
+from backend.services.rides.insight.pedalling import RidePedalling
 from backend.store import RideReader, Store
 from backend.views.figure import figure
 from backend.views.report.page import Told, page
+from backend.views.track import track
 
 PIXELS = 900
 ROW_PX = 160
@@ -24,10 +26,16 @@ class RideReport:
     """Puts a ride's answers together. Holds nothing of them; safe from any thread."""
 
     def __init__(
-        self, store: Store, energy: RideEnergy, effort: RideEffort, diagnosis: Diagnosis
+        self,
+        store: Store,
+        energy: RideEnergy,
+        effort: RideEffort,
+        pedalling: RidePedalling,
+        diagnosis: Diagnosis,
     ) -> None:
         self._store = store
         self._energy, self._effort, self._diagnosis = energy, effort, diagnosis
+        self._pedalling = pedalling
 
     def __call__(
         self,
@@ -44,9 +52,12 @@ class RideReport:
             facts=facts(reader.ride),
             version=__version__,
             figures=figures(reader.ride, energy),
+            track=track(reader),
+            events=reader.ride.events,
             traces=traces(reader, language),
             energy=energy,
             effort=self._effort(ride_id, threshold_power_w, heart_rate_bpm_max),
+            pedalling=self._pedalling(ride_id),
             diagnosis=self._diagnosis(ride_id),
         )
         chunks = encoded(page(told, language))
