@@ -58,7 +58,7 @@ def on_postgresql(objects_url: str) -> list[Figure]:
                     f"{1e3 * median_s(ask, time.perf_counter):.1f} ms",
                     "",
                     None,
-                    f"{1e3 * median_s(ask, time.process_time):.1f} ms of the server's processor",
+                    f"{1e3 * median_s(ask, time.process_time):.1f} ms in Spindle's own process",
                 )
                 for name, ask in questions(store)
             ]
