@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import sys
+import time
 from argparse import Namespace
 from contextlib import suppress
 from datetime import datetime
@@ -61,6 +62,8 @@ def import_file(server: Any, file: Path) -> dict[str, Any]:
 
 def said_of_table(server: Any, options: Namespace, upload: dict[str, Any]) -> dict[str, Any]:
     """What became of a table once the options say what it does not; other files as they are."""
+    if upload.get("code") == "part_asks":
+        return said_of_parts(server, options, upload)
     if upload.get("code") != "needs_mapping":
         return upload
     path = f"/uploads/{upload['id']}/mapping"
@@ -100,6 +103,33 @@ def said_of_table(server: Any, options: Namespace, upload: dict[str, Any]) -> di
     except RequestRefused as error:
         return {**upload, "code": error.code, "detail": error.message}
     return answer
+
+
+def said_of_parts(server: Any, options: Namespace, upload: dict[str, Any]) -> dict[str, Any]:
+    """What became of an archive once the options say what tables within it do not."""
+    cursor: str | None = None
+    while True:
+        params = {"part_of": upload["id"], "limit": 500, **({"cursor": cursor} if cursor else {})}
+        page = server.ask("GET", "/uploads", params=params)
+        for part in page["items"]:
+            # What was said of one may have read it since.
+            now = server.ask("GET", f"/uploads/{part['id']}")
+            said = said_of_table(server, options, now)
+            if said.get("code") == "needs_mapping":
+                return {**upload, "detail": f"{upload['detail']} {part['name']}: {said['detail']}"}
+        cursor = page["next"]
+        if cursor is None:
+            return read_by_now(server, upload["id"])
+
+
+def read_by_now(server: Any, upload_id: str) -> dict[str, Any]:
+    """An upload when it is read, or how it stands after a minute."""
+    for _ in range(120):
+        upload: dict[str, Any] = server.ask("GET", f"/uploads/{upload_id}")
+        if upload["state"] != "queued":
+            break
+        time.sleep(0.5)
+    return upload
 
 
 def print_upload(answer: dict[str, Any]) -> None:

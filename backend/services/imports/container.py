@@ -17,7 +17,15 @@ from typing import Protocol
 
 from backend.domain.ride import Ride
 from backend.errors import InvalidRequest, NotFound
-from backend.ingest import BrokenArchive, Entry, Left, Outcome, ReadingStopped, Titles
+from backend.ingest import (
+    NEEDS_MAPPING,
+    BrokenArchive,
+    Entry,
+    Left,
+    Outcome,
+    ReadingStopped,
+    Titles,
+)
 from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED
 from backend.services.imports.naming import ride_name
 from backend.store import Store, Upload, Verdict
@@ -27,6 +35,8 @@ AHEAD_MAX = 4
 # A summary and a file tell the same start, the one rounded.
 SAME_START_US = 60_000_000
 HERE = "duplicate"
+# A file within that waits for an answer, and the code of the container it is in.
+ASKS, PART_ASKS = "asks", "part_asks"
 
 Unpacker = Callable[[Path], Iterator[Entry | Left]]
 
@@ -146,12 +156,17 @@ def settled(promise: Future[Upload]) -> None:
 
 def standing(part: Upload) -> str:
     """What became of a file within, in one word."""
+    if part.code == NEEDS_MAPPING:
+        return ASKS
     return HERE if part.code in (HERE, "filled") else part.state
 
 
 def judged(counted: Counter[str], broken: Outcome | None) -> tuple[str, str | None]:
-    """State and code of a container, from those of its files."""
-    if not any(counted[one] for one in (COMPLETE, PARTIAL, HERE)):
+    """State and code of a container, from those of its files; first what somebody can do."""
+    saved = any(counted[one] for one in (COMPLETE, PARTIAL, HERE))
+    if counted[ASKS]:
+        return PARTIAL if saved else REJECTED, PART_ASKS
+    if not saved:
         return REJECTED, (broken.code if broken is not None else "no_rides_inside")
     if broken is not None:
         return PARTIAL, broken.code
@@ -166,6 +181,7 @@ def summary(counted: Counter[str], left_alone: int) -> str:
         (COMPLETE, "read completely"),
         (HERE, "already here"),
         (PARTIAL, "read in part"),
+        (ASKS, "waiting for what only their owner knows"),
         (REJECTED, "no rides"),
     )
     told = ", ".join(f"{counted[one]} {words}" for one, words in kinds if counted[one])

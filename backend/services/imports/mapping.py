@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from concurrent.futures import Future, wait
 from dataclasses import asdict
+from functools import partial
 from typing import Any
 
 from backend.domain.table_answer import TableAnswer, answer_from_json, answer_to_json, lacking
 from backend.errors import FieldError, InvalidRequest
 from backend.ingest import NEEDS_MAPPING
+from backend.services.imports.container import PART_ASKS
 from backend.services.imports.upload import Uploads
 from backend.store import Store, Upload
 
@@ -34,7 +37,8 @@ class TableMapping:
         """Keep an answer and read the file by it; what became of it.
 
         All others that wait for the same are read behind it, and each tells for itself what became
-        of it. said: the members of TableAnswer.
+        of it; then the containers they are within are judged anew. said: the members of
+        TableAnswer.
         Raises NotFound, Conflict; InvalidRequest for an answer that lacks something.
         """
         answer = answer_from_json(said) or TableAnswer()
@@ -44,10 +48,30 @@ class TableMapping:
             fields = [FieldError(name, "not_said", told) for name in missing]
             raise InvalidRequest(told, code="answer_incomplete", fields=fields)
         self._store.table_answers.keep(question, answer)
-        read = self._uploads.read_anew(upload_id)
-        for waiting in self._store.uploads.asking(NEEDS_MAPPING, question.header_sha256):
-            self._uploads.read_anew(waiting)
-        return read.result()
+        others = self._store.uploads.asking(NEEDS_MAPPING, question.header_sha256)
+        wholes = {one: self._uploads.get(one).part_of for one in (upload_id, *others)}
+        read = {one: self._uploads.read_anew(one) for one in wholes}
+        own = wholes[upload_id]
+        for one, whole in wholes.items():
+            if whole is not None and whole != own:
+                read[one].add_done_callback(partial(self._judge_behind, whole))
+        became = read[upload_id].result()
+        if own is not None:
+            wait([read[one] for one, whole in wholes.items() if whole == own])
+            self._judge_anew(own)
+        return became
+
+    def _judge_behind(self, whole: str, _: Future[Upload]) -> None:
+        self._judge_anew(whole)
+
+    def _judge_anew(self, whole: str) -> None:
+        """Look at a container again when the last file within is read; new rides get their names.
+
+        Not before: it would have a file read once more that is concluded meanwhile.
+        """
+        waits = any(part.state == "queued" for part in self._store.uploads.parts(whole))
+        if not waits and self._uploads.get(whole).code == PART_ASKS:
+            self._uploads.read_anew(whole)
 
     def known(self) -> dict[str, object]:
         """What was said of which tables."""

@@ -6,6 +6,8 @@ Method: the real store and the real reader, in this process; tables written here
 
 from __future__ import annotations
 
+import io
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -17,9 +19,10 @@ from backend.ingest.formats import read_file
 from backend.ingest.outcome import Outcome
 from backend.services.imports.mapping import TableMapping
 from backend.services.imports.upload import Uploads
-from backend.store import Store, open_store
+from backend.store import Store, Upload, open_store
 from backend.store.upkeep.backup import backup_of
 from backend.store.upkeep.rebuild import rebuild_store
+from tests.fakes.fit_file import commute, fit_file
 
 SAID = {"time_zone": "Europe/Dublin", "units": {"speed": "m/s"}, "rows_per_second": None}
 
@@ -156,3 +159,49 @@ def test_a_database_made_anew_and_a_backup_still_know_it(tmp_path: Path) -> None
         ]
         assert ride.intake is not None
         assert ride.intake.taken_as["speed"] == "m/s"
+
+
+def test_tables_within_an_archive_wait_and_are_asked_each_for_itself(
+    store: Store, uploads: Uploads, mapping: TableMapping
+) -> None:
+    held = io.BytesIO()
+    with zipfile.ZipFile(held, "w") as made:
+        made.writestr("ride.fit", fit_file(commute(60)))
+        for day in (4, 5):
+            made.writestr(f"{day}.csv", table(day))
+        made.writestr("mph.csv", table(6).replace(b"speed", b"velocity"))
+
+    sent = uploads.receive_file("season.zip", held.getvalue())
+
+    assert (sent.state, sent.code) == ("partial", "part_asks")
+    assert "3 waiting for what only their owner knows" in str(sent.detail)
+    parts = {part.name: part for part in store.uploads.parts(sent.id)}
+    assert mapping.question(parts["4.csv"].id)["time_zone"] is True
+
+    mapping.say(parts["4.csv"].id, SAID)
+    of_both = judged(uploads, sent.id)
+
+    # Of one header both are read; the other is still asked about.
+    assert len(of_both.ride_ids) == 3
+    assert (of_both.state, of_both.code) == ("partial", "part_asks")
+    mapping.say(parts["mph.csv"].id, {**SAID, "units": {"velocity": "mph"}})
+    whole = judged(uploads, sent.id)
+    assert (whole.state, whole.code) == ("complete", None)
+    assert str(whole.detail) == "4 files: 4 read completely."
+    assert len(whole.ride_ids) == 4
+
+
+def test_an_archive_of_tables_alone_waits_too(uploads: Uploads, store: Store) -> None:
+    held = io.BytesIO()
+    with zipfile.ZipFile(held, "w") as made:
+        made.writestr("1.csv", table(1))
+
+    sent = uploads.receive_file("one.zip", held.getvalue())
+
+    assert (sent.state, sent.code, sent.ride_ids) == ("rejected", "part_asks", ())
+
+
+def judged(uploads: Uploads, upload_id: str) -> Upload:
+    """An upload when nothing of it is read any more."""
+    uploads.recover()
+    return uploads.get(upload_id)

@@ -1,6 +1,6 @@
 // What the server does with files that come in; sending them is `uploadFile`.
 import { body, type Http } from './client'
-import type { KnownTable, Ride, SaidOfTable, TableQuestion, Upload } from './types'
+import type { KnownTable, Ride, SaidOfTable, TableQuestion, Upload, UploadList } from './types'
 
 export class FileServer {
   constructor(private readonly http: Http) {}
@@ -12,6 +12,11 @@ export class FileServer {
   /** Where a file stands. */
   upload(id: string): Promise<Upload> {
     return body(this.http.GET('/api/v1/uploads/{upload_id}', this.at(id)))
+  }
+
+  /** A page of the files within a container. */
+  parts(part_of: string, cursor?: string): Promise<UploadList> {
+    return body(this.http.GET('/api/v1/uploads', { params: { query: { part_of, cursor: cursor ?? null } } }))
   }
 
   /** Removes a file that became no ride, and its bytes. */
