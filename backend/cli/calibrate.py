@@ -8,9 +8,10 @@ from typing import Any
 
 from backend.cli.client import print_json, text_of
 from backend.cli.device import read_json, server_of
-from backend.domain.calibration.certificate import Evaluated, is_certificate
+from backend.domain.calibration.certificate import Evaluated, is_certificate, written_document
 from backend.domain.calibration.certificate import evaluate as evaluate_certificate
 from backend.domain.calibration.plain import to_plain
+from backend.domain.canonical_json import sha256_of
 
 SHOWN_MAX = 20
 """Differences that are listed; a wrong arm changes hundreds of numbers."""
@@ -21,7 +22,7 @@ def evaluate(options: Namespace) -> int:
     follows from its raw captures."""
     body = read_json(options.file)
     if is_certificate(body):
-        return _certificate(evaluate_certificate(body), options.json)
+        return _certificate(body, options.json)
     answer = server_of(options).ask("POST", "/calibration/evaluate", json=body)
     if options.json:
         print_json(answer)
@@ -31,12 +32,19 @@ def evaluate(options: Namespace) -> int:
     return 0
 
 
-def _certificate(found: Evaluated, as_json: bool) -> int:
+def _certificate(body: dict[str, Any], as_json: bool) -> int:
+    found = evaluate_certificate(body)
+    document = written_document(body)
+    unit = None if document is None else sha256_of(document)
+    unit_changed = unit is not None and unit != body["written"].get("sha256")
     if as_json:
-        print_json(_plain(found))
+        print_json({**_plain(found), "unit_sha256": unit, "unit_changed": unit_changed})
     else:
         _print(found)
-    return 0 if found.reproduced else 1
+        if unit is not None:
+            changed = ": CHANGED, another was written" if unit_changed else ""
+            print(f"  {'in the unit':20} {unit[:16]}{changed}")
+    return 0 if found.reproduced and not unit_changed else 1
 
 
 def _plain(found: Evaluated) -> dict[str, Any]:

@@ -109,6 +109,16 @@ def unit_mark(sha256: str) -> int:
     return int(sha256[:16], 16)
 
 
+def written_document(body: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The document whose hash the unit keeps: the last one without its verifying captures, with
+    what was worked out before them. None where the file tells of nothing written."""
+    document, written = body.get("document"), body.get("written")
+    if not isinstance(document, dict) or not isinstance(written, dict):
+        return None
+    before = [one for one in document["captures"] if one["state"]["kind"] != "verify"]
+    return {**document, "captures": before, "worked": written.get("worked")}
+
+
 def evaluate(body: Mapping[str, Any]) -> Evaluated:
     """A certificate worked out again from its raw counts.
 

@@ -57,12 +57,13 @@ def crank_out_of_level(
 
 def _order(captures: Sequence[Capture]) -> list[Refusal]:
     """Against the capture just before it at the same pedal: a step may be repeated later, if it is
-    come to from the same side."""
+    come to from the same side. The way down may begin above what was captured on the way up."""
     found = []
     for before, after in pairwise(sorted(captures, key=lambda capture: capture.number)):
         was, state = before.state, after.state
         alike = (was.side, was.crank_angle_deg) == (state.side, state.crank_angle_deg)
-        if state.kind != "load" or not alike:
+        turns = (was.direction, state.direction) == ("loading", "unloading")
+        if state.kind != "load" or not alike or turns:
             continue
         sign = 1.0 if state.direction == "loading" else -1.0
         if sign * (state.mass_kg - was.mass_kg) < 0:

@@ -181,6 +181,33 @@ def test_loads_out_of_order_are_named() -> None:
     assert "order" in named(SETUP, swapped)
 
 
+def test_a_step_is_repeated_from_the_side_it_is_come_to() -> None:
+    """Up to 24 kg again from the zero that ends the stroke; not down to it from there."""
+    ends = next(n for n, one in enumerate(SOUND) if n and one.state.mass_kg == 0.0)
+    up, down = (
+        next(one for one in SOUND[:ends] if (one.state.mass_kg, one.state.direction) == way)
+        for way in ((24.0, "loading"), (24.0, "unloading"))
+    )
+
+    def repeated(one: Capture) -> set[str]:
+        rest = [other for other in SOUND[: ends + 1] if other is not one]
+        return named(SETUP, [*rest, replace(one, number=rest[-1].number + 1)])
+
+    assert "order" not in repeated(up)
+    assert "order" in repeated(down)
+
+
+def test_the_way_down_may_begin_above_what_was_captured_on_the_way_up() -> None:
+    top = max(one.state.mass_kg for one in SOUND)
+    left_out = [
+        one
+        for one in SOUND
+        if (one.state.mass_kg, one.state.direction, one.state.stroke) != (top, "loading", 1)
+    ]
+
+    assert "order" not in named(SETUP, left_out)
+
+
 def test_a_crank_out_of_level_is_refused_and_an_unmeasured_one_is_not() -> None:
     assert crank_out_of_level(1.9, 0.0, 2.0) is None
     assert crank_out_of_level(None, 0.0, 2.0) is None

@@ -15,8 +15,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from backend.cli import main
 from backend.domain.calibration.capture import State
-from backend.domain.calibration.certificate import evaluate
+from backend.domain.calibration.certificate import evaluate, written_document
 from backend.domain.calibration.coefficients import Coefficients
 from backend.errors import Conflict, InvalidRequest, NoAnswer, NotFound, NotStandingStill
 from backend.services.calibration.record import PARAMETER_OF, coefficients_of, record_to_write
@@ -86,7 +87,7 @@ def test_a_job_goes_from_its_setup_to_a_file_that_is_reproduced(bench: Workshop)
 
 
 def test_what_the_unit_keeps_is_the_hash_of_the_certificate_before_its_verification(
-    bench: Workshop,
+    bench: Workshop, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """From the file alone: without the verifying captures, with what was worked out then."""
     job = bench.fitted()
@@ -94,14 +95,21 @@ def test_what_the_unit_keeps_is_the_hash_of_the_certificate_before_its_verificat
     bench.use.record.write(job.id, "", "Ada")
     bench.capture(VERIFY)
     bench.use.record.close(job.id, "Ada")
-
     file = json.loads(bench.use.show.certificate(job.id))
 
-    before = [one for one in file["document"]["captures"] if one["state"]["kind"] != "verify"]
-    document = {**file["document"], "captures": before, "worked": file["written"]["worked"]}
-    assert document == unverified["document"]
-    assert file["written"]["sha256"] == unverified["sha256"]
-    assert file["sha256"] != unverified["sha256"]
+    assert written_document(file) == unverified["document"]
+    assert file["written"]["sha256"] == unverified["sha256"] != file["sha256"]
+    mark = bench.held["calibration_certificate"]
+    assert bytes(mark).hex() == unverified["sha256"][:16]
+
+    path = tmp_path / "file.json"
+    path.write_text(json.dumps(file), encoding="utf-8")
+    assert main(["calibrate", "evaluate", str(path)]) == 0
+    assert unverified["sha256"][:16] in capsys.readouterr().out
+    file["written"]["worked"]["fit"]["coefficients"]["offset_counts"] += 1
+    path.write_text(json.dumps(file), encoding="utf-8")
+    assert main(["calibrate", "evaluate", str(path)]) == 1
+    assert "another was written" in capsys.readouterr().out
 
 
 def test_another_server_finds_the_job_as_it_was(bench: Workshop) -> None:
