@@ -48,9 +48,11 @@ from backend.services.rides.record import Recorder
 from backend.services.rides.replay import RideReplay
 from backend.services.rides.review import Rides
 from backend.services.rides.ride_again import RideAgain
+from backend.services.rides.sensor_drift import SensorDrift
 from backend.services.rides.since_change import SinceChange
 from backend.services.rides.use_of_table import UseOfTable
 from backend.services.rides.why_ride import WhyRide
+from backend.services.rides.zeros import RideZeros
 from backend.services.tuning.certify import CertifiedRevisions, Certify, KeptCertificates
 from backend.services.tuning.compare import Compare
 from backend.services.tuning.library import Library
@@ -108,8 +110,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
         dashboards, recent = Dashboards(), RecentRows()
         for watcher in (memory.follow, recorder.watch, dashboards.follow, recent.follow):
             devices.watch(watcher)
-        work = partial(tidy, recorder, uploads, store, last_seen, devices)
-        closing.enter_context(every_second(housekeeping=work, cards=RideCards(store).tick))
+        closing.enter_context(upkeep(recorder, uploads, store, last_seen, devices))
         for url in settings.device:
             in_background(url, partial(devices.add, url))
         replay = RideReplay(Preview(), memory.ride_config)
@@ -141,6 +142,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             proposals=proposals,
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
             since_change=SinceChange(store, tuning.revisions),
+            sensor_drift=SensorDrift(store, devices.known_key, tuning.revisions),
             why_steady=WhySteady(devices.writable),
             why_ride=WhyRide(store, memory.ride_config),
             ledger=EnergyLedger(store, memory.ride_config),
@@ -191,6 +193,17 @@ def make_data_folder(folder: Path) -> None:
             f"The data folder {folder} cannot be made: {error.strerror or error}. Choose another "
             "with --data DIR or SPINDLE_DATA."
         ) from None
+
+
+def upkeep(
+    recorder: Recorder, uploads: Uploads, store: Store, last_seen: LastSeen, devices: Devices
+) -> contextlib.AbstractContextManager[None]:
+    """What is done beside the server: tidying up, and what is kept of each ride."""
+    return every_second(
+        housekeeping=partial(tidy, recorder, uploads, store, last_seen, devices),
+        cards=RideCards(store).tick,
+        zeros=RideZeros(store).tick,
+    )
 
 
 def tidy(

@@ -25,6 +25,7 @@ from backend.api.routes import (
     logs,
     proposals,
     rides,
+    sensor_drift,
     store,
     tables,
     uploads,
@@ -72,7 +73,7 @@ def create_app(settings: ApiSettings, services: Services | None = None) -> FastA
     api = APIRouter(prefix=PREFIX)
     # Before the rides: what several rides tell together is at no ride's number.
     told = (logbook, comparison, insight, rides, proposals)
-    of_units = (devices, logs, config, calibrations)
+    of_units = (devices, logs, config, calibrations, sensor_drift)
     parts = (health, store, *of_units, law, library, *told, uploads, tables, live)
     for module in parts:
         api.include_router(module.router)

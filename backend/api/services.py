@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from backend.services.rides.propose import Proposals
     from backend.services.rides.review import Rides
     from backend.services.rides.ride_again import RideAgain
+    from backend.services.rides.sensor_drift import SensorDrift
     from backend.services.rides.since_change import SinceChange
     from backend.services.rides.use_of_table import UseOfTable
     from backend.services.rides.why_ride import WhyRide
@@ -65,6 +66,7 @@ class Services:
     proposals: Proposals
     use_of_table: UseOfTable
     since_change: SinceChange
+    sensor_drift: SensorDrift
     why_steady: WhySteady
     why_ride: WhyRide
     ledger: EnergyLedger

@@ -13,6 +13,7 @@ from backend.cli import (
     device,
     device_live,
     device_log,
+    drift,
     law,
     library,
     propose,
@@ -328,6 +329,9 @@ def _add_calibrate(verbs: Any) -> None:
     command = _asking(group, "evaluate", calibrate.evaluate, help=words)
     words = "JSON: full_scale_nm, load_nm, forward, reverse; or a certificate, without a server"
     command.add_argument("file", type=Path, help=words)
+    words = "the sensor's zero over a unit's rides, and when to calibrate it"
+    command = _asking(group, "drift", drift.drift, help=words)
+    command.add_argument("unit", nargs="?", help="may be left out when there is only one unit")
 
 
 def _on_job(group: Any, name: str, run: Any, words: str) -> argparse.ArgumentParser:

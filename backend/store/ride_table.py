@@ -249,6 +249,7 @@ def refill_row(
 
 def remove_ride(connection: Connection, ride_id: int) -> None:
     """Delete a ride and all that hangs on it."""
-    for table in (t.ride_tail, t.ride_lod, t.ride_summary, t.ride_card, t.ride_tag):
+    hanging = (t.ride_tail, t.ride_lod, t.ride_summary, t.ride_card, t.ride_zero, t.ride_tag)
+    for table in hanging:
         connection.execute(delete(table).where(table.c.ride_id == ride_id))
     connection.execute(delete(t.ride).where(t.ride.c.id == ride_id))

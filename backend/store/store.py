@@ -22,6 +22,7 @@ from backend.store.identity import belonging, new_id, require, write_identity
 from backend.store.locks import hold
 from backend.store.logbook.book import Logbook
 from backend.store.logbook.cards import CardStore
+from backend.store.logbook.zeros import ZeroStore
 from backend.store.look import look_at
 from backend.store.marks import MarkStore
 from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
@@ -42,8 +43,8 @@ NAMED_MAX = 10
 
 
 class Store:
-    """Everything that is kept: `rides`, `cards`, `logbook`, `marks`, `revisions`, `library`,
-    `certificates`, `calibrations`, `units`, `uploads`.
+    """Everything that is kept: `rides`, `cards`, `zeros`, `logbook`, `marks`, `revisions`,
+    `library`, `certificates`, `calibrations`, `units`, `uploads`.
 
     closing: lets go of the locks.
     """
@@ -65,6 +66,7 @@ class Store:
         self.calibrations = CalibrationStore(database, objects, self.soundness)
         self.units = UnitStore(database)
         self.cards = CardStore(database)
+        self.zeros = ZeroStore(database)
         self.logbook = Logbook(database, objects)
         self.uploads = UploadStore(database, objects, objects.root / SPOOL, self.deletions)
         self.table_answers = TableAnswers(objects)

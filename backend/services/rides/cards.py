@@ -1,75 +1,37 @@
-"""Makes the cards of rides, in the background: new rides', old ones', and those of a newer method.
-
-A ride whose rows cannot be read, or of which no card can be made, has an empty one: whatever is
-wrong with it stops no other.
-"""
+"""Makes the cards of rides."""
 
 from __future__ import annotations
-
-import logging
-import time
 
 from backend.domain.energy import RIDER_POWER
 from backend.domain.logbook.card import BEST_S, RideCard, ends_of, speed_line
 from backend.domain.ride import Ride, RidePlace
 from backend.domain.ride_events import FAULT_SET, MARK
-from backend.errors import NotFound, SpindleError
 from backend.gazetteer import Gazetteer
+from backend.services.rides.derived import DueRides, made_or
 from backend.services.rides.insight.rows import WAY, RideColumns, columns_of
 from backend.store import Store
 from backend.views.insight.power_curve import power_curve
 from backend.views.insight.way import climb_of
 
-LOG = logging.getLogger(__name__)
-
 CHANNELS = (*WAY, "altitude_m", "latitude_deg", "longitude_deg", RIDER_POWER.name)
-# Rides looked up at once, and how long they may take: then somebody looks whether the server ends.
-CARDS_AT_ONCE = 20
-TICK_S = 1.0
 # A town further away is not where the ride was; its time zone still is.
 TOWN_MAX_M = 20_000.0
 ZONE_MAX_M = 300_000.0
 
 
-class RideCards:
+class RideCards(DueRides):
     """The cards that are due."""
 
     def __init__(self, store: Store, gazetteer: Gazetteer | None = None) -> None:
-        self._store = store
+        super().__init__(store, store.cards.due)
         self._gazetteer = gazetteer or Gazetteer()
-        self._seen = -1
 
-    def tick(self) -> int:
-        """Make some of the cards that are due; how many. Looks only when a ride got its rows."""
-        finishes = self._store.rides.finishes
-        if finishes == self._seen:
-            return 0
-        over_s = time.monotonic() + TICK_S
-        due = self._store.cards.due(CARDS_AT_ONCE)
-        for made, ride_id in enumerate(due):
-            if made and time.monotonic() > over_s:
-                return made
-            self._make(ride_id)
-        if len(due) < CARDS_AT_ONCE:
-            self._seen = finishes
-        return len(due)
-
-    def _make(self, ride_id: int) -> None:
-        try:
-            ride = self._store.rides.get(ride_id)
-        except NotFound:
-            return
-        card = self._card(ride)
+    def make(self, ride: Ride) -> None:
+        """A ride's card; an empty one where none can be made of it."""
+        card = made_or(
+            RideCard(), "card", ride, lambda: card_of(columns_of(self._store, ride.id, CHANNELS))
+        )
         self._store.cards.keep(ride, card, self._place(card))
-
-    def _card(self, ride: Ride) -> RideCard:
-        try:
-            return card_of(columns_of(self._store, ride.id, CHANNELS))
-        except SpindleError as error:
-            LOG.warning("Ride %d has an empty card: %s", ride.id, error.message)
-        except Exception:
-            LOG.exception("Ride %d has an empty card.", ride.id)
-        return RideCard()
 
     def _place(self, card: RideCard) -> RidePlace:
         """Where the ride began, as far as the gazetteer knows."""

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from sqlalchemy import Connection, delete, insert, or_, select, update
+from sqlalchemy import Connection, select, update
 
 from backend.domain.logbook.card import BEST_S, METHOD, RideCard
 from backend.domain.ride import Ride, RidePlace
+from backend.store.logbook.derived import due_rides, keep_row
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
 
@@ -18,30 +19,12 @@ class CardStore:
 
     def due(self, limit: int) -> list[int]:
         """Finished rides without a card of today's method and of their present rows."""
-        card = t.ride_card.c
-        query = (
-            select(t.ride.c.id)
-            .outerjoin(t.ride_card, card.ride_id == t.ride.c.id)
-            .where(t.ride.c.state == "done")
-            .where(
-                or_(
-                    card.ride_id.is_(None),
-                    card.method < METHOD,
-                    card.object_key != t.ride.c.object_key,
-                )
-            )
-            .order_by(t.ride.c.started_us.desc())
-            .limit(limit)
-        )
-        return self._database.read(lambda c: list(c.execute(query).scalars()))
+        return self._database.read(lambda c: due_rides(c, t.ride_card, METHOD, limit))
 
     def keep(self, ride: Ride, card: RideCard, place: RidePlace) -> None:
         """Keep a ride's card, unless the ride is gone or another meanwhile. Raises StoreError."""
         bests = zip(BEST_S, card.power_w_best, strict=True)
         values = {
-            "ride_id": ride.id,
-            "method": METHOD,
-            "object_key": ride.object_key,
             "speed_line": card.speed_line,
             "notable": card.notable,
             "ascent_m": card.ascent_m,
@@ -52,12 +35,9 @@ class CardStore:
             "is_loop": place.is_loop,
             "words": "",
         }
-        mine = (t.ride.c.id == ride.id) & (t.ride.c.object_key == ride.object_key)
 
         def work(connection: Connection) -> None:
-            connection.execute(delete(t.ride_card).where(t.ride_card.c.ride_id == ride.id))
-            if connection.execute(select(t.ride.c.id).where(mine)).first() is not None:
-                connection.execute(insert(t.ride_card).values(values))
+            if keep_row(connection, t.ride_card, METHOD, ride, values):
                 note_words(connection, ride.id)
 
         self._database.write(work)

@@ -273,6 +273,21 @@ ride_card = Table(
     Column("words", Text, nullable=False),
 )
 
+# domain.logbook.zero.RideZero: derived, like a card.
+ride_zero = Table(
+    "ride_zero",
+    metadata,
+    Column("ride_id", KEY, ForeignKey("ride.id"), primary_key=True, autoincrement=False),
+    Column("method", Integer, nullable=False),
+    Column("object_key", String(128), nullable=False),
+    Column("zero_nm", Float),
+    Column("uncertainty_nm", Float),
+    Column("zero_counts", Float),
+    Column("temperature_degc", Float),
+    Column("pieces", Integer, nullable=False),
+    Column("reason", String(16)),
+)
+
 # One row: the last number a ride was given. SQLite by itself would give the highest one again after
 # that ride was deleted, and a bookmark would show another ride.
 ride_number = Table("ride_number", metadata, Column("last", KEY, nullable=False))

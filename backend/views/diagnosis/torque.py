@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from backend.domain._generated import RESTING_KMH
 from backend.domain.channels import Values
 from backend.domain.energy import rate_hz
-from backend.views.diagnosis.finding import SERIOUS, WARNING, Evidence, Finding
+from backend.views.diagnosis.finding import SERIOUS, WARNING, Evidence, Finding, Mask
 from backend.views.insight.crank import RATE_HZ_MIN
 
 TORQUE, RAW, CADENCE, SPEED = "rider_torque_nm", "rider_torque_raw", "cadence_rpm", "speed_kmh"
@@ -23,20 +25,31 @@ FLAT_ROWS, FLAT_STROKES, FLAT_NM = 5, 3, 30.0
 """The greatest torque, held this long in so many strokes: legs make no flat top."""
 
 
+@dataclass(frozen=True)
+class Piece:
+    """STILL_S without anybody pushing: when it begins, its torque, and by how much that moved."""
+
+    begin_s: float
+    torque_nm: float
+    moved_nm: float
+
+    @property
+    def is_still(self) -> bool:
+        return self.moved_nm <= STILL_NM
+
+    @property
+    def tells_zero(self) -> bool:
+        return self.is_still and abs(self.torque_nm) <= FOOT_NM
+
+
 def zero_drift(ride: Evidence) -> list[Finding] | None:
     """The zero at rest, from pieces of STILL_S without a foot on the pedals; None without any."""
-    torque = ride.values[TORQUE]
     resting = np.abs(ride.values[SPEED]) < RESTING_KMH
     resting &= np.abs(ride.values[CADENCE]) < REST_RPM
-    resting &= np.isfinite(torque)
-    at_s, zeros = [], []
-    for rows in ride.spans(resting):
-        for begin_s, means in still_pieces(ride.start_s[rows], torque[rows]):
-            if np.ptp(means) <= STILL_NM and abs(float(np.median(means))) <= FOOT_NM:
-                at_s.append(begin_s)
-                zeros.append(float(np.median(means)))
-    if not zeros:
+    free = [piece for piece in unloaded_pieces(ride, resting) if piece.tells_zero]
+    if not free:
         return None
+    at_s, zeros = [piece.begin_s for piece in free], [piece.torque_nm for piece in free]
     zero = np.array(zeros)
     third = max(len(zero) // 3, 1)
     typical = float(np.median(zero))
@@ -58,7 +71,17 @@ def zero_drift(ride: Evidence) -> list[Finding] | None:
     return [Finding("zero_drift", severity, at_s[worst], at_s[worst] + STILL_S, numbers)]
 
 
-def still_pieces(start_s: Values, torque_nm: Values) -> list[tuple[float, Values]]:
+def unloaded_pieces(ride: Evidence, unloaded: Mask) -> list[Piece]:
+    """Pieces of STILL_S in which nobody should push (n,), also those in which somebody does."""
+    torque = ride.values[TORQUE]
+    return [
+        Piece(begin_s, float(np.median(means)), float(np.ptp(means)))
+        for rows in ride.spans(unloaded & np.isfinite(torque))
+        for begin_s, means in whole_pieces(ride.start_s[rows], torque[rows])
+    ]
+
+
+def whole_pieces(start_s: Values, torque_nm: Values) -> list[tuple[float, Values]]:
     """Whole pieces of STILL_S of a rest (n,): when each begins, and its means of a second."""
     second = np.floor(start_s - start_s[0] + 1e-9).astype(np.intp)
     # The last second may not be whole, and the first still has the rider's foot leaving.

@@ -944,6 +944,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/devices/{device_id}/sensor-drift": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Sensor Drift
+         * @description The zero of every ride of this unit while coasting, its trend with temperature and age, and
+         *     when it reaches the levels. Also of a unit that is away.
+         */
+        get: operations["sensor_drift"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/surface": {
         parameters: {
             query?: never;
@@ -2125,9 +2146,9 @@ export interface components {
          *     then all of it is called level.
          */
         Asymmetry: {
-            left_right: components["schemas"]["Share"];
-            bending_level?: components["schemas"]["Share"] | null;
-            bending_across?: components["schemas"]["Share"] | null;
+            left_right: components["schemas"]["backend__domain__calibration__asymmetry__Share"];
+            bending_level?: components["schemas"]["backend__domain__calibration__asymmetry__Share"] | null;
+            bending_across?: components["schemas"]["backend__domain__calibration__asymmetry__Share"] | null;
         };
         /**
          * AxisGap
@@ -2150,6 +2171,23 @@ export interface components {
             high: number | null;
             /** Seconds */
             seconds: number;
+        };
+        /**
+         * BandPoint
+         * @description The zero at the typical temperature, with its interval of 90 %.
+         */
+        BandPoint: {
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+            /** Zero Nm */
+            zero_nm: number;
+            /** Low Nm */
+            low_nm: number;
+            /** High Nm */
+            high_nm: number;
         };
         /**
          * BestMean
@@ -2270,6 +2308,25 @@ export interface components {
              * @description What the factory measured: within 15 % of it `sensor_gain_nm_per_count` needs no token. Told by the unit; not looked at when it is written.
              */
             readonly sensor_gain_nm_per_count_factory?: number | null;
+        };
+        /**
+         * CalibrationMark
+         * @description A configuration that changed how counts become torque.
+         */
+        CalibrationMark: {
+            /** Seq */
+            seq: number;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Author */
+            author: string;
+            /** Reason */
+            reason: string;
+            /** Changed */
+            changed: components["schemas"]["ScaleChange"][];
         };
         /**
          * Capability
@@ -3011,6 +3068,33 @@ export interface components {
             lag_ms: number | null;
         };
         /**
+         * Crossing
+         * @description When the zero reaches a level of either sign; the interval is of 90 %.
+         */
+        Crossing: {
+            /** Level Nm */
+            level_nm: number;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "over" | "expected" | "not_in_sight";
+            /** At */
+            at: string | null;
+            /** Earliest At */
+            earliest_at: string | null;
+            /**
+             * Latest At
+             * @description Null for beyond five years.
+             */
+            latest_at: string | null;
+        };
+        /** Crossings */
+        Crossings: {
+            watch: components["schemas"]["Crossing"];
+            act: components["schemas"]["Crossing"];
+        };
+        /**
          * Curve
          * @description Means of all strokes and sides at each load (k,), in Nm: the residuals' shape and loop.
          */
@@ -3305,6 +3389,41 @@ export interface components {
              * @default
              */
             comment: string;
+        };
+        /**
+         * DriftTrend
+         * @description Zero = a step for each calibration + temperature + age + scatter, by least squares.
+         */
+        DriftTrend: {
+            /**
+             * Rides
+             * @description How many it is made of.
+             */
+            rides: number;
+            per_month_nm: components["schemas"]["backend__api__models__drift__Share"];
+            per_kelvin_nm: components["schemas"]["backend__api__models__drift__Share"] | null;
+            /**
+             * No Per Kelvin
+             * @description Why temperature is not told apart: too few rides have one; all within 5 K.
+             */
+            no_per_kelvin: ("no_thermometer" | "same_weather") | null;
+            /**
+             * Typical Degc
+             * @description Mean sensor temperature of these rides.
+             */
+            typical_degc: number | null;
+            /**
+             * Scatter Nm
+             * @description Of rides, beyond what each knows of itself.
+             */
+            scatter_nm: number;
+            today: components["schemas"]["BandPoint"];
+            crossings: components["schemas"]["Crossings"];
+            /**
+             * Bands
+             * @description To draw; one for each calibration.
+             */
+            bands: components["schemas"]["BandPoint"][][];
         };
         /**
          * EnergyShare
@@ -5847,6 +5966,51 @@ export interface components {
             message: string;
         };
         /**
+         * RideZero
+         * @description A ride, and what its torque sensor read while the rider coasted.
+         */
+        RideZero: {
+            /** Ride Id */
+            ride_id: number;
+            /**
+             * Started At
+             * Format: date-time
+             */
+            started_at: string;
+            /**
+             * Zero Nm
+             * @description By the unit's scale on that ride.
+             */
+            zero_nm: number | null;
+            /**
+             * Uncertainty Nm
+             * @description Standard uncertainty.
+             */
+            uncertainty_nm: number | null;
+            /** Zero Counts */
+            zero_counts: number | null;
+            /**
+             * Temperature Degc
+             * @description Of the sensor, then.
+             */
+            temperature_degc: number | null;
+            /**
+             * Pieces
+             * @description Stretches of coasting of 5 s that it is the median of.
+             */
+            pieces: number;
+            /**
+             * Reason
+             * @description Why there is no zero.
+             */
+            reason: ("no_torque" | "no_cadence" | "no_speed" | "no_coasting" | "not_still" | "foot" | "disagree" | "unreadable") | null;
+            /**
+             * Left Out
+             * @description Why a zero is not in the trend: far from all others; no temperature where the others have one; ridden under another temperature compensation.
+             */
+            left_out: ("apart" | "no_temperature" | "other_compensation") | null;
+        };
+        /**
          * RiderHome
          * @description Twelve weeks and twelve months up to now, the oldest first; bikes, the last ridden first.
          */
@@ -5985,6 +6149,15 @@ export interface components {
              */
             in_step: number | null;
         };
+        /** ScaleChange */
+        ScaleChange: {
+            /** Name */
+            name: string;
+            /** Old */
+            old: unknown;
+            /** New */
+            new: unknown;
+        };
         /**
          * Scenario
          * @description A ride that a simulated unit can be sent on.
@@ -6001,6 +6174,45 @@ export interface components {
             items: components["schemas"]["Scenario"][];
             /** Next */
             next: string | null;
+        };
+        /**
+         * SensorDrift
+         * @description The zero of a unit's torque sensor over its rides, and when it will be too far.
+         */
+        SensorDrift: {
+            /** Unit Key */
+            unit_key: string;
+            /** Method */
+            method: number;
+            /**
+             * Watch Nm
+             * @description More than the weather's share over 50 K.
+             */
+            watch_nm: number;
+            /**
+             * Act Nm
+             * @description At rest the unit then reports TORQUE_DRIFT: no assist.
+             */
+            act_nm: number;
+            /**
+             * Level
+             * @description Of the latest zero since the last calibration; null without one.
+             */
+            level: ("ok" | "watch" | "act") | null;
+            latest: components["schemas"]["RideZero"] | null;
+            /**
+             * Rides
+             * @description Newest first; also those without a zero.
+             */
+            rides: components["schemas"]["RideZero"][];
+            /**
+             * Calibrations
+             * @description Oldest first.
+             */
+            calibrations: components["schemas"]["CalibrationMark"][];
+            /** No Trend */
+            no_trend: ("few_rides" | "short_time" | "none_since_calibration") | null;
+            trend: components["schemas"]["DriftTrend"] | null;
         };
         /**
          * Series
@@ -6231,16 +6443,6 @@ export interface components {
              * @default 0.0002
              */
             span_limit_share_per_k: number;
-        };
-        /**
-         * Share
-         * @description A share of the load and its standard uncertainty.
-         */
-        Share: {
-            /** Share */
-            share: number;
-            /** Standard */
-            standard: number;
         };
         /**
          * Side
@@ -7541,6 +7743,30 @@ export interface components {
             /** Verifications */
             verifications: components["schemas"]["Verification"][];
             judgement: components["schemas"]["Judgement"];
+        };
+        /**
+         * Share
+         * @description A coefficient: its value, standard uncertainty, and interval of 95 %.
+         */
+        backend__api__models__drift__Share: {
+            /** Value */
+            value: number;
+            /** Uncertainty */
+            uncertainty: number;
+            /** Low */
+            low: number;
+            /** High */
+            high: number;
+        };
+        /**
+         * Share
+         * @description A share of the load and its standard uncertainty.
+         */
+        backend__domain__calibration__asymmetry__Share: {
+            /** Share */
+            share: number;
+            /** Standard */
+            standard: number;
         };
         /**
          * Problem
@@ -11732,6 +11958,67 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    sensor_drift: {
+        parameters: {
+            query?: {
+                /** @description How many are listed; the trend is of all. */
+                rides?: number;
+            };
+            header?: never;
+            path: {
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SensorDrift"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
                 headers: {
                     [name: string]: unknown;
                 };

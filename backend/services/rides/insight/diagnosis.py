@@ -8,7 +8,7 @@ from typing import Any
 
 from backend import control
 from backend.domain.ride import Ride
-from backend.services.rides.insight.rows import columns_of
+from backend.services.rides.insight.rows import RideColumns, columns_of
 from backend.services.rides.replay import ConfigOf
 from backend.store import Store
 from backend.views.diagnosis.diagnosis import METHOD, NEEDED, diagnose
@@ -25,17 +25,8 @@ class Diagnosis:
     def __call__(self, ride_id: int) -> dict[str, Any]:
         """The answer as the API tells it. Raises NotFound, ObjectDamaged."""
         rows = columns_of(self._store, ride_id, NEEDED)
-        ride = rows.ride
-        config, source = self._config_of(ride)
-        evidence = Evidence(
-            rows.values,
-            rows.start_s,
-            rows.seconds,
-            limits_of(config if source == "ride" else {}),
-            gaps=[(gap.from_s, gap.to_s) for gap in ride.gaps],
-            paused=paused(ride),
-            derived=frozenset(channel.name for channel in ride.derived),
-        )
+        config, source = self._config_of(rows.ride)
+        evidence = evidence_of(rows, limits_of(config if source == "ride" else {}))
         checks = [asdict(check) for check in diagnose(evidence)]
         found = [finding for check in checks for finding in check["findings"]]
         worst = max((SEVERITIES.index(one["severity"]) for one in found), default=None)
@@ -45,6 +36,19 @@ class Diagnosis:
             "worst": None if worst is None else SEVERITIES[worst],
             "checks": checks,
         }
+
+
+def evidence_of(rows: RideColumns, limits: Limits) -> Evidence:
+    """A ride's rows as the diagnosis looks at them."""
+    return Evidence(
+        rows.values,
+        rows.start_s,
+        rows.seconds,
+        limits,
+        gaps=[(gap.from_s, gap.to_s) for gap in rows.ride.gaps],
+        paused=paused(rows.ride),
+        derived=frozenset(channel.name for channel in rows.ride.derived),
+    )
 
 
 def limits_of(config: Mapping[str, Any]) -> Limits:

@@ -50,6 +50,7 @@ import type {
   Scenario,
   Simulation,
   SimulationChange,
+  SensorDrift,
   SinceChange,
   StorePlace,
   Surface,
@@ -171,6 +172,12 @@ export class Server {
     const params = { path: { device_id: id, seq } }
     const path = '/api/v1/devices/{device_id}/config/revisions/{seq}/since'
     return body(this.http.GET(path, { params, signal }))
+  }
+
+  /** The zero of the unit's torque sensor over its rides, of which the newest are listed. */
+  sensorDrift(id: string, signal: AbortSignal, rides = 1000): Promise<SensorDrift> {
+    const params = { path: { device_id: id }, query: { rides } }
+    return body(this.http.GET('/api/v1/devices/{device_id}/sensor-drift', { params, signal }))
   }
 
   async channels(id: string): Promise<Record<string, number | null>> {
