@@ -101,6 +101,8 @@ _RANGES: dict[str, tuple[float, float]] = {
     "sensor.gain": (0.01, 100.0),
     "sensor.noise_nm": (0.0, 100.0),
     "sensor.bending_share": (-1.0, 1.0),
+    "sensor.bending_lever_m": (0.0, 1.0),
+    "sensor.bending_deg": (-360.0, 360.0),
     "sensor.side_share": (-1.0, 1.0),
     "sensor.hysteresis_nm": (0.0, 100.0),
     "sensor.creep_share": (-1.0, 1.0),

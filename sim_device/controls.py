@@ -13,6 +13,8 @@ from typing import Any
 
 from sim_device.scenario_file import load, names
 from sim_device.scenario_phase import FAULTS, ScenarioError, Setting, read_phase_value
+from sim_device.workbench import NAMES as WORKBENCH
+from sim_device.workbench import read_workbench_value
 
 SPEED_FACTOR_MIN = 0.01
 SPEED_FACTOR_MAX = 1000.0
@@ -43,6 +45,7 @@ class Changes:
     """Checked changes; None or an empty dict means as it was.
 
     by_hand: what is broken and around the bike. It lasts through the phases of a scenario.
+    workbench: what is said of it otherwise; leave_workbench: the bike is taken off.
     own_scenarios: names that `scenario` can have besides those that come with Spindle.
     """
 
@@ -51,6 +54,8 @@ class Changes:
     phase: dict[str, Any] = field(default_factory=dict)
     by_hand: dict[str, Any] = field(default_factory=dict)
     bike: dict[str, float] = field(default_factory=dict)
+    workbench: dict[str, Any] = field(default_factory=dict)
+    leave_workbench: bool = False
     scenario: str | None = None
     stop_scenario: bool = False
     running: bool | None = None
@@ -172,6 +177,13 @@ def _scenario(changes: Changes, name: str, given: object) -> None:
     changes.scenario = given
 
 
+def _workbench(changes: Changes, name: str, given: object) -> None:
+    changes.leave_workbench = given is None
+    if given is not None:
+        for key, value in _members(name, given, set(WORKBENCH)).items():
+            changes.workbench[key] = read_workbench_value(f"{name}.{key}", key, value)
+
+
 def _running(changes: Changes, name: str, given: object) -> None:
     if not isinstance(given, bool):
         raise ScenarioError(f"{name} is {given!r}, not true or false", name)
@@ -209,6 +221,7 @@ _READERS: dict[str, Callable[[Changes, str, object], None]] = {
     "motor_model": _choice,
     "dyno_nm": _by_hand,
     "mass_kg": _mass_kg,
+    "workbench": _workbench,
     "scenario": _scenario,
     "running": _running,
     "speed_factor": _speed_factor,

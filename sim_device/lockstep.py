@@ -25,6 +25,7 @@ from sim_device.scenario_phase import (
 )
 from sim_device.scenario_script import Script
 from sim_device.sensor_state import SensorState, state_of
+from sim_device.workbench import Workbench, hung
 
 US_PER_S: Final[int] = 1_000_000
 
@@ -121,6 +122,8 @@ class LockstepUnit:
         self._before_scenario: dict[str, float] = {}
         self._running = False
         self._script: Script | None = None
+        self._workbench: Workbench | None = None
+        self._times_hung = 0
         self.unit = Unit(
             uid=uid_of(name, seed),
             boot_id=boot_id,
@@ -208,9 +211,14 @@ class LockstepUnit:
     def place(self, speed_kmh: float) -> None:
         """Puts the bike on the road at this speed, its energy ledger and noise started afresh."""
         before_m = self._distance_m
+        self._leave_workbench()
         self.unit.place(speed_kmh, self.seed)
         if self._script is not None:
             self._script.put_back(before_m, self._distance_m)
+
+    def hang(self, mass_kg: float, side: str = "right", **said: float) -> None:
+        """Hangs a mass on a pedal of the bike on a workbench; `said`: of sim_device.workbench."""
+        self.simulation_set({"workbench": {"mass_kg": mass_kg, "side": side, **said}})
 
     def simulation_get(self) -> dict[str, Any]:
         """The JSON object of SIM_GET."""
@@ -239,6 +247,7 @@ class LockstepUnit:
             "ambient_degc": self._bike.get("sensor.ambient_degc", 20.0),
             "grip": self._bike.get("road.grip", 0.0),
             "faults": phase.faults,
+            "workbench": self._workbench.told() if self._workbench else None,
             "rotor_link": {
                 "words_good": seen["words_good"],
                 "words_bad": seen["words_bad"],
@@ -284,6 +293,10 @@ class LockstepUnit:
             self._script, self._running = None, False
         if changes.scenario is not None:
             self._start(self._own.get(changes.scenario) or load(changes.scenario))
+        if changes.workbench:
+            self._hang(replace(self._workbench or Workbench(), **changes.workbench))
+        if changes.leave_workbench or changes.running:
+            self._leave_workbench()
         if changes.phase:
             self._running = self._running and set(changes.phase) == {"assist_mode"}
         self._by_hand |= changes.by_hand
@@ -303,7 +316,20 @@ class LockstepUnit:
         self._bike.update(values)
         self.unit.change_bike(values)
 
+    def _hang(self, workbench: Workbench) -> None:
+        """What hangs there already does not begin to swing."""
+        self._running = False
+        if workbench != self._workbench:
+            self._times_hung += 1
+            self.unit.hang_mass(hung(workbench, self.seed, self._times_hung))
+        self._workbench = workbench
+
+    def _leave_workbench(self) -> None:
+        self._workbench = None
+        self.unit.hang_mass(None)
+
     def _start(self, scenario: ScenarioFile) -> None:
+        self._leave_workbench()
         self._by_hand = self._sensor.by_hand()
         self._leave_scenario_bike()
         if scenario.bike:

@@ -41,8 +41,22 @@ class Faults(TypedDict, total=False):
     coupling: float
 
 
+class Workbench(TypedDict, total=False):
+    """A mass on a pedal of a bike whose wheel is held. Angle 0 is the crank level and forward,
+    positive the pedal going down; the limits are half widths of what may be otherwise in truth."""
+
+    side: Literal["left", "right"]
+    mass_kg: float
+    crank_angle_deg: float
+    arm_m: float
+    mass_limit_share: float
+    arm_limit_m: float
+    angle_limit_deg: float
+
+
 class Stimulus(TypedDict, total=False):
-    """Any subset; what is absent stays. A scenario starts from its beginning, None ends it."""
+    """Any subset; what is absent stays. A scenario starts from its beginning, None ends it; None
+    takes the bike off the workbench."""
 
     scenario: str | None
     running: bool
@@ -62,3 +76,4 @@ class Stimulus(TypedDict, total=False):
     ambient_degc: float
     grip: float
     faults: Faults
+    workbench: Workbench | None

@@ -135,6 +135,13 @@ static void gather(const physics_config *config, physics_state *state,
     now->rider_nm = rider_torque_nm(&config->rider, &state->rider, &command->rider,
                                     state->crank_angle_rad, state->crank_speed_rad_s);
     now->rider_nm *= gears_push_share(&config->gears, &state->gears);
+    state->sensor.hung_nm = 0.0;
+    if (command->road.held) {
+        const hung_load hung = hung_mass_load(&command->hung, config->road.gravity_m_s2,
+                                              config->sensor.bending_lever_m, state->hung_s);
+        now->rider_nm = hung.torque_nm;
+        state->sensor.hung_nm = hung.bending_nm;
+    }
     now->leg_drag_nm = 0.0;
     if (state->crank_speed_rad_s != 0.0) {
         now->leg_drag_nm =
@@ -365,6 +372,7 @@ void physics_step(const physics_config *config, physics_state *state,
 
     const double travel_m = now.bike.travel;
     state->t_s += dt_s;
+    state->hung_s += dt_s;
     state->distance_m += travel_m;
     state->height_m += travel_m * sin(command->road.grade_deg * PI / 180.0);
     state->crank_angle_rad = fmod(state->crank_angle_rad + now.crank.travel, 2.0 * PI);
@@ -389,6 +397,18 @@ static double stored_j(const physics_config *config, const physics_state *state)
            0.5 * crank_inertia * state->crank_speed_rad_s * state->crank_speed_rad_s +
            0.5 * config->motor.inertia_kg_m2 * state->motor_speed_rad_s * state->motor_speed_rad_s +
            field_j;
+}
+
+void physics_hang(const physics_config *config, physics_state *state, const hung_mass *hung)
+{
+    state->speed_ms = 0.0;
+    state->wheel_speed_ms = 0.0;
+    state->crank_speed_rad_s = 0.0;
+    state->motor_speed_rad_s = 0.0;
+    state->slipping = 0;
+    state->crank_angle_rad = hung_mass_crank_rad(hung);
+    state->hung_s = 0.0;
+    physics_begin_ledger(config, state);
 }
 
 void physics_begin_ledger(const physics_config *config, physics_state *state)

@@ -10,6 +10,7 @@
 #include "battery.h"       // battery_config
 #include "drivetrain.h"    // drivetrain_config
 #include "gears.h"         // gears_config
+#include "hung_mass.h"     // hung_mass
 #include "ledger.h"        // physics_ledger
 #include "motor.h"         // motor_config
 #include "motor_foc.h"     // motor_foc_state
@@ -49,6 +50,7 @@ typedef struct {
     rider_command rider;
     road_command road;
     physics_faults faults;
+    hung_mass hung;         /* while the wheel is held (road.held): nobody rides then */
     double motor_torque_nm; /* at the motor's shaft */
 } physics_command;
 
@@ -70,6 +72,7 @@ typedef struct {
     int crank_engaged;
     int motor_engaged;
     int slipping;
+    double hung_s; /* since a mass was hung on a pedal */
     uint32_t steps;
     gears_state gears;
     motor_heat heat;
@@ -101,6 +104,10 @@ void physics_renew(const physics_config *config, physics_state *state);
  * rotor link. */
 void physics_step(const physics_config *config, physics_state *state,
                   const physics_command *command, double dt_s);
+
+/* Puts the bike on a workbench: all of it stands, the cranks as `hung` says, and the mass begins to
+ * swing. The books start afresh. */
+void physics_hang(const physics_config *config, physics_state *state, const hung_mass *hung);
 
 /* Starts the books afresh; needed after the configuration changed under a moving bike. */
 void physics_begin_ledger(const physics_config *config, physics_state *state);

@@ -4,6 +4,9 @@
 
 #define RAD_PER_DEG (3.14159265358979323846 / 180.0)
 
+/* No crank moves a wheel in a clamp; finite, because no way times it has to be no work. */
+#define CLAMP_N 1e6
+
 /* Most that tyres under this share of the weight push or hold with; infinite where none slips. */
 static double tyres_n(const road_config *config, const road_command *command, double share)
 {
@@ -38,6 +41,7 @@ road_forces road_forces_at(const road_config *config, const road_command *comman
     if (command->brake) {
         forces.brake_n = fmin(config->brake_force_n, tyres_n(config, command, 1.0));
     }
+    if (command->held) forces.brake_n = CLAMP_N;
     if (config->source == LOAD_DYNO) {
         forces.dyno_n = dyno_force_n(config, command, chain_ratio, chain_efficiency);
         forces.rolling_n = config->roller_coefficient * weight_n;

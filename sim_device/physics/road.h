@@ -35,6 +35,7 @@ typedef struct {
     double wind_ms;   /* headwind positive */
     double dyno_nm;   /* at the roller */
     int brake;
+    int held; /* the wheel is in a clamp */
 } road_command;
 
 typedef struct {

@@ -69,7 +69,10 @@ static double felt_nm(const torque_sensor_config *config, torque_sensor_state *s
     state->creep_nm =
         towards(state->creep_nm, config->creep_share * torque_nm, config->creep_s, dt_s);
     double felt = torque_nm + hysteresis_nm(config, state, torque_nm) + state->creep_nm;
-    if (config->bending_share > 0.0) {
+    if (state->hung_nm > 0.0) {
+        const double from_most_rad = crank_angle_rad - config->bending_deg * PI / 180.0;
+        felt += config->bending_share * state->hung_nm * cos(from_most_rad);
+    } else if (config->bending_share > 0.0) {
         felt += config->bending_share * torque_nm * cos(crank_angle_rad);
     }
     /* The left pedal is on its way down in the first half of the turn. */

@@ -27,23 +27,25 @@ typedef struct {
     double gauge_factor;
     double bridge_v;
     double amplifier_gain;
-    double zero_v;         /* amplifier's output without load */
-    double converter_v;    /* of the full scale */
-    double adc_bits;       /* 12 or 16 */
-    double nm_per_count;   /* 0.01, thesis_checks I-21 */
-    double zero_counts;    /* reading without load */
-    double gain;           /* 1 is a true sensor; Table 3-1's rig shows 1.00419 (thesis_checks 3) */
-    double noise_nm;       /* standard deviation of one word */
-    double bending_share;  /* cross-talk of the pedal's bending moment, in phase with the crank */
-    double side_share;     /* how much more of the left pedal's push is felt than of the right's */
-    double hysteresis_nm;  /* width of the loop over full scale (Prandtl-Ishlinskii) */
-    double creep_share;    /* what a held torque adds in the end */
-    double creep_s;        /* first order */
-    double ambient_degc;   /* where the bike is */
-    double board_soak_s;   /* the rotor's thermometer follows the air */
-    double gauge_soak_s;   /* the gauges on the spindle follow the thermometer */
-    double reference_degc; /* of the calibration */
-    double zero_nm_per_k;  /* of this specimen */
+    double zero_v;        /* amplifier's output without load */
+    double converter_v;   /* of the full scale */
+    double adc_bits;      /* 12 or 16 */
+    double nm_per_count;  /* 0.01, thesis_checks I-21 */
+    double zero_counts;   /* reading without load */
+    double gain;          /* 1 is a true sensor; Table 3-1's rig shows 1.00419 (thesis_checks 3) */
+    double noise_nm;      /* standard deviation of one word */
+    double bending_share; /* cross-talk of the pedal's bending moment, in phase with the crank */
+    double bending_lever_m; /* from the spindle's bearing out to the middle of a pedal */
+    double bending_deg;     /* how far after the crank's top a hung mass's bending is felt most */
+    double side_share;      /* how much more of the left pedal's push is felt than of the right's */
+    double hysteresis_nm;   /* width of the loop over full scale (Prandtl-Ishlinskii) */
+    double creep_share;     /* what a held torque adds in the end */
+    double creep_s;         /* first order */
+    double ambient_degc;    /* where the bike is */
+    double board_soak_s;    /* the rotor's thermometer follows the air */
+    double gauge_soak_s;    /* the gauges on the spindle follow the thermometer */
+    double reference_degc;  /* of the calibration */
+    double zero_nm_per_k;   /* of this specimen */
     double span_share_per_k; /* of this specimen */
     double fault_drift_nm_per_min;
 } torque_sensor_config;
@@ -55,6 +57,7 @@ typedef struct {
     double board_degc;
     double gauge_degc;
     double fault_drift_nm;
+    double hung_nm; /* bends the spindle: a mass on a pedal; 0: a rider, or nobody */
     int16_t counts; /* of the last reading */
 } torque_sensor_state;
 

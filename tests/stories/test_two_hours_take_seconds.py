@@ -75,6 +75,21 @@ def test_time_passes_only_when_it_is_told_to(server: SpindleServer) -> None:
     assert later["advance_left_s"] == 0.0
 
 
+def test_a_mass_hangs_on_a_pedal_and_the_unit_tells_its_torque(server: SpindleServer) -> None:
+    device = named(server, "three")
+    exact = {"mass_limit_share": 0.0, "arm_limit_m": 0.0, "angle_limit_deg": 0.0}
+    said = {"side": "left", "mass_kg": 30.0, "crank_angle_deg": 60.0, "arm_m": 0.17, **exact}
+
+    hung = server.simulate(device, workbench=said)
+    advance(server, device, 30.0)
+    told = server.get(f"/devices/{device}/snapshot")["channels"]
+    free = server.simulate(device, workbench=None)
+
+    assert (hung["workbench"], free["workbench"]) == (said, None)
+    # m g l cos(angle), thesis eq. 3.22.
+    assert told["rider_torque_nm"] == pytest.approx(30.0 * 9.80665 * 0.17 * 0.5, abs=0.05)
+
+
 def test_a_ride_in_virtual_time_is_recorded_whole_and_twice_the_same(
     server: SpindleServer,
 ) -> None:

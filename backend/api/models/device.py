@@ -296,6 +296,21 @@ class SimulationRotorLink(Answer):
     words_lost: int
 
 
+class SimulationWorkbench(Answer):
+    """A bike whose wheel is held, with a mass on a pedal. What hangs in truth is within the limits
+    of what is said here."""
+
+    side: Literal["left", "right"]
+    mass_kg: float
+    crank_angle_deg: float = Field(
+        description="0 is the crank level and forward, positive the pedal going down."
+    )
+    arm_m: float
+    mass_limit_share: float
+    arm_limit_m: float
+    angle_limit_deg: float
+
+
 class Simulation(BaseModel):
     """What rider, road and clock of a simulated unit do now. A unit may tell more than this."""
 
@@ -321,6 +336,9 @@ class Simulation(BaseModel):
     ambient_degc: float
     grip: float
     faults: dict[str, bool | float | str] = Field(description="What is broken; empty: nothing.")
+    workbench: SimulationWorkbench | None = Field(
+        default=None, description="Null while the bike is on the road; nobody rides it here."
+    )
     rotor_link: SimulationRotorLink
     energy_balance_error_pct: float | None = Field(
         description="By how much the energy books fail to close; null before any work was done."
@@ -358,6 +376,16 @@ class SimulationFaults(Question):
     coupling: float | None = None
 
 
+class SimulationWorkbenchChange(Question):
+    side: Literal["left", "right"] | None = None
+    mass_kg: float | None = None
+    crank_angle_deg: float | None = None
+    arm_m: float | None = None
+    mass_limit_share: float | None = None
+    arm_limit_m: float | None = None
+    angle_limit_deg: float | None = None
+
+
 class SimulationAdvance(Question):
     """Time that shall pass for a unit with a virtual clock; a day at most."""
 
@@ -392,3 +420,7 @@ class SimulationChange(Question):
     ambient_degc: float | None = None
     grip: float | None = Field(default=None, description="Of the rear tyre; 0: it never slips.")
     faults: SimulationFaults | None = None
+    workbench: SimulationWorkbenchChange | None = Field(
+        default=None,
+        description="What is hung on a pedal swings at first; null takes the bike off.",
+    )

@@ -6588,6 +6588,8 @@ export interface components {
             faults: {
                 [key: string]: boolean | number | string;
             };
+            /** @description Null while the bike is on the road; nobody rides it here. */
+            workbench?: components["schemas"]["SimulationWorkbench"] | null;
             rotor_link: components["schemas"]["SimulationRotorLink"];
             /**
              * Energy Balance Error Pct
@@ -6661,6 +6663,8 @@ export interface components {
              */
             grip?: number | null;
             faults?: components["schemas"]["SimulationFaults"] | null;
+            /** @description What is hung on a pedal swings at first; null takes the bike off. */
+            workbench?: components["schemas"]["SimulationWorkbenchChange"] | null;
         };
         /**
          * SimulationFaults
@@ -6736,6 +6740,50 @@ export interface components {
             words_bad: number;
             /** Words Lost */
             words_lost: number;
+        };
+        /**
+         * SimulationWorkbench
+         * @description A bike whose wheel is held, with a mass on a pedal. What hangs in truth is within the limits
+         *     of what is said here.
+         */
+        SimulationWorkbench: {
+            /**
+             * Side
+             * @enum {string}
+             */
+            side: "left" | "right";
+            /** Mass Kg */
+            mass_kg: number;
+            /**
+             * Crank Angle Deg
+             * @description 0 is the crank level and forward, positive the pedal going down.
+             */
+            crank_angle_deg: number;
+            /** Arm M */
+            arm_m: number;
+            /** Mass Limit Share */
+            mass_limit_share: number;
+            /** Arm Limit M */
+            arm_limit_m: number;
+            /** Angle Limit Deg */
+            angle_limit_deg: number;
+        };
+        /** SimulationWorkbenchChange */
+        SimulationWorkbenchChange: {
+            /** Side */
+            side?: ("left" | "right") | null;
+            /** Mass Kg */
+            mass_kg?: number | null;
+            /** Crank Angle Deg */
+            crank_angle_deg?: number | null;
+            /** Arm M */
+            arm_m?: number | null;
+            /** Mass Limit Share */
+            mass_limit_share?: number | null;
+            /** Arm Limit M */
+            arm_limit_m?: number | null;
+            /** Angle Limit Deg */
+            angle_limit_deg?: number | null;
         };
         /**
          * SinceChange

@@ -57,6 +57,7 @@ HEADERS: tuple[str, ...] = (
     "sim_device/physics/torque_sensor.h",
     "sim_device/physics/rotor_link.h",
     "sim_device/physics/wheel_sensor.h",
+    "sim_device/physics/hung_mass.h",
     "sim_device/physics/physics.h",
     "sim_device/firmware/boards/host/unit.h",
 )

@@ -250,6 +250,11 @@ class Unit:
         road.dyno_nm = dyno_nm
         road.brake = int(brake)
 
+    def hang_mass(self, hung: dict[str, float] | None) -> None:
+        """Puts the bike on a workbench and hangs a mass there: `name` -> value of hung_mass in
+        hung_mass.h. None takes it off."""
+        lib.unit_hang_mass(self._unit, ffi.NULL if hung is None else ffi.new("hung_mass *", hung))
+
     def set_faults(self, faults: dict[str, float]) -> None:
         """`name` -> value of physics_faults in physics.h; what is not named is sound."""
         lib.unit_stimulus(self._unit).faults = faults

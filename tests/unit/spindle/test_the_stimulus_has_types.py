@@ -18,9 +18,10 @@ from backend.api.models.device import (
     SimulationFaults,
     SimulationRiderChange,
     SimulationRoadChange,
+    SimulationWorkbenchChange,
 )
 from spindle.client import Unit
-from spindle.stimulus import Faults, Rider, Road, Stimulus
+from spindle.stimulus import Faults, Rider, Road, Stimulus, Workbench
 from spindle.testing import DriveUnit
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -40,13 +41,14 @@ def choices(kind: Any) -> set[str]:
         (Rider, SimulationRiderChange),
         (Road, SimulationRoadChange),
         (Faults, SimulationFaults),
+        (Workbench, SimulationWorkbenchChange),
     ],
 )
 def test_names_and_choices_are_those_of_the_api(ours: type, theirs: type[BaseModel]) -> None:
     offered, taken = get_type_hints(ours), get_type_hints(theirs)
 
     assert set(offered) == set(theirs.model_fields)
-    nested = {"rider", "road", "faults"}
+    nested = {"rider", "road", "faults", "workbench"}
     assert all(choices(offered[name]) == choices(taken[name]) for name in set(offered) - nested)
 
 

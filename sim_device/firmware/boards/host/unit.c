@@ -428,6 +428,14 @@ physics_command *unit_stimulus(unit *self) { return &self->stimulus; }
 
 void unit_begin_ledger(unit *self) { physics_begin_ledger(&self->bike, &self->state); }
 
+void unit_hang_mass(unit *self, const hung_mass *hung)
+{
+    self->stimulus.road.held = hung != NULL;
+    if (hung == NULL) return;
+    self->stimulus.hung = *hung;
+    physics_hang(&self->bike, &self->state, hung);
+}
+
 void unit_place(unit *self, double speed_kmh, uint64_t seed)
 {
     const uint32_t pulses = self->state.wheel.pulses; /* the unit's counter goes on */

@@ -132,6 +132,9 @@ physics_config *unit_bike(unit *self);
 physics_command *unit_stimulus(unit *self);
 void unit_begin_ledger(unit *self);
 
+/* Puts the bike on a workbench, its wheel held, and hangs a mass there; NULL takes it off again. */
+void unit_hang_mass(unit *self, const hung_mass *hung);
+
 /* Puts the bike on the road at this speed, its energy ledger and noise started afresh. */
 void unit_place(unit *self, double speed_kmh, uint64_t seed);
 /* A fresh battery, rider and sensor on the bike as it rolls; its configuration may have changed. */
