@@ -27,7 +27,7 @@ const GROUPS = [
   chunk('apart', 'shared/config/(SettingsApart|SmallTable)'),
   chunk('rides', 'features/rides/(?!ride/|insight/|compare/|home/(ManyRides|Standing))'),
   chunk('try', 'features/try/(?!proposals)'),
-  chunk('ride', 'features/rides/ride/'),
+  chunk('ride', 'features/rides/ride/(?!from_file/)'),
   chunk('compare', 'features/rides/compare/'),
   chunk('insight', 'features/rides/insight'),
   chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet)'),

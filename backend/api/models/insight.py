@@ -91,6 +91,8 @@ class Distribution(Answer):
     zones: bool = Field(description="Zones of `reference`; else plain bands.")
     reference: float | None
     bands: list[Band]
+    mean: float
+    most: float = Field(description="The greatest mean of a second.")
     known_s: float
     unknown_s: float
 

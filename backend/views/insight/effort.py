@@ -39,12 +39,15 @@ class Band:
 @dataclass(frozen=True)
 class Distribution:
     """Time of a quantity by bands. zones: whether they are zones of `reference` (threshold power,
-    greatest heart rate), else plain bands. unknown_s: time without the quantity."""
+    greatest heart rate), else plain bands. mean, most: of what is counted, most of a second.
+    unknown_s: time without the quantity."""
 
     channel: str
     zones: bool
     reference: float | None
     bands: tuple[Band, ...]
+    mean: float
+    most: float
     known_s: float
     unknown_s: float
 
@@ -168,6 +171,8 @@ def distribution(
             Band(low, high, float(time_s))
             for (low, high), time_s in zip(pairwise(limits), spent, strict=True)
         ),
+        mean=float(np.average(values[there], weights=held_s[there])),
+        most=float(values[there].max()),
         known_s=float(held_s[there].sum()),
         unknown_s=float(held_s[~np.isfinite(values)].sum()),
     )

@@ -3373,6 +3373,13 @@ export interface components {
             reference: number | null;
             /** Bands */
             bands: components["schemas"]["Band"][];
+            /** Mean */
+            mean: number;
+            /**
+             * Most
+             * @description The greatest mean of a second.
+             */
+            most: number;
             /** Known S */
             known_s: number;
             /** Unknown S */

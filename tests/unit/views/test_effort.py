@@ -62,6 +62,7 @@ def test_heart_rate_zones_meet_at_tenths_of_the_greatest() -> None:
 
     assert told is not None
     assert [band.seconds for band in told.bands] == [1, 1, 1, 1, 2]
+    assert (told.mean, told.most) == (pytest.approx(890 / 6), 200.0)
 
 
 def test_torque_of_a_head_unit_is_power_over_cadence() -> None:

@@ -37,6 +37,7 @@ export const en = {
   heart: 'Heart rate',
   threshold: 'threshold {value}',
   greatest: 'greatest {value}',
+  mean_most: 'Mean {mean}, most in a second {most}',
   no_threshold: 'Bands, no zones: your threshold power is not told.',
   no_heart_max: 'Bands, no zones: your greatest heart rate is not told.',
   tell: 'Tell it in Settings',

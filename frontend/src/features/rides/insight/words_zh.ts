@@ -33,6 +33,7 @@ export const zh: Record<InsightKey, string> = {
   heart: '心率',
   threshold: '阈值 {value}',
   greatest: '最大 {value}',
+  mean_most: '平均 {mean}，单秒最大 {most}',
   no_threshold: '只有分段，没有分区：未告知您的阈值功率。',
   no_heart_max: '只有分段，没有分区：未告知您的最大心率。',
   tell: '在设置中填写',

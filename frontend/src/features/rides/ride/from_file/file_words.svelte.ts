@@ -22,9 +22,48 @@ export const en = {
   taken_file_name: 'Date and time are from the file’s name',
   taken_none: 'The file has no date: the ride stands at the time it was sent',
   unread: '{field} is no single number ({count} records)',
+  same_ride: 'The same ride, recorded by another device:',
+  devices: 'What recorded it ({count})',
+  serial: 'serial number {number}',
+  battery: 'battery {state}',
+  state_new: 'new',
+  state_good: 'good',
+  state_ok: 'ok',
+  state_low: 'low',
+  state_critical: 'critical',
+  state_charging: 'charging',
+  kind_recorder: 'Recorder',
+  kind_bike_power: 'Power meter',
+  kind_heart_rate: 'Heart rate',
+  kind_bike_speed: 'Speed',
+  kind_bike_cadence: 'Cadence',
+  kind_bike_speed_cadence: 'Speed and cadence',
+  kind_light_electric_vehicle: 'E-bike',
+  kind_barometer: 'Barometer',
+  kind_gps: 'Positions',
+  kind_accelerometer: 'Acceleration',
+  kind_environment_sensor: 'Temperature',
+  kind_fitness_equipment: 'Trainer',
+  kind_bike_light: 'Light',
+  kind_bike_radar: 'Radar',
+  sport_cycling: 'cycling',
+  sport_e_biking: 'e-bike',
+  sport_running: 'running',
+  sport_walking: 'walking',
+  sport_hiking: 'hiking',
+  sport_swimming: 'swimming',
+  sport_transition: 'transition',
+  sport_training: 'training',
+  sport_generic: 'not told',
 }
 
 export type RideFileKey = keyof typeof en
 export type FileSay = (key: RideFileKey, values?: Values) => string
+
+/** A word of the file: ours where there is one, else its own. */
+export function told(say: FileSay, of: 'kind' | 'sport' | 'state', word: string): string {
+  const key = `${of}_${word.toLowerCase()}`
+  return key in en ? say(key as RideFileKey) : word.replaceAll('_', ' ')
+}
 
 export const words = await pageWords(en, async () => (await import('./file_words_zh')).zh)

@@ -1,0 +1,34 @@
+/* Goal: what recorded a ride is told in words where the file has words, and never guessed. */
+import { expect, it } from 'vitest'
+import { told, type FileSay } from './file_words.svelte'
+import { deviceLine, deviceName } from './instruments'
+
+const say: FileSay = (key, values) => [key, ...Object.values(values ?? {})].join(' ')
+const nothing = {
+  kind: null,
+  maker: null,
+  product: null,
+  serial_number: null,
+  software_version: null,
+  battery_v: null,
+  battery_status: null,
+}
+
+it('names maker and product, but no product that is a number alone', () => {
+  expect(deviceName({ ...nothing, maker: 'wahoo_fitness', product: 'ELEMNT' })).toBe(
+    'wahoo fitness ELEMNT',
+  )
+  expect(deviceName({ ...nothing, maker: 'garmin', product: '3121' })).toBe('garmin')
+  expect(deviceName(nothing)).toBe('')
+})
+
+it('tells serial number and battery where they are known', () => {
+  const known = { ...nothing, serial_number: '77', battery_status: 'low' }
+  expect(deviceLine(known, say)).toBe('serial 77 · battery state_low')
+  expect(deviceLine({ ...nothing, battery_status: 'status_0' }, say)).toBe('')
+})
+
+it('keeps a word of the file that we have none for', () => {
+  expect(told(say, 'sport', 'cycling')).toBe('sport_cycling')
+  expect(told(say, 'sport', 'rock_climbing')).toBe('rock climbing')
+})

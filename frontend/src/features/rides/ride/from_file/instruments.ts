@@ -1,0 +1,27 @@
+// The devices that recorded a ride, in words.
+import type { Ride } from '$shared/api/types'
+import { told, type FileSay } from './file_words.svelte'
+
+type Instrument = Ride['instruments'][number]
+
+/** Maker and product as the file has them; a product that is a number alone says nothing. */
+export function deviceName({ maker, product }: Instrument): string {
+  const named = product !== null && !/^\d+$/.test(product) ? product : null
+  return [maker?.replaceAll('_', ' '), named].filter((one) => one).join(' ')
+}
+
+export function deviceLine({ serial_number, battery_status }: Instrument, say: FileSay): string {
+  const known = battery_status !== null && !battery_status.startsWith('status_')
+  return [
+    serial_number === null ? '' : say('serial', { number: serial_number }),
+    known ? say('battery', { state: told(say, 'state', battery_status) }) : '',
+  ]
+    .filter((one) => one !== '')
+    .join(' · ')
+}
+
+/** What recorded a ride: by its file, else the unit it came from; '' where nobody knows. */
+export function recorderOf({ instruments, device }: Ride): string {
+  const recorder = instruments.find(({ kind }) => kind === 'recorder')
+  return (recorder && deviceName(recorder)) || (device.device_serial ?? '')
+}
