@@ -8,13 +8,14 @@ import threading
 
 
 class Relay:
-    """Listens on `port` and passes bytes on to a unit's; `cut` and `mend` as often as needed."""
+    """Listens on `port`, a free one if 0, and passes bytes on to a unit's; `cut` and `mend` as
+    often as needed."""
 
-    def __init__(self, unit_port: int) -> None:
+    def __init__(self, unit_port: int, port: int = 0) -> None:
         self._unit_port = unit_port
         self._lock = threading.Lock()
         self._open: list[socket.socket] = []
-        self.port = 0
+        self.port = port
         self.mend()
 
     def mend(self) -> None:

@@ -216,6 +216,8 @@ class Reading(Answer):
     raw_counts: list[int | None]
     mean_counts: float | None
     deviation_counts: float | None
+    spread_counts: float | None = Field(description="Of the means of its quarter seconds.")
+    spread_allowed_counts: float | None
     window_s: float
     found_nm: float | None
     fitted_nm: float | None

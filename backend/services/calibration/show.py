@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from backend.domain.calibration.judgement.history import Past, among_model, change
 from backend.domain.calibration.worked import Worked
@@ -60,8 +61,10 @@ class CalibrationShow:
         setup = kept.setup_in(body)
         plan = () if setup is None else steps(setup, kept.counting(captures))
         others = [one for one in self._store.list() if one.id != job_id]
-        now = result_of(body, worked, None).past
         told = summary_of(job, worked)
+        if job.closed_us is None:
+            told = replace(told, result=result_of(body, worked, None))
+        now = told.result.past
         return JobView(
             **{name: getattr(told, name) for name in JobSummary.__dataclass_fields__},
             device_id=None if device is None else device.id,

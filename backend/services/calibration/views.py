@@ -80,7 +80,8 @@ class RecordChange:
 @dataclass(frozen=True)
 class Result:
     """What a job came to. past: its coefficients with their uncertainty. expanded_nm: the largest
-    of the budget. linearity_pct: to the line, the worse side. All None of a job without a fit."""
+    of the budget. linearity_pct: to the line, the worse side. All None of a job without a fit. That
+    of an open job is told in JobView only."""
 
     verdict: str | None = None
     past: Past | None = None
@@ -160,6 +161,8 @@ class ReadingView:
     raw_counts: tuple[int | None, ...]
     mean_counts: float | None
     deviation_counts: float | None
+    spread_counts: float | None
+    spread_allowed_counts: float | None
     window_s: float
     found_nm: float | None
     fitted_nm: float | None

@@ -5180,6 +5180,13 @@ export interface components {
             mean_counts: number | null;
             /** Deviation Counts */
             deviation_counts: number | null;
+            /**
+             * Spread Counts
+             * @description Of the means of its quarter seconds.
+             */
+            spread_counts: number | null;
+            /** Spread Allowed Counts */
+            spread_allowed_counts: number | null;
             /** Window S */
             window_s: number;
             /** Found Nm */

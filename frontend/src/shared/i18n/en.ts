@@ -347,6 +347,7 @@ export const en = {
     'O and C switch the lines of open and closed loop. On the road’s lines ← → move the cursor, ' +
     'Shift further; K shows km or time.',
   'keys.why': '← → move the moment, Shift by 1 s, N and P go to the next and last cut.',
+  'keys.sensor': 'Space captures a reading, Backspace takes the last one back.',
   'keys.numbers': 'Numbers',
   'keys.numbers_text': 'Arrow up and down nudge; with Shift five times as far.',
 

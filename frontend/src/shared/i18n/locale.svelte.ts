@@ -49,7 +49,8 @@ export class Locale {
     return new Intl.NumberFormat(tags[this.language], {
       minimumFractionDigits: digits,
       maximumFractionDigits: digits,
-    }).format(Object.is(value, -0) ? 0 : value)
+      signDisplay: 'negative', // of what is not nothing when rounded
+    }).format(value)
   }
 
   /** A share in per cent with one decimal. Rounded down: what is not whole never reads 100. */

@@ -309,6 +309,7 @@ export const zh: Record<Key, string> = {
     'S 平滑，Ctrl+C 与 Ctrl+V 复制粘贴，Delete 还原，Ctrl+Z 与 Ctrl+Y 撤销和重做。',
   'keys.try': 'O 与 C 显示或隐藏开环和闭环的曲线。在路线曲线上用 ← → 移动光标，加 Shift 移动更多；K 切换公里或时间。',
   'keys.why': '← → 移动时刻，加 Shift 移动 1 s；N 与 P 前往下一处和上一处限制。',
+  'keys.sensor': '空格键采集读数，退格键收回上一个。',
   'keys.numbers': '数字',
   'keys.numbers_text': '上下方向键微调；按住 Shift 为五倍。',
 

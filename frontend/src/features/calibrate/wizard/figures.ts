@@ -1,0 +1,51 @@
+// The figures of a calibration beside what is allowed, as bars; all from the server's own.
+import type { Figure } from './meaning_words.svelte'
+import type { Job } from './types'
+
+export interface Bar {
+  figure: Figure
+  pct: number | null
+  allowed_pct: number
+}
+
+/** In per cent of the full scale, the worse pedal of the two. */
+export function barsOf(job: Job): Bar[] {
+  const { worked, setup } = job
+  if (!worked?.fit || !setup) return []
+  const limits = worked.judgement.limits
+  const full_nm = setup.full_scale_nm
+  const share = (nm: number | null) => (nm === null ? null : (100 * Math.abs(nm)) / full_nm)
+  const worse = (figures: number[]) => (figures.length > 0 ? Math.max(...figures) : null)
+  const line = worse(worked.figures.map((side) => side.linearity_line_pct))
+  const loop = worse(worked.figures.map((side) => side.hysteresis_pct))
+  const total = worse(worked.figures.map((side) => side.total_deviation_pct))
+  return [
+    { figure: 'linearity_line', pct: line, allowed_pct: limits.linearity_pct },
+    { figure: 'hysteresis', pct: loop, allowed_pct: limits.hysteresis_pct },
+    {
+      figure: 'repeatability',
+      pct: share(2 * worked.fit.repeatability_nm),
+      allowed_pct: limits.repeatability_pct,
+    },
+    {
+      figure: 'zero_return',
+      pct: share(worked.zero_return_nm),
+      allowed_pct: limits.zero_return_pct,
+    },
+    { figure: 'total', pct: total, allowed_pct: limits.total_pct },
+    {
+      figure: 'expanded',
+      pct: share(worked.budget ? Math.max(...worked.budget.expanded_nm) : null),
+      allowed_pct: limits.expanded_pct,
+    },
+  ]
+}
+
+/** Standard uncertainties at the full scale, the largest first. */
+export function sharesOf(job: Job): { figure: Figure; standard_nm: number }[] {
+  const found = (job.worked?.budget?.contributions ?? []).map((one) => ({
+    figure: one.cause as Figure,
+    standard_nm: one.standard_nm.at(-1) ?? 0,
+  }))
+  return found.sort((one, other) => other.standard_nm - one.standard_nm)
+}

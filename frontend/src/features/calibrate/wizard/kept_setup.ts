@@ -1,0 +1,65 @@
+// Instruments and plan as they are typed, remembered on this workstation.
+import type { Job, SetupRequest } from './types'
+
+const KEY = 'spindle.calibration.setup'
+
+/** What four discs of ten kilograms and a bathroom's care can do: a plan to begin with. */
+export const FIRST: SetupRequest = {
+  arm_m: 0.17,
+  arm_limit_m: 0.0005,
+  // Half of what gravity differs by from the equator to the poles: true wherever this is.
+  gravity: { gravity_ms2: 9.807, standard_ms2: 0.015 },
+  masses: [
+    { name: '10 kg', mass_kg: 10, mass_class: null, limit_kg: 0.01 },
+    { name: '5 kg', mass_kg: 5, mass_class: null, limit_kg: 0.005 },
+  ],
+  loads_kg: [10, 20, 30, 40],
+  full_scale_nm: 80,
+  strokes: 2,
+  sides: ['right', 'left'],
+  angles_deg: [0],
+  level_limit_deg: 2,
+  resolution_counts: 1,
+  thermometer_limit_k: 0.5,
+  zero_limit_nm_per_k: 0.02,
+  span_limit_share_per_k: 0.0002,
+}
+
+/** The setup that a job begins with: its own, this workstation's last, another's here, or the
+    first. */
+export function setupOf(job: Job): SetupRequest {
+  const own = job.setup ?? null
+  return asked(own) ?? kept() ?? asked(job.suggested_setup) ?? structuredClone(FIRST)
+}
+
+export function keepSetup(setup: SetupRequest): void {
+  try {
+    localStorage.setItem(KEY, JSON.stringify(setup))
+  } catch {
+    // Nothing can be kept here: the next calibration suggests it all the same.
+  }
+}
+
+function kept(): SetupRequest | null {
+  try {
+    const found = JSON.parse(localStorage.getItem(KEY) ?? 'null') as Partial<SetupRequest> | null
+    return found && { ...structuredClone(FIRST), ...found }
+  } catch {
+    return null
+  }
+}
+
+/** A setup as it is told, asked for again. */
+function asked(told: Job['setup']): SetupRequest | null {
+  if (!told) return null
+  const { gravity, gain_nm_per_count, ...rest } = told
+  void gain_nm_per_count // the unit's to tell
+  const { latitude_deg, height_m, gravity_ms2, standard_ms2 } = gravity
+  const place = latitude_deg != null && height_m != null
+  return {
+    ...rest,
+    gravity: place
+      ? { latitude_deg, height_m, height_standard_m: 50 }
+      : { gravity_ms2, standard_ms2 },
+  } as SetupRequest
+}
