@@ -37,6 +37,7 @@ from backend.services.imports.mapping import TableMapping
 from backend.services.imports.sample import sample_ride
 from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
 from backend.services.keeping import Keeping
+from backend.services.rides.bike.numbers import BikeNumbers
 from backend.services.rides.cards import RideCards
 from backend.services.rides.fault_moment import FaultMoments, RecentRows
 from backend.services.rides.home import RiderHome
@@ -114,8 +115,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
         for url in settings.device:
             in_background(url, partial(devices.add, url))
         replay = RideReplay(Preview(), memory.ride_config)
-        library = Library(store.library)
-        inspection = Inspection(devices)
+        library, inspection = Library(store.library), Inspection(devices)
         proposals = Proposals(store, memory.ride_config, certificates)
         closing.callback(proposals.close)
         yield Services(
@@ -131,6 +131,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             mark=MarkMoment(recorder, store.marks, devices.get),
             tuning=tuning,
             calibrations=open_calibrations(devices, store.calibrations, tuning, __version__),
+            bike_numbers=BikeNumbers(store, memory.ride_config, tuning.parameters),
             live=LiveTuning(devices),
             preview=Preview(),
             library=library,

@@ -13,6 +13,7 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 from backend.api import docs, errors, live, pages
 from backend.api.problem import Problem, refusals
 from backend.api.routes import (
+    bike_numbers,
     calibrations,
     comparison,
     config,
@@ -73,7 +74,7 @@ def create_app(settings: ApiSettings, services: Services | None = None) -> FastA
     api = APIRouter(prefix=PREFIX)
     # Before the rides: what several rides tell together is at no ride's number.
     told = (logbook, comparison, insight, rides, proposals)
-    of_units = (devices, logs, config, calibrations, sensor_drift)
+    of_units = (devices, logs, config, calibrations, bike_numbers, sensor_drift)
     parts = (health, store, *of_units, law, library, *told, uploads, tables, live)
     for module in parts:
         api.include_router(module.router)

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from backend.services.imports.mapping import TableMapping
     from backend.services.imports.upload import Uploads
     from backend.services.keeping import Keeping
+    from backend.services.rides.bike.numbers import BikeNumbers
     from backend.services.rides.fault_moment import FaultMoments
     from backend.services.rides.home import RiderHome
     from backend.services.rides.insight.questions import Insight
@@ -55,6 +56,7 @@ class Services:
     mark: MarkMoment
     tuning: Tuning
     calibrations: Calibrations
+    bike_numbers: BikeNumbers
     live: LiveTuning
     preview: Preview
     library: Library

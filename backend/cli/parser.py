@@ -8,6 +8,7 @@ from typing import Any
 
 from backend import __version__
 from backend.cli import (
+    bike_numbers,
     calibrate,
     calibration_job,
     device,
@@ -329,6 +330,10 @@ def _add_calibrate(verbs: Any) -> None:
     command = _asking(group, "evaluate", calibrate.evaluate, help=words)
     words = "JSON: full_scale_nm, load_nm, forward, reverse; or a certificate, without a server"
     command.add_argument("file", type=Path, help=words)
+    words = "the wheel's circumference: rolled out, or by the positions of a ride"
+    bike_numbers.add_wheel_arguments(_asking(group, "wheel", bike_numbers.wheel, help=words))
+    words = "the torque gain by the energy of a climb and coast-downs"
+    bike_numbers.add_climb_arguments(_asking(group, "climb", bike_numbers.climb, help=words))
     words = "the sensor's zero over a unit's rides, and when to calibrate it"
     command = _asking(group, "drift", drift.drift, help=words)
     command.add_argument("unit", nargs="?", help="may be left out when there is only one unit")

@@ -944,6 +944,68 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/calibration/wheel/roll-out": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Roll Out Wheel
+         * @description The circumference from rolls on the ground, with its uncertainty, beside the unit's.
+         */
+        post: operations["roll_out_wheel"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/calibration/wheel/track": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Track Wheel
+         * @description The circumference from the positions of a ride against the turns of its wheel; refused by
+         *     name where the rides cannot tell.
+         */
+        post: operations["track_wheel"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/calibration/climb": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Check By Climb
+         * @description The torque gain from the energy of a climb, which shares nothing with masses on a pedal;
+         *     refused by name where the rides cannot tell.
+         */
+        post: operations["check_by_climb"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/devices/{device_id}/sensor-drift": {
         parameters: {
             query?: never;
@@ -2161,6 +2223,31 @@ export interface components {
             to_x: number;
         };
         /**
+         * Balance
+         * @description gain_ratio: true torque over told torque. contributions: standard, of the ratio. expanded:
+         *     k = 2. en: the distance from 1 in both uncertainties. agrees: it is 1 or less.
+         */
+        Balance: {
+            /** Gain Ratio */
+            gain_ratio: number;
+            /** Crank Energy J */
+            crank_energy_j: number;
+            /** Needed Energy J */
+            needed_energy_j: number;
+            /** Contributions */
+            contributions: {
+                [key: string]: number;
+            };
+            /** Expanded */
+            expanded: number;
+            /** En */
+            en: number;
+            /** Agrees */
+            agrees: boolean;
+            /** Sentence */
+            sentence: string;
+        };
+        /**
          * Band
          * @description Time from `low` up to `high`; null for no end.
          */
@@ -2188,6 +2275,40 @@ export interface components {
             low_nm: number;
             /** High Nm */
             high_nm: number;
+        };
+        /** BesideUnit */
+        BesideUnit: {
+            /** Device Id */
+            device_id: string;
+            /**
+             * Kept M
+             * @description What the unit counts with.
+             */
+            kept_m: number;
+            /**
+             * Free Min M
+             * @description What may be set without the maker's token.
+             */
+            free_min_m: number | null;
+            /** Free Max M */
+            free_max_m: number | null;
+            /**
+             * In Band
+             * @description The measured value lies there; null: no band.
+             */
+            in_band: boolean | null;
+            /**
+             * Difference Pct
+             * @description Of the measured value from the kept one.
+             */
+            difference_pct: number;
+            /**
+             * Agrees
+             * @description They differ by no more than the expanded uncertainty.
+             */
+            agrees: boolean;
+            /** @description At what true speed the unit's assist cut-off lies; null: it has none. */
+            cut_off: components["schemas"]["CutOff"] | null;
         };
         /**
          * BestMean
@@ -2646,6 +2767,22 @@ export interface components {
             allowed: number | null;
         };
         /**
+         * Circumference
+         * @description expanded_m: for 95.45 %, coverage its factor. method: `roll_out` or `gps`.
+         */
+        Circumference: {
+            /** Circumference M */
+            circumference_m: number;
+            /** Standard M */
+            standard_m: number;
+            /** Coverage */
+            coverage: number;
+            /** Expanded M */
+            expanded_m: number;
+            /** Method */
+            method: string;
+        };
+        /**
          * Claim
          * @description A statement about every ride there can be with this configuration.
          */
@@ -2702,6 +2839,85 @@ export interface components {
             lowest_m: number;
             /** Highest M */
             highest_m: number;
+        };
+        /**
+         * ClimbRequest
+         * @description A steady climb on the legs alone, and coast-downs with the same rider and tyres; each
+         *     `_limit` is a half width.
+         */
+        ClimbRequest: {
+            climb: components["schemas"]["SlopeRidden"];
+            /** Coast Downs */
+            coast_downs: components["schemas"]["SlopeRidden"][];
+            /**
+             * Mass Kg
+             * @description Bike, rider and all they carry.
+             */
+            mass_kg: number;
+            /** Mass Limit Kg */
+            mass_limit_kg: number;
+            /** Gravity */
+            gravity: components["schemas"]["GravityAt"] | components["schemas"]["GravityGiven"];
+            /** Rise Limit M */
+            rise_limit_m: number;
+            /**
+             * Efficiency
+             * @description From crank to road.
+             * @default 0.97
+             */
+            efficiency: number;
+            /**
+             * Efficiency Limit
+             * @default 0.015
+             */
+            efficiency_limit: number;
+            /**
+             * Wheels Kg
+             * @description What their inertia adds.
+             * @default 2.2
+             */
+            wheels_kg: number;
+            /**
+             * Wheels Limit Kg
+             * @default 0.5
+             */
+            wheels_limit_kg: number;
+            /**
+             * Speed Share Limit
+             * @default 0.005
+             */
+            speed_share_limit: number;
+            /**
+             * Wind Limit Ms
+             * @default 0.5
+             */
+            wind_limit_ms: number;
+            /**
+             * Calibrated Expanded Pct
+             * @description Of the torque by the last calibration, k = 2.
+             * @default 0
+             */
+            calibrated_expanded_pct: number;
+            /**
+             * Motor Off
+             * @description The rider's word, needed where the ride does not tell what the motor gave.
+             * @default false
+             */
+            motor_off: boolean;
+        };
+        /**
+         * ClimbTold
+         * @description The torque gain by an energy balance, and whether it agrees with the calibration.
+         */
+        ClimbTold: {
+            /** Unit Key */
+            unit_key: string | null;
+            /** Rise M */
+            rise_m: number;
+            /** Duration S */
+            duration_s: number;
+            resistance: components["schemas"]["Resistance"];
+            balance: components["schemas"]["Balance"];
         };
         /**
          * ClosedLoop
@@ -3124,6 +3340,22 @@ export interface components {
             at_s: number;
             /** Limits */
             limits: string[];
+        };
+        /**
+         * CutOff
+         * @description What a kept circumference does to a limit. true_kmh: what is ridden when the bike says
+         *     `limit_kmh`. lawful: with all of the uncertainty it stays at or below `limit_kmh` plus what the
+         *     law's test allows.
+         */
+        CutOff: {
+            /** Limit Kmh */
+            limit_kmh: number;
+            /** True Kmh */
+            true_kmh: number;
+            /** Expanded Kmh */
+            expanded_kmh: number;
+            /** Lawful */
+            lawful: boolean;
         };
         /** Cuts */
         Cuts: {
@@ -5411,6 +5643,28 @@ export interface components {
             residual_nm: number;
         };
         /**
+         * Resistance
+         * @description rolling_n: at any speed. air_ns2_m2: times the square of the speed. covariance: of the two,
+         *     from the scatter of the runs about the model.
+         */
+        Resistance: {
+            /** Rolling N */
+            rolling_n: number;
+            /** Air Ns2 M2 */
+            air_ns2_m2: number;
+            /** Covariance */
+            covariance: [
+                [
+                    number,
+                    number
+                ],
+                [
+                    number,
+                    number
+                ]
+            ];
+        };
+        /**
          * Result
          * @description What a job came to; null without a fit.
          */
@@ -6089,6 +6343,29 @@ export interface components {
             battery_wh_per_km: number | null;
             /** Assist Ratio */
             assist_ratio: number | null;
+        };
+        /**
+         * RollOut
+         * @description Rolled straight ahead from one mark on the ground to the next, rider on the saddle.
+         */
+        RollOut: {
+            /** Distances M */
+            distances_m: number[];
+            /**
+             * Turns
+             * @description Of the wheel, in each of the rolls.
+             */
+            turns: number;
+            /**
+             * Tape Limit M
+             * @description Half width of what a roll may be off.
+             */
+            tape_limit_m: number;
+            /**
+             * Device Id
+             * @description A connected unit, to be told beside; null: none.
+             */
+            device_id?: string | null;
         };
         /**
          * RuleShare
@@ -6831,6 +7108,23 @@ export interface components {
             other_changes: number;
         };
         /**
+         * SlopeRidden
+         * @description A part of a ride, and how much higher its end lies than its begin.
+         */
+        SlopeRidden: {
+            /** Ride Id */
+            ride_id: number;
+            /** From S */
+            from_s?: number | null;
+            /** To S */
+            to_s?: number | null;
+            /**
+             * Rise M
+             * @description Null: by the heights of the ride.
+             */
+            rise_m?: number | null;
+        };
+        /**
          * Snapshot
          * @description One row of every channel; a channel without a value is null.
          */
@@ -7557,6 +7851,48 @@ export interface components {
              * @description Neither slot is good: the factory's values apply.
              */
             runs_on_default: boolean;
+        };
+        /** Wheel */
+        Wheel: {
+            measured: components["schemas"]["Circumference"];
+            /**
+             * Distance M
+             * @description On the ground; of rolls, their mean.
+             */
+            distance_m: number;
+            /**
+             * Turns
+             * @description Of the wheel, on that distance.
+             */
+            turns: number;
+            beside: components["schemas"]["BesideUnit"] | null;
+        };
+        /**
+         * WheelByTrack
+         * @description A ride whose speed is counted by the wheel, and positions of the same way.
+         */
+        WheelByTrack: {
+            /** Ride Id */
+            ride_id: number;
+            /** From S */
+            from_s?: number | null;
+            /** To S */
+            to_s?: number | null;
+            /**
+             * Track Ride Id
+             * @description Another device's ride at the same time, which has the positions; the bike stands at both ends of the window then. Null: the ride itself has them.
+             */
+            track_ride_id?: number | null;
+            /**
+             * Told Circumference M
+             * @description What the ride's device counts with; null: as its kept configuration says.
+             */
+            told_circumference_m?: number | null;
+            /**
+             * Device Id
+             * @description A connected unit, to be told beside; null: none.
+             */
+            device_id?: string | null;
         };
         /**
          * Why
@@ -12020,6 +12356,213 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    roll_out_wheel: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RollOut"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Wheel"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    track_wheel: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["WheelByTrack"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Wheel"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    check_by_climb: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ClimbRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ClimbTold"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
                 headers: {
                     [name: string]: unknown;
                 };

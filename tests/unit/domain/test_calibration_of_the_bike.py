@@ -222,6 +222,7 @@ def test_a_helping_motor_a_bump_and_a_short_coast_are_refused() -> None:
     with pytest.raises(InvalidRequest) as refused:
         balance(climb._replace(motor_w=[80.0] * 1800, rise_m=2.0), found, KNOWN, 0.005)
     assert [fault.code for fault in refused.value.fields] == ["motor_helped", "too_short"]
-    with pytest.raises(InvalidRequest) as refused:
-        resistance([Run([float(i) for i in range(20)], [5.0] * 20)], replace(KNOWN))
-    assert [fault.field for fault in refused.value.fields] == ["runs[0].speed_ms"]
+    for speed_ms in (5.0, 0.0):
+        with pytest.raises(InvalidRequest) as refused:
+            resistance([Run([float(i) for i in range(20)], [speed_ms] * 20)], replace(KNOWN))
+        assert [fault.field for fault in refused.value.fields] == ["runs[0].speed_ms"]

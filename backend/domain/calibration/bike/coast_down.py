@@ -227,7 +227,7 @@ def _checked_runs(runs: Sequence[Run]) -> None:
             field = f"runs[{place}]"
             message = f"{field}: ten samples or more, in order of time, finite"
             faults.append(FieldError(field, "wrong_shape", message))
-        elif speed.max() - speed.min() < 0.3 * speed.max():
+        elif not speed.max() - speed.min() > 0.3 * speed.max():
             field = f"runs[{place}].speed_ms"
             message = f"{field}: the speed must fall by a third to tell rolling from air"
             faults.append(FieldError(field, "too_short", message))

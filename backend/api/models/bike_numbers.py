@@ -1,0 +1,111 @@
+"""The wheel's circumference and the torque gain by a climb, as they are asked for and told."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from backend.api.models.base import Answer, Question
+from backend.api.models.calibration import GravityAt, GravityGiven
+from backend.domain.calibration.bike.coast_down import Balance, Resistance
+from backend.domain.calibration.bike.wheel import Circumference, CutOff
+
+RideNumber = Annotated[int, Field(ge=1, le=2**63 - 1)]
+Second = Annotated[float | None, Field(ge=0, le=1e7)]
+DEVICE = "A connected unit, to be told beside; null: none."
+
+
+class RollOut(Question):
+    """Rolled straight ahead from one mark on the ground to the next, rider on the saddle."""
+
+    distances_m: list[Annotated[float, Field(gt=0, le=1000)]] = Field(min_length=2, max_length=50)
+    turns: float = Field(gt=0, le=400, description="Of the wheel, in each of the rolls.")
+    tape_limit_m: float = Field(ge=0, le=1, description="Half width of what a roll may be off.")
+    device_id: str | None = Field(default=None, max_length=400, description=DEVICE)
+
+
+class WheelByTrack(Question):
+    """A ride whose speed is counted by the wheel, and positions of the same way."""
+
+    ride_id: RideNumber
+    from_s: Second = None
+    to_s: Second = None
+    track_ride_id: RideNumber | None = Field(
+        default=None,
+        description="Another device's ride at the same time, which has the positions; the bike "
+        "stands at both ends of the window then. Null: the ride itself has them.",
+    )
+    told_circumference_m: float | None = Field(
+        default=None,
+        ge=0.5,
+        le=3.0,
+        description="What the ride's device counts with; null: as its kept configuration says.",
+    )
+    device_id: str | None = Field(default=None, max_length=400, description=DEVICE)
+
+
+class BesideUnit(Answer):
+    device_id: str
+    kept_m: float = Field(description="What the unit counts with.")
+    free_min_m: float | None = Field(description="What may be set without the maker's token.")
+    free_max_m: float | None
+    in_band: bool | None = Field(description="The measured value lies there; null: no band.")
+    difference_pct: float = Field(description="Of the measured value from the kept one.")
+    agrees: bool = Field(description="They differ by no more than the expanded uncertainty.")
+    cut_off: CutOff | None = Field(
+        description="At what true speed the unit's assist cut-off lies; null: it has none."
+    )
+
+
+class Wheel(Answer):
+    measured: Circumference
+    distance_m: float = Field(description="On the ground; of rolls, their mean.")
+    turns: float = Field(description="Of the wheel, on that distance.")
+    beside: BesideUnit | None
+
+
+class SlopeRidden(Question):
+    """A part of a ride, and how much higher its end lies than its begin."""
+
+    ride_id: RideNumber
+    from_s: Second = None
+    to_s: Second = None
+    rise_m: float | None = Field(
+        default=None, ge=-2000, le=2000, description="Null: by the heights of the ride."
+    )
+
+
+class ClimbRequest(Question):
+    """A steady climb on the legs alone, and coast-downs with the same rider and tyres; each
+    `_limit` is a half width."""
+
+    climb: SlopeRidden
+    coast_downs: list[SlopeRidden] = Field(min_length=1, max_length=10)
+    mass_kg: float = Field(ge=20, le=400, description="Bike, rider and all they carry.")
+    mass_limit_kg: float = Field(gt=0, le=50)
+    gravity: GravityAt | GravityGiven
+    rise_limit_m: float = Field(gt=0, le=100)
+    efficiency: float = Field(default=0.97, ge=0.5, le=1, description="From crank to road.")
+    efficiency_limit: float = Field(default=0.015, ge=0, le=0.2)
+    wheels_kg: float = Field(default=2.2, ge=0, le=20, description="What their inertia adds.")
+    wheels_limit_kg: float = Field(default=0.5, ge=0, le=10)
+    speed_share_limit: float = Field(default=0.005, ge=0, le=0.1)
+    wind_limit_ms: float = Field(default=0.5, ge=0, le=10)
+    calibrated_expanded_pct: float = Field(
+        default=0.0, ge=0, le=50, description="Of the torque by the last calibration, k = 2."
+    )
+    motor_off: bool = Field(
+        default=False,
+        description="The rider's word, needed where the ride does not tell what the motor gave.",
+    )
+
+
+class ClimbTold(Answer):
+    """The torque gain by an energy balance, and whether it agrees with the calibration."""
+
+    unit_key: str | None
+    rise_m: float
+    duration_s: float
+    resistance: Resistance
+    balance: Balance

@@ -1,0 +1,85 @@
+"""The bike's other numbers, measured in the hour of a calibration: computed, never kept."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fastapi import APIRouter
+
+from backend.api.models.bike_numbers import (
+    ClimbRequest,
+    ClimbTold,
+    RollOut,
+    SlopeRidden,
+    Wheel,
+    WheelByTrack,
+)
+from backend.api.models.calibration import GravityAt
+from backend.api.problem import DAMAGED, refusals
+from backend.api.services import Provided
+from backend.domain.calibration.bike.coast_down import Known
+from backend.domain.calibration.gravity import normal_gravity_ms2
+from backend.services.rides.bike.climb import Question, Slope
+from backend.services.rides.bike.wheel import TrackQuestion
+from backend.services.rides.bike.window import Window
+
+router = APIRouter(prefix="/calibration", tags=["calibration"])
+UNIT = refusals(404, 503, 504)
+
+
+@router.post("/wheel/roll-out", operation_id="roll_out_wheel", response_model=Wheel, responses=UNIT)
+def roll_out_wheel(body: RollOut, services: Provided) -> Any:
+    """The circumference from rolls on the ground, with its uncertainty, beside the unit's."""
+    told = body.distances_m, body.turns, body.tape_limit_m
+    return services.bike_numbers.wheel.rolled(*told, body.device_id)
+
+
+@router.post(
+    "/wheel/track",
+    operation_id="track_wheel",
+    response_model=Wheel,
+    responses={**UNIT, **DAMAGED},
+)
+def track_wheel(body: WheelByTrack, services: Provided) -> Any:
+    """The circumference from the positions of a ride against the turns of its wheel; refused by
+    name where the rides cannot tell."""
+    window = Window(body.ride_id, body.from_s, body.to_s)
+    question = TrackQuestion(window, body.track_ride_id, body.told_circumference_m)
+    return services.bike_numbers.wheel.tracked(question, body.device_id)
+
+
+@router.post(
+    "/climb",
+    operation_id="check_by_climb",
+    response_model=ClimbTold,
+    responses={**refusals(404), **DAMAGED},
+)
+def check_by_climb(body: ClimbRequest, services: Provided) -> Any:
+    """The torque gain from the energy of a climb, which shares nothing with masses on a pedal;
+    refused by name where the rides cannot tell."""
+    return services.bike_numbers.climb(
+        Question(
+            slope(body.climb),
+            [slope(one) for one in body.coast_downs],
+            known(body),
+            body.motor_off,
+            body.calibrated_expanded_pct / 100,
+        )
+    )
+
+
+def slope(asked: SlopeRidden) -> Slope:
+    """A window with its rise."""
+    return Slope(Window(asked.ride_id, asked.from_s, asked.to_s), asked.rise_m)
+
+
+def known(body: ClimbRequest) -> Known:
+    """What is known besides the rides."""
+    place = body.gravity
+    gravity_ms2 = (
+        normal_gravity_ms2(place.latitude_deg, place.height_m)
+        if isinstance(place, GravityAt)
+        else place.gravity_ms2
+    )
+    names = Known.__dataclass_fields__.keys() - {"gravity_ms2"}
+    return Known(gravity_ms2=gravity_ms2, **{name: getattr(body, name) for name in names})

@@ -1,0 +1,99 @@
+"""`spindle calibrate wheel` and `climb`: the bike's other numbers."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+from typing import Any
+
+from backend.cli.client import print_json
+from backend.cli.device import read_json, server_of
+from backend.errors import RequestRefused
+
+
+def add_wheel_arguments(command: ArgumentParser) -> None:
+    """What `wheel` takes."""
+    words = "metres of each roll, two or more"
+    command.add_argument("--rolled", type=float, nargs="+", metavar="M", help=words)
+    command.add_argument("--turns", type=float, default=1.0, help="of the wheel in a roll (1)")
+    words = "metres that tape and marks may be off (0.003)"
+    command.add_argument("--tape-limit", type=float, default=0.003, metavar="M", help=words)
+    command.add_argument("--ride", type=int, metavar="N", help="whose speed is of the wheel")
+    words = "the ride that has the positions (the same)"
+    command.add_argument("--track", type=int, metavar="N", help=words)
+    words = "a part of the ride, seconds since its start"
+    command.add_argument("--window", type=float, nargs=2, metavar=("FROM", "TO"), help=words)
+    words = "metres that the ride's device counts with; as it is kept if absent"
+    command.add_argument("--told", type=float, metavar="M", help=words)
+    command.add_argument("--unit", help="to be told beside")
+
+
+def add_climb_arguments(command: ArgumentParser) -> None:
+    """What `climb` takes."""
+    command.add_argument("file", type=Path, help="JSON, as in docs/calibration.md")
+
+
+def wheel(options: Namespace) -> int:
+    """The circumference; 1 where the unit's differs by more than the uncertainty."""
+    if (options.rolled is None) == (options.ride is None):
+        raise RequestRefused("Say either what was rolled (--rolled) or which ride (--ride).")
+    server = server_of(options)
+    asked: dict[str, Any] = {}
+    if options.unit is not None:
+        asked["device_id"] = server.device_id(options.unit)
+    if options.rolled is not None:
+        asked |= {"distances_m": options.rolled, "turns": options.turns}
+        asked["tape_limit_m"] = options.tape_limit
+        answer = server.ask("POST", "/calibration/wheel/roll-out", json=asked)
+    else:
+        asked |= {"ride_id": options.ride, "track_ride_id": options.track}
+        asked |= dict(zip(("from_s", "to_s"), options.window or (), strict=False))
+        asked["told_circumference_m"] = options.told
+        answer = server.ask("POST", "/calibration/wheel/track", json=asked)
+    print_json(answer) if options.json else print_wheel(answer)
+    return 0 if answer["beside"] is None or answer["beside"]["agrees"] else 1
+
+
+def climb(options: Namespace) -> int:
+    """The torque gain by a climb; 1 where it differs from the calibration."""
+    asked = read_json(options.file)
+    answer = server_of(options).ask("POST", "/calibration/climb", json=asked)
+    print_json(answer) if options.json else print_climb(answer)
+    return 0 if answer["balance"]["agrees"] else 1
+
+
+def print_wheel(answer: dict[str, Any]) -> None:
+    """The circumference, and the unit's beside it."""
+    found, beside = answer["measured"], answer["beside"]
+    way = f"{answer['distance_m']:.2f} m in {answer['turns']:.1f} turns"
+    print(
+        f"{found['circumference_m']:.4f} m ± {found['expanded_m']:.4f} m "
+        f"(k = {found['coverage']:.2f}): {way}."
+    )
+    if beside is None:
+        return
+    said = "agrees" if beside["agrees"] else "DIFFERS"
+    print(
+        f"The unit counts with {beside['kept_m']:.4f} m and {said}: measured "
+        f"{beside['difference_pct']:+.2f} %."
+    )
+    if beside["in_band"] is not None:
+        may = "may be written" if beside["in_band"] else "needs the maker's token"
+        free = f"{beside['free_min_m']:.4f} to {beside['free_max_m']:.4f} m"
+        print(f"The measured value {may}: free are {free}.")
+    if beside["cut_off"] is not None:
+        limit = beside["cut_off"]
+        print(
+            f"Assist that ends at {limit['limit_kmh']:g} km/h by the unit ends at "
+            f"{limit['true_kmh']:.2f} ± {limit['expanded_kmh']:.2f} km/h."
+        )
+
+
+def print_climb(answer: dict[str, Any]) -> None:
+    """What the climb says, and what leaves it open."""
+    found, road = answer["balance"], answer["resistance"]
+    print(f"{found['sentence'].capitalize()} (k = 2); En {found['en']:.2f}.")
+    print(f"  {answer['rise_m']:.1f} m in {answer['duration_s']:.0f} s")
+    print(f"  rolling {road['rolling_n']:.2f} N, air {road['air_ns2_m2']:.3f} N s2/m2")
+    for name, part in sorted(found["contributions"].items(), key=lambda one: -one[1]):
+        print(f"  {name:12} {100 * part:.2f} %")

@@ -1,0 +1,199 @@
+"""Goal: the wheel's circumference from a ride is that of the road it went, and rides that cannot
+tell, of wheel or climb, are refused by the name of what they lack.
+
+Method: rides made row by row in a real store, along a meridian: an arc of R times the angle, with
+R of the sphere that lengths of tracks are told on. The head unit's clock differs by 2 s.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from backend.control import law_defaults
+from backend.domain.calibration.bike.coast_down import Known
+from backend.domain.channels import ChannelSpec, Values
+from backend.domain.ride import Ride, RideRows
+from backend.domain.standards.sphere import EARTH_M
+from backend.errors import InvalidRequest
+from backend.ingest import ImportedRide, Outcome
+from backend.services.imports.upload import Uploads
+from backend.services.rides.bike.climb import ClimbCheck, Question, Slope, rise_by_heights
+from backend.services.rides.bike.wheel import TrackQuestion, WheelMeasure
+from backend.services.rides.bike.window import Window
+from backend.store import Store, open_store
+
+SPECS = {
+    "speed_kmh": ChannelSpec("speed_kmh", "km/h", 0.01),
+    "cadence_rpm": ChannelSpec("cadence_rpm", "rpm", 0.1),
+    "rider_torque_nm": ChannelSpec("rider_torque_nm", "Nm", 0.01),
+    "motor_torque_demanded_nm": ChannelSpec("motor_torque_demanded_nm", "Nm", 0.0001),
+    "altitude_m": ChannelSpec("altitude_m", "m", 0.1),
+    "latitude_deg": ChannelSpec("latitude_deg", "deg", 1e-7, wide=True),
+    "longitude_deg": ChannelSpec("longitude_deg", "deg", 1e-7, wide=True),
+}
+BEGAN_US = 1_700_000_000_000_000
+DAY_S = 86_400.0
+KEPT_M = float(law_defaults()["wheel_circumference_m"])
+LARGER = 1.02
+AT_S = np.arange(620.0)
+RIDING_MS = np.where((AT_S >= 10) & (AT_S <= 610), 6.0, 0.0)
+KNOWN = Known(mass_kg=100.0, mass_limit_kg=0.5, gravity_ms2=9.807, rise_limit_m=0.5)
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Iterator[Store]:
+    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
+        yield opened
+
+
+def kept(store: Store, columns: Mapping[str, Values], later_s: float = 0.0) -> int:
+    """A ride of one row a second. later_s: than BEGAN_US, by its device's clock; another one is
+    another ride."""
+    specs = tuple(SPECS[name] for name in columns)
+    counts = {spec.name: spec.to_counts(columns[spec.name]) for spec in specs}
+    times_us = np.arange(len(next(iter(columns.values()))), dtype=np.int64) * 1_000_000
+    rows = RideRows(specs, times_us, counts)
+    began_us = BEGAN_US + round(later_s * 1e6)
+    outcome = Outcome("complete", (ImportedRide(began_us, 1_000_000, rows),))
+    uploads = Uploads(store, reader=lambda path, name: outcome)
+    (ride_id,) = uploads.receive_file("a.csv", repr((later_s, columns)).encode()).ride_ids
+    uploads.close()
+    return ride_id
+
+
+def told_kmh() -> Values:
+    """Of a wheel larger than its device believes."""
+    return RIDING_MS / LARGER * 3.6
+
+
+def track(later_s: float = 0.0) -> dict[str, Values]:
+    way_m = np.concatenate([[0.0], np.cumsum((RIDING_MS[1:] + RIDING_MS[:-1]) / 2)])
+    way_m = np.interp(AT_S + later_s, AT_S, way_m)
+    return {
+        "latitude_deg": 47.0 + np.degrees(way_m / EARTH_M),
+        "longitude_deg": np.full(len(way_m), 8.0),
+    }
+
+
+def measure(store: Store, source: str = "ride") -> WheelMeasure:
+    def config_of(ride: Ride) -> tuple[dict[str, Any], str]:
+        return law_defaults(), source
+
+    return WheelMeasure(store, config_of, lambda device_id: [])
+
+
+def codes(refused: pytest.ExceptionInfo[InvalidRequest]) -> list[tuple[str, str]]:
+    return [(fault.field, fault.code) for fault in refused.value.fields]
+
+
+def test_a_larger_wheel_is_found_by_the_positions_of_its_own_ride(store: Store) -> None:
+    ride = kept(store, {"speed_kmh": told_kmh(), **track()})
+
+    told = measure(store).tracked(TrackQuestion(Window(ride)), None)
+
+    assert told.distance_m == pytest.approx(6.0 * 601, rel=1e-4)
+    assert told.measured.circumference_m == pytest.approx(LARGER * KEPT_M, rel=1e-3)
+    # 5 m at both ends of 3606 m, half a percent of path, one turn of 1700: rectangles, k = 2.
+    share = math.sqrt(2 * (5 / 3606) ** 2 + 0.005**2 + (1 / told.turns) ** 2) / math.sqrt(3)
+    assert told.measured.expanded_m == pytest.approx(2 * share * LARGER * KEPT_M, rel=1e-3)
+    assert told.beside is None
+
+
+def test_the_positions_may_be_of_another_device_with_a_clock_of_its_own(store: Store) -> None:
+    wheel = kept(store, {"speed_kmh": told_kmh()})
+    other = kept(store, track(later_s=5.0), later_s=3.0)
+
+    told = measure(store).tracked(TrackQuestion(Window(wheel), other), None)
+
+    assert told.measured.circumference_m == pytest.approx(LARGER * KEPT_M, rel=1e-3)
+    with pytest.raises(InvalidRequest) as refused:
+        measure(store).tracked(TrackQuestion(Window(wheel, 100.0, 500.0), other), None)
+    assert codes(refused) == [("ride_id", "not_standing")]
+    later = kept(store, track(), later_s=300.0)
+    with pytest.raises(InvalidRequest) as refused:
+        measure(store).tracked(TrackQuestion(Window(wheel), later), None)
+    assert codes(refused) == [("track_ride_id", "not_covered")]
+
+
+def test_what_a_ride_lacks_for_its_wheel_is_named(store: Store) -> None:
+    bare = kept(store, {"speed_kmh": told_kmh()})
+    whole = kept(store, {"speed_kmh": told_kmh(), **track()}, 1 * DAY_S)
+    holed = track()
+    holed["latitude_deg"][300:320] = np.nan
+    torn = kept(store, {"speed_kmh": told_kmh(), **holed}, 2 * DAY_S)
+
+    for question, source, expected in (
+        (TrackQuestion(Window(bare)), "ride", ("ride_id", "missing_channel")),
+        (TrackQuestion(Window(torn)), "ride", ("ride_id", "missing_rows")),
+        (TrackQuestion(Window(whole)), "defaults", ("told_circumference_m", "missing")),
+    ):
+        with pytest.raises(InvalidRequest) as refused:
+            measure(store, source).tracked(question, None)
+        assert codes(refused) == [expected]
+    stated = TrackQuestion(Window(whole), told_m=KEPT_M)
+    found = measure(store, "defaults").tracked(stated, None).measured
+    assert found.circumference_m == pytest.approx(LARGER * KEPT_M, rel=1e-3)
+
+
+def climb_of(store: Store, asked_nm: float | None, day: int = 1) -> Question:
+    """A coast-down from 9 m/s by 10 N and a climb of 24 m, in rides of a head unit."""
+    coast = kept(store, {"speed_kmh": 3.6 * np.linspace(9.0, 3.0, 60)})
+    flat = np.full(121, 1.0)
+    columns = {"speed_kmh": 3.6 * 4.0 * flat, "rider_torque_nm": 30.0 * flat}
+    columns |= {"cadence_rpm": 70.0 * flat, "altitude_m": 400.0 + np.arange(121) / 5}
+    if asked_nm is not None:
+        columns["motor_torque_demanded_nm"] = asked_nm * flat
+    slopes = [Slope(Window(coast), 0.0)]
+    return Question(Slope(Window(kept(store, columns, day * DAY_S))), slopes, KNOWN, True, 0.0)
+
+
+def test_a_motor_that_nobody_measured_takes_the_rider_s_word(store: Store) -> None:
+    question = climb_of(store, 0.0)
+
+    told = ClimbCheck(store)(question)
+
+    assert told.rise_m == pytest.approx(24.0, abs=0.05)
+    # 100 kg x 9.807 x 24 m and 480 m of the coast-down's 10.4 N, by 0.97 of 30 Nm at 70 rpm.
+    legs_j = 30.0 * 70 * math.pi / 30 * 120
+    assert told.balance.crank_energy_j == pytest.approx(legs_j, rel=1e-9)
+    ratio = told.balance.needed_energy_j / (0.97 * legs_j)
+    assert told.balance.gain_ratio == pytest.approx(ratio, rel=1e-9)
+    assert told.balance.needed_energy_j == pytest.approx(100 * 9.807 * 24 + 480 * 10.4, rel=0.01)
+    for day, asked_nm, motor_off, expected in (
+        (2, 0.0, False, "motor_unknown"),
+        (3, None, False, "motor_unknown"),
+        (4, 0.5, True, "motor_helped"),
+    ):
+        question = climb_of(store, asked_nm, day)
+        with pytest.raises(InvalidRequest) as refused:
+            ClimbCheck(store)(Question(question.climb, question.coast_downs, KNOWN, motor_off, 0.0))
+        assert codes(refused) == [("motor_off", expected)]
+
+
+def test_a_climb_without_heights_or_torque_is_refused_by_name(store: Store) -> None:
+    coast = kept(store, {"speed_kmh": 3.6 * np.linspace(9.0, 3.0, 60)})
+    question = Question(Slope(Window(coast), 20.0), [Slope(Window(coast))], KNOWN, True, 0.0)
+
+    with pytest.raises(InvalidRequest, match="altitude_m") as refused:
+        ClimbCheck(store)(question)
+    assert codes(refused) == [("coast_downs[0]", "missing_channel")]
+    level = [Slope(Window(coast), 0.0)]
+    with pytest.raises(InvalidRequest, match="rider_torque_nm, cadence_rpm") as refused:
+        ClimbCheck(store)(Question(question.climb, level, KNOWN, True, 0.0))
+    assert codes(refused) == [("climb", "missing_channel")]
+
+
+def test_heights_at_the_ends_of_a_slope_are_not_taken_late() -> None:
+    time_s = np.arange(0.0, 100.0, 0.5)
+    noise = np.random.default_rng(4).normal(0.0, 0.1, len(time_s))
+
+    rise_m = rise_by_heights(time_s, 300.0 + 0.2 * time_s + noise)
+
+    # Of a line through 11 heights the end is known to 0.56 of the noise: both 0.08 m.
+    assert rise_m == pytest.approx(0.2 * time_s[-1], abs=3 * 0.08)
