@@ -48,6 +48,7 @@ from firmware_protocol.layout import Value
 from firmware_protocol.parameters import default_config
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.bench import Bench, bytewise
+from tests.fakes.new_unit import new_unit_config
 from tests.fakes.unit_link import LockstepAsUnit
 
 
@@ -64,7 +65,7 @@ def test_the_firmware_is_ready_and_has_the_registry_s_defaults() -> None:
     bench, config = connected()
 
     assert bench.session.state is LinkState.READY
-    assert config.parameters == default_config()
+    assert config.parameters == new_unit_config()
     assert config.generation == bench.session.unit_state.config_generation
     assert config.crc32 == bench.session.unit_state.config_crc32
 
@@ -123,7 +124,7 @@ def test_a_written_table_is_in_the_unit_and_survives_a_restart() -> None:
     restarted = LockstepUnit(seed=1, flash=unit.unit.flash(), boot_id=2)
     again = bench_with(restarted).connect()
     kept = again.ask(read_config())
-    assert after.parameters == default_config() | changes
+    assert after.parameters == new_unit_config() | changes
     assert kept.parameters == after.parameters
     assert kept.generation == after.generation
 

@@ -44,6 +44,10 @@ QUESTIONS = [
     if path.startswith("/api/v1") and "get" in operations
     if "application/json" in operations["get"]["responses"]["200"]["content"]
     if set(re.findall(r"{(\w+)}", path)) <= {"device_id"}
+    if not any(
+        parameter["required"] and parameter["in"] == "query"
+        for parameter in operations["get"].get("parameters", ())
+    )
 ]
 MORE = [
     "/devices/{device_id}/fuzzy-table?table=second",

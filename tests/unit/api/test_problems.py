@@ -145,7 +145,7 @@ def test_a_body_made_to_break_the_reader_is_a_problem(content: bytes) -> None:
     assert response.headers["content-type"] == "application/problem+json"
 
 
-@pytest.mark.parametrize("value", ["null", "true", "[true, true]", "{}"])
+@pytest.mark.parametrize("value", ["true", "[true, true]", "{}"])
 def test_a_value_of_no_kind_is_refused_once_and_by_its_own_name(value: str) -> None:
     app = FastAPI()
     api_errors.install(app)

@@ -101,6 +101,8 @@ def test_two_configurations_share_nothing() -> None:
         ({"fuzzy_table_name": "a\nb"}, 0, "NOT_TEXT", "control characters"),
         ({"fuzzy_table_name": "\ud800"}, 0, "NOT_TEXT", "UTF-8"),
         ({"fuzzy_table_name": 7}, 0, "NOT_TEXT", "must be a text"),
+        ({"fuzzy_table_name": None}, 0, "NOT_TEXT", "must be a text"),
+        ({"fuzzy_gain_points": None}, 0, "WRONG_SHAPE", "must be a list of 5 values"),
         ({"fixed_taper_end_kmh": 15.0}, 0, "TAPER_ORDER", "greater than fixed_taper_start_kmh"),
         ({"assist_limit": 3}, 0, "UNKNOWN_PARAMETER", "is not a parameter of this unit"),
     ],

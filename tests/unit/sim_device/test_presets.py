@@ -18,15 +18,9 @@ from sim_device import preset
 from sim_device.configure import read_image, write_config
 from sim_device.lockstep import LockstepUnit
 from sim_device.preset_unit import parameters_of, preset_unit
+from tests.fakes.new_unit import new_unit_config
 
 # A bike's own, which no preset may overwrite.
-# 0.02 Nm/K and 0.02 %/K of thesis_checks 6, at 0.01 Nm a count: what a factory knows of it.
-SENSOR_AS_DRAWN = {
-    "sensor_offset_counts_per_k": 2.0,
-    "sensor_gain_share_per_k": -2e-4,
-    "sensor_reference_degc": 20.0,
-}
-
 MEASURED = {row.name for row in PARAMETERS if row.record == "CALIBRATION"}
 
 
@@ -75,7 +69,7 @@ def test_a_table_is_the_factory_s_unit_with_another_table() -> None:
     assert set(table) == set(TABLE_PARAMETERS)
     assert parameters_of("even") == default_config() | table
     made = preset_unit("even", 1, {"torque_filter_s": 0.7}).unit
-    told = default_config() | table | SENSOR_AS_DRAWN | {"torque_filter_s": 0.7}
+    told = new_unit_config() | table | {"torque_filter_s": 0.7}
     assert unpack_image(read_image(made)) == told
 
 
