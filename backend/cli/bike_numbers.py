@@ -1,4 +1,4 @@
-"""`spindle calibrate wheel` and `climb`: the bike's other numbers."""
+"""`spindle calibrate wheel`, `cadence` and `climb`: the bike's other numbers."""
 
 from __future__ import annotations
 
@@ -28,6 +28,13 @@ def add_wheel_arguments(command: ArgumentParser) -> None:
     command.add_argument("--unit", help="to be told beside")
 
 
+def add_cadence_arguments(command: ArgumentParser) -> None:
+    """What `cadence` takes."""
+    command.add_argument("ride", type=int)
+    words = "a part of the ride, seconds since its start"
+    command.add_argument("--window", type=float, nargs=2, metavar=("FROM", "TO"), help=words)
+
+
 def add_climb_arguments(command: ArgumentParser) -> None:
     """What `climb` takes."""
     command.add_argument("file", type=Path, help="JSON, as in docs/calibration.md")
@@ -52,6 +59,23 @@ def wheel(options: Namespace) -> int:
         answer = server.ask("POST", "/calibration/wheel/track", json=asked)
     print_json(answer) if options.json else print_wheel(answer)
     return 0 if answer["beside"] is None or answer["beside"]["agrees"] else 1
+
+
+def cadence(options: Namespace) -> int:
+    """The cadence against the crank's turns; 1 where they differ."""
+    asked = {"ride_id": options.ride}
+    asked |= dict(zip(("from_s", "to_s"), options.window or (), strict=False))
+    answer = server_of(options).ask("POST", "/calibration/cadence", json=asked)
+    if options.json:
+        print_json(answer)
+    else:
+        said = "agrees" if answer["agrees"] else "DIFFERS"
+        print(
+            f"{answer['told_rpm']:.2f} rpm told {said}: {answer['error_rpm']:+.2f} rpm from "
+            f"{answer['turns']:.1f} turns in {answer['duration_s']:.1f} s, "
+            f"± {answer['expanded_rpm']:.2f} rpm (k = 2)."
+        )
+    return 0 if answer["agrees"] else 1
 
 
 def climb(options: Namespace) -> int:

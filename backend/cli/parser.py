@@ -332,6 +332,8 @@ def _add_calibrate(verbs: Any) -> None:
     command.add_argument("file", type=Path, help=words)
     words = "the wheel's circumference: rolled out, or by the positions of a ride"
     bike_numbers.add_wheel_arguments(_asking(group, "wheel", bike_numbers.wheel, help=words))
+    words = "the cadence of a ride against the turns of its crank"
+    bike_numbers.add_cadence_arguments(_asking(group, "cadence", bike_numbers.cadence, help=words))
     words = "the torque gain by the energy of a climb and coast-downs"
     bike_numbers.add_climb_arguments(_asking(group, "climb", bike_numbers.climb, help=words))
     words = "the sensor's zero over a unit's rides, and when to calibrate it"

@@ -122,6 +122,15 @@ def test_a_planted_gain_is_found_and_gone_once_it_is_written(
     assert (shown.returncode, json.loads(shown.stdout)) == (1, told)
     assert "differs from the calibration" in spindle(server, "calibrate", "climb", file).stdout
 
+    begin_s, end_s = str(asked["climb"]["from_s"]), str(asked["climb"]["to_s"])
+    number = str(asked["climb"]["ride_id"])
+    turning = spindle(server, "calibrate", "cadence", number, "--window", begin_s, end_s, "--json")
+    turned = json.loads(turning.stdout)
+    assert (turning.returncode, turned["agrees"]) == (0, True)
+    # One turn of the crank is 44/14 of the wheel.
+    wheel_turns = way_m(server, int(number), float(begin_s), float(end_s)) / CIRCUMFERENCE_M
+    assert turned["turns"] == pytest.approx(wheel_turns * 14 / 44, rel=2e-3)
+
     gain = server.get(f"/devices/{device}/config")["parameters"][GAIN]
     configure(server, device, **{GAIN: gain / PLANTED_GAIN})
     again = server.ask("POST", "/calibration/climb", json=question(server, ridden(server, device)))[

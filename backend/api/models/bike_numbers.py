@@ -65,6 +65,25 @@ class Wheel(Answer):
     beside: BesideUnit | None
 
 
+class CadenceRequest(Question):
+    """A part of a ride; at best from a standing crank to a standing one."""
+
+    ride_id: RideNumber
+    from_s: Second = None
+    to_s: Second = None
+
+
+class Cadence(Answer):
+    """The mean cadence that the unit told, against the turns that its crank's angle made."""
+
+    told_rpm: float
+    turns: float
+    duration_s: float
+    error_rpm: float = Field(description="Told less counted.")
+    expanded_rpm: float = Field(description="Expanded uncertainty of the counting, k = 2.")
+    agrees: bool
+
+
 class SlopeRidden(Question):
     """A part of a ride, and how much higher its end lies than its begin."""
 

@@ -7,6 +7,8 @@ from typing import Any
 from fastapi import APIRouter
 
 from backend.api.models.bike_numbers import (
+    Cadence,
+    CadenceRequest,
     ClimbRequest,
     ClimbTold,
     RollOut,
@@ -46,6 +48,17 @@ def track_wheel(body: WheelByTrack, services: Provided) -> Any:
     window = Window(body.ride_id, body.from_s, body.to_s)
     question = TrackQuestion(window, body.track_ride_id, body.told_circumference_m)
     return services.bike_numbers.wheel.tracked(question, body.device_id)
+
+
+@router.post(
+    "/cadence",
+    operation_id="check_cadence",
+    response_model=Cadence,
+    responses={**refusals(404), **DAMAGED},
+)
+def check_cadence(body: CadenceRequest, services: Provided) -> Any:
+    """The cadence of a ride against the turns of its crank, counted by the crank's angle."""
+    return services.bike_numbers.cadence(Window(body.ride_id, body.from_s, body.to_s))
 
 
 @router.post(

@@ -985,6 +985,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/calibration/cadence": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Check Cadence
+         * @description The cadence of a ride against the turns of its crank, counted by the crank's angle.
+         */
+        post: operations["check_cadence"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/calibration/climb": {
         parameters: {
             query?: never;
@@ -2366,6 +2386,42 @@ export interface components {
             coverage: number[];
             /** Expanded Nm */
             expanded_nm: number[];
+        };
+        /**
+         * Cadence
+         * @description The mean cadence that the unit told, against the turns that its crank's angle made.
+         */
+        Cadence: {
+            /** Told Rpm */
+            told_rpm: number;
+            /** Turns */
+            turns: number;
+            /** Duration S */
+            duration_s: number;
+            /**
+             * Error Rpm
+             * @description Told less counted.
+             */
+            error_rpm: number;
+            /**
+             * Expanded Rpm
+             * @description Expanded uncertainty of the counting, k = 2.
+             */
+            expanded_rpm: number;
+            /** Agrees */
+            agrees: boolean;
+        };
+        /**
+         * CadenceRequest
+         * @description A part of a ride; at best from a standing crank to a standing one.
+         */
+        CadenceRequest: {
+            /** Ride Id */
+            ride_id: number;
+            /** From S */
+            from_s?: number | null;
+            /** To S */
+            to_s?: number | null;
         };
         /**
          * Calibration
@@ -12503,6 +12559,66 @@ export interface operations {
             };
             /** @description Gateway Timeout */
             504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    check_cadence: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CadenceRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Cadence"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -23,6 +23,7 @@ from backend.domain.standards.sphere import EARTH_M
 from backend.errors import InvalidRequest
 from backend.ingest import ImportedRide, Outcome
 from backend.services.imports.upload import Uploads
+from backend.services.rides.bike.cadence import CadenceCheck, CadenceChecked
 from backend.services.rides.bike.climb import ClimbCheck, Question, Slope, rise_by_heights
 from backend.services.rides.bike.wheel import TrackQuestion, WheelMeasure
 from backend.services.rides.bike.window import Window
@@ -33,6 +34,7 @@ SPECS = {
     "cadence_rpm": ChannelSpec("cadence_rpm", "rpm", 0.1),
     "rider_torque_nm": ChannelSpec("rider_torque_nm", "Nm", 0.01),
     "motor_torque_demanded_nm": ChannelSpec("motor_torque_demanded_nm", "Nm", 0.0001),
+    "crank_angle_deg": ChannelSpec("crank_angle_deg", "deg", 0.1),
     "altitude_m": ChannelSpec("altitude_m", "m", 0.1),
     "latitude_deg": ChannelSpec("latitude_deg", "deg", 1e-7, wide=True),
     "longitude_deg": ChannelSpec("longitude_deg", "deg", 1e-7, wide=True),
@@ -52,15 +54,18 @@ def store(tmp_path: Path) -> Iterator[Store]:
         yield opened
 
 
-def kept(store: Store, columns: Mapping[str, Values], later_s: float = 0.0) -> int:
-    """A ride of one row a second. later_s: than BEGAN_US, by its device's clock; another one is
+def kept(
+    store: Store, columns: Mapping[str, Values], later_s: float = 0.0, row_s: float = 1.0
+) -> int:
+    """A ride of a row every row_s. later_s: than BEGAN_US, by its device's clock; another one is
     another ride."""
     specs = tuple(SPECS[name] for name in columns)
     counts = {spec.name: spec.to_counts(columns[spec.name]) for spec in specs}
-    times_us = np.arange(len(next(iter(columns.values()))), dtype=np.int64) * 1_000_000
+    times_us = np.arange(len(next(iter(columns.values()))), dtype=np.int64)
+    times_us *= round(row_s * 1e6)
     rows = RideRows(specs, times_us, counts)
     began_us = BEGAN_US + round(later_s * 1e6)
-    outcome = Outcome("complete", (ImportedRide(began_us, 1_000_000, rows),))
+    outcome = Outcome("complete", (ImportedRide(began_us, round(row_s * 1e6), rows),))
     uploads = Uploads(store, reader=lambda path, name: outcome)
     (ride_id,) = uploads.receive_file("a.csv", repr((later_s, columns)).encode()).ride_ids
     uploads.close()
@@ -187,6 +192,28 @@ def test_a_climb_without_heights_or_torque_is_refused_by_name(store: Store) -> N
     with pytest.raises(InvalidRequest, match="rider_torque_nm, cadence_rpm") as refused:
         ClimbCheck(store)(Question(question.climb, level, KNOWN, True, 0.0))
     assert codes(refused) == [("climb", "missing_channel")]
+
+
+def test_a_cadence_that_tells_less_than_the_crank_turns_is_told(store: Store) -> None:
+    at_s = np.arange(0.0, 60.0, 0.05)
+    angle_deg = (80.0 * 6.0 * at_s) % 360.0
+
+    def checked(told_rpm: float, day: int) -> CadenceChecked:
+        columns = {"cadence_rpm": np.full(len(at_s), told_rpm), "crank_angle_deg": angle_deg}
+        return CadenceCheck(store)(Window(kept(store, columns, day * DAY_S, row_s=0.05)))
+
+    true, less = checked(80.0, 1), checked(78.0, 2)
+
+    assert true.turns == pytest.approx(80.0 * at_s[-1] / 60.0, abs=1e-3)
+    assert (true.agrees, less.agrees) == (True, False)
+    assert less.error_rpm == pytest.approx(-2.0, abs=0.01)
+    slow = kept(store, {"cadence_rpm": AT_S, "crank_angle_deg": AT_S % 360.0}, 3 * DAY_S)
+    with pytest.raises(InvalidRequest) as refused:
+        CadenceCheck(store)(Window(slow))
+    assert codes(refused) == [("ride_id", "too_slow")]
+    with pytest.raises(InvalidRequest) as refused:
+        CadenceCheck(store)(Window(2, 0.0, 5.0))
+    assert codes(refused) == [("ride_id", "too_few_turns")]
 
 
 def test_heights_at_the_ends_of_a_slope_are_not_taken_late() -> None:

@@ -118,7 +118,9 @@ def pulses_per_turn(pulses: Sequence[int], turns: Sequence[int]) -> int | None:
     return each.pop() if len(each) == 1 and agreeing == judged else None
 
 
-def cadence_error_rpm(told_rpm: float, crank_turns: int, duration_s: float) -> tuple[float, float]:
+def cadence_error_rpm(
+    told_rpm: float, crank_turns: float, duration_s: float
+) -> tuple[float, float]:
     """What the unit tells less what was counted, and the expanded uncertainty of the counting:
     half a turn of a crank that started and ended anywhere near its mark, and 0.2 s of a hand."""
     counted_rpm = 60 * crank_turns / duration_s
