@@ -54,7 +54,7 @@ export function traceData(
       return {
         type: 'scatter',
         mode: 'lines',
-        name: words.channel(line.name ?? line.channel),
+        name: fullName(line, words),
         x,
         y: y.map((value) => units.show(value, row.unit)),
         yaxis: axisName(i),
@@ -85,6 +85,12 @@ export function windowLayout(view: TraceWindow, width: number, units: Units) {
 
 export function axisName(i: number): string {
   return i === 0 ? 'y' : `y${i + 1}`
+}
+
+/** The channel's name; the line's own where a channel has none, as one of two rides side by side. */
+function fullName({ channel, name = channel }: TraceLine, words: FigureWords): string {
+  const full = words.channel(channel)
+  return full === channel ? words.channel(name) : full
 }
 
 function hoverMoments(series: Series, { moment }: EventWords): string[] {

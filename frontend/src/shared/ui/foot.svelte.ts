@@ -11,9 +11,10 @@ export class Foot {
     return this.bars.at(-1) ?? null
   }
 
-  /** Shows an action bar; what comes back takes it away, and the one before is seen again. */
-  show(bar: Snippet): () => void {
-    untrack(() => (this.bars = [...this.bars, bar]))
+  /** Shows an action bar; what comes back takes it away, and the one before is seen again.
+   *  beneath: it is seen only while there is no other, whichever came first. */
+  show(bar: Snippet, beneath = false): () => void {
+    untrack(() => (this.bars = beneath ? [bar, ...this.bars] : [...this.bars, bar]))
     return () => untrack(() => (this.bars = this.bars.filter((one) => one !== bar)))
   }
 }
