@@ -57,6 +57,9 @@ def test_a_search_ends_with_its_cause_on_the_sheet(
     open_desk: OpenDesk, server: SpindleServer, faulty: str, axe: str
 ) -> None:
     desk = open_desk(width=1440, height=900)
+    # A slow phone: what comes late is seen to come late.
+    slow = desk.page.context.new_cdp_session(desk.page)
+    slow.send("Emulation.setCPUThrottlingRate", {"rate": 6})
     page = desk.open("/service")
     moment = page.get_by_test_id("fault-moment")
     picture = moment.get_by_role("img")
