@@ -87,7 +87,7 @@ export function axisName(i: number): string {
   return i === 0 ? 'y' : `y${i + 1}`
 }
 
-/** The channel's name; the line's own where a channel has none, as one of two rides side by side. */
+/** The channel's name; the line's own where it has none, as one of two rides side by side. */
 function fullName({ channel, name = channel }: TraceLine, words: FigureWords): string {
   const full = words.channel(channel)
   return full === channel ? words.channel(name) : full
