@@ -23,27 +23,38 @@ const SHARED = {
   lint: ['api', 'config', 'context', 'i18n', 'ui', 'units'],
 }
 
+// The same of the rooms of the calibration wizard.
+const WIZARD = {
+  job: [],
+  words: ['job'],
+  found: ['job', 'words'],
+  steps: ['found', 'job', 'words'],
+  certificate: ['found', 'job', 'steps', 'words'],
+}
+
 const zone = (message, ...regexes) => [
   'error',
   { patterns: regexes.map((regex) => ({ regex, message })) },
 ]
 
-/** One zone for each folder of src/shared; throws where SHARED is not what is there. */
-function sharedFolders() {
-  const entries = Object.entries(SHARED)
-  const folders = readdirSync(new URL('src/shared', import.meta.url)).sort()
-  if (folders.join() !== Object.keys(SHARED).sort().join()) {
-    throw new Error(`src/shared holds ${folders}: SHARED in eslint.config.js names others`)
+/** One zone for each folder of `home`; throws where `rooms` is not what is there. begins: how an
+    import of one of them begins. */
+function zonesOf(home, rooms, begins, ...more) {
+  const entries = Object.entries(rooms)
+  const there = readdirSync(new URL(home, import.meta.url), { withFileTypes: true })
+  const folders = there.flatMap((one) => (one.isDirectory() ? [one.name] : [])).sort()
+  if (folders.join() !== Object.keys(rooms).sort().join()) {
+    throw new Error(`${home} holds ${folders}: eslint.config.js names others`)
   }
   return entries.map(([folder, known], i) => {
     const later = known.find((name) => entries.findIndex(([other]) => other === name) >= i)
-    if (later) throw new Error(`SHARED: ${folder} may not know ${later}, which stands below it`)
+    if (later) throw new Error(`${folder} may not know ${later}, which stands below it`)
     const may = known.join(', ') || 'no other folder'
-    const outside = `^(\\.\\./|\\$shared/)(?!(${known.join('|') || '-'})/)`
+    const outside = `^(${begins})(?!(${known.join('|') || '-'})/)`
     return {
-      files: [`src/shared/${folder}/**`],
+      files: [`${home}/${folder}/**`],
       rules: {
-        'no-restricted-imports': zone(`of shared, ${folder} knows ${may}`, outside),
+        'no-restricted-imports': zone(`of ${home}, ${folder} knows ${may}`, outside, ...more),
       },
     }
   })
@@ -73,7 +84,7 @@ export default ts.config(
   },
   { files: ['scripts/*.mjs'], rules: { 'no-console': 'off' } },
   { files: ['**/*.test.{ts,mjs}'], rules: { 'max-lines-per-function': 'off' } },
-  sharedFolders(),
+  zonesOf('src/shared', SHARED, '\\.\\./|\\$shared/'),
   {
     files: ['src/features/**'],
     rules: {
@@ -90,4 +101,5 @@ export default ts.config(
       ],
     },
   },
+  zonesOf('src/features/calibrate/wizard', WIZARD, '\\.\\./', '/(features|app)/'),
 )

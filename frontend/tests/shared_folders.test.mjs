@@ -1,4 +1,5 @@
-/* Goal: the folders of src/shared know each other one way only, and eslint is what holds it.
+/* Goal: the folders of src/shared, and the rooms of the wizard, know each other one way only, and
+   eslint is what holds it.
    Method: an import that goes the wrong way is planted in a file that is not there, and linted as
    `npm run lint` would; one that goes the right way passes. */
 // @vitest-environment node
@@ -27,6 +28,14 @@ it.each([
   expect(await complaints(`src/shared/${folder}/planted.ts`, imported)).toEqual([
     'no-restricted-imports',
   ])
+})
+
+it('the rooms of the wizard know each other one way', async () => {
+  const wizard = 'src/features/calibrate/wizard'
+
+  expect(await complaints(`${wizard}/found/planted.ts`, '../steps/instruction')).not.toEqual([])
+  expect(await complaints(`${wizard}/found/planted.ts`, '../../zero')).not.toEqual([])
+  expect(await complaints(`${wizard}/steps/planted.ts`, '../found/figures')).toEqual([])
 })
 
 it('a folder imports what stands above it, and its own files', async () => {

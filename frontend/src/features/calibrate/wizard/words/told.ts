@@ -1,7 +1,7 @@
 // What the server says of a calibration with a code: in English as it says it, else by the code.
 import type { Locale } from '$shared/i18n/locale.svelte'
 import { TOLD, told as words, type ToldCode } from './told_words.svelte'
-import type { Cause, Check, Reason } from './types'
+import type { Cause, Check, Reason } from '../job/types'
 
 const DIGITS = 2
 

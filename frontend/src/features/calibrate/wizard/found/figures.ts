@@ -1,6 +1,6 @@
 // The figures of a calibration beside what is allowed, as bars; all from the server's own.
-import type { Figure } from './meaning_words.svelte'
-import type { Job } from './types'
+import type { Figure } from '../words/meaning_words.svelte'
+import type { Job } from '../job/types'
 
 export interface Bar {
   figure: Figure

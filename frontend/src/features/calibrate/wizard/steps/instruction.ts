@@ -1,8 +1,8 @@
 // What is to be hung on next, in words.
 import type { Locale } from '$shared/i18n/locale.svelte'
 import type { Units } from '$shared/units/units.svelte'
-import type { Job, Step } from './types'
-import { words } from './words.svelte'
+import type { Job, Step } from '../job/types'
+import { words } from '../words/words.svelte'
 
 const KG_DIGITS = 2
 const MM_PER_M = 1000

@@ -1,6 +1,6 @@
 // A value of the unit's calibration record, in words.
 import type { Locale } from '$shared/i18n/locale.svelte'
-import type { RecordLine } from './types'
+import type { RecordLine } from '../job/types'
 
 const DIGITS: Readonly<Record<string, number>> = {
   sensor_offset_counts: 1,
