@@ -17,7 +17,7 @@ from sim_device.firmware.python._native import ffi, lib
 
 from backend.domain.calibration.capture import Capture, State, capture_of
 from backend.domain.calibration.gravity import gravity_at
-from backend.domain.calibration.setup import Mass, Setup, torque_nm
+from backend.domain.calibration.setup import Mass, Setup
 from backend.domain.calibration.steady import Window, steadiness
 
 SAMPLES, WINDOW_S, SETTLE_S, TRIES = 100, 3.0, 5.0, 3
@@ -72,7 +72,10 @@ DISOBEYS = {
     "open_arm": Specimen({"noise_nm": 0.06}, fault=OPEN_HIGH),
     "stuck": Specimen({"noise_nm": 0.06}, fault=STUCK),
     "sticky": Specimen({"noise_nm": 0.06, "hysteresis_nm": 1.5, "creep_share": 0.02}),
-    "bent": Specimen({"noise_nm": 0.06, "bending_share": 0.02}, angles_deg=(0.0, 40.0)),
+    "bent": Specimen(
+        {"noise_nm": 0.06, "bending_share": 0.06, "bending_lever_m": 0.1, "bending_deg": 45.0},
+        angles_deg=(0.0, 40.0),
+    ),
     "asymmetric": Specimen({"noise_nm": 0.06}, left_gain=0.97),
 }
 
@@ -116,6 +119,7 @@ class Workshop:
     def true_counts(self, loads_nm: np.ndarray) -> np.ndarray:
         """Without noise and scatter, at the temperature now: up and down (2, k)."""
         noise, self.config.noise_nm = self.config.noise_nm, 0.0
+        self.state.hung_nm = 0.0
         up = [self._counts(load, 0.0) for load in loads_nm]
         down = [self._counts(load, 0.0) for load in loads_nm[::-1]][::-1]
         self.config.noise_nm = noise
@@ -138,7 +142,10 @@ class Workshop:
     def _capture(self, number: int, state: State) -> Capture | None:
         """Waits, and tries again; None where it never was steady."""
         load_nm = self._hung_nm(state)
-        angle = math.radians(state.crank_angle_deg) + (math.pi if state.side == "left" else 0.0)
+        # Of the spindle: 0 has the left crank up (hung_mass.h).
+        level = 0.5 * math.pi if state.side == "left" else 1.5 * math.pi
+        angle = level + math.radians(state.crank_angle_deg + self._tilt_deg)
+        self.state.hung_nm = self._pull_n(state) * self.config.bending_lever_m
         self.config.gain = self._gain * (self.specimen.left_gain if state.side == "left" else 1.0)
         for _ in range(TRIES):
             self._counts(load_nm, angle, SETTLE_S)
@@ -154,10 +161,12 @@ class Workshop:
     def _hung_nm(self, state: State) -> float:
         if state.kind == "zero":
             return 0.0
-        kg = state.mass_kg * self._mass_share
         angle_deg = state.crank_angle_deg + self._tilt_deg
-        hung_nm = torque_nm(kg, self._gravity_ms2, self._arm_m, angle_deg)
+        hung_nm = self._pull_n(state) * self._arm_m * math.cos(math.radians(angle_deg))
         return hung_nm + self._random.gauss(0.0, self.specimen.scatter_nm)
+
+    def _pull_n(self, state: State) -> float:
+        return state.mass_kg * self._mass_share * self._gravity_ms2
 
     def soak(self, degc: float) -> None:
         """Soaked through: gauges and thermometer at the temperature of the air."""

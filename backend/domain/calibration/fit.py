@@ -23,6 +23,7 @@ from backend.domain.calibration.capture import Capture
 from backend.domain.calibration.coefficients import Coefficients, Numbers
 from backend.domain.calibration.line import robust_line
 from backend.domain.calibration.plain import Plain
+from backend.domain.calibration.repeatability import beyond_own
 from backend.domain.calibration.setup import Setup
 from backend.domain.calibration.student import coverage_factor
 from backend.errors import InvalidRequest
@@ -192,27 +193,17 @@ class _Found(NamedTuple):
 
 
 def _solved(start: Numbers, data: Data) -> _Found:
-    """Gauss and Newton inside; outside the repeatability by halving, whose squares fall as it
-    grows."""
+    """Gauss and Newton inside, the repeatability outside."""
     values = _newton(start, data, 1 / (data.own_variance + data.own_variance.mean()))
-    freedom = data.counts.size - values.size
 
-    def squares(extra: float) -> tuple[float, Numbers]:
+    def squares(extra: float) -> float:
         weights = 1 / (data.own_variance + extra)
-        solved = _newton(values, data, weights)
-        left = data.counts - _model(solved, data)
-        return float(left @ (weights * left)), solved
+        left = data.counts - _model(_newton(values, data, weights), data)
+        return float(left @ (weights * left))
 
     left = data.counts - _model(values, data)
-    low, high = 0.0, 4 * float(left @ left) / freedom + 1e-12
-    total, solved = squares(0.0)
-    if total <= freedom:
-        return _Found(solved, 0.0)
-    for _ in range(60):
-        middle = (low + high) / 2
-        total, solved = squares(middle)
-        low, high = (middle, high) if total > freedom else (low, middle)
-    return _Found(solved, high)
+    extra = beyond_own(squares, data.counts.size - values.size, float(left @ left))
+    return _Found(_newton(values, data, 1 / (data.own_variance + extra)), extra)
 
 
 def _newton(values: Numbers, data: Data, weights: Numbers) -> Numbers:

@@ -2223,13 +2223,12 @@ export interface components {
         };
         /**
          * Asymmetry
-         * @description left_right: (right - left) / mean of the slopes, crank level. bending_level, bending_across:
-         *     None without captures over enough of the crank's angle. Two angles cannot tell the two apart:
-         *     then all of it is called level.
+         * @description left_right: (right - left) / mean of the slopes; bending in the plane of the crank looks the
+         *     same and is within. bending_across: what a crank that points down would read of its load; None
+         *     without captures over enough of the crank's angle on both sides.
          */
         Asymmetry: {
             left_right: components["schemas"]["backend__domain__calibration__asymmetry__Share"];
-            bending_level?: components["schemas"]["backend__domain__calibration__asymmetry__Share"] | null;
             bending_across?: components["schemas"]["backend__domain__calibration__asymmetry__Share"] | null;
         };
         /**
@@ -8214,7 +8213,7 @@ export interface components {
         };
         /**
          * Share
-         * @description A share of the load and its standard uncertainty.
+         * @description A share of the load of a level crank, and its standard uncertainty.
          */
         backend__domain__calibration__asymmetry__Share: {
             /** Share */

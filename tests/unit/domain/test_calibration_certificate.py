@@ -122,19 +122,6 @@ def test_a_fault_fails_by_its_name(state: str, code: str) -> None:
     assert causes(DISOBEYS[state])[code] == "fail"
 
 
-def test_a_bending_and_a_left_right_difference_are_found_as_planted() -> None:
-    bent = work_out(SETUP, Workshop(DISOBEYS["bent"], 2).captures(), None, Limits()).asymmetry
-    weak = work_out(SETUP, Workshop(DISOBEYS["asymmetric"], 2).captures(), None, Limits()).asymmetry
-
-    assert bent is not None
-    assert bent.bending_level is not None
-    # 2 % of the load in phase with the crank: +2 % right, -2 % left, less as the pedal goes down.
-    assert bent.left_right.share == pytest.approx(0.04, abs=3 * bent.left_right.standard)
-    assert bent.bending_level.share == pytest.approx(-0.02, abs=3 * bent.bending_level.standard)
-    assert weak is not None
-    assert weak.left_right.share == pytest.approx(0.03 / 0.985, abs=3 * weak.left_right.standard)
-
-
 def test_what_was_not_measured_is_a_condition_and_never_a_pass() -> None:
     right = [c for c in CAPTURES if c.state.side == "right" and c.state.kind != "verify"]
 

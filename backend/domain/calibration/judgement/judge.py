@@ -146,12 +146,11 @@ def _asymmetry(evidence: Evidence, limits: Limits) -> Iterator[Cause]:
     if found is None:
         yield Cause("no_left_right", "conditional", "loads on both pedals are needed")
         return
-    if found.bending_level is None:
+    if found.bending_across is None:
         words = "the captures cover too little of the crank's angle to tell a bending"
         yield Cause("no_angles", "note", words)
     for code, words, share, allowed in (
         ("left_right", "left against right", found.left_right, limits.left_right_pct),
-        ("bending", "bending", found.bending_level, limits.bending_pct),
         ("bending", "bending across the crank", found.bending_across, limits.bending_pct),
     ):
         if share is not None:

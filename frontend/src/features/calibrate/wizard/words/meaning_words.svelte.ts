@@ -12,7 +12,6 @@ export const en = {
   zero_return: 'How far the zero is from where it was once all loads are taken off.',
   total: 'The three errors of the sensor together, as the root of the sum of their squares.',
   left_right: 'How much more a load on the right pedal reads than the same on the left.',
-  bending_level: 'What bending of the spindle along the crank adds to a reading.',
   bending_across: 'What bending of the spindle across the crank adds to a reading.',
   fit: 'What the scatter of the captures leaves open of zero and scale.',
   linearity: 'What the straight line leaves of the sensor’s own curve.',

@@ -11,7 +11,6 @@ export const zh: Record<Figure, string> = {
   zero_return: '全部负载取下后，零点离原来有多远。',
   total: '传感器三种误差的平方和之根。',
   left_right: '同样的负载，右踏板比左踏板多读多少。',
-  bending_level: '中轴沿曲柄方向弯曲给读数增加的部分。',
   bending_across: '中轴垂直曲柄方向弯曲给读数增加的部分。',
   fit: '读数的分散使零点与量程留下的不确定。',
   linearity: '传感器自身曲线中直线未能描述的部分。',

@@ -195,7 +195,6 @@ export const en = {
   figure_zero_return: 'Zero return',
   figure_total: 'Total of the sensor',
   figure_left_right: 'Left against right',
-  figure_bending_level: 'Bending along the crank',
   figure_bending_across: 'Bending across the crank',
   figure_fit: 'Scatter',
   figure_linearity: 'Bow of the sensor',

@@ -187,7 +187,6 @@ export const zh: Record<keyof typeof en, string> = {
   figure_zero_return: '回零',
   figure_total: '传感器总误差',
   figure_left_right: '左右之差',
-  figure_bending_level: '沿曲柄弯曲',
   figure_bending_across: '垂直曲柄弯曲',
   figure_fit: '分散',
   figure_linearity: '传感器曲线的弯度',
