@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from backend.domain.calibration.fit import fit
 from backend.domain.calibration.judgement.history import Past, among_model, change
 from backend.domain.calibration.worked import Worked
 from backend.domain.canonical_json import canonical_text
@@ -57,9 +58,10 @@ class CalibrationShow:
         captures = self._store.captures(job_id)
         worked = worked_of(body, captures)
         device = self._jobs.connection(job)
-        planned = self._record.planned(job)
+        counted = kept.counting(captures)
+        planned = self._record.planned(job, counted)
         setup = kept.setup_in(body)
-        plan = () if setup is None else steps(setup, kept.counting(captures))
+        plan = () if setup is None else steps(setup, counted)
         others = [one for one in self._store.list() if one.id != job_id]
         told = summary_of(job, worked)
         if job.closed_us is None:
@@ -100,11 +102,10 @@ class CalibrationShow:
     def reading(self, job_id: int) -> ReadingView:
         """What the sensor of a job's unit reads now. Raises NotFound."""
         job = self._store.get(job_id)
-        worked = None
-        if job.body["fitted_us"] is not None:
-            worked = worked_of(job.body, self._store.captures(job_id))
-        fitted = worked.fit.coefficients if worked is not None and worked.fit is not None else None
         device, setup = self._jobs.connection(job), kept.setup_in(job.body)
+        fitted = None
+        if setup is not None and job.body["fitted_us"] is not None:
+            fitted = fit(setup, kept.counting(self._store.captures(job_id))).coefficients
         return self._readings.now(device, job.body, setup, fitted)
 
     def certificate(self, job_id: int) -> bytes:

@@ -8,9 +8,12 @@ the unit has it.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
+from backend.domain.calibration.capture import Capture
+from backend.domain.calibration.coefficients import Coefficients
+from backend.domain.calibration.plain import from_plain
 from backend.errors import Conflict, NoAnswer, RequestRefused
 from backend.services.calibration import body as kept
 from backend.services.calibration.certificates import certificate_of, written_part
@@ -43,20 +46,19 @@ class CalibrationRecord:
         self._software = software
         self._now_s = now_s
 
-    def planned(self, job: KeptCalibration) -> tuple[dict[str, Any], dict[str, Any]] | None:
-        """The record that `write` would make and its certificate; None before a fit."""
-        captures = kept.counting(self._store.captures(job.id))
+    def planned(
+        self, job: KeptCalibration, captures: Sequence[Capture]
+    ) -> tuple[dict[str, Any], dict[str, Any]] | None:
+        """The record that `write` would make of the captures that count, and its certificate; None
+        before a fit."""
         fitted = [one for one in captures if one.state.kind != "verify"]
         made = certificate_of(job, fitted, self._software)
-        worked = worked_of(job.body, self._store.captures(job.id))
-        if made is None or worked is None or worked.fit is None:
+        if made is None or made["document"]["worked"]["fit"] is None:
             return None
         written = job.body["certificate"]
         sha256 = made["sha256"] if written is None else written["sha256"]
-        record = record_to_write(
-            job.body["found"], worked.fit.coefficients, job.body["fitted_us"], sha256
-        )
-        return record, made
+        found = from_plain(Coefficients, made["document"]["worked"]["fit"]["coefficients"])
+        return record_to_write(job.body["found"], found, job.body["fitted_us"], sha256), made
 
     def write(self, job_id: int, reason: str, author: str, token: str | None = None) -> None:
         """Write what was fitted. Repeated after nobody answered, it finds out what became of it.
@@ -64,7 +66,7 @@ class CalibrationRecord:
         Raises Conflict without a fit, TokenNeeded beyond the band, and what tuning raises.
         """
         job = self._store.get(job_id)
-        planned = self.planned(job)
+        planned = self.planned(job, kept.counting(self._store.captures(job_id)))
         if planned is None:
             raise kept.not_fitted()
         if kept.is_written(job.body):
