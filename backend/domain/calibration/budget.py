@@ -19,7 +19,7 @@ from backend.domain.calibration.fit import ROOT_3, Fit
 from backend.domain.calibration.plain import Plain
 from backend.domain.calibration.setup import Setup
 from backend.domain.calibration.strokes import curve, zero_return_nm
-from backend.domain.calibration.student import coverage_factor
+from backend.domain.standards.statistics import coverage_factor
 
 POINTS = 11
 REFERENCE = ("masses", "arm", "gravity", "level")

@@ -11,6 +11,7 @@ from pydantic import Field
 
 from backend.domain.calibration.plain import Plain, from_plain
 from backend.domain.calibration.setup import Angle, Setup, Side, torque_nm
+from backend.domain.standards.statistics import MAD_TO_DEVIATION
 from backend.errors import FieldError
 
 Kind = Literal["zero", "load", "verify"]
@@ -19,8 +20,6 @@ Direction = Literal["loading", "unloading"]
 OUTLIER_DEVIATIONS = 6.0
 """From the median, in deviations estimated from the median of distances: one word in half a
 billion if the noise is normal; a damaged word that its checksum let pass is much further away."""
-
-MAD_TO_DEVIATION = 1.4826
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,7 +25,7 @@ from backend.domain.calibration.line import robust_line
 from backend.domain.calibration.plain import Plain
 from backend.domain.calibration.repeatability import beyond_own
 from backend.domain.calibration.setup import Setup
-from backend.domain.calibration.student import coverage_factor
+from backend.domain.standards.statistics import coverage_factor
 from backend.errors import InvalidRequest
 
 NAMES = ("offset_counts", "gain_nm_per_count", "offset_counts_per_k", "gain_share_per_k")

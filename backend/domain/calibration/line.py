@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from backend.domain.calibration.capture import MAD_TO_DEVIATION
 from backend.domain.calibration.coefficients import Numbers
 
 
@@ -20,8 +19,3 @@ def robust_line(x: Numbers, y: Numbers) -> tuple[float, float] | None:
     first, second = first[apart], second[apart]
     slope = float(np.median((y[second] - y[first]) / (x[second] - x[first])))
     return slope, float(np.median(y - slope * x))
-
-
-def robust_deviation(residuals: Numbers) -> float:
-    """A standard deviation from the median of the distances from the median."""
-    return MAD_TO_DEVIATION * float(np.median(np.abs(residuals - np.median(residuals))))

@@ -9,9 +9,10 @@ import numpy as np
 
 from backend.domain.calibration.capture import Capture
 from backend.domain.calibration.coefficients import Numbers
-from backend.domain.calibration.line import robust_deviation, robust_line
+from backend.domain.calibration.line import robust_line
 from backend.domain.calibration.refusal import Refusal
 from backend.domain.calibration.setup import Setup
+from backend.domain.standards.statistics import robust_deviation
 
 SLOPE_MIN, SLOPE_MAX = 0.8, 1.25
 """Of the gain the unit was made with: beyond, it is not the sensor but the loads or the bridge."""

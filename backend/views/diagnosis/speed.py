@@ -7,6 +7,7 @@ import numpy as np
 from backend.domain.channels import Values
 from backend.domain.energy import KMH_PER_MS, rate_hz
 from backend.domain.standards.sphere import EARTH_M
+from backend.domain.standards.statistics import MEDIAN_TO_MEAN, robust_deviation
 from backend.views.diagnosis.finding import WARNING, Evidence, Finding
 from backend.views.insight.way import way_of
 
@@ -113,7 +114,7 @@ def wheel(ride: Evidence) -> list[Finding] | None:
     if len(share) < WHEEL_CHORDS or rolled_m[good].sum() < WHEEL_M:
         return None
     median = float(np.median(share))
-    error = 1.2533 * 1.4826 * float(np.median(np.abs(share - median))) / len(share) ** 0.5
+    error = MEDIAN_TO_MEAN * robust_deviation(share) / len(share) ** 0.5
     if abs(median - 1.0) <= max(WHEEL_SHARE, 3.0 * error):
         return []
     numbers = {

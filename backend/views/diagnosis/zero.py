@@ -14,6 +14,7 @@ import numpy as np
 from backend.domain._generated import MOVING_KMH
 from backend.domain.channels import Values
 from backend.domain.logbook.zero import RideZero
+from backend.domain.standards.statistics import MEDIAN_TO_MEAN, robust_deviation
 from backend.views.diagnosis.finding import Evidence
 from backend.views.diagnosis.torque import (
     CADENCE,
@@ -36,8 +37,6 @@ SCATTER_NM_MAX = 0.5 * ZERO_NM
 PIECES_FEW = 5
 # Of the scale, thesis_checks I-21.
 RESOLUTION_NM = 0.01
-# Median absolute deviation to standard deviation, and the median's to the mean's, of a normal.
-MAD_TO_SIGMA, MEDIAN_TO_MEAN = 1.4826, math.sqrt(math.pi / 2.0)
 
 
 def zero_of(ride: Evidence) -> RideZero:
@@ -52,7 +51,7 @@ def zero_of(ride: Evidence) -> RideZero:
     if not free:
         return RideZero(reason=why_none(pieces))
     zeros = np.array([piece.torque_nm for piece in free])
-    scatter_nm = MAD_TO_SIGMA * float(np.median(np.abs(zeros - np.median(zeros))))
+    scatter_nm = robust_deviation(zeros)
     if scatter_nm > SCATTER_NM_MAX:
         return RideZero(pieces=len(free), reason="disagree")
     return RideZero(

@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.domain.channels import Values
+from backend.domain.standards.statistics import MAD_TO_DEVIATION, NORMAL_90, NORMAL_95, student
 from backend.views.diagnosis.torque import DRIFT_NM, ZERO_NM
 
 WATCH_NM, ACT_NM = ZERO_NM, DRIFT_NM
@@ -34,8 +35,6 @@ APART_SIGMAS = 5.0
 # So that rides that agree to the resolution do not call each other apart.
 SIGMA_NM_MIN = 0.02
 ABSOLUTE_ROUNDS = 30
-# Normal quantiles: of a two-sided interval of 90 % and of 95 %.
-NORMAL_90, NORMAL_95 = 1.6448536, 1.9599640
 
 Mask = npt.NDArray[np.bool_]
 
@@ -177,7 +176,7 @@ def lies_apart(design: Values, zeros: Zeros) -> Mask:
         found = np.linalg.lstsq(design * root[:, None], zeros.zero_nm * root, rcond=None)[0]
         away = np.abs(zeros.zero_nm - design @ found)
         weight = 1.0 / np.maximum(away, 0.1 * SIGMA_NM_MIN)
-    sigma_nm = 1.4826 * float(np.median(np.sort(away)[design.shape[1] :]))
+    sigma_nm = MAD_TO_DEVIATION * float(np.median(np.sort(away)[design.shape[1] :]))
     return away > APART_SIGMAS * np.maximum(zeros.uncertainty_nm, max(sigma_nm, SIGMA_NM_MIN))
 
 
@@ -232,16 +231,6 @@ def common_scatter_nm(design: Values, zeros: Zeros) -> float:
         else:
             high = middle
     return high
-
-
-def student(z: float, freedom: int) -> float:
-    """Student's quantile from the normal one: Abramowitz and Stegun 26.7.5, 1 % off at 3."""
-    return (
-        z
-        + (z**3 + z) / (4.0 * freedom)
-        + (5.0 * z**5 + 16.0 * z**3 + 3.0 * z) / (96.0 * freedom**2)
-        + (3.0 * z**7 + 19.0 * z**5 + 17.0 * z**3 - 15.0 * z) / (384.0 * freedom**3)
-    )
 
 
 def crossing(trend: Trend, level_nm: float, today: float, stretch_now: int) -> Crossing:

@@ -20,7 +20,7 @@ from backend.domain.calibration.budget import (
 )
 from backend.domain.calibration.fit import data_of, fit
 from backend.domain.calibration.meaning import MEANING
-from backend.domain.calibration.student import coverage_factor
+from backend.domain.standards.statistics import coverage_factor
 from tests.fakes.calibration_bench import OBEYS, SETUP, Workshop
 
 CAPTURES = Workshop(OBEYS["table3_1"], 5).captures()

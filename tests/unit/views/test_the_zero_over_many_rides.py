@@ -13,16 +13,15 @@ import numpy as np
 import pytest
 from scipy.stats import t as student_t
 
+from backend.domain.standards.statistics import NORMAL_95, student
 from backend.views.diagnosis.zero_trend import (
     ACT_NM,
     MONTH_DAYS,
-    NORMAL_95,
     WATCH_NM,
     Trend,
     Zeros,
     crossing,
     level_of,
-    student,
     trend_of,
 )
 from tests import counts

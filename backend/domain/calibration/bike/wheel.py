@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from backend.domain.calibration.plain import Plain
-from backend.domain.calibration.student import coverage_factor
+from backend.domain.standards.statistics import coverage_factor
 from backend.errors import FieldError, InvalidRequest
 
 ROOT_3 = math.sqrt(3.0)

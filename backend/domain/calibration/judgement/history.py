@@ -12,6 +12,7 @@ from pydantic import Field
 from backend.domain.calibration.fit import Fit
 from backend.domain.calibration.judgement.verification import en_number
 from backend.domain.calibration.plain import Plain
+from backend.domain.standards.statistics import robust_deviation
 
 US_PER_DAY = 86_400e6
 MODEL_LEAST = 5
@@ -85,6 +86,6 @@ def among_model(now: Past, others: Sequence[Past]) -> AmongModel | None:
         return None
     gains = np.array([past.gain_nm_per_count for past in others])
     middle = float(np.median(gains))
-    deviation = 1.4826 * float(np.median(np.abs(gains - middle)))
+    deviation = robust_deviation(gains)
     away = now.gain_nm_per_count - middle
     return AmongModel(len(others), 100 * away / middle, away / deviation if deviation else None)
