@@ -23,7 +23,7 @@ from backend.domain.calibration.bike.coast_down import Known
 from backend.domain.calibration.gravity import normal_gravity_ms2
 from backend.services.rides.bike.climb import Question, Slope
 from backend.services.rides.bike.wheel import TrackQuestion
-from backend.services.rides.bike.window import Window
+from backend.services.rides.insight.rows import Window
 
 router = APIRouter(prefix="/calibration", tags=["calibration"])
 UNIT = refusals(404, 503, 504)

@@ -11,7 +11,7 @@ from backend.api.models.comparison import ComparedCrank, ComparedSeries, RideCom
 from backend.api.problem import DAMAGED, refusals
 from backend.api.routes.rides import Channels, channel_names
 from backend.api.services import Provided
-from backend.services.rides.insight.comparison import Window
+from backend.services.rides.insight.rows import Window
 
 router = APIRouter(prefix="/rides/compare", tags=["rides"], responses={**refusals(404), **DAMAGED})
 

@@ -26,7 +26,7 @@ from backend.services.imports.upload import Uploads
 from backend.services.rides.bike.cadence import CadenceCheck, CadenceChecked
 from backend.services.rides.bike.climb import ClimbCheck, Question, Slope, rise_by_heights
 from backend.services.rides.bike.wheel import TrackQuestion, WheelMeasure
-from backend.services.rides.bike.window import Window
+from backend.services.rides.insight.rows import Window
 from backend.store import Store, open_store
 
 SPECS = {

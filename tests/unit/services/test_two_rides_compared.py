@@ -16,7 +16,8 @@ import pytest
 from backend.control import law_defaults
 from backend.domain.ride import Ride
 from backend.errors import InvalidRequest, NotFound
-from backend.services.rides.insight.comparison import RideComparison, Window
+from backend.services.rides.insight.comparison import RideComparison
+from backend.services.rides.insight.rows import Window
 from backend.store import Store, open_store
 from tests.unit.services.test_why_a_moment_was_as_it_was import ROWS, config_of, kept
 

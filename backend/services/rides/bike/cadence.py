@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from backend.domain.calibration.bike.wheel import cadence_error_rpm
-from backend.services.rides.bike.window import Window, refusal, rows_of
+from backend.services.rides.bike.window import refusal, rows_of
+from backend.services.rides.insight.rows import Window
 from backend.store import Store
 
 CADENCE, ANGLE = "cadence_rpm", "crank_angle_deg"

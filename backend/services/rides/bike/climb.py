@@ -22,7 +22,8 @@ from backend.domain.calibration.bike.coast_down import (
 )
 from backend.domain.channels import Values
 from backend.domain.energy import KMH_PER_MS, MOTOR_POWER, MOTOR_TORQUE, MOTOR_TORQUE_DEMANDED
-from backend.services.rides.bike.window import Rows, Window, refusal, rows_of
+from backend.services.rides.bike.window import Rows, refusal, rows_of
+from backend.services.rides.insight.rows import Window
 from backend.store import Store
 
 SPEED, TORQUE, CADENCE, ALTITUDE = "speed_kmh", "rider_torque_nm", "cadence_rpm", "altitude_m"

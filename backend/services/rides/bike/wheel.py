@@ -18,7 +18,8 @@ from backend.domain.calibration.bike.wheel import (
 )
 from backend.domain.energy import KMH_PER_MS
 from backend.domain.standards.sphere import great_circle_m
-from backend.services.rides.bike.window import Rows, Window, refusal, rows_of
+from backend.services.rides.bike.window import Rows, refusal, rows_of
+from backend.services.rides.insight.rows import Window
 from backend.services.rides.replay import ConfigOf
 from backend.services.tuning.config_view import ParameterView
 from backend.store import Store

@@ -10,21 +10,12 @@ import numpy as np
 from backend.domain.channels import Values
 from backend.domain.ride import Ride
 from backend.errors import FieldError, InvalidRequest
-from backend.services.rides.insight.rows import columns_from
+from backend.services.rides.insight.rows import Window, columns_from
 from backend.store import Store
 from backend.views.trace import row_window
 
 GAP_S_MAX = 2.5
 """Over a longer silence nobody knows what the bike did; a head unit tells one row a second."""
-
-
-@dataclass(frozen=True)
-class Window:
-    """A ride and a part of it, seconds since its start; None for its ends."""
-
-    ride_id: int
-    from_s: float | None = None
-    to_s: float | None = None
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ torque under the name of what was asked.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from functools import cached_property
 from typing import Any, Literal
 
@@ -26,7 +26,7 @@ from backend.domain.ride import Ride
 from backend.errors import FieldError, InvalidRequest
 from backend.services.rides.insight.energy import ALTITUDE, POWERS
 from backend.services.rides.insight.pedalling import ANGLE, CADENCE, TORQUE, told_crank
-from backend.services.rides.insight.rows import WAY, RideColumns, columns_from
+from backend.services.rides.insight.rows import WAY, RideColumns, Window, columns_from
 from backend.services.rides.insight.settings_apart import settings_apart
 from backend.services.rides.replay import ConfigOf
 from backend.store import RideReader, Store
@@ -48,15 +48,6 @@ ONLY_ASKED = {
 """What the motor torque of a ride is that tells only what was asked."""
 DIGITS_MORE = 1
 """Of a mean beside a sample."""
-
-
-@dataclass(frozen=True)
-class Window:
-    """A ride and a part of it, seconds since its start; None for its ends."""
-
-    ride_id: int
-    from_s: float | None = None
-    to_s: float | None = None
 
 
 class Side:

@@ -17,6 +17,15 @@ WAY = ("speed_kmh", "distance_m")
 
 
 @dataclass(frozen=True)
+class Window:
+    """A ride and a part of it, seconds since its start; None for its ends."""
+
+    ride_id: int
+    from_s: float | None = None
+    to_s: float | None = None
+
+
+@dataclass(frozen=True)
 class RideColumns:
     """values: the asked channels that the ride has, (n,) each, missing as NaN. start_s, seconds:
     when each row begins, since the ride's start, and how long it holds."""
