@@ -50,7 +50,7 @@ function zonesOf(home, rooms, begins, ...more) {
     const later = known.find((name) => entries.findIndex(([other]) => other === name) >= i)
     if (later) throw new Error(`${folder} may not know ${later}, which stands below it`)
     const may = known.join(', ') || 'no other folder'
-    const outside = `^(${begins})(?!(${known.join('|') || '-'})/)`
+    const outside = `^(${begins})(?!(${[folder, ...known].join('|')})/)`
     return {
       files: [`${home}/${folder}/**`],
       rules: {

@@ -10,7 +10,7 @@ const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
 const MOST = [
   'api/(?!pair_of_rides|upload)',
   'context|device/(?!FaultMoment|fault_moment|moment_)|stream|ui|units',
-  'charts/(plotly\\.ts|strip_chart\\.ts|[Ss]park)',
+  'charts/(traces/plotly\\.ts|plot_axis\\.ts|[Ss]park)',
   'config/(config_draft|drafts|limits|page_draft|parameter_text|ratchet|trial|two_tables)',
   'i18n/(?!zh)',
 ]
@@ -23,7 +23,7 @@ const chunk = (name: string, pattern: string) => ({
 const GROUPS = [
   chunk('unit', `shared/(${MOST.join('|')})`),
   chunk('moment', 'shared/device/(FaultMoment|fault_moment|moment_)'),
-  chunk('traces', 'shared/charts/(Traces|SeriesTable|trace_line|trace_window|ride_view)'),
+  chunk('traces', 'shared/charts/traces/(Traces|SeriesT|ZoomB|trace_line|trace_window|ride_view)'),
   chunk('apart', 'shared/config/(SettingsApart|SmallTable)'),
   chunk('rides', 'features/rides/(?!ride/|insight/|compare/|home/(ManyRides|Standing))'),
   chunk('try', 'features/try/(?!proposals)'),
@@ -45,7 +45,7 @@ export default defineConfig({
       $shared: folder('./src/shared'),
       $generated: folder('./src/generated'),
       // plotly's core imports the style sheet of a map engine that we never draw with.
-      'maplibre-gl/dist/maplibre-gl.css': folder('./src/shared/charts/no_map.css'),
+      'maplibre-gl/dist/maplibre-gl.css': folder('./src/shared/charts/traces/no_map.css'),
     },
     // Components run in the tests' DOM, not on a server.
     conditions: process.env.VITEST ? ['browser'] : undefined,

@@ -1,7 +1,7 @@
 // A replay as the page tells it: its curves, its figures, and why one is missing.
 import { seriesOf, type Series } from '$shared/api/series'
 import type { Replay } from '$shared/api/types'
-import type { TraceLine, TraceRow } from '$shared/charts/trace_line'
+import type { TraceLine, TraceRow } from '$shared/charts/traces/trace_line'
 
 const TORQUE = 'motor_torque_nm'
 const ASKED = 'motor_torque_demanded_nm'

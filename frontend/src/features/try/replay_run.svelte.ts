@@ -3,7 +3,7 @@ import { NewestAnswer } from '$shared/api/newest_answer.svelte'
 import type { Series } from '$shared/api/series'
 import type { Server } from '$shared/api/server'
 import type { Replay } from '$shared/api/types'
-import { TraceWindow } from '$shared/charts/trace_window.svelte'
+import { TraceWindow } from '$shared/charts/traces/trace_window.svelte'
 import { drawnSeries } from './answer'
 import type { Settings } from './candidate'
 

@@ -1,6 +1,6 @@
 // The same road three times, as lines of a picture: over the distance or each ride's own time.
 import type { RideCurves } from '$shared/api/types'
-import { niceStep } from '$shared/charts/strip_chart'
+import { niceStep } from '$shared/charts/plot_axis'
 
 export const RIDES = ['recorded', 'unchanged', 'replayed'] as const
 export type RideName = (typeof RIDES)[number]

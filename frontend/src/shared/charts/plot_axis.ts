@@ -1,5 +1,4 @@
 // An axis of a drawing: values to pixels, and the round values that it names.
-import { niceStep } from './strip_chart'
 
 export interface PlotAxis {
   low: number
@@ -34,4 +33,27 @@ export function roundTicks(low: number, high: number, count: number) {
     const value = Number(((first + i) * step).toPrecision(12))
     return { value, text: String(value) }
   })
+}
+
+/** `least`, or where the data leaves it a range that holds them and ends on round numbers. */
+export function roundRange(
+  min: number | null,
+  max: number | null,
+  least: [number, number],
+): [number, number] {
+  // A sensor's noise about zero must not make the axis jump.
+  const slack = 0.03 * (least[1] - least[0])
+  const within = (min ?? least[0]) >= least[0] - slack && (max ?? least[1]) <= least[1] + slack
+  if (within) return least
+  const low = Math.min(least[0], min ?? least[0])
+  const high = Math.max(least[1], max ?? least[1])
+  const step = niceStep((high - low) / 4)
+  return [Math.floor(low / step + 1e-9) * step, Math.ceil(high / step - 1e-9) * step]
+}
+
+/** 1, 2 or 5 times a power of ten, at least `rough`. */
+export function niceStep(rough: number): number {
+  const power = 10 ** Math.floor(Math.log10(rough))
+  const factor = [1, 2, 5, 10].find((f) => f * power >= rough - 1e-12) ?? 10
+  return factor * power
 }

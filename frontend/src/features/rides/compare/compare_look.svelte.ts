@@ -8,9 +8,9 @@ import type {
   ComparedPair,
   RideComparison,
 } from '$shared/api/types'
-import { RideView } from '$shared/charts/ride_view.svelte'
-import { timeAxis, type TraceAxis } from '$shared/charts/trace_axis'
-import type { Cursor, Span } from '$shared/charts/trace_line'
+import { RideView } from '$shared/charts/traces/ride_view.svelte'
+import { timeAxis, type TraceAxis } from '$shared/charts/traces/trace_axis'
+import type { Cursor, Span } from '$shared/charts/traces/trace_line'
 import { inOrder, seriesOf, usualOf } from './compared'
 
 export const KINDS = ['time', 'distance', 'crank'] as const

@@ -1,7 +1,7 @@
 // What two rides have to be drawn: channels in the order of interest, and bins as a series.
 import type { Series, SeriesChannel } from '$shared/api/series'
 import type { ComparedChannel, ComparedSeries } from '$shared/api/types'
-import type { TraceLine, TraceRow } from '$shared/charts/trace_line'
+import type { TraceLine, TraceRow } from '$shared/charts/traces/trace_line'
 
 /** B less A. The same in every language. */
 export const APART = 'B − A'

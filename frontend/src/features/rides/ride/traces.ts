@@ -1,6 +1,6 @@
 // What the ride page draws: rows of the channels that a ride has.
 import type { Ride } from '$shared/api/types'
-import type { TraceRow } from '$shared/charts/trace_line'
+import type { TraceRow } from '$shared/charts/traces/trace_line'
 import type { Locale } from '$shared/i18n/locale.svelte'
 
 // Each row shows the first of its alternatives that the ride has. What a unit asked of its motor is

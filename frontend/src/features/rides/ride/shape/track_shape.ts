@@ -1,7 +1,7 @@
 // A track drawn: points of a ride in pixels, in pieces of one mode, with marks at whole kilometres.
 import type { Track } from '$shared/api/types'
-import { LaidAxis } from '$shared/charts/trace_axis'
-import { niceStep } from '$shared/charts/strip_chart'
+import { LaidAxis } from '$shared/charts/traces/trace_axis'
+import { niceStep } from '$shared/charts/plot_axis'
 import type { ModeSpan } from './modes'
 import { modeAt } from './modes'
 

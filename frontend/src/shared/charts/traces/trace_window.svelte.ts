@@ -1,5 +1,5 @@
 // A window of time over traces: moved, zoomed, and kept inside the ride.
-import type { Series } from '../api/series'
+import type { Series } from '$shared/api/series'
 import { timeAxis, type TraceAxis } from './trace_axis'
 
 export interface TimeWindow {

@@ -1,9 +1,9 @@
 // What lies across the traces: time, time in motion, or way. Windows and cursors are moments of the
 // ride whatever the axis; here they become places of it, and back.
-import type { Series } from '../api/series'
-import { niceStep } from './strip_chart'
+import type { Series } from '$shared/api/series'
+import { niceStep } from '$shared/charts/plot_axis'
 import { timeTicks } from './trace_line'
-import type { Units } from '../units/units.svelte'
+import type { Units } from '$shared/units/units.svelte'
 
 export type AxisKind = 'time' | 'moving' | 'distance'
 

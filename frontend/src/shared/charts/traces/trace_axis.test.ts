@@ -1,8 +1,8 @@
 /* Goal: a moment and a place of an axis belong to each other, also where the bike stands. */
 import { expect, it } from 'vitest'
-import { Locale } from '../i18n/locale.svelte'
-import { Units } from '../units/units.svelte'
-import type { Series } from '../api/series'
+import { Locale } from '$shared/i18n/locale.svelte'
+import { Units } from '$shared/units/units.svelte'
+import type { Series } from '$shared/api/series'
 import { axisTicks, LaidAxis } from './trace_axis'
 
 // 100 s at 10 m/s, a light of 50 s, 100 s at 5 m/s.

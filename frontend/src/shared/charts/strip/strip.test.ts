@@ -1,6 +1,6 @@
 /* Goal: strips have calm axes and move smoothly at the rate of the unit's own time. */
 import { expect, it } from 'vitest'
-import { niceStep, roundRange } from './strip_chart'
+import { niceStep, roundRange } from '$shared/charts/plot_axis'
 import { StripClock } from './strip_clock.svelte'
 
 it('keeps its range while the data stay within it, and rounds it where they leave', () => {

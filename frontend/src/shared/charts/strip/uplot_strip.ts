@@ -1,13 +1,8 @@
 // StripChart on uPlot: five to six times cheaper than Plotly for what moves (measured in ui.md).
 import uPlot from 'uplot'
 import 'uplot/dist/uPlot.min.css'
-import {
-  niceStep,
-  roundRange,
-  type StripChart,
-  type StripMarks,
-  type StripSpec,
-} from './strip_chart'
+import { niceStep, roundRange } from '$shared/charts/plot_axis'
+import { type StripChart, type StripMarks, type StripSpec } from './strip_chart'
 import { drawCursor, drawShades } from './strip_marks'
 
 const AXIS_PX = 44

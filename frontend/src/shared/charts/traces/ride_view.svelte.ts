@@ -1,9 +1,9 @@
 // The window of a ride on screen and the series that fills it: the newest window wins, and the old
 // curve stays until the new one is there.
-import { Refusal } from '../api/client'
-import type { Series } from '../api/series'
-import type { Server } from '../api/server'
-import { Pace } from '../context/pace'
+import { Refusal } from '$shared/api/client'
+import type { Series } from '$shared/api/series'
+import type { Server } from '$shared/api/server'
+import { Pace } from '$shared/context/pace'
 import { timeAxis, type LaidAxis, type TraceAxis } from './trace_axis'
 import { TraceWindow, type TimeWindow } from './trace_window.svelte'
 

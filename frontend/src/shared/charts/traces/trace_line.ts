@@ -1,7 +1,7 @@
 // Traces of a ride: rows of channels, time marks, and bins as points of a line.
-import { clock } from '../i18n/locale.svelte'
+import { clock } from '$shared/i18n/locale.svelte'
 import type { MarkedEvent } from './event_marks'
-import { niceStep } from './strip_chart'
+import { niceStep } from '$shared/charts/plot_axis'
 import type { TraceWindow } from './trace_window.svelte'
 
 /** Room for the marks of events and their title above the first row, in pixels. */

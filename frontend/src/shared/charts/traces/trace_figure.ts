@@ -1,7 +1,7 @@
 // A ride's series as one Plotly figure: rows above each other, one time axis, gaps left open.
-import type { Series } from '../api/series'
-import type { Theme } from '../ui/theme.svelte'
-import type { Units } from '../units/units.svelte'
+import type { Series } from '$shared/api/series'
+import type { Theme } from '$shared/ui/theme.svelte'
+import type { Units } from '$shared/units/units.svelte'
 import { markAxis, markLines, type EventWords, type MarkedEvent } from './event_marks'
 import { plotLook } from './plotly'
 import { axisTicks } from './trace_axis'

@@ -1,7 +1,7 @@
 // What happened on a ride, above its traces: one mark for each event, and a line down through the
 // rows. The list below the traces says the same in words.
-import type { RideEvent } from '../api/types'
-import type { Theme } from '../ui/theme.svelte'
+import type { RideEvent } from '$shared/api/types'
+import type { Theme } from '$shared/ui/theme.svelte'
 
 const MARK_ROW_PX = 14
 const LINES_MAX = 40 // more would hide the curves; the marks are all there

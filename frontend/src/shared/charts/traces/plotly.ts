@@ -1,6 +1,6 @@
 // The door to Plotly, which draws the traces of a ride: its configuration, and a chunk of its own.
-import type { Language } from '../i18n/locale.svelte'
-import type { Theme } from '../ui/theme.svelte'
+import type { Language } from '$shared/i18n/locale.svelte'
+import type { Theme } from '$shared/ui/theme.svelte'
 
 /** Nothing leaves this machine, nobody advertises, and zooming explains itself in our words. */
 export function plotConfig(language: Language): object {
