@@ -12,6 +12,7 @@ from typing import Any
 from backend.cli.client import Server, print_json, print_table, text_of
 from backend.cli.device import read_json, server_of
 from backend.errors import RequestRefused
+from backend.services.calibration.paper import certificate_paper
 
 LOOK_S = 0.5
 STATE = ("kind", "side", "mass_kg", "crank_angle_deg", "stroke", "direction")
@@ -110,13 +111,24 @@ def list_jobs(options: Namespace) -> int:
 
 
 def certificate(options: Namespace) -> int:
-    """The certificate as the file that `evaluate` reads."""
-    server, path = job_path(options)
-    data = server.response("GET", f"{path}/certificate").content
-    if options.output is None:
+    """The file that `evaluate` reads, or its paper; that of a file without a server."""
+    which, manner = options.which, {n: getattr(options, n) for n in ("language", "zone", "paper")}
+    output = options.output if options.pdf is None else options.pdf
+    if which is not None and not which.isdecimal():
+        if options.pdf is None:
+            raise RequestRefused("Say with --pdf where the paper of a certificate's file goes.")
+        data = certificate_paper(read_json(Path(which)), Path(which).name, **manner)
+    else:
+        options.job = options.job if which is None else int(which)
+        server, path = job_path(options)
+        if options.pdf is None:
+            data = server.response("GET", f"{path}/certificate").content
+        else:
+            data = server.response("GET", f"{path}/certificate.pdf", params=manner).content
+    if output is None:
         sys.stdout.buffer.write(data)
     else:
-        Path(options.output).write_bytes(data)
+        Path(output).write_bytes(data)
     return 0
 
 

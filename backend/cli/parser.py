@@ -324,8 +324,15 @@ def _add_calibrate(verbs: Any) -> None:
     _on_job(group, "show", calibration_job.show, "all of one")
     command = _asking(group, "list", calibration_job.list_jobs, help="newest first")
     command.add_argument("--unit", help="of this one")
-    command = _on_job(group, "certificate", calibration_job.certificate, "the file for `evaluate`")
+    words = "the file for `evaluate`, or a PDF to be signed"
+    command = _on_job(group, "certificate", calibration_job.certificate, words)
+    words = "number of the calibration, or a certificate's file, which needs no server"
+    command.add_argument("which", nargs="?", metavar="JOB|FILE", help=words)
     command.add_argument("--output", "-o", type=Path, help="a file; standard output if absent")
+    command.add_argument("--pdf", type=Path, metavar="OUT", help="on paper, into this file")
+    command.add_argument("--language", choices=["en", "zh"], default="en", help="of the PDF (en)")
+    command.add_argument("--zone", default="UTC", help="of its moments, like Europe/Zurich (UTC)")
+    command.add_argument("--paper", choices=["a4", "letter"], default="a4", help="(a4)")
     words = "linearity, hysteresis, or a certificate again"
     command = _asking(group, "evaluate", calibrate.evaluate, help=words)
     words = "JSON: full_scale_nm, load_nm, forward, reverse; or a certificate, without a server"

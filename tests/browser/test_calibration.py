@@ -133,6 +133,10 @@ def test_a_sensor_is_calibrated_though_cable_server_and_a_mass_go_wrong(
     page.get_by_role("button", name="Close with its certificate").click()
     sheet = page.get_by_test_id("certificate-sheet")
     told = sheet.get_by_test_id("certificate-hash").inner_text()
+    paper = sheet.get_by_role("link", name="PDF").get_attribute("href")
+    answer = page.request.get(f"{desk.address}{paper}")
+    assert answer.headers["content-type"] == "application/pdf"
+    assert answer.body().startswith(b"%PDF")
     with page.expect_download() as waiting:
         sheet.get_by_role("link", name="Save as a file").click()
     file = tmp_path / "certificate.json"

@@ -278,3 +278,8 @@ def test_from_the_shell_with_the_maker_s_word_and_back_to_what_the_unit_had(
     file = tmp_path / "certificate.json"
     spindle("certificate", "--job", "1", "--output", str(file))
     assert main(["calibrate", "evaluate", str(file)]) == 0
+    asked, kept = tmp_path / "asked.pdf", tmp_path / "kept.pdf"
+    file = file.rename(tmp_path / "calibration-1.json")
+    spindle("certificate", "1", "--pdf", str(asked))
+    assert main(["calibrate", "certificate", str(file), "--pdf", str(kept)]) == 0
+    assert asked.read_bytes() == kept.read_bytes()

@@ -25,6 +25,7 @@ from backend.api.services import Provided
 from backend.domain.calibration.capture import state_of
 from backend.domain.calibration.gravity import gravity_at
 from backend.domain.calibration.plain import to_plain
+from backend.services.calibration.paper import Language, Paper, certificate_file
 
 router = APIRouter(prefix="/calibrations", tags=["calibration"], responses=refusals(404))
 UNIT = refusals(403, 404, 409, 503, 504)
@@ -208,6 +209,25 @@ def get_calibration_certificate(calibration_id: JobId, services: Provided) -> Re
     """The certificate as the file that `spindle calibrate evaluate` reads: the closed one's as it
     is kept; of an open one with a fit, as it would be now."""
     data = services.calibrations.show.certificate(calibration_id)
-    name = f"calibration-{calibration_id}.json"
+    name = certificate_file(calibration_id)
     headers = {"content-disposition": f'attachment; filename="{name}"'}
     return Response(data, media_type="application/json", headers=headers)
+
+
+@router.get(
+    "/{calibration_id}/certificate.pdf",
+    operation_id="get_calibration_certificate_pdf",
+    response_class=Response,
+    responses={**refusals(404, 409), 200: {"content": {"application/pdf": {}}}},
+)
+def get_calibration_certificate_pdf(
+    calibration_id: JobId,
+    services: Provided,
+    language: Language = "en",
+    zone: Annotated[str, Query(max_length=100, description="Of all moments; IANA name.")] = "UTC",
+    paper: Paper = "a4",
+) -> Response:
+    """The certificate to be signed, of the same file: the same bytes for the same certificate."""
+    data = services.calibrations.show.certificate_pdf(calibration_id, language, zone, paper)
+    headers = {"content-disposition": f'inline; filename="calibration-{calibration_id}.pdf"'}
+    return Response(data, media_type="application/pdf", headers=headers)

@@ -32,6 +32,7 @@ def about_json(job: KeptCalibration, software: str) -> dict[str, Any]:
         "model": unit["model"],
         "market": unit["market"],
         "firmware_version": unit["firmware_version"],
+        "bike": job.bike,
         "technician": job.author or None,
     }
 

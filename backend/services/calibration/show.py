@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -12,6 +13,12 @@ from backend.domain.canonical_json import canonical_text
 from backend.services.calibration import body as kept
 from backend.services.calibration.certificates import certificate_of
 from backend.services.calibration.jobs import CalibrationJobs
+from backend.services.calibration.paper import (
+    Language,
+    Paper,
+    certificate_file,
+    certificate_paper,
+)
 from backend.services.calibration.plan import Step, steps
 from backend.services.calibration.reading import Readings
 from backend.services.calibration.telling import (
@@ -121,6 +128,14 @@ class CalibrationShow:
         if made is None:
             raise kept.not_fitted()
         return canonical_text(made).encode()
+
+    def certificate_pdf(self, job_id: int, language: Language, zone: str, paper: Paper) -> bytes:
+        """`certificate` on paper. zone: of all moments, by its IANA name.
+
+        Raises NotFound, Conflict before a fit, ObjectDamaged, InvalidRequest for no zone.
+        """
+        body = json.loads(self.certificate(job_id))
+        return certificate_paper(body, certificate_file(job_id), language, zone, paper)
 
     # ------------------------------------------------------------------ inside
 

@@ -35,6 +35,10 @@ CAPTURES_MAX = 500
 
 KIND, SUFFIX = "calibrations", ".json"
 
+JOBS = select(t.calibration, t.bike.c.name.label("bike")).outerjoin_from(
+    t.calibration, t.bike, t.bike.c.id == t.calibration.c.bike_id
+)
+
 
 class CalibrationStore:
     """Jobs by their number, from any thread."""
@@ -80,7 +84,7 @@ class CalibrationStore:
         self, unit_key: str | None = None, bike_id: int | None = None, model: str | None = None
     ) -> tuple[KeptCalibration, ...]:
         """Jobs, newest first; of a unit, a bike or a model where it is named."""
-        query = select(t.calibration)
+        query = JOBS
         for column, value in (
             (t.calibration.c.unit_key, unit_key),
             (t.calibration.c.bike_id, bike_id),
@@ -238,7 +242,7 @@ def open_job(connection: Connection, job_id: int) -> KeptCalibration:
 
 
 def job_of(connection: Connection, job_id: int) -> KeptCalibration:
-    row = connection.execute(select(t.calibration).where(t.calibration.c.id == job_id)).first()
+    row = connection.execute(JOBS.where(t.calibration.c.id == job_id)).first()
     if row is None:
         raise NotFound(f"There is no calibration {job_id}.")
     return job_from(row)
@@ -256,6 +260,7 @@ def job_from(row: Row[Any]) -> KeptCalibration:
         opened_us=row.opened_us,
         closed_us=row.closed_us,
         sha256=row.sha256,
+        bike=row.bike,
     )
 
 

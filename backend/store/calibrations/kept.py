@@ -27,7 +27,8 @@ class KeptCapture:
 class KeptCalibration:
     """A job. body: all that is known of it but its captures, plain JSON. model: of the unit.
 
-    closed_us: None while it is open. sha256: of the bytes of the closed one's file.
+    closed_us: None while it is open. sha256: of the bytes of the closed one's file. bike: its name
+    now.
     """
 
     id: int
@@ -40,6 +41,7 @@ class KeptCalibration:
     opened_us: int
     closed_us: int | None = None
     sha256: str | None = None
+    bike: str | None = None
 
 
 def document_of(
