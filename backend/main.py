@@ -30,7 +30,7 @@ from backend.device.families import FAMILIES, Families
 from backend.errors import LinkError, SpindleError, StoreError
 from backend.ingest import Readers
 from backend.link import kind_of
-from backend.services.calibration.calibrations import open_calibrations
+from backend.services.calibration.calibrations import Calibrations, open_calibrations
 from backend.services.health import Health
 from backend.services.imports.collect import Collect
 from backend.services.imports.mapping import TableMapping
@@ -130,7 +130,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             dashboards=dashboards,
             mark=MarkMoment(recorder, store.marks, devices.get),
             tuning=tuning,
-            calibrations=open_calibrations(devices, store.calibrations, tuning, __version__),
+            calibrations=make_calibrations(settings, devices, store, tuning),
             bike_numbers=BikeNumbers(store, memory.ride_config, tuning.parameters),
             live=LiveTuning(devices),
             preview=Preview(),
@@ -168,6 +168,14 @@ def make_devices(
     )
     devices.watch(last_seen.follower(devices.get))
     return devices
+
+
+def make_calibrations(
+    settings: Settings, devices: Devices, store: Store, tuning: Tuning
+) -> Calibrations:
+    """The calibration of sensors, judged by the house's limits."""
+    limits = settings.calibration_limits
+    return open_calibrations(devices, store.calibrations, tuning, __version__, limits)
 
 
 def make_uploads(settings: Settings, store: Store) -> Uploads:

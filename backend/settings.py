@@ -37,6 +37,7 @@ class Settings:
     there are no accounts yet; `off` says somebody else guards the door. allowed_hosts: names by
     which browsers may call the server besides localhost. upload_bytes_max: largest file taken.
     author: whose changes those are whose request names nobody; the system's user unless set.
+    calibration_limits: tables of the file alone, as of domain.calibration.judgement.limits.
     """
 
     host: str
@@ -51,6 +52,7 @@ class Settings:
     allowed_hosts: tuple[str, ...]
     upload_bytes_max: int
     author: str
+    calibration_limits: tuple[Any, ...]
 
     @property
     def is_loopback(self) -> bool:
@@ -113,6 +115,7 @@ def combine(
             errors,
         ),
         "author": tidy_author(str(chosen.get("author") or system_user())),
+        "calibration_limits": _tables(chosen.get("calibration_limits", []), errors),
     }
     if errors:
         raise InvalidRequest("; ".join(error.message for error in errors), fields=errors)
@@ -158,6 +161,14 @@ def system_user() -> str:
         return getpass.getuser()
     except (OSError, KeyError, ImportError):
         return ""
+
+
+def _tables(value: Any, errors: list[FieldError]) -> tuple[Any, ...]:
+    if isinstance(value, list):
+        return tuple(value)
+    message = f"calibration_limits are tables of {FILE_NAME}: [[calibration_limits]]."
+    errors.append(FieldError("calibration_limits", "not_tables", message))
+    return ()
 
 
 def _units(value: Any, errors: list[FieldError]) -> tuple[str, ...]:

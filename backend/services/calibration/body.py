@@ -3,12 +3,13 @@
 unit      serial_number, model, firmware_version, market, battery_min_v
 found     the unit's record when the job was opened
 free      by parameter, from where to where it needs no token
+limits    that it is judged by
 setup     None before there is one
 fitted_us since when nothing changed after the fit; None before, and after each change
 unit_nm   by the number of a capture, what the unit itself told then
 changes   of the unit's record that were read back, oldest first
 pending   a change that was begun and of which nobody knows yet whether the unit has it
-certificate  of what was written: about, limits, worked, sha256
+certificate  of what was written: about, worked, sha256
 result    of a closed job
 """
 
@@ -29,12 +30,13 @@ Body = Mapping[str, Any]
 WRITE, RESTORE = "write", "restore"
 
 
-def new_body(unit: Body, found: Body, free: Body) -> dict[str, Any]:
+def new_body(unit: Body, found: Body, free: Body, limits: Body) -> dict[str, Any]:
     """Of a job that is just opened."""
     return {
         "unit": dict(unit),
         "found": dict(found),
         "free": dict(free),
+        "limits": dict(limits),
         "setup": None,
         "fitted_us": None,
         "unit_nm": {},

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
+from backend.domain.calibration.judgement.limits import limits_table
 from backend.services.calibration.jobs import CalibrationJobs
 from backend.services.calibration.reading import Readings
 from backend.services.calibration.readings import RecentReadings
@@ -32,15 +34,19 @@ def open_calibrations(
     store: CalibrationStore,
     tuning: Tuning,
     version: str,
+    limits: Sequence[Any] = (),
     now_s: Callable[[], float] = time.monotonic,
 ) -> Calibrations:
     """Over units whose streams are followed from now on. version: of this Spindle, for
-    certificates. now_s: any steady clock."""
+    certificates. limits: plain tables of the house's own. now_s: any steady clock.
+
+    Raises InvalidRequest for limits that are none.
+    """
     software = f"spindle {version}"
     recent = RecentReadings(now_s)
     devices.watch(recent.follow)
     readings = Readings(recent)
-    jobs = CalibrationJobs(devices, store, readings)
+    jobs = CalibrationJobs(devices, store, readings, limits_table(limits))
     record = CalibrationRecord(jobs, store, tuning, software)
     show = CalibrationShow(jobs, record, store, readings, software)
     return Calibrations(readings, jobs, record, show)

@@ -13,7 +13,7 @@ from typing import Any
 
 from backend.domain.calibration.capture import Capture
 from backend.domain.calibration.certificate import About, certificate
-from backend.domain.calibration.judgement.limits import Limits, limits_for
+from backend.domain.calibration.judgement.limits import Limits
 from backend.domain.calibration.plain import from_plain
 from backend.services.calibration.body import Body, require_setup
 from backend.services.calibration.record import NUMBER, coefficients_of
@@ -59,14 +59,12 @@ def certificate_of(
 
 
 def limits_in(body: Body) -> Limits:
-    """What a job is judged by: after a write as it was then."""
-    if body["certificate"] is not None:
-        return from_plain(Limits, body["certificate"]["limits"])
-    return limits_for(body["unit"]["market"], body["unit"]["model"])
+    """What a job is judged by: as it was when it was opened."""
+    return from_plain(Limits, body["limits"])
 
 
 def written_part(made: Body) -> dict[str, Any]:
     """What a job keeps of the certificate that it wrote."""
     document = made["document"]
-    kept = {name: document[name] for name in ("about", "limits", "worked")}
+    kept = {name: document[name] for name in ("about", "worked")}
     return {**kept, "sha256": made["sha256"]}

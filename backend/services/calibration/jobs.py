@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from backend.domain.calibration.capture import State, capture_of
+from backend.domain.calibration.judgement.limits import Limits, limits_for
 from backend.domain.calibration.plain import to_plain
 from backend.domain.calibration.setup import Setup, setup_of
 from backend.domain.calibration.steady import WINDOW_S
@@ -32,18 +33,20 @@ FACTORY_GAIN = "sensor_gain_nm_per_count_factory"
 
 
 class CalibrationJobs:
-    """Jobs up to their fit. For any thread. now_s: Unix time."""
+    """Jobs up to their fit. For any thread. limits: to be judged by. now_s: Unix time."""
 
     def __init__(
         self,
         devices: Devices,
         store: CalibrationStore,
         readings: Readings,
+        limits: Sequence[Limits],
         now_s: Callable[[], float] = time.time,
     ) -> None:
         self._devices = devices
         self._store = store
         self._readings = readings
+        self._limits = limits
         self._now_s = now_s
         self._capturing = threading.Lock()
 
@@ -61,7 +64,7 @@ class CalibrationJobs:
         identity = self._devices.get(device_id).identity
         parameters = config.parameters
         model = identity.model if identity else None
-        told = {
+        told: dict[str, Any] = {
             "serial_number": identity.serial_number if identity else None,
             "model": model,
             "firmware_version": identity.firmware_version if identity else None,
@@ -76,7 +79,8 @@ class CalibrationJobs:
             and (band := unit.parameters.free_of(name, parameters)) is not None
         }
         free = {name: [band.min, band.max] for name, band in bands.items()}
-        body = kept.new_body(told, record_of(parameters), free)
+        limits = to_plain(limits_for(told["market"], model, self._limits))
+        body = kept.new_body(told, record_of(parameters), free, limits)
         job, is_new = self._store.open(key, model, body, author)
         return job.id, is_new
 

@@ -39,6 +39,15 @@ def test_an_empty_list_of_devices_opens_none() -> None:
     assert combine({"device": []}, {}, {}).device == ()
 
 
+def test_limits_of_calibrations_are_tables_of_the_file() -> None:
+    tables = [{"source": "maker", "model": "City 7", "total_pct": 0.8}]
+
+    assert combine({}, {}, {"calibration_limits": tables}).calibration_limits == tuple(tables)
+    assert combine({}, {}, {}).calibration_limits == ()
+    with pytest.raises(InvalidRequest, match=r"\[\[calibration_limits\]\]"):
+        combine({}, {"SPINDLE_CALIBRATION_LIMITS": "0.8"}, {})
+
+
 def test_every_wrong_setting_is_named() -> None:
     with pytest.raises(InvalidRequest) as refusal:
         combine({"port": "99999"}, {"SPINDLE_BUS": "pigeon"}, {"colour": "red"})

@@ -16,7 +16,7 @@ from backend.domain.calibration.certificate import About, certificate, evaluate,
 from backend.domain.calibration.coefficients import Coefficients
 from backend.domain.calibration.fit import fit
 from backend.domain.calibration.judgement.history import Past, among_model, change, past_of
-from backend.domain.calibration.judgement.limits import Limits, limits_for
+from backend.domain.calibration.judgement.limits import Limits, limits_for, limits_table
 from backend.domain.calibration.piecewise import piecewise
 from backend.domain.calibration.strokes import curve
 from backend.domain.calibration.worked import work_out
@@ -159,6 +159,30 @@ def test_limits_are_the_most_particular_and_say_whose_they_are() -> None:
     assert limits_for("japan", "City 7", table).model == "City 7"
     assert limits_for("japan", None, table).market == "japan"
     assert limits_for("uk", "other").source == "example limits"
+
+
+def test_the_house_s_own_limits_come_before_the_examples() -> None:
+    table = limits_table([{"source": "maker, sheet 7", "model": "City 7", "linearity_pct": 0.5}])
+
+    assert limits_for("eu", "City 7", table).linearity_pct == 0.5
+    assert limits_for("eu", "City 8", table).source == "example limits"
+    whole_house = limits_table([{"source": "our workshop", "total_pct": 0.9}])
+    assert limits_for("eu", "City 8", whole_house).total_pct == 0.9
+
+
+@pytest.mark.parametrize(
+    ("tables", "named"),
+    [
+        ([{"linearity_pct": 0.5}], "source"),
+        ([{"source": "a"}, {"source": "b"}], "two tables"),
+        ([{"source": "a", "linearity": 0.5}], "linearity"),
+        ([{"source": "a", "total_pct": 0}], "total_pct"),
+        (["a"], "dictionary|object"),
+    ],
+)
+def test_limits_that_are_none_are_refused_by_name(tables: list[object], named: str) -> None:
+    with pytest.raises(InvalidRequest, match=named):
+        limits_table(tables)
 
 
 def test_a_sensor_that_moved_is_told_from_one_that_did_not() -> None:

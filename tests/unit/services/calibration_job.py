@@ -5,6 +5,7 @@ The readings are made here: counts of a straight sensor with noise, its truth to
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -47,8 +48,9 @@ TRUE_OFFSET, TRUE_GAIN, NOISE_COUNTS = 37.0, 0.0103, 6.0
 class Workshop:
     """One unit, one job. plugged: whether its cable is in."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, limits: Sequence[dict[str, Any]] = ()) -> None:
         self.folder = folder
+        self.limits = limits
         self.unit = FakeUnit()
         self.now_s = 100.0
         self.t_us = 0
@@ -66,7 +68,7 @@ class Workshop:
         self.device = self.devices.add(URL).id
         tuning = Tuning(self.devices, self.store.revisions)
         self.use = open_calibrations(
-            self.devices, self.store.calibrations, tuning, "9.9", lambda: self.now_s
+            self.devices, self.store.calibrations, tuning, "9.9", self.limits, lambda: self.now_s
         )
 
     def stop(self) -> None:

@@ -112,6 +112,24 @@ def test_what_the_unit_keeps_is_the_hash_of_the_certificate_before_its_verificat
     assert "another was written" in capsys.readouterr().out
 
 
+def test_a_job_is_judged_by_the_limits_that_held_when_it_was_opened(tmp_path: Path) -> None:
+    strict = {"source": "maker, sheet 7", "linearity_pct": 1e-4}
+    bench = Workshop(tmp_path, [strict])
+    try:
+        job = bench.fitted()
+        assert job.worked is not None
+        assert job.worked.judgement.limits.source == "maker, sheet 7"
+        assert "linearity" in [cause.code for cause in job.worked.judgement.causes]
+
+        bench.limits = ()
+        bench.restart()
+        later = bench.view().worked
+        assert later is not None
+        assert later.judgement.limits == job.worked.judgement.limits
+    finally:
+        bench.stop()
+
+
 def test_another_server_finds_the_job_as_it_was(bench: Workshop) -> None:
     bench.open()
     bench.use.jobs.set_up(bench.job, SETUP)

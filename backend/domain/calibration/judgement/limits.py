@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field
 
-from backend.domain.calibration.plain import Plain
+from backend.domain.calibration.plain import Plain, from_plain
+from backend.errors import FieldError, InvalidRequest
 
 Percent = Annotated[float, Field(gt=0, le=100)]
 
@@ -45,9 +47,29 @@ DEFAULTS: tuple[Limits, ...] = (
 )
 
 
-def limits_for(
-    market: str | None, model: str | None, table: tuple[Limits, ...] = DEFAULTS
-) -> Limits:
+def limits_table(told: Sequence[Any]) -> tuple[Limits, ...]:
+    """The house's own limits before the examples. told: plain tables.
+
+    Raises InvalidRequest for one that is no limits, that does not say whose it is, or that is for
+    the same bikes as another.
+    """
+    own: dict[tuple[str | None, str | None], Limits] = {}
+    for number, table in enumerate(told, 1):
+        limits = from_plain(Limits, table)
+        whose = (limits.market, limits.model)
+        if limits.source == EXAMPLE or whose in own:
+            message = f"calibration_limits, table {number}: " + (
+                "two tables are for the same market and model."
+                if whose in own
+                else "`source` must say whose limits these are."
+            )
+            fault = FieldError("calibration_limits", "not_its_own", message)
+            raise InvalidRequest(message, "invalid_limits", [fault])
+        own[whose] = limits
+    return (*own.values(), *DEFAULTS)
+
+
+def limits_for(market: str | None, model: str | None, table: Sequence[Limits] = DEFAULTS) -> Limits:
     """The most particular entry that fits: of model and market, of the model, of the market, any.
 
     Raises nothing: a table without an entry for anybody falls back to the example limits.
