@@ -94,6 +94,8 @@ def print_wheel(answer: dict[str, Any]) -> None:
         f"{found['circumference_m']:.4f} m ± {found['expanded_m']:.4f} m "
         f"(k = {found['coverage']:.2f}): {way}."
     )
+    if answer["noise_m"] is not None:
+        print(f"The positions are {answer['noise_m']:.1f} m off (k = 1).")
     if beside is None:
         return
     said = "agrees" if beside["agrees"] else "DIFFERS"

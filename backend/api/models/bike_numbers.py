@@ -62,6 +62,7 @@ class Wheel(Answer):
     measured: Circumference
     distance_m: float = Field(description="On the ground; of rolls, their mean.")
     turns: float = Field(description="Of the wheel, on that distance.")
+    noise_m: float | None = Field(description="Of a position, in each direction; null: rolled.")
     beside: BesideUnit | None
 
 

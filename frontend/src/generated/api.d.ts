@@ -7940,6 +7940,11 @@ export interface components {
              * @description Of the wheel, on that distance.
              */
             turns: number;
+            /**
+             * Noise M
+             * @description Of a position, in each direction; null: rolled.
+             */
+            noise_m: number | null;
             beside: components["schemas"]["BesideUnit"] | null;
         };
         /**

@@ -1,8 +1,8 @@
 """Goal: the wheel's circumference from a ride is that of the road it went, and rides that cannot
 tell, of wheel or climb, are refused by the name of what they lack.
 
-Method: rides made row by row in a real store, along a meridian: an arc of R times the angle, with
-R of the sphere that lengths of tracks are told on. The head unit's clock differs by 2 s.
+Method: rides made row by row in a real store, along a meridian at 45 degrees, where a degree of WGS
+84 is 111.132 km (NIMA TR 8350.2). The head unit's clock differs by 2 s.
 """
 
 from __future__ import annotations
@@ -19,7 +19,6 @@ from backend.control import law_defaults
 from backend.domain.calibration.bike.coast_down import Known
 from backend.domain.channels import ChannelSpec, Values
 from backend.domain.ride import Ride, RideRows
-from backend.domain.standards.sphere import EARTH_M
 from backend.errors import InvalidRequest
 from backend.ingest import ImportedRide, Outcome
 from backend.services.imports.upload import Uploads
@@ -43,6 +42,7 @@ BEGAN_US = 1_700_000_000_000_000
 DAY_S = 86_400.0
 KEPT_M = float(law_defaults()["wheel_circumference_m"])
 LARGER = 1.02
+DEGREE_M = 111_132.0
 AT_S = np.arange(620.0)
 RIDING_MS = np.where((AT_S >= 10) & (AT_S <= 610), 6.0, 0.0)
 KNOWN = Known(mass_kg=100.0, mass_limit_kg=0.5, gravity_ms2=9.807, rise_limit_m=0.5)
@@ -81,7 +81,7 @@ def track(later_s: float = 0.0) -> dict[str, Values]:
     way_m = np.concatenate([[0.0], np.cumsum((RIDING_MS[1:] + RIDING_MS[:-1]) / 2)])
     way_m = np.interp(AT_S + later_s, AT_S, way_m)
     return {
-        "latitude_deg": 47.0 + np.degrees(way_m / EARTH_M),
+        "latitude_deg": 45.0 + way_m / DEGREE_M,
         "longitude_deg": np.full(len(way_m), 8.0),
     }
 
@@ -103,10 +103,11 @@ def test_a_larger_wheel_is_found_by_the_positions_of_its_own_ride(store: Store) 
     told = measure(store).tracked(TrackQuestion(Window(ride)), None)
 
     assert told.distance_m == pytest.approx(6.0 * 601, rel=1e-4)
-    assert told.measured.circumference_m == pytest.approx(LARGER * KEPT_M, rel=1e-3)
-    # 5 m at both ends of 3606 m, half a percent of path, one turn of 1700: rectangles, k = 2.
-    share = math.sqrt(2 * (5 / 3606) ** 2 + 0.005**2 + (1 / told.turns) ** 2) / math.sqrt(3)
-    assert told.measured.expanded_m == pytest.approx(2 * share * LARGER * KEPT_M, rel=1e-3)
+    assert told.measured.circumference_m == pytest.approx(LARGER * KEPT_M, rel=3e-4)
+    assert told.noise_m == pytest.approx(0.0, abs=0.05)
+    # Half a percent of positions that wander, one turn of 1700: rectangles, k = 2.
+    share = math.hypot(0.005, 1 / told.turns) / math.sqrt(3)
+    assert told.measured.expanded_m == pytest.approx(2 * share * LARGER * KEPT_M, rel=0.02)
     assert told.beside is None
 
 
@@ -116,7 +117,7 @@ def test_the_positions_may_be_of_another_device_with_a_clock_of_its_own(store: S
 
     told = measure(store).tracked(TrackQuestion(Window(wheel), other), None)
 
-    assert told.measured.circumference_m == pytest.approx(LARGER * KEPT_M, rel=1e-3)
+    assert told.measured.circumference_m == pytest.approx(LARGER * KEPT_M, rel=3e-3)
     with pytest.raises(InvalidRequest) as refused:
         measure(store).tracked(TrackQuestion(Window(wheel, 100.0, 500.0), other), None)
     assert codes(refused) == [("ride_id", "not_standing")]
@@ -144,6 +145,16 @@ def test_what_a_ride_lacks_for_its_wheel_is_named(store: Store) -> None:
     stated = TrackQuestion(Window(whole), told_m=KEPT_M)
     found = measure(store, "defaults").tracked(stated, None).measured
     assert found.circumference_m == pytest.approx(LARGER * KEPT_M, rel=1e-3)
+
+
+def test_positions_too_rough_to_tell_are_refused_with_the_figure(store: Store) -> None:
+    rough = track()
+    noise = np.random.default_rng(7).normal(0.0, 12.0, len(AT_S))
+    rough["latitude_deg"] = rough["latitude_deg"] + noise / DEGREE_M
+    ride = kept(store, {"speed_kmh": told_kmh(), **rough})
+
+    with pytest.raises(InvalidRequest, match=r"positions are \d+\.\d m off .* to \d+\.\d % only"):
+        measure(store).tracked(TrackQuestion(Window(ride)), None)
 
 
 def climb_of(store: Store, asked_nm: float | None, day: int = 1) -> Question:

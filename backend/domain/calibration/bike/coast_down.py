@@ -117,11 +117,11 @@ def resistance(runs: Sequence[Run], known: Known) -> Resistance:
     for place, run in enumerate(runs):
         time_s, speed = _arrays(run.time_s, run.speed_ms)
         time_s = time_s - time_s[0]
-        squares = _summed(speed**2, time_s)
+        squares = summed(speed**2, time_s)
         own = np.zeros((time_s.size, len(runs)))
         own[:, place] = 1.0
         rows.append(np.column_stack([time_s, squares, own]))
-        distance_m = float(_summed(speed, time_s)[-1])
+        distance_m = float(summed(speed, time_s)[-1])
         slope_n = known.mass_kg * known.gravity_ms2 * run.rise_m / distance_m
         lost.append(-heavy_kg * speed - slope_n * time_s)
     matrix, wanted = np.concatenate(rows), np.concatenate(lost)
@@ -206,7 +206,7 @@ def _contributions(
     return told
 
 
-def _summed(values: Numbers, time_s: Numbers) -> Numbers:
+def summed(values: Numbers, time_s: Numbers) -> Numbers:
     """The integral from the first sample to each (n,), by trapezes."""
     steps = (values[1:] + values[:-1]) / 2 * np.diff(time_s)
     summed: Numbers = np.concatenate([[0.0], np.cumsum(steps)])

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from backend.domain.calibration.bike.track import Track
 from backend.domain.calibration.plain import Plain
 from backend.domain.standards.statistics import coverage_factor
 from backend.errors import FieldError, InvalidRequest
@@ -17,13 +18,14 @@ CIRCUMFERENCE_MIN_M, CIRCUMFERENCE_MAX_M = 0.8, 2.6
 """Wheels of 12 to 29 inch and the widest tyre."""
 
 GPS_LEAST_M = 1000.0
-"""Shorter, and both ends' positions decide: 5 m in 500 m are a whole percent."""
+"""Shorter, and nobody can tell the noise of the positions from the way."""
 
-GPS_END_M = 5.0
-"""Limit of a position at either end of a track under an open sky."""
+GPS_WANDER_SHARE = 0.005
+"""Limit of what positions add that wander slowly: 3 m over 20 s or 60 s make a ride at 20 km/h
+0.7 % or 0.3 % too long, which no track tells from its way."""
 
-GPS_PATH_SHARE = 0.005
-"""Limit of what corners cut off and noise adds along a track of one point a second."""
+GPS_EXPANDED_SHARE_MAX = 0.02
+"""Half of the band in which a dealer may set a circumference: less is no measurement of it."""
 
 SLIP_SHARE = 0.002
 """Limit of what a rolling tyre under load and a rolled-out one differ by."""
@@ -73,21 +75,34 @@ def roll_out(distances_m: Sequence[float], turns: float, tape_limit_m: float) ->
     return _circumference(mean_m, scatter, each.size - 1, limits, "roll_out")
 
 
-def from_gps(distance_m: float, turns: float) -> Circumference:
+def from_gps(track: Track | None, told_m: float, turns: float) -> Circumference:
     """From a ride's track and the turns its speed sensor counted on the same stretch.
 
-    Raises InvalidRequest, also for a track that is too short to tell.
+    track: by the way told_m that was told there; None where it is too short to tell. Raises
+    InvalidRequest, also for positions too rough to tell.
     """
     faults = []
-    if not (math.isfinite(distance_m) and distance_m >= GPS_LEAST_M):
+    long_enough = math.isfinite(told_m) and told_m >= GPS_LEAST_M
+    if track is None or not long_enough:
         faults.append(_fault("distance_m", f"a track of {GPS_LEAST_M:g} m or more is needed"))
     if not (math.isfinite(turns) and turns > 0):
         faults.append(_fault("turns", "the turns of the ride must be above 0"))
     _raise(faults)
-    ends = math.sqrt(2.0) * GPS_END_M / distance_m
-    share = math.sqrt(ends**2 + GPS_PATH_SHARE**2 + (1 / turns) ** 2) / ROOT_3
-    mean_m = distance_m / turns
-    return _circumference(mean_m, 0.0, None, share * mean_m, "gps")
+    assert track is not None
+    mean_m = track.ratio * told_m / turns
+    scatter = track.scatter / track.ratio * mean_m
+    bends = track.bends_limit / track.ratio
+    share = math.hypot(bends, GPS_WANDER_SHARE, 1 / turns) / ROOT_3
+    found = _circumference(mean_m, scatter, track.freedom, share * mean_m, "gps")
+    if found.expanded_m > GPS_EXPANDED_SHARE_MAX * mean_m:
+        message = (
+            f"the positions are {track.noise_m:.1f} m off and bends leave "
+            f"{100 * bends:.1f} % open: they tell the circumference to "
+            f"{100 * found.expanded_m / mean_m:.1f} % only, {100 * GPS_EXPANDED_SHARE_MAX:g} % "
+            "are needed; take a longer and straighter ride under an open sky, or roll out"
+        )
+        _raise([FieldError("track", "too_rough", f"track: {message}")])
+    return found
 
 
 def cut_off(

@@ -7,8 +7,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from backend.domain._generated import MOVING_KMH
+from backend.domain.calibration.bike.coast_down import summed
+from backend.domain.calibration.bike.track import track_of
 from backend.domain.calibration.bike.wheel import (
     Circumference,
     CutOff,
@@ -16,8 +19,8 @@ from backend.domain.calibration.bike.wheel import (
     from_gps,
     roll_out,
 )
+from backend.domain.channels import Values
 from backend.domain.energy import KMH_PER_MS
-from backend.domain.standards.sphere import great_circle_m
 from backend.services.rides.bike.window import Rows, refusal, rows_of
 from backend.services.rides.insight.rows import Window
 from backend.services.rides.replay import ConfigOf
@@ -51,11 +54,13 @@ class Beside:
 
 @dataclass(frozen=True)
 class WheelMeasured:
-    """distance_m, turns: on the ground, and of the wheel, on it. beside: None without a unit."""
+    """distance_m, turns: on the ground, and of the wheel, on it. noise_m: of a position, in each
+    direction; None of a roll-out. beside: None without a unit."""
 
     measured: Circumference
     distance_m: float
     turns: float
+    noise_m: float | None
     beside: Beside | None
 
 
@@ -87,7 +92,7 @@ class WheelMeasure:
         """From marks on the ground. Raises InvalidRequest, and what asking a unit raises."""
         found = roll_out(distances_m, turns, tape_limit_m)
         mean_m = float(np.mean(distances_m))
-        return WheelMeasured(found, mean_m, turns, self._beside(device_id, found))
+        return WheelMeasured(found, mean_m, turns, None, self._beside(device_id, found))
 
     def tracked(self, question: TrackQuestion, device_id: str | None) -> WheelMeasured:
         """From the positions of a ride. Raises NotFound, ObjectDamaged, InvalidRequest with the
@@ -97,11 +102,17 @@ class WheelMeasure:
         wheel = rows_of(self._store, question.wheel, "ride_id", names)
         track = wheel if own else self._track(question, wheel)
         told_m = question.told_m or self._told_m(wheel)
-        speed_ms = wheel[SPEED] / KMH_PER_MS
-        turns = float(np.trapezoid(speed_ms, wheel.time_s)) / told_m
-        distance_m = track_m(track)
-        found = from_gps(distance_m, turns)
-        return WheelMeasured(found, distance_m, turns, self._beside(device_id, found))
+        way_m = summed(wheel[SPEED] / KMH_PER_MS, wheel.time_s)
+        turns = float(way_m[-1]) / told_m
+        later_s = (wheel.ride.started_us - track.ride.started_us) / 1e6
+        first = once_a_second(track.time_s)
+        at_each_m = np.interp(track.time_s[first] - later_s, wheel.time_s, way_m)
+        along = track_of(track[LATITUDE][first], track[LONGITUDE][first], at_each_m)
+        found = from_gps(along, float(way_m[-1]), turns)
+        noise_m = along.noise_m if along else None
+        distance_m = found.circumference_m * turns
+        beside = self._beside(device_id, found)
+        return WheelMeasured(found, distance_m, turns, noise_m, beside)
 
     def _track(self, question: TrackQuestion, wheel: Rows) -> Rows:
         """The other device's rows at the same time. Two clocks differ by seconds: the bike stands
@@ -155,10 +166,6 @@ class WheelMeasure:
         )
 
 
-def track_m(rows: Rows) -> float:
-    """Length of a track over the ground, from one position a second: nearer ones add their
-    noise."""
-    _, first = np.unique(np.floor(rows.time_s).astype(np.int64), return_index=True)
-    latitude, longitude = rows[LATITUDE][first], rows[LONGITUDE][first]
-    steps = great_circle_m(latitude[:-1], longitude[:-1], latitude[1:], longitude[1:])
-    return float(np.sum(steps))
+def once_a_second(time_s: Values) -> NDArray[np.intp]:
+    """The first row (k,) of each second: positions told oftener are the same ones again."""
+    return np.unique(np.floor(time_s).astype(np.int64), return_index=True)[1]
