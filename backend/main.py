@@ -31,6 +31,7 @@ from backend.errors import LinkError, SpindleError, StoreError
 from backend.ingest import Readers
 from backend.link import kind_of
 from backend.services.calibration.calibrations import Calibrations, open_calibrations
+from backend.services.calibration.certified import CertifiedTorque
 from backend.services.health import Health
 from backend.services.imports.collect import Collect
 from backend.services.imports.mapping import TableMapping
@@ -131,7 +132,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             mark=MarkMoment(recorder, store.marks, devices.get),
             tuning=tuning,
             calibrations=make_calibrations(settings, devices, store, tuning),
-            bike_numbers=BikeNumbers(store, memory.ride_config, tuning.parameters),
+            bike_numbers=make_bike_numbers(store, memory, tuning),
             live=LiveTuning(devices),
             preview=Preview(),
             library=library,
@@ -176,6 +177,12 @@ def make_calibrations(
     """The calibration of sensors, judged by the house's limits."""
     limits = settings.calibration_limits
     return open_calibrations(devices, store.calibrations, tuning, __version__, limits)
+
+
+def make_bike_numbers(store: Store, memory: UnitMemory, tuning: Tuning) -> BikeNumbers:
+    """With what a ride's unit was configured as and certified for."""
+    certified = CertifiedTorque(store.calibrations, memory.ride_config)
+    return BikeNumbers(store, memory.ride_config, tuning.parameters, certified)
 
 
 def make_uploads(settings: Settings, store: Store) -> Uploads:

@@ -1,4 +1,4 @@
-"""`spindle calibrate wheel`, `cadence` and `climb`: the bike's other numbers."""
+"""`spindle calibrate wheel`, `pulses`, `cadence` and `climb`: the bike's other numbers."""
 
 from __future__ import annotations
 
@@ -28,6 +28,13 @@ def add_wheel_arguments(command: ArgumentParser) -> None:
     command.add_argument("--unit", help="to be told beside")
 
 
+def add_pulses_arguments(command: ArgumentParser) -> None:
+    """What `pulses` takes."""
+    add_cadence_arguments(command)
+    words = "of the wheel by hand, counted"
+    command.add_argument("--turns", type=float, required=True, metavar="N", help=words)
+
+
 def add_cadence_arguments(command: ArgumentParser) -> None:
     """What `cadence` takes."""
     command.add_argument("ride", type=int)
@@ -53,18 +60,40 @@ def wheel(options: Namespace) -> int:
         asked["tape_limit_m"] = options.tape_limit
         answer = server.ask("POST", "/calibration/wheel/roll-out", json=asked)
     else:
-        asked |= {"ride_id": options.ride, "track_ride_id": options.track}
-        asked |= dict(zip(("from_s", "to_s"), options.window or (), strict=False))
+        asked |= window_of(options) | {"track_ride_id": options.track}
         asked["told_circumference_m"] = options.told
         answer = server.ask("POST", "/calibration/wheel/track", json=asked)
     print_json(answer) if options.json else print_wheel(answer)
     return 0 if answer["beside"] is None or answer["beside"]["agrees"] else 1
 
 
+def pulses(options: Namespace) -> int:
+    """The speed sensor's pulses in a turn of its wheel; 1 where the unit counts with others."""
+    asked = window_of(options) | {"turns": options.turns}
+    answer = server_of(options).ask("POST", "/calibration/wheel/pulses", json=asked)
+    found = answer["pulses"]
+    if options.json:
+        print_json(answer)
+    else:
+        said = "agrees" if found["agrees"] else "DIFFERS"
+        sure = "" if found["whole"] else " More turns tell which whole number it is."
+        print(
+            f"{found['counted']:.2f} pulses a turn ± {found['expanded']:.2f} (k = 2): the unit "
+            f"made {answer['told_turns']:.2f} turns of {answer['turns']:g}. It counts with "
+            f"{found['kept']} and {said}.{sure}"
+        )
+    return 0 if found["agrees"] else 1
+
+
+def window_of(options: Namespace) -> dict[str, Any]:
+    """A ride, and a part of it where one is said."""
+    part = dict(zip(("from_s", "to_s"), options.window or (), strict=False))
+    return {"ride_id": options.ride, **part}
+
+
 def cadence(options: Namespace) -> int:
     """The cadence against the crank's turns; 1 where they differ."""
-    asked = {"ride_id": options.ride}
-    asked |= dict(zip(("from_s", "to_s"), options.window or (), strict=False))
+    asked = window_of(options)
     answer = server_of(options).ask("POST", "/calibration/cadence", json=asked)
     if options.json:
         print_json(answer)
@@ -120,6 +149,22 @@ def print_climb(answer: dict[str, Any]) -> None:
     found, road = answer["balance"], answer["resistance"]
     print(f"{found['sentence'].capitalize()} (k = 2); En {found['en']:.2f}.")
     print(f"  {answer['rise_m']:.1f} m in {answer['duration_s']:.0f} s")
-    print(f"  rolling {road['rolling_n']:.2f} N, air {road['air_ns2_m2']:.3f} N s2/m2")
+    typical = ", both typical ones: no coast-down" if road["source"] == "typical" else ""
+    print(f"  rolling {road['rolling_n']:.2f} N, air {road['air_ns2_m2']:.3f} N s2/m2{typical}")
+    print(f"  the legs gave {found['crank_energy_j']:.0f} J by the sensor; the climb took")
+    for name, energy_j in found["needed"].items():
+        print(f"    {name.removesuffix('_j'):12} {energy_j:.0f} J")
+    print(f"  {calibration_text(answer['calibrated'])}; what leaves the ratio open (k = 1):")
     for name, part in sorted(found["contributions"].items(), key=lambda one: -one[1]):
         print(f"  {name:12} {100 * part:.2f} %")
+
+
+def calibration_text(calibrated: dict[str, Any]) -> str:
+    """How well the calibration knows the torque, and who says so."""
+    share = f"± {100 * calibrated['expanded_share']:.2f} % of the torque (k = 2)"
+    if calibrated["source"] == "given":
+        return f"the calibration: {share}, as said"
+    if calibrated["source"] == "unknown":
+        return "the calibration: no certificate, so that only the climb's uncertainty counts"
+    of = calibrated["certificate"]
+    return f"the calibration: {share}, by certificate {of['sha256'][:16]} of {of['written_at']}"

@@ -339,6 +339,8 @@ def _add_calibrate(verbs: Any) -> None:
     command.add_argument("file", type=Path, help=words)
     words = "the wheel's circumference: rolled out, or by the positions of a ride"
     bike_numbers.add_wheel_arguments(_asking(group, "wheel", bike_numbers.wheel, help=words))
+    words = "the speed sensor's pulses in a turn of its wheel, turned by hand"
+    bike_numbers.add_pulses_arguments(_asking(group, "pulses", bike_numbers.pulses, help=words))
     words = "the cadence of a ride against the turns of its crank"
     bike_numbers.add_cadence_arguments(_asking(group, "cadence", bike_numbers.cadence, help=words))
     words = "the torque gain by the energy of a climb and coast-downs"

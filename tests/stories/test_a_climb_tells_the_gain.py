@@ -117,6 +117,8 @@ def test_a_planted_gain_is_found_and_gone_once_it_is_written(
     assert (found["agrees"], found["en"] > 1) == (False, True)
     assert told["resistance"]["rolling_n"] == pytest.approx(0.00864 * 100 * GRAVITY_MS2, rel=0.05)
     assert told["resistance"]["air_ns2_m2"] == pytest.approx(0.24, rel=0.05)
+    assert told["calibrated"]["source"] == "unknown"
+    assert found["motor_energy_j"] == pytest.approx(0.0, abs=5.0)
     file = tmp_path / "climb.json"
     file.write_text(json.dumps(asked), encoding="utf-8")
     shown = spindle(server, "calibrate", "climb", str(file), "--json")
@@ -131,6 +133,11 @@ def test_a_planted_gain_is_found_and_gone_once_it_is_written(
     # One turn of the crank is 44/14 of the wheel.
     wheel_turns = way_m(server, int(number), float(begin_s), float(end_s)) / CIRCUMFERENCE_M
     assert turned["turns"] == pytest.approx(wheel_turns * 14 / 44, rel=2e-3)
+    by_the_crank = f"{turned['turns'] * 44 / 14:.2f}"
+    window = ("--window", begin_s, end_s, "--turns", by_the_crank, "--json")
+    counted = spindle(server, "calibrate", "pulses", number, *window)
+    pulses = json.loads(counted.stdout)["pulses"]
+    assert (counted.returncode, pulses["whole"], pulses["agrees"]) == (0, 36, True)
 
     gain = server.get(f"/devices/{device}/config")["parameters"][GAIN]
     configure(server, device, **{GAIN: gain / PLANTED_GAIN})

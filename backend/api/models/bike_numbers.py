@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from datetime import datetime
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from backend.api.models.base import Answer, Question
 from backend.api.models.calibration import GravityAt, GravityGiven
-from backend.domain.calibration.bike.coast_down import Balance, Resistance
-from backend.domain.calibration.bike.wheel import Circumference, CutOff
+from backend.domain.calibration.bike.balance import Balance
+from backend.domain.calibration.bike.coast_down import Resistance
+from backend.domain.calibration.bike.wheel import Circumference, CutOff, Pulses
 
 RideNumber = Annotated[int, Field(ge=1, le=2**63 - 1)]
 Second = Annotated[float | None, Field(ge=0, le=1e7)]
@@ -66,6 +68,24 @@ class Wheel(Answer):
     beside: BesideUnit | None
 
 
+class PulsesRequest(Question):
+    """A ride, or a part of it, in which nothing but a hand turned the wheel, from a mark to it."""
+
+    ride_id: RideNumber
+    from_s: Second = None
+    to_s: Second = None
+    turns: float = Field(gt=0, le=1000, description="Of the wheel, counted by whoever turned it.")
+
+
+class PulsesTold(Answer):
+    """The speed sensor's pulses in a turn of its wheel, beside those the unit counts with."""
+
+    unit_key: str | None
+    told_turns: float = Field(description="Of the wheel, by the unit.")
+    turns: float
+    pulses: Pulses
+
+
 class CadenceRequest(Question):
     """A part of a ride; at best from a standing crank to a standing one."""
 
@@ -101,10 +121,14 @@ class ClimbRequest(Question):
     `_limit` is a half width."""
 
     climb: SlopeRidden
-    coast_downs: list[SlopeRidden] = Field(min_length=1, max_length=10)
+    coast_downs: list[SlopeRidden] = Field(
+        default=[], max_length=10, description="None: rolling and air are typical, within limits."
+    )
     mass_kg: float = Field(ge=20, le=400, description="Bike, rider and all they carry.")
     mass_limit_kg: float = Field(gt=0, le=50)
-    gravity: GravityAt | GravityGiven
+    gravity: GravityAt | GravityGiven | None = Field(
+        default=None, description="Null: anything between the equator's and the poles'."
+    )
     rise_limit_m: float = Field(gt=0, le=100)
     efficiency: float = Field(default=0.97, ge=0.5, le=1, description="From crank to road.")
     efficiency_limit: float = Field(default=0.015, ge=0, le=0.2)
@@ -112,13 +136,33 @@ class ClimbRequest(Question):
     wheels_limit_kg: float = Field(default=0.5, ge=0, le=10)
     speed_share_limit: float = Field(default=0.005, ge=0, le=0.1)
     wind_limit_ms: float = Field(default=0.5, ge=0, le=10)
-    calibrated_expanded_pct: float = Field(
-        default=0.0, ge=0, le=50, description="Of the torque by the last calibration, k = 2."
+    calibrated_expanded_pct: float | None = Field(
+        default=None,
+        ge=0,
+        le=50,
+        description="Of the torque by its calibration, k = 2; null: by the certificate of the last "
+        "one that was in the unit before the ride.",
     )
     motor_off: bool = Field(
         default=False,
         description="The rider's word, needed where the ride does not tell what the motor gave.",
     )
+
+
+class CertificateOfTorque(Answer):
+    calibration_id: int
+    sha256: str
+    written_at: datetime = Field(description="When the unit got it.")
+    torque_nm: float = Field(description="The mean of the climb.")
+    expanded_share: float = Field(description="Of that torque, k = 2.")
+
+
+class CalibratedTorque(Answer):
+    """How well the calibration knows the torque, and who says so."""
+
+    source: Literal["given", "certificate", "unknown"]
+    expanded_share: float
+    certificate: CertificateOfTorque | None
 
 
 class ClimbTold(Answer):
@@ -129,3 +173,4 @@ class ClimbTold(Answer):
     duration_s: float
     resistance: Resistance
     balance: Balance
+    calibrated: CalibratedTorque

@@ -11,16 +11,19 @@ from backend.api.models.bike_numbers import (
     CadenceRequest,
     ClimbRequest,
     ClimbTold,
+    PulsesRequest,
+    PulsesTold,
     RollOut,
     SlopeRidden,
     Wheel,
     WheelByTrack,
 )
-from backend.api.models.calibration import GravityAt
+from backend.api.models.calibration import GravityAt, GravityGiven
 from backend.api.problem import DAMAGED, refusals
 from backend.api.services import Provided
 from backend.domain.calibration.bike.coast_down import Known
-from backend.domain.calibration.gravity import normal_gravity_ms2
+from backend.domain.calibration.bike.wheel import ROOT_3
+from backend.domain.calibration.gravity import ANYWHERE_LIMIT_MS2, ANYWHERE_MS2, gravity_at
 from backend.services.rides.bike.climb import Question, Slope
 from backend.services.rides.bike.wheel import TrackQuestion
 from backend.services.rides.insight.rows import Window
@@ -51,6 +54,18 @@ def track_wheel(body: WheelByTrack, services: Provided) -> Any:
 
 
 @router.post(
+    "/wheel/pulses",
+    operation_id="count_wheel_pulses",
+    response_model=PulsesTold,
+    responses={**refusals(404), **DAMAGED},
+)
+def count_wheel_pulses(body: PulsesRequest, services: Provided) -> Any:
+    """The speed sensor's pulses in a turn of its wheel, from a ride of a wheel turned by hand."""
+    window = Window(body.ride_id, body.from_s, body.to_s)
+    return services.bike_numbers.pulses(window, body.turns)
+
+
+@router.post(
     "/cadence",
     operation_id="check_cadence",
     response_model=Cadence,
@@ -70,13 +85,14 @@ def check_cadence(body: CadenceRequest, services: Provided) -> Any:
 def check_by_climb(body: ClimbRequest, services: Provided) -> Any:
     """The torque gain from the energy of a climb, which shares nothing with masses on a pedal;
     refused by name where the rides cannot tell."""
+    told_pct = body.calibrated_expanded_pct
     return services.bike_numbers.climb(
         Question(
             slope(body.climb),
             [slope(one) for one in body.coast_downs],
             known(body),
             body.motor_off,
-            body.calibrated_expanded_pct / 100,
+            None if told_pct is None else told_pct / 100,
         )
     )
 
@@ -88,11 +104,17 @@ def slope(asked: SlopeRidden) -> Slope:
 
 def known(body: ClimbRequest) -> Known:
     """What is known besides the rides."""
-    place = body.gravity
-    gravity_ms2 = (
-        normal_gravity_ms2(place.latitude_deg, place.height_m)
-        if isinstance(place, GravityAt)
-        else place.gravity_ms2
-    )
-    names = Known.__dataclass_fields__.keys() - {"gravity_ms2"}
-    return Known(gravity_ms2=gravity_ms2, **{name: getattr(body, name) for name in names})
+    names = Known.__dataclass_fields__.keys() - {"gravity_ms2", "gravity_limit_ms2"}
+    told = {name: getattr(body, name) for name in names}
+    gravity_ms2, gravity_limit_ms2 = gravity_of(body.gravity)
+    return Known(gravity_ms2=gravity_ms2, gravity_limit_ms2=gravity_limit_ms2, **told)
+
+
+def gravity_of(place: GravityAt | GravityGiven | None) -> tuple[float, float]:
+    """What a kilogram weighs, and its half width."""
+    if place is None:
+        return ANYWHERE_MS2, ANYWHERE_LIMIT_MS2
+    if isinstance(place, GravityGiven):
+        return place.gravity_ms2, ROOT_3 * place.standard_ms2
+    told = gravity_at(place.latitude_deg, place.height_m, place.height_standard_m)
+    return told.gravity_ms2, ROOT_3 * told.standard_ms2

@@ -25,6 +25,9 @@ stay mostly within 50 mGal of zero."""
 
 HEIGHT_MS2_PER_M = 3.086e-6
 
+ANYWHERE_MS2, ANYWHERE_LIMIT_MS2 = 9.806, 0.026
+"""Of nobody knows where: 9.780 at the equator to 9.832 at the poles."""
+
 
 @dataclass(frozen=True, slots=True)
 class Gravity(Plain):

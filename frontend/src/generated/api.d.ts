@@ -1005,6 +1005,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/calibration/wheel/pulses": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Count Wheel Pulses
+         * @description The speed sensor's pulses in a turn of its wheel, from a ride of a wheel turned by hand.
+         */
+        post: operations["count_wheel_pulses"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/calibration/cadence": {
         parameters: {
             query?: never;
@@ -2263,16 +2283,21 @@ export interface components {
         };
         /**
          * Balance
-         * @description gain_ratio: true torque over told torque. contributions: standard, of the ratio. expanded:
-         *     k = 2. en: the distance from 1 in both uncertainties. agrees: it is 1 or less.
+         * @description gain_ratio: true torque over told torque. crank_energy_j: by the torque as told.
+         *     motor_energy_j: what the motor gave; None where nobody measured it. needed_energy_j: on the
+         *     road, without the drivetrain's loss. contributions: standard, of the ratio. expanded: k = 2.
+         *     en: the distance from 1 in both uncertainties. agrees: it is 1 or less.
          */
         Balance: {
             /** Gain Ratio */
             gain_ratio: number;
             /** Crank Energy J */
             crank_energy_j: number;
+            /** Motor Energy J */
+            motor_energy_j: number | null;
             /** Needed Energy J */
             needed_energy_j: number;
+            needed: components["schemas"]["Needed"];
             /** Contributions */
             contributions: {
                 [key: string]: number;
@@ -2441,6 +2466,20 @@ export interface components {
             from_s?: number | null;
             /** To S */
             to_s?: number | null;
+        };
+        /**
+         * CalibratedTorque
+         * @description How well the calibration knows the torque, and who says so.
+         */
+        CalibratedTorque: {
+            /**
+             * Source
+             * @enum {string}
+             */
+            source: "given" | "certificate" | "unknown";
+            /** Expanded Share */
+            expanded_share: number;
+            certificate: components["schemas"]["CertificateOfTorque"] | null;
         };
         /**
          * Calibration
@@ -2752,6 +2791,29 @@ export interface components {
                 [key: string]: unknown;
             } | null;
         };
+        /** CertificateOfTorque */
+        CertificateOfTorque: {
+            /** Calibration Id */
+            calibration_id: number;
+            /** Sha256 */
+            sha256: string;
+            /**
+             * Written At
+             * Format: date-time
+             * @description When the unit got it.
+             */
+            written_at: string;
+            /**
+             * Torque Nm
+             * @description The mean of the climb.
+             */
+            torque_nm: number;
+            /**
+             * Expanded Share
+             * @description Of that torque, k = 2.
+             */
+            expanded_share: number;
+        };
         /**
          * CertificateRequest
          * @description Of a unit's configuration, one of its revisions, an entry of the library, or the law's
@@ -2922,7 +2984,11 @@ export interface components {
          */
         ClimbRequest: {
             climb: components["schemas"]["SlopeRidden"];
-            /** Coast Downs */
+            /**
+             * Coast Downs
+             * @description None: rolling and air are typical, within limits.
+             * @default []
+             */
             coast_downs: components["schemas"]["SlopeRidden"][];
             /**
              * Mass Kg
@@ -2931,8 +2997,11 @@ export interface components {
             mass_kg: number;
             /** Mass Limit Kg */
             mass_limit_kg: number;
-            /** Gravity */
-            gravity: components["schemas"]["GravityAt"] | components["schemas"]["GravityGiven"];
+            /**
+             * Gravity
+             * @description Null: anything between the equator's and the poles'.
+             */
+            gravity?: components["schemas"]["GravityAt"] | components["schemas"]["GravityGiven"] | null;
             /** Rise Limit M */
             rise_limit_m: number;
             /**
@@ -2969,10 +3038,9 @@ export interface components {
             wind_limit_ms: number;
             /**
              * Calibrated Expanded Pct
-             * @description Of the torque by the last calibration, k = 2.
-             * @default 0
+             * @description Of the torque by its calibration, k = 2; null: by the certificate of the last one that was in the unit before the ride.
              */
-            calibrated_expanded_pct: number;
+            calibrated_expanded_pct?: number | null;
             /**
              * Motor Off
              * @description The rider's word, needed where the ride does not tell what the motor gave.
@@ -2993,6 +3061,7 @@ export interface components {
             duration_s: number;
             resistance: components["schemas"]["Resistance"];
             balance: components["schemas"]["Balance"];
+            calibrated: components["schemas"]["CalibratedTorque"];
         };
         /**
          * ClosedLoop
@@ -5127,6 +5196,23 @@ export interface components {
             share: number | null;
         };
         /**
+         * Needed
+         * @description Where the energy of the legs went, in joules; each but gravity can be negative. drivetrain_j:
+         *     lost from crank to road.
+         */
+        Needed: {
+            /** Gravity J */
+            gravity_j: number;
+            /** Kinetic J */
+            kinetic_j: number;
+            /** Rolling J */
+            rolling_j: number;
+            /** Air J */
+            air_j: number;
+            /** Drivetrain J */
+            drivetrain_j: number;
+        };
+        /**
          * Parameter
          * @description What a parameter is, and its value in the unit now.
          *
@@ -5452,6 +5538,57 @@ export interface components {
             drag_area_m2?: number | null;
         };
         /**
+         * Pulses
+         * @description A wheel's pulses in a turn. kept: what the unit counts with. counted, expanded: what its way
+         *     comes to, k = 2. whole: the one number within that; None where there are more or none.
+         *     agrees: the kept one is within.
+         */
+        Pulses: {
+            /** Kept */
+            kept: number;
+            /** Counted */
+            counted: number;
+            /** Expanded */
+            expanded: number;
+            /** Whole */
+            whole: number | null;
+            /** Agrees */
+            agrees: boolean;
+        };
+        /**
+         * PulsesRequest
+         * @description A ride, or a part of it, in which nothing but a hand turned the wheel, from a mark to it.
+         */
+        PulsesRequest: {
+            /** Ride Id */
+            ride_id: number;
+            /** From S */
+            from_s?: number | null;
+            /** To S */
+            to_s?: number | null;
+            /**
+             * Turns
+             * @description Of the wheel, counted by whoever turned it.
+             */
+            turns: number;
+        };
+        /**
+         * PulsesTold
+         * @description The speed sensor's pulses in a turn of its wheel, beside those the unit counts with.
+         */
+        PulsesTold: {
+            /** Unit Key */
+            unit_key: string | null;
+            /**
+             * Told Turns
+             * @description Of the wheel, by the unit.
+             */
+            told_turns: number;
+            /** Turns */
+            turns: number;
+            pulses: components["schemas"]["Pulses"];
+        };
+        /**
          * ReadFis
          * @description What a file holds; nothing of it is kept until it is posted to `/library`.
          */
@@ -5720,7 +5857,7 @@ export interface components {
         /**
          * Resistance
          * @description rolling_n: at any speed. air_ns2_m2: times the square of the speed. covariance: of the two,
-         *     from the scatter of the runs about the model.
+         *     from the scatter of the runs about the model. source: `typical` of no runs.
          */
         Resistance: {
             /** Rolling N */
@@ -5738,6 +5875,12 @@ export interface components {
                     number
                 ]
             ];
+            /**
+             * Source
+             * @default coast_down
+             * @enum {string}
+             */
+            source: "coast_down" | "typical";
         };
         /**
          * Result
@@ -12637,6 +12780,66 @@ export interface operations {
             };
             /** @description Gateway Timeout */
             504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    count_wheel_pulses: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PulsesRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PulsesTold"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
                 headers: {
                     [name: string]: unknown;
                 };

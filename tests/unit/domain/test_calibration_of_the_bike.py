@@ -14,15 +14,8 @@ import numpy as np
 import pytest
 from GTC import set_correlation, type_a, type_b, ureal
 
-from backend.domain.calibration.bike.coast_down import (
-    Balance,
-    Climb,
-    Known,
-    Resistance,
-    Run,
-    balance,
-    resistance,
-)
+from backend.domain.calibration.bike.balance import Balance, Climb, balance
+from backend.domain.calibration.bike.coast_down import Known, Resistance, Run, resistance
 from backend.domain.calibration.bike.track import track_of
 from backend.domain.calibration.bike.wheel import (
     Circumference,
@@ -34,6 +27,7 @@ from backend.domain.calibration.bike.wheel import (
 )
 from backend.errors import InvalidRequest
 from tests import counts
+from tests.unit.sim_device.test_wheel_speed import STEP_US, Wheel
 
 KNOWN = Known(mass_kg=100.0, mass_limit_kg=0.5, gravity_ms2=9.807, rise_limit_m=0.5)
 ROLLING_N, AIR = 6.5, 0.24  # thesis_checks W1: 100 kg, 0.4 m2 at 1.2 kg/m3
@@ -139,14 +133,28 @@ def test_a_wheel_larger_than_is_kept_rides_faster_than_the_law() -> None:
     assert cut_off(2.073, rolled, 25.0, tolerance_pct=5.0).lawful
 
 
-@pytest.mark.parametrize(
-    ("pulses", "turns", "found"),
-    [([18, 36, 181], [1, 2, 10], 18), ([10, 11], [10, 11], 1), ([180, 161], [10, 10], None)],
-)
-def test_pulses_are_whole_and_all_counts_agree(
-    pulses: list[int], turns: list[int], found: int | None
-) -> None:
-    assert pulses_per_turn(pulses, turns) == found
+@pytest.mark.parametrize(("kept", "true"), [(36, 36), (36, 35), (1, 1), (2, 1), (6, 6), (18, 36)])
+def test_a_wheel_turned_by_hand_tells_its_pulses(kept: int, true: int) -> None:
+    """What the unit's own C makes of 40 turns at 12 km/h that begin slowly and end abruptly."""
+    turns, period_us = 40, 2.073451 * 3.6 / 12 * 1e6
+    places = np.arange(1, turns * true + 1) / true
+    times_us = period_us * np.where(places < 1, np.sqrt(places), places)
+    wheel = Wheel(kept)
+    seen = wheel.looks(times_us.tolist(), round(period_us * turns) + 3_000_000)
+    told_turns = sum(kmh for _, kmh in seen) * STEP_US / 1e6 / 3.6 / 2.073451
+
+    found = pulses_per_turn(kept, told_turns, turns)
+
+    assert abs(found.counted - true) <= found.expanded
+    assert (found.whole, found.agrees) == (true, kept == true)
+
+
+def test_few_turns_and_a_wheel_without_pulses_are_refused() -> None:
+    with pytest.raises(InvalidRequest) as refused:
+        pulses_per_turn(36, 0.0, 10)
+    assert [fault.code for fault in refused.value.fields] == ["too_few_turns", "no_pulses"]
+    # Twenty turns cannot tell 100 teeth from 101.
+    assert pulses_per_turn(100, 20.1, 20).whole is None
 
 
 def test_a_cadence_counted_for_a_minute_is_known_to_half_a_turn() -> None:
@@ -240,6 +248,34 @@ def test_a_true_sensor_agrees_and_one_that_tells_eight_percent_less_does_not() -
     assert low.gain_ratio == pytest.approx(1 / 0.92, rel=0.005)
     assert not low.agrees
     assert "differs from the calibration" in low.sentence
+
+
+def test_the_balance_says_where_the_energy_of_the_legs_went() -> None:
+    _, found = judged(None)
+
+    parts = found.needed
+    road_j = parts.gravity_j + parts.kinetic_j + parts.rolling_j + parts.air_j
+    assert road_j == pytest.approx(found.needed_energy_j, rel=1e-12)
+    # A sensor that tells the truth: all that the legs gave, and nothing else.
+    assert road_j + parts.drivetrain_j == pytest.approx(found.crank_energy_j, rel=0.005)
+    assert parts.drivetrain_j == pytest.approx(0.03 * found.crank_energy_j, rel=0.01)
+    assert parts.gravity_j > 5 * parts.rolling_j > 5 * abs(parts.kinetic_j)
+    assert found.motor_energy_j is None
+
+
+def test_without_a_coast_down_road_and_air_are_typical_and_little_is_known() -> None:
+    road = Road(None)
+    found = resistance([], KNOWN)
+
+    told = balance(road.climb(1.0), found, KNOWN, 0.005)
+    better = balance(road.climb(1.0), resistance([road.coast(0.0)], KNOWN), KNOWN, 0.005)
+
+    assert found.source == "typical"
+    # Rolling 0.0075 +- 0.0035 of 981 N, a rectangle.
+    assert math.sqrt(found.covariance[0][0]) == pytest.approx(0.0035 * 980.7 / math.sqrt(3))
+    assert told.agrees
+    assert told.expanded > 1.5 * better.expanded
+    assert abs(told.gain_ratio - 1) <= told.expanded
 
 
 @pytest.mark.large_count

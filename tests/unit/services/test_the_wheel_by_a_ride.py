@@ -7,8 +7,10 @@ Method: rides made row by row in a real store, along a meridian at 45 degrees, w
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Iterator, Mapping
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +19,7 @@ import pytest
 
 from backend.control import law_defaults
 from backend.domain.calibration.bike.coast_down import Known
+from backend.domain.calibration.certified import Certified
 from backend.domain.channels import ChannelSpec, Values
 from backend.domain.ride import Ride, RideRows
 from backend.errors import InvalidRequest
@@ -24,6 +27,7 @@ from backend.ingest import ImportedRide, Outcome
 from backend.services.imports.upload import Uploads
 from backend.services.rides.bike.cadence import CadenceCheck, CadenceChecked
 from backend.services.rides.bike.climb import ClimbCheck, Question, Slope, rise_by_heights
+from backend.services.rides.bike.pulses import PulseCount
 from backend.services.rides.bike.wheel import TrackQuestion, WheelMeasure
 from backend.services.rides.insight.rows import Window
 from backend.store import Store, open_store
@@ -157,6 +161,53 @@ def test_positions_too_rough_to_tell_are_refused_with_the_figure(store: Store) -
         measure(store).tracked(TrackQuestion(Window(ride)), None)
 
 
+def nobody(ride: Ride, torque_nm: float) -> Certified | None:
+    """No calibration was ever kept."""
+    return None
+
+
+def test_pulses_of_a_wheel_turned_by_hand_are_told_beside_the_unit_s(store: Store) -> None:
+    """25 turns in 50 s of a wheel with half the magnets that the unit believes in."""
+    told_ms = 12.5 * KEPT_M / 50
+    ride = kept(store, {"speed_kmh": np.full(51, 3.6 * told_ms)})
+    has = law_defaults() | {"wheel_pulses_per_turn": 36}
+
+    told = PulseCount(store, lambda ride: (has, "ride"))(Window(ride), 25)
+
+    assert told.told_turns == pytest.approx(12.5, abs=0.05)  # 0.01 km/h
+    assert (told.pulses.kept, told.pulses.whole, told.pulses.agrees) == (36, 18, False)
+    with pytest.raises(InvalidRequest) as refused:
+        PulseCount(store, lambda ride: (has, "defaults"))(Window(ride), 25)
+    assert codes(refused) == [("ride_id", "missing")]
+
+
+def test_the_certificate_in_the_unit_tells_how_sure_the_calibration_is(store: Store) -> None:
+    question = climb_of(store, 0.0)
+    asked: list[float] = []
+
+    def certified(ride: Ride, torque_nm: float) -> Certified:
+        asked.append(torque_nm)
+        return Certified(7, "ab" * 32, datetime(2026, 11, 1, tzinfo=UTC), torque_nm, 0.02)
+
+    unsaid = dataclasses.replace(question, calibrated_expanded_share=None)
+    said = ClimbCheck(store, certified)(question)
+    told = ClimbCheck(store, certified)(unsaid)
+    unknown = ClimbCheck(store, nobody)(unsaid)
+
+    assert asked == [pytest.approx(30.0)]
+    assert [one.calibrated.source for one in (said, told, unknown)] == [
+        "given",
+        "certificate",
+        "unknown",
+    ]
+    assert told.calibrated.certificate is not None
+    assert told.calibrated.certificate.calibration_id == 7
+    ratio, expanded = told.balance.gain_ratio, told.balance.expanded
+    both = math.hypot(expanded, 0.02 * ratio)
+    assert told.balance.en == pytest.approx(abs(ratio - 1) / both)
+    assert unknown.balance.en == pytest.approx(abs(ratio - 1) / expanded)
+
+
 def climb_of(store: Store, asked_nm: float | None, day: int = 1) -> Question:
     """A coast-down from 9 m/s by 10 N and a climb of 24 m, in rides of a head unit."""
     coast = kept(store, {"speed_kmh": 3.6 * np.linspace(9.0, 3.0, 60)})
@@ -172,7 +223,7 @@ def climb_of(store: Store, asked_nm: float | None, day: int = 1) -> Question:
 def test_a_motor_that_nobody_measured_takes_the_rider_s_word(store: Store) -> None:
     question = climb_of(store, 0.0)
 
-    told = ClimbCheck(store)(question)
+    told = ClimbCheck(store, nobody)(question)
 
     assert told.rise_m == pytest.approx(24.0, abs=0.05)
     # 100 kg x 9.807 x 24 m and 480 m of the coast-down's 10.4 N, by 0.97 of 30 Nm at 70 rpm.
@@ -188,7 +239,9 @@ def test_a_motor_that_nobody_measured_takes_the_rider_s_word(store: Store) -> No
     ):
         question = climb_of(store, asked_nm, day)
         with pytest.raises(InvalidRequest) as refused:
-            ClimbCheck(store)(Question(question.climb, question.coast_downs, KNOWN, motor_off, 0.0))
+            ClimbCheck(store, nobody)(
+                Question(question.climb, question.coast_downs, KNOWN, motor_off, 0.0)
+            )
         assert codes(refused) == [("motor_off", expected)]
 
 
@@ -197,11 +250,11 @@ def test_a_climb_without_heights_or_torque_is_refused_by_name(store: Store) -> N
     question = Question(Slope(Window(coast), 20.0), [Slope(Window(coast))], KNOWN, True, 0.0)
 
     with pytest.raises(InvalidRequest, match="altitude_m") as refused:
-        ClimbCheck(store)(question)
+        ClimbCheck(store, nobody)(question)
     assert codes(refused) == [("coast_downs[0]", "missing_channel")]
     level = [Slope(Window(coast), 0.0)]
     with pytest.raises(InvalidRequest, match="rider_torque_nm, cadence_rpm") as refused:
-        ClimbCheck(store)(Question(question.climb, level, KNOWN, True, 0.0))
+        ClimbCheck(store, nobody)(Question(question.climb, level, KNOWN, True, 0.0))
     assert codes(refused) == [("climb", "missing_channel")]
 
 

@@ -27,6 +27,16 @@ GPS_WANDER_SHARE = 0.005
 GPS_EXPANDED_SHARE_MAX = 0.02
 """Half of the band in which a dealer may set a circumference: less is no measurement of it."""
 
+PULSE_TURNS_LEAST = 20.0
+"""Fewer, and the marks at either end decide between 35 and 36."""
+
+HAND_TURNS = 0.05
+"""Limit of how far from its mark a wheel was stopped by hand."""
+
+END_PULSES = 4.0
+"""Limit of what the unit tells more or less at either end: the first pulse has no speed yet, and
+after the last one a speed fades out for two seconds."""
+
 SLIP_SHARE = 0.002
 """Limit of what a rolling tyre under load and a rolled-out one differ by."""
 
@@ -40,6 +50,19 @@ class Circumference(Plain):
     coverage: float
     expanded_m: float
     method: str
+
+
+@dataclass(frozen=True, slots=True)
+class Pulses(Plain):
+    """A wheel's pulses in a turn. kept: what the unit counts with. counted, expanded: what its way
+    comes to, k = 2. whole: the one number within that; None where there are more or none.
+    agrees: the kept one is within."""
+
+    kept: int
+    counted: float
+    expanded: float
+    whole: int | None
+    agrees: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,22 +138,26 @@ def cut_off(
     return CutOff(limit_kmh, true_kmh, expanded, true_kmh + expanded <= most)
 
 
-def pulses_per_turn(pulses: Sequence[int], turns: Sequence[int]) -> int | None:
-    """Whole pulses that all counts agree on; None where they do not, which is a magnet missed.
+def pulses_per_turn(kept: int, told_turns: float, turns: float) -> Pulses:
+    """From turns of the wheel by hand, and what the unit made of them with `kept` pulses a turn.
 
-    pulses, turns: (n,) of the wheel turned by hand; a count at either end may be one off.
+    The unit tells no pulses but the way they came to: told_turns are that way in turns. Raises
+    InvalidRequest for too few turns.
     """
-    each = {
-        round(counted / turned)
-        for counted, turned in zip(pulses, turns, strict=True)
-        if turned > 0 and abs(counted - round(counted / turned) * turned) <= 1
-    }
-    judged = sum(turned > 0 for turned in turns)
-    agreeing = sum(
-        turned > 0 and abs(counted - round(counted / turned) * turned) <= 1
-        for counted, turned in zip(pulses, turns, strict=True)
+    faults = []
+    if not (math.isfinite(turns) and turns >= PULSE_TURNS_LEAST):
+        message = f"{PULSE_TURNS_LEAST:g} turns or more tell the pulses apart"
+        faults.append(FieldError("turns", "too_few_turns", f"turns: {message}"))
+    if not told_turns > 0:
+        message = "ride_id: the unit told no speed there: no pulse came"
+        faults.append(FieldError("ride_id", "no_pulses", message))
+    _raise(faults)
+    found = kept * told_turns / turns
+    expanded = 2 * math.hypot(found * HAND_TURNS, END_PULSES) / turns / ROOT_3
+    low, high = math.ceil(max(1.0, found - expanded)), math.floor(found + expanded)
+    return Pulses(
+        kept, found, expanded, low if low == high else None, abs(kept - found) <= expanded
     )
-    return each.pop() if len(each) == 1 and agreeing == judged else None
 
 
 def cadence_error_rpm(

@@ -6,22 +6,18 @@ word that the motor was off.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
-from backend.domain.calibration.bike.coast_down import (
-    Balance,
-    Climb,
-    Known,
-    Resistance,
-    Run,
-    balance,
-    resistance,
-)
+from backend.domain.calibration.bike.balance import Balance, Climb, balance
+from backend.domain.calibration.bike.coast_down import Known, Resistance, Run, resistance
+from backend.domain.calibration.certified import Certified
 from backend.domain.channels import Values
 from backend.domain.energy import KMH_PER_MS, MOTOR_POWER, MOTOR_TORQUE, MOTOR_TORQUE_DEMANDED
+from backend.domain.ride import Ride
 from backend.services.rides.bike.window import Rows, refusal, rows_of
 from backend.services.rides.insight.rows import Window
 from backend.store import Store
@@ -43,15 +39,26 @@ class Slope:
 
 @dataclass(frozen=True)
 class Question:
-    """coast_downs: at best the same stretch both ways. motor_off: the rider's word for it, needed
-    where the ride does not tell what the motor gave. calibrated_expanded_share: of the torque by
-    its calibration, k = 2."""
+    """coast_downs: at best the same stretch both ways; without any, road and air are typical ones.
+    motor_off: the rider's word for it, needed where the ride does not tell what the motor gave.
+    calibrated_expanded_share: of the torque by its calibration, k = 2; None: by the certificate of
+    the calibration that the unit had on the climb."""
 
     climb: Slope
     coast_downs: Sequence[Slope]
     known: Known
     motor_off: bool
-    calibrated_expanded_share: float
+    calibrated_expanded_share: float | None
+
+
+@dataclass(frozen=True)
+class Calibrated:
+    """How well the calibration knows the torque: `given`, by a `certificate`, or `unknown`, where
+    only the climb's uncertainty counts."""
+
+    source: Literal["given", "certificate", "unknown"]
+    expanded_share: float
+    certificate: Certified | None = None
 
 
 @dataclass(frozen=True)
@@ -63,13 +70,21 @@ class Answer:
     duration_s: float
     resistance: Resistance
     balance: Balance
+    calibrated: Calibrated
+
+
+CertifiedOf = Callable[[Ride, float], Certified | None]
 
 
 class ClimbCheck:
-    """Compares a climb's energy with the torque sensor. Safe from any thread."""
+    """Compares a climb's energy with the torque sensor. Safe from any thread.
 
-    def __init__(self, store: Store) -> None:
+    certified_of: of a ride and a torque in newton metres, what its unit's certificate says.
+    """
+
+    def __init__(self, store: Store, certified_of: CertifiedOf) -> None:
         self._store = store
+        self._certified_of = certified_of
 
     def __call__(self, question: Question) -> Answer:
         """Raises NotFound, ObjectDamaged, and InvalidRequest with every reason why these rides
@@ -88,9 +103,18 @@ class ClimbCheck:
             self._motor_w(rows.ride.motor_torque_meaning, question),
         )
         found = resistance(runs, question.known)
-        weighed = balance(climb, found, question.known, question.calibrated_expanded_share)
+        calibrated = self._calibrated(question, rows)
+        weighed = balance(climb, found, question.known, calibrated.expanded_share)
         duration_s = float(rows.time_s[-1] - rows.time_s[0])
-        return Answer(rows.ride.context.unit_key, rise_m, duration_s, found, weighed)
+        return Answer(rows.ride.context.unit_key, rise_m, duration_s, found, weighed, calibrated)
+
+    def _calibrated(self, question: Question, rows: Rows) -> Calibrated:
+        if question.calibrated_expanded_share is not None:
+            return Calibrated("given", question.calibrated_expanded_share)
+        certified = self._certified_of(rows.ride, float(rows[TORQUE].mean()))
+        if certified is None:
+            return Calibrated("unknown", 0.0)
+        return Calibrated("certificate", certified.expanded_share, certified)
 
     def _rows(self, slope: Slope, field: str, names: list[str]) -> tuple[Rows, float]:
         """The rows of a slope, and its rise."""

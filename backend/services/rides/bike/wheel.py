@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from backend.domain._generated import MOVING_KMH
-from backend.domain.calibration.bike.coast_down import summed
+from backend.domain.calibration.bike.arrays import summed
 from backend.domain.calibration.bike.track import track_of
 from backend.domain.calibration.bike.wheel import (
     Circumference,
