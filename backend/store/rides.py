@@ -248,6 +248,9 @@ class RideStore:
                 key = upload_key(connection, upload_id)
                 ride_id = inserted(connection, row_of(ride) | {"upload_id": key}, ride.context)
                 finish_row(connection, ride_id, written)
+                # Whichever of both is looked at names the other.
+                twin = (t.ride.c.id == ride.same_ride_as) & t.ride.c.same_ride_as.is_(None)
+                connection.execute(update(t.ride).where(twin).values(same_ride_as=ride_id))
                 if key is not None:
                     join_source(connection, ride_id, key, MADE)
                 return ride_id

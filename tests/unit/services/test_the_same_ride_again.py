@@ -180,6 +180,7 @@ def test_parts_that_each_have_what_the_other_lacks_are_both_kept(shop: Shop) -> 
     (second,) = sent.ride_ids
     assert (sent.code, shop.ride_ids) == ("same_ride", [first, second])
     assert shop.store.rides.get(second).same_ride_as == first
+    assert shop.store.rides.get(first).same_ride_as == second
 
 
 @pytest.mark.parametrize("offset_m", [2.5, 4.0])

@@ -2,7 +2,7 @@
 
 A figure above its limit fails if it is above it by more than its own uncertainty, else it is a
 condition (the rule of ILAC-G8:09/2019 without a guard band). What was not measured is a condition,
-never a pass.
+never a pass; but temperature and crank angles, which a plan may leave out, are a note.
 """
 
 from __future__ import annotations
