@@ -291,6 +291,7 @@ def build_app(settings: Settings, services: Services) -> FastAPI:
     api = ApiSettings(
         version=__version__,
         hosts=hosts,
+        guarded=settings.auth == "off",
         frontend=next((folder for folder in FRONTENDS if folder.is_dir()), None),
         upload_bytes_max=settings.upload_bytes_max,
         author=settings.author,

@@ -47,12 +47,13 @@ NOT_JSON = refusals(400)[400] | {"description": "The body is not JSON"}
 class ApiSettings:
     """What the API needs to know about its surroundings.
 
-    frontend: folder of the built pages, None where there is none. author: of changes whose request
-    names nobody.
+    guarded: proxies may pass requests on. frontend: folder of the built pages, None where there is
+    none. author: of changes whose request names nobody.
     """
 
     version: str
     hosts: AllowedHosts = field(default_factory=AllowedHosts)
+    guarded: bool = False
     frontend: Path | None = None
     upload_bytes_max: int = 256 * 1024 * 1024
     author: str = ""
@@ -99,7 +100,7 @@ def _protect(app: FastAPI, settings: ApiSettings) -> None:
         upload_bytes_max=settings.upload_bytes_max,
         upload_paths=(f"{PREFIX}/uploads", f"{PREFIX}/rides/import"),
     )
-    app.add_middleware(SameOriginOnly, hosts=settings.hosts)
+    app.add_middleware(SameOriginOnly, hosts=settings.hosts, guarded=settings.guarded)
     app.add_middleware(SecurityHeaders)
 
 

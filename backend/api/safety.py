@@ -5,6 +5,9 @@ a page of another site sends us requests (its Origin gives it away), and a name 
 made to resolve to 127.0.0.1 (its Host gives it away: DNS rebinding). Both are refused here, on
 WebSocket handshakes too, before any route sees them. An address given as numbers cannot be
 rebound, so numeric hosts pass as long as the server may be reached by them.
+
+A proxy on this machine calls from loopback too, with whatever the network sends it. What it adds to
+a request gives it away; such a request is refused unless somebody said that the way is guarded.
 """
 
 from __future__ import annotations
@@ -27,6 +30,9 @@ CONTENT_SECURITY_POLICY = (
 )
 # Python refuses to read numbers of thousands of digits with an exception of its own.
 LENGTH_DIGITS_MAX = 18
+# Put on by proxies: RFC 7239, RFC 9110 section 7.6.3, and what came before them.
+PASSED_ON = ("forwarded", "via", "x-real-ip")
+PASSED_ON_PREFIX = "x-forwarded-"
 SECURITY_HEADERS = {
     "content-security-policy": CONTENT_SECURITY_POLICY,
     "x-content-type-options": "nosniff",
@@ -77,12 +83,24 @@ class AllowedHosts:
         return self.any_address or address.is_loopback
 
 
-class SameOriginOnly:
-    """Refuses foreign Host and Origin headers with 403, on HTTP and on WebSocket handshakes."""
+def passed_on_by(headers: Headers) -> str | None:
+    """The header by which a proxy shows; None for a request that comes straight from its client."""
+    return next(
+        (name for name in headers if name in PASSED_ON or name.startswith(PASSED_ON_PREFIX)), None
+    )
 
-    def __init__(self, app: ASGIApp, hosts: AllowedHosts) -> None:
+
+class SameOriginOnly:
+    """Refuses foreign Host and Origin headers with 403, on HTTP and on WebSocket handshakes.
+
+    guarded: whether proxies may pass requests on, because they or somebody else let in only whom
+    they know.
+    """
+
+    def __init__(self, app: ASGIApp, hosts: AllowedHosts, guarded: bool = False) -> None:
         self.app = app
         self.hosts = hosts
+        self.guarded = guarded
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] not in ("http", "websocket"):
@@ -106,6 +124,14 @@ class SameOriginOnly:
                 "foreign_host",
                 f"This server is not called {host!r}. Open it as localhost, by its address, or "
                 "name it in SPINDLE_ALLOWED_HOSTS.",
+            )
+        proxy = None if self.guarded else passed_on_by(headers)
+        if proxy is not None:
+            return problem_response(
+                403,
+                "passed_on",
+                f"A proxy passed this request on ({proxy}), and this server lets in whoever "
+                "reaches it. Set SPINDLE_AUTH=off if the proxy lets in only whom you know.",
             )
         origin = headers.get("origin")
         if origin is not None and origin_host(origin) != host.lower():

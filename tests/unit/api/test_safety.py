@@ -19,7 +19,7 @@ from backend.api import errors
 from backend.api.safety import AllowedHosts, BodyBound, SameOriginOnly, SecurityHeaders
 
 
-def guarded_app(hosts: AllowedHosts) -> FastAPI:
+def guarded_app(hosts: AllowedHosts, guarded: bool = False) -> FastAPI:
     app = FastAPI()
     errors.install(app)
 
@@ -42,7 +42,7 @@ def guarded_app(hosts: AllowedHosts) -> FastAPI:
         await socket.close()
 
     app.add_middleware(BodyBound, bytes_max=100, upload_bytes_max=1000, upload_paths=("/uploads",))
-    app.add_middleware(SameOriginOnly, hosts=hosts)
+    app.add_middleware(SameOriginOnly, hosts=hosts, guarded=guarded)
     app.add_middleware(SecurityHeaders)
     return app
 
@@ -100,6 +100,28 @@ def test_a_foreign_page_gets_no_websocket(client: TestClient) -> None:
 
     with client.websocket_connect("/live", headers={"host": "127.0.0.1:8750"}) as socket:
         assert socket.receive_text() == "hello"
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        {"forwarded": "for=203.0.113.7"},
+        {"via": "1.1 proxy"},
+        {"x-forwarded-for": "203.0.113.7"},
+        {"X-Forwarded-Proto": "https"},
+        {"x-real-ip": ""},
+    ],
+)
+def test_what_a_proxy_passed_on_needs_a_guard(client: TestClient, header: dict[str, str]) -> None:
+    """RFC 7239 section 4, RFC 9110 section 7.6.3: from the network, though it comes from here."""
+    refused = client.get("/value", headers=header)
+    assert (refused.status_code, refused.json()["code"]) == (403, "passed_on")
+    assert "SPINDLE_AUTH=off" in refused.json()["detail"]
+    with pytest.raises(WebSocketDisconnect), client.websocket_connect("/live", headers=header):
+        pass
+
+    guarded = TestClient(guarded_app(AllowedHosts(), guarded=True), base_url="http://127.0.0.1")
+    assert guarded.get("/value", headers=header).status_code == 200
 
 
 def test_a_declared_size_beyond_the_bound_is_refused_unread(client: TestClient) -> None:
