@@ -86,6 +86,30 @@ def test_the_drift_is_told_in_words_a_picture_and_numbers(
     desk.picture("sensor-drift", full=True)
 
 
+def test_the_bike_s_lamp_and_the_sheet_s_check_tell_the_zero(
+    desk: Desk, server: SpindleServer, standing: str, axe: str
+) -> None:
+    answer = told()
+    answer |= {"level": "watch", "latest": answer["rides"][1] | {"zero_nm": 1.42}}
+    desk.page.route("**/sensor-drift*", lambda route: route.fulfill(json=answer))
+    page = desk.open("/")
+
+    lamp = page.locator("[data-lamp=torque]")
+    expect(lamp).to_contain_text(re.compile(r"1\.42.Nm"))
+    expect(lamp).to_contain_text("watch it")
+    expect(lamp).to_have_class(re.compile("warn"))
+    assert sideways(page) == 0
+    page.evaluate(axe)
+    assert page.evaluate(JUDGE) == []
+    desk.picture("bike-zero-moved", full=True)
+
+    desk.open("/service")
+    row = page.get_by_test_id("checks").get_by_role("row", name="while coasting")
+    expect(row).to_contain_text(re.compile(rf"1\.42.Nm, .*; of {RIDES} rides"))
+    expect(row).to_contain_text("passed")
+    desk.picture("service-zero-moved", full=True)
+
+
 def test_a_unit_that_never_coasted_says_what_to_do(desk: Desk, standing: str) -> None:
     page = desk.open("/sensor")
 

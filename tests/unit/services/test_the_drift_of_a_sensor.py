@@ -7,6 +7,7 @@ planted amount a month and a kelvin; the trend has to hold both inside its own u
 
 from __future__ import annotations
 
+import sqlite3
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -184,6 +185,29 @@ def test_one_ride_apart_is_a_foot_and_two_are_a_sensor_that_jumped(workshop: Wor
     workshop.made()
 
     assert (workshop.told()["level"], workshop.told()["latest"]["ride_id"]) == ("act", jumped)
+
+
+def test_the_drift_goes_with_the_unit_to_another_bike(workshop: Workshop) -> None:
+    workshop.months(90.0, 8)
+    with sqlite3.connect(workshop.folder / "db") as database:
+        now_us = START_US + round(workshop.day * DAY_US)
+        database.execute("UPDATE bike_unit SET to_us = ?", (now_us,))
+        database.execute("INSERT INTO bike (name, created_us) VALUES ('another', ?)", (now_us,))
+        database.execute(
+            "INSERT INTO bike_unit (bike_id, unit_key, from_us) SELECT max(id), ?, ? FROM bike",
+            (UNIT, now_us),
+        )
+    database.close()
+    workshop.day += 1.0
+    workshop.months(90.0, 8, seed=2)
+    workshop.made()
+    bikes = {workshop.store.rides.get(ride["ride_id"]).bike_id for ride in workshop.told()["rides"]}
+
+    trend = workshop.told()["trend"]
+
+    assert len(bikes) == 2
+    assert trend["rides"] == 16
+    assert holds(trend["per_month_nm"], PER_MONTH_NM)
 
 
 def test_rides_under_another_compensation_are_shown_and_not_counted(workshop: Workshop) -> None:

@@ -19,6 +19,14 @@ it('shows the part that a fault is about', () => {
   })
 })
 
+it('warns of a zero that has moved by the rides, unless the unit says worse', () => {
+  expect(lampsOf(unit(), true, 'ok')[0]?.state).toBe('ok')
+  expect(lampsOf(unit(), true, 'watch')[0]?.state).toBe('warn')
+  expect(lampsOf(unit(), true, 'act')[0]?.state).toBe('warn')
+  expect(lampsOf(unit('torque_drift'), true, 'act')[0]?.state).toBe('bad')
+  expect(lampsOf(unit(), false, 'act')[0]?.state).toBe('unknown')
+})
+
 it('has a lamp for every fault that the registry knows', () => {
   const without = Object.keys(FAULTS).filter(
     (name) => !lampsOf(unit(name), true).some((lamp) => lamp.fault === name),

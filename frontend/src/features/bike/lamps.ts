@@ -1,5 +1,5 @@
 // The six lamps of a unit: whether each part is well by the unit's own word, and one number of it.
-import type { Device } from '$shared/api/types'
+import type { Device, SensorDrift } from '$shared/api/types'
 
 export const LAMPS = ['torque', 'speed', 'motor', 'battery', 'link', 'firmware'] as const
 export type LampName = (typeof LAMPS)[number]
@@ -7,7 +7,7 @@ export type LampName = (typeof LAMPS)[number]
 /** unknown: nothing says how it is, as nothing does while the unit is away. */
 export interface Lamp {
   name: LampName
-  state: 'ok' | 'bad' | 'unknown'
+  state: 'ok' | 'warn' | 'bad' | 'unknown'
   /** The first fault that is about it; null for none. */
   fault: string | null
 }
@@ -22,11 +22,17 @@ const FAULTS_OF: Record<LampName, readonly string[]> = {
   firmware: ['config_defaulted', 'law_result', 'safe_stop', 'not_provisioned'],
 }
 
-/** How a unit's parts are. connected: whether it answers now; else nobody knows. */
-export function lampsOf(device: Device, connected: boolean): Lamp[] {
+/** How a unit's parts are. connected: whether it answers now; else nobody knows. zero: how far the
+    torque sensor's zero has moved by its rides. */
+export function lampsOf(
+  device: Device,
+  connected: boolean,
+  zero: SensorDrift['level'] = null,
+): Lamp[] {
   return LAMPS.map((name) => {
     const fault = FAULTS_OF[name].find((one) => device.faults_active.includes(one)) ?? null
     if (!connected) return { name, state: 'unknown', fault: null }
-    return { name, state: fault ? 'bad' : 'ok', fault }
+    const moved = name === 'torque' && zero !== null && zero !== 'ok'
+    return { name, state: fault ? 'bad' : moved ? 'warn' : 'ok', fault }
   })
 }

@@ -1,5 +1,5 @@
 // What can be checked of a unit without touching it: found, allowed, and whether it passed.
-import type { WearCounters } from '$shared/api/types'
+import type { SensorDrift, WearCounters } from '$shared/api/types'
 import { healthOf } from '$shared/device/link_health'
 import { standstillOf } from '$shared/device/standstill'
 import type { Units } from '$shared/units/units.svelte'
@@ -9,6 +9,8 @@ export interface Reading {
   channels: Readonly<Record<string, number | null>>
   wear: WearCounters | null
   counters: Record<string, number | null>
+  /** Of the unit's rides; null where nobody can tell. */
+  drift: SensorDrift | null
   /** Of battery_voltage_v_min; null where it is not known. */
   battery_v_min: number | null
 }
@@ -28,7 +30,12 @@ const MOTOR_DEGC_MAX = 110
 const CONTROLLER_DEGC_MAX = 85
 
 /** Every check, in the order of the sheet. */
-export function checksOf(reading: Reading, say: Say, units: Units): Check[] {
+export function checksOf(
+  reading: Reading,
+  say: Say,
+  units: Units,
+  instant: (iso: string) => string,
+): Check[] {
   const { channels, wear, counters, battery_v_min } = reading
   const at = (name: string) => channels[name] ?? null
 
@@ -51,6 +58,7 @@ export function checksOf(reading: Reading, say: Say, units: Units): Check[] {
   }
   return [
     moves ? { ...zero, found: say('why_moving'), passed: null } : zero,
+    drifted(reading.drift, say, units, instant),
     bounded('check_rotor', 'torque_age_ms', 'ms', ROTOR_MS_MAX),
     battery,
     bounded('check_motor', 'motor_temperature_degc', 'degC', MOTOR_DEGC_MAX),
@@ -58,6 +66,30 @@ export function checksOf(reading: Reading, say: Say, units: Units): Check[] {
     flash(wear, say),
     line(counters, say),
   ]
+}
+
+/** What the rides tell of the zero, with the trend where there is one. */
+function drifted(
+  drift: SensorDrift | null,
+  say: Say,
+  units: Units,
+  instant: (iso: string) => string,
+): Check {
+  const word = 'check_drift'
+  if (drift === null) return { word, found: say('why_unsent'), allowed: '—', passed: null }
+  const allowed = say('up_to', { most: units.text(drift.act_nm, 'Nm', 0) })
+  const { latest, level, trend } = drift
+  if (latest === null || level === null) {
+    return { word, found: say('drift_none'), allowed, passed: null }
+  }
+  const zero = units.text(latest.zero_nm, 'Nm', 2)
+  const count = drift.rides.filter(({ zero_nm }) => zero_nm !== null).length
+  let found = say('drift_found', { zero, date: instant(latest.started_at), count })
+  if (trend) {
+    found = say('drift_rate', { found, rate: units.text(trend.per_month_nm.value, 'Nm', 2) })
+  }
+  if (level === 'watch') found = say('drift_watch', { found })
+  return { word, found, allowed, passed: level !== 'act' }
 }
 
 function flash(wear: WearCounters | null, say: Say): Check {

@@ -1,9 +1,12 @@
-/* Goal: the sheet shows a ride only if it was made after the work, and a calibration only as the
-   history has it. */
-import type { Revision, Ride } from '$shared/api/types'
+/* Goal: the sheet shows a ride only if it was made after the work, a calibration only as the
+   history has it, and of the sensor's zero what the rides told. */
+import type { Revision, Ride, SensorDrift } from '$shared/api/types'
+import type { Units } from '$shared/units/units.svelte'
 import { expect, it } from 'vitest'
+import { checksOf } from './checks'
 import { newJob, type Job } from './job'
 import { lastChange, rideAfter } from './on_sheet'
+import { en } from './words.svelte'
 
 const at = (hour: number) => new Date(Date.UTC(2026, 10, 22, hour)).toISOString()
 const ride = (hour: number, state = 'done') => {
@@ -45,4 +48,52 @@ it('tells the newest change of a parameter, and none where there was none', () =
 
   expect(lastChange(history, name)).toEqual({ old: 0, new: -3, at: at(11) })
   expect(lastChange(history, 'sensor_gain_nm_per_count')).toBeNull()
+})
+
+// The check of the zero: what the rides told, and a fail where the assist would stop.
+const units = {
+  text: (value: number, unit: string, digits = 1) => `${value.toFixed(digits)} ${unit}`,
+} as unknown as Units
+const say = (key: keyof typeof en, values: Record<string, unknown> = {}) =>
+  Object.entries(values).reduce(
+    (text, [name, value]) => text.replace(`{${name}}`, String(value)),
+    en[key] as string,
+  )
+const told = (level: SensorDrift['level'], zero_nm: number): SensorDrift =>
+  ({
+    act_nm: 3,
+    level,
+    latest: level && { zero_nm, started_at: 'Monday' },
+    rides: [{ zero_nm }, { zero_nm: null }, { zero_nm }],
+    trend: null,
+  }) as unknown as SensorDrift
+const checked = (drift: SensorDrift | null) => {
+  const reading = { channels: {}, wear: null, counters: {}, battery_v_min: null, drift }
+  const all = checksOf(reading, say, units, (iso) => iso)
+  return all.find(({ word }) => word === 'check_drift')
+}
+
+it('names the newest zero with its ride, and passes while the zero holds', () => {
+  expect(checked(told('ok', 0.42))).toMatchObject({
+    found: '0.42 Nm, Monday; of 2 rides',
+    allowed: '≤ 3 Nm',
+    passed: true,
+  })
+})
+
+it('asks to watch a zero that has moved, and fails one at which the unit gives no assist', () => {
+  expect(checked(told('watch', 1.4))).toMatchObject({ passed: true })
+  expect(checked(told('watch', 1.4))?.found).toContain('watch it')
+  expect(checked(told('act', -3.2))).toMatchObject({ passed: false })
+})
+
+it('tells the trend where the rides show one', () => {
+  const trend = { per_month_nm: { value: 0.2 } } as unknown as SensorDrift['trend']
+
+  expect(checked({ ...told('ok', 0.4), trend })?.found).toContain('0.20 Nm a month')
+})
+
+it('is not done where no ride told the zero', () => {
+  expect(checked(told(null, 0))).toMatchObject({ found: en.drift_none, passed: null })
+  expect(checked(null)).toMatchObject({ passed: null })
 })

@@ -27,6 +27,7 @@ export const enBike = {
   'lamp.link': 'Rotor link',
   'lamp.firmware': 'Firmware',
   'lamp.is_ok': 'no fault',
+  'lamp.is_warn': 'moved',
   'lamp.is_bad': 'fault',
   'lamp.is_unknown': 'not known',
   'lamp.away': 'only while connected',

@@ -28,6 +28,7 @@ export const zhBike: Record<keyof typeof enBike, string> = {
   'lamp.link': '转子链路',
   'lamp.firmware': '固件',
   'lamp.is_ok': '无故障',
+  'lamp.is_warn': '已移动',
   'lamp.is_bad': '故障',
   'lamp.is_unknown': '未知',
   'lamp.away': '仅在连接时',

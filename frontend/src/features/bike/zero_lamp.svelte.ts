@@ -1,0 +1,35 @@
+// What the rides tell of the torque sensor's zero, for its lamp. It comes after the page: the first
+// one need not carry it.
+import type { SensorDrift } from '$shared/api/types'
+import type { AppContext } from '$shared/context/app_context'
+import { pageWords } from '$shared/i18n/page_words.svelte'
+
+const en = {
+  ok: 'zero while coasting, {when}',
+  watch: 'its zero has moved: watch it',
+  act: 'its zero has moved: calibrate',
+}
+const zh = async () => (await import('./zero_words_zh')).zh
+const words = await pageWords(en, zh)
+
+export interface ZeroLamp {
+  level: NonNullable<SensorDrift['level']>
+  number: () => string
+  note: () => string
+}
+
+/** Null where no ride has told it since the last calibration, or nobody can be asked. */
+export async function zeroLamp(
+  { server, locale, units }: AppContext,
+  device_id: string,
+  signal: AbortSignal,
+): Promise<ZeroLamp | null> {
+  const say = words(locale)
+  const { level, latest } = await server.sensorDrift(device_id, signal, 0)
+  if (level === null || latest === null) return null
+  return {
+    level,
+    number: () => units.text(latest.zero_nm, 'Nm', 2),
+    note: () => say(level, { when: locale.instant(latest.started_at) }),
+  }
+}
