@@ -196,6 +196,9 @@ class Job(JobSummary):
     certificate_sha256: str | None = Field(description="What the unit's record is written with.")
     record: list[RecordLine]
     changes: list[RecordChange]
+    expanded: dict[str, float] = Field(
+        description="Uncertainty (k = 2) of each coefficient that was fitted, by its name."
+    )
     unsure: Literal["write", "restore"] | None = Field(
         description="Begun, and nobody knows whether the unit has it; repeating it finds out."
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from backend.domain.calibration.plain import Plain
 
@@ -29,27 +29,27 @@ class Measured(Plain):
 
 @dataclass(frozen=True, slots=True)
 class Check(Plain):
-    """passed: None where nobody could tell. figure, allowed: in the unit the code implies."""
+    """passed: None where nobody could tell. figure, allowed: in the unit the code implies. values:
+    what the sentence tells besides, by name, for a text in another language."""
 
     code: str
     passed: bool | None
     sentence: str
     figure: float | None
     allowed: float | None
+    values: dict[str, float | str] = field(default_factory=dict)
 
 
 def prechecks(measured: Measured) -> tuple[Check, ...]:
     """All of them, in the order of the page."""
-    turning = [
-        abs(value)
-        for value in (measured.wheel_kmh, measured.cadence_rpm, measured.motor_rpm)
-        if value is not None
-    ]
+    warming_k = _size(measured.warming_k)
     return (
-        _at_most("standing", max(turning, default=None), 0.0, "nothing turns"),
-        _at_most("pedals_free", _size(measured.idle_nm), ZERO_BAND_NM, "nobody on the pedals"),
+        _standing(measured),
+        _at_most(
+            "pedals_free", _size(measured.idle_nm), ZERO_BAND_NM, "Nm", "nobody on the pedals"
+        ),
         _supply(measured),
-        _at_most("temperature", _size(measured.warming_k), WARMING_K, "temperature is steady"),
+        _at_most("temperature", warming_k, WARMING_K, "K in a minute", "temperature is steady"),
     )
 
 
@@ -57,11 +57,28 @@ def _size(value: float | None) -> float | None:
     return None if value is None else abs(value)
 
 
-def _at_most(code: str, figure: float | None, allowed: float, sentence: str) -> Check:
+def _standing(measured: Measured) -> Check:
+    """Without a figure: wheel, crank and motor turn in units of their own."""
+    turning: dict[str, float | str] = {
+        name: abs(value)
+        for name in ("wheel_kmh", "cadence_rpm", "motor_rpm")
+        if (value := getattr(measured, name)) is not None
+    }
+    if not turning:
+        return Check("standing", None, "nothing turns: the unit does not tell", None, None)
+    units = {"wheel_kmh": "wheel {:.1f} km/h", "cadence_rpm": "crank {:.0f} rpm"}
+    told = ", ".join(
+        units.get(name, "motor {:.0f} rpm").format(value) for name, value in turning.items()
+    )
+    standing = not any(turning.values())
+    return Check("standing", standing, f"nothing turns: {told}", None, None, turning)
+
+
+def _at_most(code: str, figure: float | None, allowed: float, unit: str, sentence: str) -> Check:
     if figure is None:
         return Check(code, None, f"{sentence}: the unit does not tell", None, allowed)
     passed = figure <= allowed
-    told = f"{sentence}: {figure:.1f}, {allowed:g} is allowed"
+    told = f"{sentence}: {figure:.1f} {unit}, {allowed:g} is allowed"
     return Check(code, passed, told, figure, allowed)
 
 

@@ -45,17 +45,6 @@ def refusals(setup: Setup, captures: Sequence[Capture]) -> tuple[Refusal, ...]:
     return (*found, *swapped, *slope, *wrong)
 
 
-def crank_out_of_level(
-    measured_deg: float | None, planned_deg: float, limit_deg: float
-) -> Refusal | None:
-    """measured_deg: by the dial or the unit; None where nobody measured, which refuses nothing."""
-    if measured_deg is None or abs(measured_deg - planned_deg) <= limit_deg:
-        return None
-    low, high = planned_deg - limit_deg, planned_deg + limit_deg
-    sentence = f"the crank is at {measured_deg:.1f}°, allowed is {low:g} to {high:g}°"
-    return Refusal("crank_angle", sentence, measured_deg, {"planned_deg": planned_deg})
-
-
 def _order(captures: Sequence[Capture]) -> list[Refusal]:
     """Against the capture just before it at the same pedal: a step may be repeated later, if it is
     come to from the same side. The way down may begin above what was captured on the way up."""

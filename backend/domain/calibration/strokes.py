@@ -36,7 +36,7 @@ class SideFigures(Plain):
 
 @dataclass(frozen=True, slots=True)
 class Curve(Plain):
-    """Means of all strokes and sides at each load (k,), in Nm: the residuals' shape and loop."""
+    """Means of strokes and sides at each load (k,), in Nm: the residuals' shape and loop."""
 
     load_nm: tuple[float, ...]
     residual_nm: tuple[float, ...]
@@ -75,7 +75,7 @@ def _told(side: Side, strokes: int, figures: CalibrationFigures) -> SideFigures:
 
 
 def curve(setup: Setup, captures: Sequence[Capture], coefficients: Coefficients) -> Curve:
-    """What the coefficients leave at each load, crank at any angle."""
+    """What the coefficients leave at each load of the captures but the verifications."""
     used = [capture for capture in captures if capture.state.kind != "verify"]
     load = np.round([capture.state.load_nm(setup) for capture in used], 6)
     left = readings_nm(used, coefficients) - load

@@ -95,6 +95,7 @@ class CalibrationShow:
             certificate_sha256=None if planned is None else planned[1]["sha256"],
             record=tuple(record_lines(body, None if planned is None else planned[0])),
             changes=record_changes(body),
+            expanded=expanded_of(worked),
             unsure=None if body["pending"] is None else body["pending"]["kind"],
             earlier_of_bike=self._earlier(job, [o for o in others if is_of_bike(o, job)]),
             earlier_of_model=self._earlier(
@@ -158,6 +159,12 @@ class CalibrationShow:
             if past is not None and one.model == job.model and one.unit_key != job.unit_key:
                 newest.setdefault(one.unit_key, past)
         return list(newest.values())
+
+
+def expanded_of(worked: Worked | None) -> dict[str, float]:
+    """The expanded uncertainty of each coefficient that was fitted."""
+    fit = None if worked is None else worked.fit
+    return {} if fit is None else {name: fit.expanded(name) for name in fit.names}
 
 
 def is_of_bike(one: KeptCalibration, job: KeptCalibration) -> bool:

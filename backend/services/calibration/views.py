@@ -116,11 +116,12 @@ class JobView(JobSummary):
     state: `setup`, `capturing`, `fitted`, `written`, `verified`, `closed`. device_id: the
     connection its unit is on now, None while it is on none. may: what can be done now, of `setup`,
     `capture`, `fit`, `write`, `verify`, `restore`, `close`. suggested_setup: the newest one of
-    another job here, for the same instruments. next_step: index into steps, None when all are
-    done. checks: of this moment; empty without a connection. worked: all that follows from setup
-    and captures. fitted_at: since when nothing of these changed after `fit`. unsure: a write or
-    restore of which nobody knows whether the unit has it; repeating it finds out. change: since the
-    last one of this bike. among_model: against the newest of each other unit of the model.
+    another job here, for the same instruments. next_step: index into steps, None when all are done.
+    checks: of this moment; empty without a connection. worked: all that follows from setup and
+    captures. expanded: of each coefficient that is fitted. fitted_at: since when nothing of these
+    changed after `fit`. unsure: a write or restore of which nobody knows whether the unit has it;
+    repeating it finds out. change: since the last one of this bike. among_model: against the newest
+    of each other unit of the model.
     """
 
     device_id: str | None
@@ -140,6 +141,7 @@ class JobView(JobSummary):
     certificate_sha256: str | None
     record: tuple[RecordLine, ...]
     changes: tuple[RecordChange, ...]
+    expanded: Mapping[str, float]
     unsure: str | None
     earlier_of_bike: tuple[JobSummary, ...]
     earlier_of_model: tuple[JobSummary, ...]

@@ -85,17 +85,24 @@ def measured(recent: Recent, idle_nm: float | None, battery_min_v: float | None)
 
 def checks_of(now: Measured, faults: Sequence[str]) -> tuple[Check, ...]:
     """The prechecks, and that the unit tells of no fault."""
-    named = f"no fault: {', '.join(faults)}" if faults else "no fault"
-    return (*prechecks(now), Check("faults", not faults, named, float(len(faults)), 0.0))
+    names = ", ".join(faults)
+    told = f"no fault: {names}" if faults else "no fault"
+    values: dict[str, float | str] = {"names": names}
+    return (*prechecks(now), Check("faults", not faults, told, float(len(faults)), 0.0, values))
 
 
 def _turning(window: Recent) -> list[Refusal]:
     """A crank or wheel that turns in the window moves the load's arm, or is a rider."""
-    turned = [np.abs(window.known(name)).max(initial=0.0) for name in ("speed_kmh", "cadence_rpm")]
-    if max(turned) == 0.0:
+    turned: dict[str, float | str] = {
+        name: float(np.abs(window.known(name)).max(initial=0.0))
+        for name in ("speed_kmh", "cadence_rpm")
+    }
+    if not any(turned.values()):
         return []
-    sentence = f"the bike moves: {turned[0]:.1f} km/h, crank {turned[1]:.1f} rpm"
-    return [Refusal("turning", sentence, float(max(turned)))]
+    sentence = (
+        f"the bike moves: {turned['speed_kmh']:.1f} km/h, crank {turned['cadence_rpm']:.1f} rpm"
+    )
+    return [Refusal("turning", sentence, values=turned)]
 
 
 def _missing(window: Recent, known: int) -> list[Refusal]:

@@ -2889,7 +2889,8 @@ export interface components {
         };
         /**
          * Check
-         * @description passed: None where nobody could tell. figure, allowed: in the unit the code implies.
+         * @description passed: None where nobody could tell. figure, allowed: in the unit the code implies. values:
+         *     what the sentence tells besides, by name, for a text in another language.
          */
         Check: {
             /** Code */
@@ -2902,6 +2903,10 @@ export interface components {
             figure: number | null;
             /** Allowed */
             allowed: number | null;
+            /** Values */
+            values?: {
+                [key: string]: number | string;
+            };
         };
         /**
          * Circumference
@@ -4494,6 +4499,13 @@ export interface components {
             record: components["schemas"]["RecordLine"][];
             /** Changes */
             changes: components["schemas"]["RecordChange"][];
+            /**
+             * Expanded
+             * @description Uncertainty (k = 2) of each coefficient that was fitted, by its name.
+             */
+            expanded: {
+                [key: string]: number;
+            };
             /**
              * Unsure
              * @description Begun, and nobody knows whether the unit has it; repeating it finds out.

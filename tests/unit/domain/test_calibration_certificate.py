@@ -22,7 +22,7 @@ from backend.domain.calibration.strokes import curve
 from backend.domain.calibration.worked import work_out
 from backend.domain.canonical_json import sha256_of
 from backend.errors import InvalidRequest
-from tests.fakes.calibration_bench import DISOBEYS, OBEYS, SETUP, Specimen, Workshop
+from tests.fakes.calibration_bench import DISOBEYS, LOADS_KG, OBEYS, SETUP, Specimen, Workshop
 
 CAPTURES = tuple(Workshop(OBEYS["table5_1"], 3).captures())
 FOUND = Coefficients(0.0, 0.01)
@@ -120,6 +120,15 @@ def test_a_gain_error_is_told_from_noise() -> None:
 )
 def test_a_fault_fails_by_its_name(state: str, code: str) -> None:
     assert causes(DISOBEYS[state])[code] == "fail"
+
+
+def test_a_load_at_another_crank_angle_is_no_knot_of_the_correction() -> None:
+    worked = work_out(SETUP, Workshop(DISOBEYS["bent"], 2).captures(), None, Limits())
+
+    assert worked.curve is not None
+    assert worked.piecewise is not None
+    assert len(worked.curve.load_nm) == len(LOADS_KG) + 1
+    assert len(worked.piecewise.reading_nm) == len(LOADS_KG) + 1
 
 
 def test_what_was_not_measured_is_a_condition_and_never_a_pass() -> None:

@@ -12,7 +12,7 @@ import pytest
 
 from backend.domain.calibration.capture import Capture, capture_of
 from backend.domain.calibration.prechecks import Measured, prechecks
-from backend.domain.calibration.sanity import crank_out_of_level, refusals
+from backend.domain.calibration.sanity import refusals
 from backend.domain.calibration.setup import Setup
 from backend.domain.calibration.steady import Steadiness, Window, steadiness
 from tests.fakes.calibration_bench import OBEYS, SETUP, Workshop
@@ -208,16 +208,6 @@ def test_the_way_down_may_begin_above_what_was_captured_on_the_way_up() -> None:
     assert "order" not in named(SETUP, left_out)
 
 
-def test_a_crank_out_of_level_is_refused_and_an_unmeasured_one_is_not() -> None:
-    assert crank_out_of_level(1.9, 0.0, 2.0) is None
-    assert crank_out_of_level(None, 0.0, 2.0) is None
-
-    refusal = crank_out_of_level(-3.5, 0.0, 2.0)
-
-    assert refusal is not None
-    assert (refusal.code, refusal.figure) == ("crank_angle", -3.5)
-
-
 def test_prechecks_pass_fail_or_say_that_the_unit_does_not_tell() -> None:
     good = Measured(0.0, 0.0, 0.0, 0.4, 36.9, 31.0, 0.0)
     foot = replace(good, idle_nm=-6.2, cadence_rpm=12.0, warming_k=2.0, battery_v=30.0)
@@ -225,3 +215,6 @@ def test_prechecks_pass_fail_or_say_that_the_unit_does_not_tell() -> None:
     assert [check.passed for check in prechecks(good)] == [True] * 4
     assert [check.passed for check in prechecks(foot)] == [False] * 4
     assert [check.passed for check in prechecks(Measured())] == [None] * 4
+    # The figure that turns, and its unit.
+    assert prechecks(foot)[0].values == {"wheel_kmh": 0.0, "cadence_rpm": 12.0, "motor_rpm": 0.0}
+    assert "12 rpm" in prechecks(foot)[0].sentence
