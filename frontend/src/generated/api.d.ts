@@ -3461,7 +3461,7 @@ export interface components {
         };
         /**
          * Curve
-         * @description Means of all strokes and sides at each load (k,), in Nm: the residuals' shape and loop.
+         * @description Means of strokes and sides at each load (k,), in Nm: the residuals' shape and loop.
          */
         Curve: {
             /** Load Nm */
@@ -8358,6 +8358,8 @@ export interface components {
         /**
          * Worked
          * @description What comes out. With refusals, or too few captures, nothing is fitted: None and empty.
+         *
+         *     curve, piecewise: of the captures with the crank at its first planned angle.
          */
         Worked: {
             /** Refusals */

@@ -2,6 +2,17 @@
 import type { Figure } from '../words/meaning_words.svelte'
 import type { Job } from '../job/types'
 
+export type Pieces = NonNullable<NonNullable<Job['worked']>['piecewise']>
+
+/** A reading with the correction by pieces; beyond the outermost the last one holds. */
+export function correctedNm({ reading_nm, correction_nm }: Pieces, nm: number): number {
+  const after = reading_nm.findIndex((one) => one >= nm)
+  if (after <= 0) return nm + (correction_nm.at(after) ?? 0)
+  const [low = nm, high = nm] = reading_nm.slice(after - 1)
+  const [first = 0, last = 0] = correction_nm.slice(after - 1)
+  return nm + first + ((nm - low) / (high - low)) * (last - first)
+}
+
 export interface Bar {
   figure: Figure
   pct: number | null

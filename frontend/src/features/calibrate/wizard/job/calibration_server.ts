@@ -61,8 +61,8 @@ export class CalibrationServer {
   }
 
   /** Writes back what the unit had before. */
-  restore(calibration_id: number, token: string | null): Promise<Job> {
-    const params = { path: { calibration_id }, query: { token } }
+  restore(calibration_id: number, reason: string, token: string | null): Promise<Job> {
+    const params = { path: { calibration_id }, query: { reason, token } }
     return body(this.http.POST('/api/v1/calibrations/{calibration_id}/restore', { params }))
   }
 

@@ -1,4 +1,5 @@
-// What the server says with a code. Its own sentence is the English.
+// What the server says with a code. Its own sentence is the English, unless what it tells of has
+// other units for some readers.
 import { pageWords } from '$shared/i18n/page_words.svelte'
 
 export const TOLD = [
@@ -27,7 +28,6 @@ export const TOLD = [
   'against',
   'slope',
   'wrong_mass',
-  'crank_angle',
   'too_few_captures',
   'no_strokes_right',
   'no_strokes_left',
@@ -50,7 +50,16 @@ export const TOLD = [
 ] as const
 export type ToldCode = (typeof TOLD)[number]
 
-const en = Object.fromEntries(TOLD.map((code) => [code, '{sentence}'])) as Record<ToldCode, string>
+const en: Record<ToldCode, string> = {
+  ...(Object.fromEntries(TOLD.map((code) => [code, '{sentence}'])) as Record<ToldCode, string>),
+  standing: 'nothing turns: wheel {wheel_kmh}, crank {cadence_rpm}, motor {motor_rpm}',
+  pedals_free: 'nobody on the pedals: {figure}, {allowed} is allowed',
+  temperature: 'the temperature is steady: {figure} in a minute, {allowed} is allowed',
+  faults: 'faults: {names}',
+  temperature_moving: 'the sensor’s temperature changed by {figure}',
+  turning: 'the bike moves: {speed_kmh}, crank {cadence_rpm}',
+  verification: 'the verification is off by {figure} times what its uncertainty explains',
+}
 const zh = async () => (await import('./told_words_zh')).zh
 
 export const told = await pageWords(en, zh)
