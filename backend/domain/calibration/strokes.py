@@ -75,8 +75,11 @@ def _told(side: Side, strokes: int, figures: CalibrationFigures) -> SideFigures:
 
 
 def curve(setup: Setup, captures: Sequence[Capture], coefficients: Coefficients) -> Curve:
-    """What the coefficients leave at each load of the captures but the verifications."""
-    used = [capture for capture in captures if capture.state.kind != "verify"]
+    """What the coefficients leave at each load, crank at its first planned angle: another one shows
+    bending and how well the angle was met. Of all loads where none hung there."""
+    fitted = [capture for capture in captures if capture.state.kind != "verify"]
+    level_deg = setup.angles_deg[0]
+    used = [one for one in fitted if one.state.crank_angle_deg == level_deg] or fitted
     load = np.round([capture.state.load_nm(setup) for capture in used], 6)
     left = readings_nm(used, coefficients) - load
     up = np.array([capture.state.direction != "unloading" for capture in used])

@@ -30,10 +30,7 @@ from backend.errors import InvalidRequest
 
 @dataclass(frozen=True, slots=True)
 class Worked(Plain):
-    """What comes out. With refusals, or too few captures, nothing is fitted: None and empty.
-
-    curve, piecewise: of the captures with the crank at its first planned angle.
-    """
+    """What comes out. With refusals, or too few captures, nothing is fitted: None and empty."""
 
     refusals: tuple[Refusal, ...]
     fit: Fit | None
@@ -58,9 +55,7 @@ def work_out(
         evidence = Evidence(setup, refused, None, (), (), None, None, None, ())
         judged = judge(evidence, limits)
         return Worked(refused, None, None, None, None, (), (), None, None, (), judged)
-    # A crank at another angle shows bending and how well the angle was met, not the sensor's curve.
-    straight = [one for one in captures if one.state.crank_angle_deg == setup.angles_deg[0]]
-    shape = curve(setup, straight, fitted.coefficients)
+    shape = curve(setup, captures, fitted.coefficients)
     evidence = Evidence(
         setup,
         refused,

@@ -8358,8 +8358,6 @@ export interface components {
         /**
          * Worked
          * @description What comes out. With refusals, or too few captures, nothing is fitted: None and empty.
-         *
-         *     curve, piecewise: of the captures with the crank at its first planned angle.
          */
         Worked: {
             /** Refusals */

@@ -13,6 +13,17 @@ export function correctedNm({ reading_nm, correction_nm }: Pieces, nm: number): 
   return nm + first + ((nm - low) / (high - low)) * (last - first)
 }
 
+/** What the straight line leaves with the crank at its first planned angle: another one shows
+    bending and how well the angle was met. */
+export function straightResiduals(job: Job) {
+  const states = new Map(job.captures.map(({ number, state }) => [number, state]))
+  return (job.worked?.fit?.residuals ?? []).flatMap((one) => {
+    const state = states.get(one.capture)
+    const straight = state?.crank_angle_deg === job.setup?.angles_deg?.[0]
+    return straight ? [{ ...one, down: state?.direction === 'unloading' }] : []
+  })
+}
+
 export interface Bar {
   figure: Figure
   pct: number | null

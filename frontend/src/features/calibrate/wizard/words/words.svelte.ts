@@ -187,7 +187,7 @@ export const en = {
   none: 'none',
   around: 'Left, right and round the crank',
   around_axis: 'Crank angle, ° · residual, % of the load',
-  around_few: 'Bending takes both pedals at a second crank angle, 20° or more away: add it to the plan.',
+  around_few: 'Bending takes both pedals at a second crank angle, 20° or more away.',
   around_one: 'It takes loads on both pedals.',
   captures: 'All captures',
   captures_note: 's: standard deviation in counts, n: samples (− outliers left out)',

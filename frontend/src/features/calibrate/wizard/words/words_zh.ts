@@ -179,7 +179,7 @@ export const zh: Record<keyof typeof en, string> = {
   none: '无',
   around: '左右与曲柄角度',
   around_axis: '曲柄角度，° · 残差，占负载 %',
-  around_few: '要看出弯曲，两侧踏板都需要相差 20° 以上的第二个曲柄角度：请添加到计划。',
+  around_few: '要看出弯曲，两侧踏板都需要相差 20° 以上的第二个曲柄角度。',
   around_one: '需要两侧踏板都有负载。',
   captures: '全部读数',
   captures_note: 's：标准差（计数），n：样本数（− 舍去的离群值）',
