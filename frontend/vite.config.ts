@@ -34,7 +34,7 @@ const GROUPS = [
   chunk('settings', 'features/settings'),
   chunk('review', `shared/(certificate|config/(${REVIEW.join('|')}))`),
   chunk('config', 'shared/(config|lint)'),
-  chunk('tune', 'features/tune/(?!Rescale|Scale|surface/(between|box|solid|Slice|Surface[MS]))'),
+  chunk('tune', 'features/tune/(?![Rr]escale|Scale|surface/(between|box|solid|Slice|Surface[MS]))'),
 ]
 
 export default defineConfig({

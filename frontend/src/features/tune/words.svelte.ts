@@ -35,17 +35,6 @@ export const en = {
   felt: 'At {push} from you: {asked} asked, {given} arrive at the crank.',
   felt_unit: 'In the unit {asked} are asked.',
   rescale: 'Rescale the torque-rate points to your rides…',
-  rescale_title: 'Torque-rate points that your rides use',
-  rescale_note:
-    'The time in which your torque rose is divided evenly among the points; the first stays at ' +
-    '0. Both tables have these points, and every rule keeps its label.',
-  rescale_now: 'Now',
-  rescale_then: 'Proposed',
-  rescale_time: 'Time',
-  rescale_judging: 'Judging the proposal…',
-  rescale_clean: 'The checks find nothing that they did not find before.',
-  rescale_found: 'The checks find what they did not find before:',
-  rescale_take: 'Take it into the draft',
 }
 
 export type TuneKey = keyof typeof en
