@@ -76,7 +76,8 @@ def pulses(options: Namespace) -> int:
         print_json(answer)
     else:
         said = "agrees" if found["agrees"] else "DIFFERS"
-        sure = "" if found["whole"] else " More turns tell which whole number it is."
+        none = " It is no whole number: turns miscounted, or a magnet that is missed."
+        sure = "" if found["whole"] else none
         print(
             f"{found['counted']:.2f} pulses a turn ± {found['expanded']:.2f} (k = 2): the unit "
             f"made {answer['told_turns']:.2f} turns of {answer['turns']:g}. It counts with "

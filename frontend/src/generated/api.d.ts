@@ -5552,8 +5552,8 @@ export interface components {
         /**
          * Pulses
          * @description A wheel's pulses in a turn. kept: what the unit counts with. counted, expanded: what its way
-         *     comes to, k = 2. whole: the one number within that; None where there are more or none.
-         *     agrees: the kept one is within.
+         *     comes to, k = 2. whole: the number within that; None where there is none: the turns were
+         *     miscounted, or a magnet is missed. agrees: the kept one is within.
          */
         Pulses: {
             /** Kept */

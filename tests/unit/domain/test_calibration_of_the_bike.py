@@ -153,8 +153,10 @@ def test_few_turns_and_a_wheel_without_pulses_are_refused() -> None:
     with pytest.raises(InvalidRequest) as refused:
         pulses_per_turn(36, 0.0, 10)
     assert [fault.code for fault in refused.value.fields] == ["too_few_turns", "no_pulses"]
-    # Twenty turns cannot tell 100 teeth from 101.
-    assert pulses_per_turn(100, 20.1, 20).whole is None
+    # Twenty turns tell 100 teeth from 101, and half a tooth is a miscount.
+    more, half = pulses_per_turn(100, 20.2, 20), pulses_per_turn(36, 101.4, 100)
+    assert (more.whole, more.agrees) == (101, False)
+    assert (half.whole, half.agrees) == (None, False)
 
 
 def test_a_cadence_counted_for_a_minute_is_known_to_half_a_turn() -> None:

@@ -28,7 +28,7 @@ GPS_EXPANDED_SHARE_MAX = 0.02
 """Half of the band in which a dealer may set a circumference: less is no measurement of it."""
 
 PULSE_TURNS_LEAST = 20.0
-"""Fewer, and the marks at either end decide between 35 and 36."""
+"""Enough to tell 100 pulses, the most of a unit, from 101."""
 
 HAND_TURNS = 0.05
 """Limit of how far from its mark a wheel was stopped by hand."""
@@ -55,8 +55,8 @@ class Circumference(Plain):
 @dataclass(frozen=True, slots=True)
 class Pulses(Plain):
     """A wheel's pulses in a turn. kept: what the unit counts with. counted, expanded: what its way
-    comes to, k = 2. whole: the one number within that; None where there are more or none.
-    agrees: the kept one is within."""
+    comes to, k = 2. whole: the number within that; None where there is none: the turns were
+    miscounted, or a magnet is missed. agrees: the kept one is within."""
 
     kept: int
     counted: float
@@ -154,10 +154,9 @@ def pulses_per_turn(kept: int, told_turns: float, turns: float) -> Pulses:
     _raise(faults)
     found = kept * told_turns / turns
     expanded = 2 * math.hypot(found * HAND_TURNS, END_PULSES) / turns / ROOT_3
-    low, high = math.ceil(max(1.0, found - expanded)), math.floor(found + expanded)
-    return Pulses(
-        kept, found, expanded, low if low == high else None, abs(kept - found) <= expanded
-    )
+    nearest = max(1, round(found))
+    whole = nearest if abs(nearest - found) <= expanded else None
+    return Pulses(kept, found, expanded, whole, abs(kept - found) <= expanded)
 
 
 def cadence_error_rpm(

@@ -27,6 +27,13 @@ export class NewestAnswer<Answer> {
     this.running = false
   }
 
+  /** Gives up what is asked and drops what was answered: the question is another one now. */
+  forget(): void {
+    this.stop()
+    this.answer = null
+    this.refusal = null
+  }
+
   /** Gives up what is asked; what was answered stays. */
   stop(): void {
     this.asked.abort()

@@ -1,0 +1,45 @@
+// What the server makes of rolls, rides and climbs: the bike's numbers beside its calibration.
+import type { components } from '$generated/api'
+import { body, type Http } from '$shared/api/client'
+
+type Schemas = components['schemas']
+export type WheelTold = Schemas['Wheel']
+export type PulsesTold = Schemas['PulsesTold']
+export type CadenceTold = Schemas['Cadence']
+export type ClimbTold = Awaited<ReturnType<BikeServer['climb']>>
+export type RollOut = Schemas['RollOut']
+export type WheelByTrack = Schemas['WheelByTrack']
+export type PulsesRequest = Schemas['PulsesRequest']
+export type CadenceRequest = Schemas['CadenceRequest']
+type ClimbRequest = Schemas['ClimbRequest']
+/** What the page asks of a climb; the rest is as the server has it. */
+export type ClimbQuestion = Pick<
+  ClimbRequest,
+  'climb' | 'coast_downs' | 'mass_kg' | 'mass_limit_kg' | 'rise_limit_m' | 'motor_off'
+>
+export type Slope = Schemas['SlopeRidden']
+
+export class BikeServer {
+  constructor(private readonly http: Http) {}
+
+  rolled(asked: RollOut, signal: AbortSignal): Promise<WheelTold> {
+    return body(this.http.POST('/api/v1/calibration/wheel/roll-out', { body: asked, signal }))
+  }
+
+  tracked(asked: WheelByTrack, signal: AbortSignal): Promise<WheelTold> {
+    return body(this.http.POST('/api/v1/calibration/wheel/track', { body: asked, signal }))
+  }
+
+  pulses(asked: PulsesRequest, signal: AbortSignal): Promise<PulsesTold> {
+    return body(this.http.POST('/api/v1/calibration/wheel/pulses', { body: asked, signal }))
+  }
+
+  cadence(asked: CadenceRequest, signal: AbortSignal): Promise<CadenceTold> {
+    return body(this.http.POST('/api/v1/calibration/cadence', { body: asked, signal }))
+  }
+
+  climb(asked: ClimbQuestion, signal: AbortSignal) {
+    const question = asked as ClimbRequest
+    return body(this.http.POST('/api/v1/calibration/climb', { body: question, signal }))
+  }
+}
