@@ -36,6 +36,8 @@ KINDS = ("rides", "originals", "calibrations")
 LOST_FOUND = "lost+found"
 # What owners said of tables: small files that no database names.
 TABLES = "tables"
+# A calibration that is open, a file each: what was captured outlives the database.
+CALIBRATING = "calibrating"
 IDENTITY = "spindle-store.json"
 IDENTITY_ID = re.compile(r"[0-9a-f]{32}")
 RIDE_SUFFIX, SIDECAR_SUFFIX = ".parquet", ".json"
@@ -87,6 +89,7 @@ class Objects(Protocol):
     def unless_held(self, work: Callable[[], bool]) -> bool: ...
     def keys(self) -> Iterator[str]: ...
     def table_keys(self) -> Iterator[str]: ...
+    def calibrating_keys(self) -> Iterator[str]: ...
     def clear_staging(self) -> int: ...
 
 
@@ -187,6 +190,10 @@ class FileObjects:
     def table_keys(self) -> Iterator[str]:
         """Keys of what was said of tables."""
         yield from self._files((TABLES,))
+
+    def calibrating_keys(self) -> Iterator[str]:
+        """Keys of the files of open calibrations."""
+        yield from self._files((CALIBRATING,))
 
     def lost_keys(self) -> Iterator[str]:
         """What lies in `lost+found/`."""

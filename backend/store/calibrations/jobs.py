@@ -1,4 +1,4 @@
-"""Calibration jobs in SQL: what is captured is there once the call returns; a closed job is a file.
+"""Calibration jobs in SQL and as files: what is captured is in both once the call returns.
 
 One job is open for a unit at a time. Nothing is removed: a capture that is taken back is struck
 out and stays.
@@ -23,6 +23,7 @@ from backend.store.calibrations.kept import (
     document_of,
     told_captures,
 )
+from backend.store.calibrations.open_file import forget_open, keep_open
 from backend.store.objects import FileObjects, content_key
 from backend.store.soundness import WORDS, Expected, Soundness
 from backend.store.sql import tables as t
@@ -71,7 +72,9 @@ class CalibrationStore:
                 "opened_us": now_us(),
             }
             made = insert(t.calibration).values(values).returning(t.calibration.c.id)
-            return int(connection.execute(made).scalar_one()), True
+            job_id = int(connection.execute(made).scalar_one())
+            self._keep(connection, job_id)
+            return job_id, True
 
         job_id, is_new = self._database.write(work)
         return self.get(job_id), is_new
@@ -103,6 +106,7 @@ class CalibrationStore:
             job = open_job(connection, job_id)
             body = dict(work(job.body))
             set_body(connection, job_id, body)
+            self._keep(connection, job_id)
             return replace(job, body=body)
 
         return self._database.write(changed)
@@ -132,6 +136,7 @@ class CalibrationStore:
             values = {"calibration_id": job_id, "number": number, "body": dict(body)}
             connection.execute(insert(captures).values(values))
             set_body(connection, job_id, changed)
+            self._keep(connection, job_id)
             return KeptCapture(number, body)
 
         return self._database.write(added)
@@ -156,6 +161,7 @@ class CalibrationStore:
             changed = update(t.calibration_capture).where(mine).values(struck=dict(struck))
             connection.execute(changed)
             set_body(connection, job_id, work(job.body))
+            self._keep(connection, job_id)
             return replace(found, struck=struck)
 
         return self._database.write(done)
@@ -192,6 +198,7 @@ class CalibrationStore:
                 connection.execute(update(t.calibration).where(mine).values(values))
 
             self._database.write(closed)
+        forget_open(self._objects, job.unit_key)
         return replace(job, sha256=sha256)
 
     def file(self, job: KeptCalibration) -> bytes:
@@ -217,6 +224,10 @@ class CalibrationStore:
         query = select(t.calibration.c.sha256).where(t.calibration.c.sha256.is_not(None))
         found = self._database.read(lambda c: c.execute(query).scalars().all())
         return (Expected(key_of(sha256), None) for sha256 in found)
+
+    def _keep(self, connection: Connection, job_id: int) -> None:
+        """The last step of a transaction that changes an open job."""
+        keep_open(self._objects, job_of(connection, job_id), captures_of(connection, job_id))
 
     def _publish(self, key: str, document: Mapping[str, Any]) -> None:
         staged = self._objects.stage()

@@ -1,4 +1,4 @@
-"""Closed jobs brought back into an empty database from their files."""
+"""Jobs brought back into an empty database from their files: closed ones, and those still open."""
 
 from __future__ import annotations
 
@@ -22,20 +22,30 @@ def bring_back_calibration(database: Database, objects: FileObjects, key: str) -
 
     Raises StoreError for a file that tells of none.
     """
-    document = objects.read_json(key) or {}
-    sha256 = PurePosixPath(key).stem
     try:
+        document = objects.read_json(key) or {}
         job = job_row(document)
         captures = capture_rows(document)
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise StoreError(f"{key} tells of no calibration: {error!r}.") from error
+    closed = job["closed_us"] is not None
+    if closed is not is_calibration(key):
+        raise StoreError(f"{key} tells of a calibration that is {'closed' if closed else 'open'}.")
+    if closed:
+        job["sha256"] = PurePosixPath(key).stem
+        same = t.calibration.c.sha256 == job["sha256"]
+    else:
+        job["open_for"] = job["unit_key"]
+        mine = t.calibration.c.unit_key == job["unit_key"]
+        # Closed since: its file was there, and this one could not be removed.
+        same = mine & (t.calibration.c.opened_us == job["opened_us"])
+        same |= t.calibration.c.open_for == job["unit_key"]
 
     def work(connection: Connection) -> bool:
-        known = select(t.calibration.c.id).where(t.calibration.c.sha256 == sha256)
-        if connection.execute(known).first() is not None:
+        if connection.execute(select(t.calibration.c.id).where(same)).first() is not None:
             return False
         bike_id = known_unit(connection, job["unit_key"])
-        made = insert(t.calibration).values(**job, sha256=sha256, bike_id=bike_id)
+        made = insert(t.calibration).values(**job, bike_id=bike_id)
         job_id = connection.execute(made.returning(t.calibration.c.id)).scalar_one()
         for row in captures:
             connection.execute(insert(t.calibration_capture).values(calibration_id=job_id, **row))
@@ -59,7 +69,7 @@ def job_row(document: Mapping[str, Any]) -> dict[str, Any]:
         "author": str(job["author"]),
         "author_proof": job["author_proof"],
         "opened_us": int(job["opened_us"]),
-        "closed_us": int(job["closed_us"]),
+        "closed_us": None if job["closed_us"] is None else int(job["closed_us"]),
     }
 
 

@@ -134,6 +134,7 @@ def added_objects(
     rides = [key for key in keys if key.endswith(RIDE_SUFFIX)]
     # A sidecar is there for most rides; without it a ride lacks only what a person wrote.
     beside = [*map(sidecar_key, rides), *store.objects.table_keys()]
+    beside += store.objects.calibrating_keys()
     for key in [IDENTITY, *keys, *beside]:
         try:
             file = store.objects.local_path(key)

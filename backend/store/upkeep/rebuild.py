@@ -57,8 +57,9 @@ NONSENSE = (KeyError, TypeError, ValueError, AttributeError, InvalidRequest)
 class Rebuilt:
     """What a rebuild did.
 
-    rides, calibrations: added now. rides_before: there already. lacking: what older files do not
-    tell, by key. not_taken: files that are not whole, with the reason. superseded: rides of
+    rides, calibrations, calibrations_open: added now. rides_before: there already. lacking: what
+    older files do not tell, by key. not_taken: files that are not whole, with the reason; stay:
+    those of them that no start moves away. superseded: rides of
     which there is a fuller version. set_aside: files of the destroyed database, under their new
     names.
     """
@@ -67,8 +68,10 @@ class Rebuilt:
     rides: int = 0
     rides_before: int = 0
     calibrations: int = 0
+    calibrations_open: int = 0
     lacking: dict[str, tuple[str, ...]] = field(default_factory=dict)
     not_taken: dict[str, str] = field(default_factory=dict)
+    stay: dict[str, str] = field(default_factory=dict)
     superseded: list[str] = field(default_factory=list)
     originals_without_ride: list[str] = field(default_factory=list)
     originals_missing: list[str] = field(default_factory=list)
@@ -189,7 +192,7 @@ def bring_back(
 def bring_back_calibrations(
     database: Database, objects: FileObjects, keys: Iterable[str], report: Rebuilt
 ) -> None:
-    """Add every closed calibration whose file is whole. One that was open was in SQL alone."""
+    """Add every calibration whose file is whole: the closed ones, then those that are open."""
     for key in filter(is_calibration, keys):
         try:
             if (reason := damage_of(objects, key)) is not None:
@@ -197,6 +200,11 @@ def bring_back_calibrations(
             report.calibrations += bring_back_calibration(database, objects, key)
         except StoreError as error:
             report.not_taken[key] = error.message
+    for key in objects.calibrating_keys():
+        try:
+            report.calibrations_open += bring_back_calibration(database, objects, key)
+        except StoreError as error:
+            report.stay[key] = error.message
 
 
 def files_of(kept: KeptRide) -> Iterable[Original]:
@@ -305,11 +313,13 @@ def told(report: Rebuilt) -> Iterable[str]:
     yield f"{report.rides} rides brought back, {report.rides_before} were there already."
     if report.calibrations:
         yield f"{report.calibrations} calibrations brought back."
+    if report.calibrations_open:
+        yield f"{report.calibrations_open} open calibrations brought back: go on with them."
     for name in report.set_aside:
         yield f"The destroyed database is kept as {name}."
     for key, lacks in report.lacking.items():
         yield f"{key}: an older file; not known: {', '.join(lacks)}."
-    for key, reason in report.not_taken.items():
+    for key, reason in (report.not_taken | report.stay).items():
         yield f"{key}: not taken. {reason}"
     for key in report.superseded:
         yield f"{key}: there is a fuller version of this ride."

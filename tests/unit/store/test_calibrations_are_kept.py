@@ -181,6 +181,89 @@ def test_check_backup_and_rebuild_know_it(store: Store, tmp_path: Path) -> None:
     assert check_store(*urls(tmp_path)).is_fine
 
 
+def test_a_rebuild_keeps_an_open_job_with_its_captures(store: Store, tmp_path: Path) -> None:
+    closed(store)
+    job, _ = store.calibrations.open(UNIT, "SP mid", {"setup": None}, "Ada")
+    captured(store, job.id)
+    store.calibrations.strike(job.id, 2, {"reason": "it swung"}, same)
+    store.calibrations.change(job.id, lambda body: {**body, "setup": {"arm_m": 0.17}})
+    kept = store.calibrations.get(job.id)
+    captures = store.calibrations.captures(job.id)
+    store.close()
+    assert check_store(*urls(tmp_path)).is_fine
+
+    # The header of the database is overwritten.
+    with (tmp_path / "spindle.db").open("r+b") as database:
+        database.write(bytes(100))
+    report = rebuild_store(*urls(tmp_path))
+    again = rebuild_store(*urls(tmp_path))
+
+    assert (report.calibrations, report.calibrations_open, again.calibrations_open) == (1, 1, 0)
+    with open_store(*urls(tmp_path)) as rebuilt:
+        found, is_new = rebuilt.calibrations.open(UNIT, None, {}, "Ben")
+        assert not is_new
+        assert (found.body, found.author, found.opened_us) == (kept.body, "Ada", kept.opened_us)
+        assert rebuilt.calibrations.captures(found.id) == captures
+        captured(rebuilt, found.id, 1)
+        assert rebuilt.calibrations.captures(found.id)[-1].number == 4
+        rebuilt.calibrations.close(found.id, same, None)
+    assert list((tmp_path / "objects" / "calibrating").iterdir()) == []
+
+
+def test_a_job_closed_before_its_open_file_went_is_not_open_again(
+    reopen: OpenStore, tmp_path: Path
+) -> None:
+    class Keeping(Disk):
+        def remove(self, path: Path) -> None:
+            raise OSError("it stays")
+
+    store = reopen(Keeping())
+    closed(store)
+    store.close()
+    (left,) = (tmp_path / "objects" / "calibrating").iterdir()
+
+    (tmp_path / "spindle.db").unlink()
+    report = rebuild_store(*urls(tmp_path))
+
+    assert left.is_file()
+    assert (report.calibrations, report.calibrations_open, report.stay) == (1, 0, {})
+
+
+def test_an_open_file_that_cannot_be_read_is_named_and_stays(store: Store, tmp_path: Path) -> None:
+    store.calibrations.open(UNIT, None, {}, "")
+    store.close()
+    (file,) = (tmp_path / "objects" / "calibrating").iterdir()
+    file.write_text(file.read_text()[:40])
+
+    (tmp_path / "spindle.db").unlink()
+    report = rebuild_store(*urls(tmp_path))
+
+    assert list(report.stay) == [f"calibrating/{file.name}"]
+    assert file.is_file()
+
+
+def test_a_capture_that_cannot_be_written_beside_sql_is_refused_and_not_there(
+    reopen: OpenStore,
+) -> None:
+    class Failing(Disk):
+        fails = False
+
+        def flush_file(self, path: Path) -> None:
+            if self.fails:
+                raise OSError("no more")
+            super().flush_file(path)
+
+    disk = Failing()
+    store = reopen(disk)
+    job, _ = store.calibrations.open(UNIT, None, {}, "")
+    disk.fails = True
+    with pytest.raises(StoreError):
+        captured(store, job.id, 1)
+    disk.fails = False
+
+    assert store.calibrations.captures(job.id) == ()
+
+
 def test_a_flipped_bit_is_found_and_nothing_of_it_is_sent(store: Store, tmp_path: Path) -> None:
     job = store.calibrations.get(closed(store))
     assert job.sha256 is not None
