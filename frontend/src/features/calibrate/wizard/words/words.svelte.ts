@@ -92,7 +92,6 @@ export const en = {
 
   readings: 'Readings, {unit}',
   readings_legend: '▲ loading, ▽ unloading · tap a value to take it again',
-  ways: '▲ loading, ▽ unloading',
   reading_number: 'Reading {number}:',
   loading: 'loading',
   unloading: 'unloading',

@@ -88,7 +88,6 @@ export const zh: Record<keyof typeof en, string> = {
 
   readings: '读数，{unit}',
   readings_legend: '▲ 加载，▽ 卸载 · 点数值可重做',
-  ways: '▲ 加载，▽ 卸载',
   reading_number: '读数 {number}：',
   loading: '加载',
   unloading: '卸载',
