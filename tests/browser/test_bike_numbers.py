@@ -18,6 +18,7 @@ from playwright.sync_api import Page, Route, expect
 from backend.domain.calibration.bike.balance import Climb, balance
 from backend.domain.calibration.bike.coast_down import Known, resistance
 from tests.browser.desk import Desk, sideways
+from tests.browser.test_pages_for_everyone import JUDGE
 from tests.fakes.server import SpindleServer
 
 KEPT = "wheel_circumference_m"
@@ -80,7 +81,7 @@ def test_a_rolled_wheel_is_told_beside_the_unit_s_and_written(
 
 
 def test_a_climb_says_whether_it_agrees_and_where_its_energy_went(
-    desk: Desk, server: SpindleServer, standing: str
+    desk: Desk, standing: str, axe: str
 ) -> None:
     asked: list[dict[str, Any]] = []
 
@@ -110,4 +111,6 @@ def test_a_climb_says_whether_it_agrees_and_where_its_energy_went(
     panel.get_by_role("button", name="Compare").click()
     expect(told.locator("[data-agrees=false]")).to_contain_text("does not agree")
     assert sideways(page) == 0
+    page.evaluate(axe)
+    assert page.evaluate(JUDGE) == []
     desk.picture("bike-climb", full=True)
