@@ -18,7 +18,7 @@ from backend.store import open_store
 from backend.store.upkeep.check import check_store
 from firmware_protocol.retired import with_words_of_today
 from tests.fakes.server import SpindleServer
-from tests.releases.make import BYTES_MAX, CHANGED, NAME, REASON, UNIT
+from tests.releases.make import BYTES_MAX, CHANGED, NAME, REASON, UNIT, lived, zeros
 
 RELEASES = sorted(path.parent for path in Path(__file__).parent.glob("*/told.json"))
 
@@ -71,6 +71,29 @@ def test_every_ride_is_read_row_by_row(data: Path, told: dict[str, Any]) -> None
     assert check_store(*urls).is_fine
 
 
+@pytest.mark.slow
+@pytest.mark.long
+def test_what_the_next_release_leaves_holds_calibrations_and_a_zero(tmp_path: Path) -> None:
+    said = lived(tmp_path)
+
+    assert [one["state"] for one in said["calibrations"]] == ["capturing", "closed"]
+    assert [len(one["captures"]) for one in said["calibrations"]] == [2, 10]
+    assert [one["zero_nm"] is not None for one in said["zeros"]] == [True]
+    server = SpindleServer(tmp_path, [UNIT]).start()
+    jobs = [server.get(f"/calibrations/{one['id']}") for one in said["calibrations"]]
+    server.stop()
+    assert kept_of(jobs, said["calibrations"]) == said["calibrations"]
+
+
+def kept_of(now: Any, before: Any) -> Any:
+    """The part of an answer that an older version told, too: a later one may tell more."""
+    if isinstance(before, dict):
+        return {name: kept_of(now[name], value) for name, value in before.items()}
+    if isinstance(before, list) and len(now) == len(before):
+        return [kept_of(one, other) for one, other in zip(now, before, strict=True)]
+    return now
+
+
 PER_K = ("sensor_offset_counts_per_k", "sensor_gain_share_per_k")
 
 
@@ -84,6 +107,9 @@ def test_the_server_starts_on_it_and_the_unit_keeps_its_settings(
     revisions = server.get(f"/devices/{device}/config/revisions")["items"]
     rides = server.get("/rides")["items"]
     series = [server.get(f"/rides/{ride['id']}/series?channels=speed_kmh") for ride in rides]
+    # Releases up to 0.5 had no calibrations and did not watch the zero.
+    jobs = [server.get(f"/calibrations/{one['id']}") for one in told.get("calibrations", ())]
+    seen = zeros(server, device)
     # Releases up to 0.4 had no library of one's own.
     own = {one["id"]: server.get(f"/library/{one['id']}") for one in told.get("library", ())}
     server.stop()
@@ -106,6 +132,9 @@ def test_the_server_starts_on_it_and_the_unit_keeps_its_settings(
     assert {ride["id"]: ride["name"] for ride in rides} == {
         known["id"]: known["name"] for known in told["rides"]
     }
+    for before, now in zip(told.get("calibrations", ()), jobs, strict=True):
+        assert kept_of(now, before) == before
+    assert [one for one in told.get("zeros", ()) if one not in seen] == []
     for one in series:
         assert one["channels"][0]["max"]
     assert own == {one["id"]: one["document"] for one in told.get("library", ())}
