@@ -141,8 +141,11 @@ def test_a_sensor_is_calibrated_though_cable_server_and_a_mass_go_wrong(
     newest = workshop.server.get(f"/devices/{workshop.device}/config/revisions")["items"][0]
     assert newest["reason"] == "spring service"
 
+    # From any step the way back shows what the unit gets, and asks why.
+    page.get_by_test_id("steps").get_by_role("button", name="Fit").click()
     page.get_by_role("button", name="Restore the old one").click()
     expect(page.get_by_test_id("restore")).to_contain_text("What the unit gets back")
+    expect(page.get_by_test_id("restore").get_by_label("Reason")).to_be_visible()
     page.get_by_role("button", name="Back").click()
     page.get_by_role("button", name="Close with its certificate").click()
     sheet = page.get_by_test_id("certificate-sheet")
