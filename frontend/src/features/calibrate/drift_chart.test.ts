@@ -88,3 +88,10 @@ it('draws nothing of no ride', () => {
   expect([dots, bands, coldest_degc]).toEqual([[], [], null])
   expect(levels[0]?.y).toBeCloseTo((TALL + MARGIN.top - MARGIN.bottom) / 2)
 })
+
+it('names a day once', () => {
+  const { dates } = pictureOf(drift({ rides: [ride('2026-06-29', 0)] }), WIDTH, NOW)
+  const days = dates.map(({ at_ms }) => new Date(at_ms).toISOString().slice(0, 10))
+
+  expect(days).toEqual(['2026-06-29', '2026-06-30'])
+})

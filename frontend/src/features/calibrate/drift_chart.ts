@@ -67,7 +67,8 @@ export function pictureOf(drift: SensorDrift, width: number, now_ms: number): Pi
     ...[watch, -watch].map((nm) => ({ kind: 'watch', nm }) as const),
     ...[act, -act].map((nm) => ({ kind: 'act', nm }) as const),
   ]
-  const count = Math.max(1, Math.floor(wide / DATE_PX))
+  // A day is named once.
+  const count = Math.max(1, Math.floor(Math.min(wide / DATE_PX, span / DAY_MS)))
   return {
     dots: rides.map((ride) => ({
       x: x(ride.at_ms),
