@@ -27,7 +27,7 @@ STANDING_S = 20
 RESTING_KMH = 0.5
 RESTING_MOTOR_RPM = 30.0
 IMAGE_LENGTH = 455
-SCHEMA_HASH = bytes.fromhex("94530cc790e7004d")
+SCHEMA_HASH = bytes.fromhex("07c54983914e937c")
 
 
 class Status(IntEnum):
@@ -316,6 +316,7 @@ class FaultFlags(IntFlag):
     NOT_PROVISIONED = 65536
     LAW_RESULT = 131072
     SAFE_STOP = 262144
+    FOOT_AT_START = 524288
 
 
 class MessageId(IntEnum):
@@ -2609,6 +2610,11 @@ FAULTS: tuple[Fault, ...] = (
         18, "SAFE_STOP", 2,
         "No assist: the drive unit stopped and started again by itself. Switch the bike off and on at standstill; if it comes back, see your dealer.",
         "The program hung, met a processor fault or missed its control steps, and the motor was switched off by hardware. START_INFO tells which. Check the supply and the board for water first, then ask the maker.",
+    ),
+    Fault(
+        19, "FOOT_AT_START", 1,
+        "No assist: a foot was on the pedal when the bike was switched on. Take your feet off the pedals for a moment. If nothing is on them, have the sensor's zero calibrated.",
+        "From switching on the torque read more than 8 Nm from the stored zero while the cranks stood. It clears below 3 Nm for a second; the zero stays as it is. If nothing is on the pedals, the zero has moved that far: look for a strained spindle, then calibrate.",
     ),
 )
 FAULT_BY_NAME = {fault.name: fault for fault in FAULTS}

@@ -38,7 +38,8 @@ def capture(options: Namespace) -> int:
     server, path = job_path(options)
     state = asked_state(options) or planned_state(server.ask("GET", path))
     wait_steady(server, path, options.wait)
-    job = server.ask("POST", f"{path}/captures", json=state)
+    free = {"pedals_free": options.pedals_free}
+    job = server.ask("POST", f"{path}/captures", json={**state, **free})
     if options.json:
         return told(job, options)
     taken = job["captures"][-1]

@@ -305,6 +305,8 @@ def _add_calibrate(verbs: Any) -> None:
     _add_place(command)
     command.add_argument("--stroke", type=int, default=1, help="1, 2 ... (1)")
     command.add_argument("--direction", choices=["loading", "unloading"], default="loading")
+    words = "you looked: nothing is on the pedals, although the unit tells of a foot"
+    command.add_argument("--pedals-free", action="store_true", help=words)
     command = _on_job(group, "drop", calibration_job.drop, "strike a capture out")
     command.add_argument("number", type=int, help="its number in `show`")
     command.add_argument("--reason", default="", help="why; kept with it")

@@ -37,7 +37,7 @@ local EBL = {
         ["baud_rates"] = { [0] = "BAUD_115200", [1] = "BAUD_230400", [2] = "BAUD_460800", [3] = "BAUD_921600", [4] = "BAUD_1000000", [5] = "BAUD_2000000" },
         ["log_flags"] = { [0] = "RECORDING", [1] = "CONFIRMED", [2] = "ENDED" },
         ["fault_flags"] = { [0] = "TORQUE_SENSOR", [1] = "SPEED_SENSOR", [2] = "BATTERY_LOW", [3] = "CONFIG_DEFAULTED", [4] = "OVER_CURRENT", [5] = "UNDER_VOLTAGE", [6] = "BATTERY_CUT", [7] = "MOTOR_TEMPERATURE", [8] = "CONTROLLER_TEMPERATURE", [9] = "TORQUE_STUCK", [10] = "TORQUE_DRIFT", [11] = "TORQUE_LINK", [12] = "SPEED_MISMATCH", [13] = "SPEED_STUCK", [14] = "MOTOR_HALL" },
-        ["fault_flags_high"] = { [0] = "NOT_PROVISIONED", [1] = "LAW_RESULT", [2] = "SAFE_STOP" },
+        ["fault_flags_high"] = { [0] = "NOT_PROVISIONED", [1] = "LAW_RESULT", [2] = "SAFE_STOP", [3] = "FOOT_AT_START" },
     },
     details = {
         ["PENDING"] = "ms until the answer",

@@ -32,7 +32,7 @@ int main(void)
     size_t length = 0;
     ebl_config config;
     hal_inputs inputs;
-    fault_law law = {0.0f, 0.0f, 0.0f, 0, 0.0f};
+    fault_law law = {0.0f, 0.0f, 0.0f, 0.0f, 0, 0.0f};
     fault_list faults;
     uint32_t set, cleared;
 

@@ -84,6 +84,10 @@ class CaptureRequest(Question):
     crank_angle_deg: Angle = 0.0
     stroke: int = Field(default=1, ge=1, le=100)
     direction: Literal["loading", "unloading"] | None = None
+    pedals_free: bool = Field(
+        default=False,
+        description="Somebody looked: nothing is on the pedals, although the unit tells of a foot.",
+    )
 
 
 class VerifyRequest(Question):

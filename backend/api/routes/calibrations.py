@@ -101,8 +101,9 @@ def set_up_calibration(calibration_id: JobId, body: SetupRequest, services: Prov
 )
 def capture(calibration_id: JobId, body: CaptureRequest, services: Provided) -> Any:
     """Takes the newest 3 s as a reading of what hangs there. Refused with every reason unless they
-    are steady."""
-    services.calibrations.jobs.capture(calibration_id, state_of(body.model_dump()))
+    are steady; a zero also while the unit tells of a foot on the pedal."""
+    state = state_of(body.model_dump(exclude={"pedals_free"}))
+    services.calibrations.jobs.capture(calibration_id, state, body.pedals_free)
     return services.calibrations.show.get(calibration_id)
 
 

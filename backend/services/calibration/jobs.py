@@ -29,6 +29,7 @@ from backend.services.units.device_view import DeviceView
 from backend.store import CalibrationStore, KeptCalibration
 
 READY = "ready"
+FOOT = "foot_at_start"
 FACTORY_GAIN = "sensor_gain_nm_per_count_factory"
 
 
@@ -125,9 +126,10 @@ class CalibrationJobs:
 
         self._store.change(job_id, work)
 
-    def capture(self, job_id: int, state: State) -> None:
+    def capture(self, job_id: int, state: State, pedals_free: bool = False) -> None:
         """Take the newest steady window as a capture. The state's temperature is the unit's to say.
 
+        pedals_free: somebody looked, and what the unit takes for a foot is a zero that moved.
         Raises Conflict with a field for each reason why not, NotFound, InvalidRequest.
         """
         job = self._store.get(job_id)
@@ -138,6 +140,8 @@ class CalibrationJobs:
         else:
             kept.require_unwritten(job.body)
         device_id = self.connected(job)
+        if state.kind == "zero" and not pedals_free:
+            self._require_no_foot(device_id)
         with self._capturing:
             seen = self._steady(device_id, setup)
             at_us = int(self._now_s() * 1e6)
@@ -214,6 +218,15 @@ class CalibrationJobs:
             message = "; ".join(fault.message for fault in faults)
             raise Conflict(f"Not steady for {WINDOW_S:g} s: {message}.", "not_steady", faults)
         return seen
+
+    def _require_no_foot(self, device_id: str) -> None:
+        if FOOT in self._devices.get(device_id).faults_active:
+            raise Conflict(
+                "The unit tells of a foot on the pedal since it was switched on. Take everything "
+                "off the pedals; if nothing is there, the zero has moved that far: say that the "
+                "pedals are free.",
+                "foot_on_pedal",
+            )
 
     def _require_unseen(self, job_id: int, state: State) -> None:
         captures = kept.counting(self._store.captures(job_id))

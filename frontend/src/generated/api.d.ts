@@ -793,7 +793,7 @@ export interface paths {
         /**
          * Capture
          * @description Takes the newest 3 s as a reading of what hangs there. Refused with every reason unless they
-         *     are steady.
+         *     are steady; a zero also while the unit tells of a foot on the pedal.
          */
         post: operations["capture"];
         delete?: never;
@@ -2609,6 +2609,12 @@ export interface components {
             stroke: number;
             /** Direction */
             direction?: ("loading" | "unloading") | null;
+            /**
+             * Pedals Free
+             * @description Somebody looked: nothing is on the pedals, although the unit tells of a foot.
+             * @default false
+             */
+            pedals_free: boolean;
         };
         /**
          * CaptureTold

@@ -72,6 +72,7 @@ export const FLAGS = {
     not_provisioned: 16,
     law_result: 17,
     safe_stop: 18,
+    foot_at_start: 19,
   },
 } as const;
 
@@ -538,6 +539,11 @@ export const FAULTS = {
     severity: "latched",
     rider_text: "No assist: the drive unit stopped and started again by itself. Switch the bike off and on at standstill; if it comes back, see your dealer.",
     mechanic_text: "The program hung, met a processor fault or missed its control steps, and the motor was switched off by hardware. START_INFO tells which. Check the supply and the board for water first, then ask the maker.",
+  },
+  foot_at_start: {
+    severity: "assist_off",
+    rider_text: "No assist: a foot was on the pedal when the bike was switched on. Take your feet off the pedals for a moment. If nothing is on them, have the sensor's zero calibrated.",
+    mechanic_text: "From switching on the torque read more than 8 Nm from the stored zero while the cranks stood. It clears below 3 Nm for a second; the zero stays as it is. If nothing is on the pedals, the zero has moved that far: look for a strained spindle, then calibrate.",
   },
 } as const satisfies Record<string, FaultRow>;
 

@@ -197,6 +197,7 @@ static void faults_report(app *unit, const hal_inputs *inputs, float speed_kmh, 
 {
     const assist_output *output = &unit->output;
     const fault_law law = {
+        output->rider_torque_nm,
         output->motor_torque_nm,
         float32_max(output->motor_torque_nm, output->motor_torque_demanded_nm),
         unit->assist_state.torque_filtered_nm,

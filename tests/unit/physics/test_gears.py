@@ -209,6 +209,7 @@ def test_there_is_no_torque_before_the_crank_has_moved() -> None:
     unit = LockstepUnit(5, bike=dict(BIKE))
     unit.select_mode(4)
     unit.road(grade_deg=20.0)
+    unit.advance(0.5)  # with free pedals: no foot of the start
     unit.rider("legs", 60.0)
     for _ in range(300):
         unit.advance(0.01)
@@ -239,6 +240,7 @@ def test_no_gear_is_taken_for_a_fault(seed: int, hysteresis_rpm: float) -> None:
         "wheel.pulses_per_turn": wishes.choice([6.0, 36.0]),
     }
     unit = LockstepUnit(seed, bike=BIKE | around)
+    unit.advance(0.5)  # with free pedals: no foot of the start
     used = set()
 
     for _ in range(25):

@@ -204,6 +204,110 @@ def test_a_zero_that_moved_is_seen_at_rest_and_a_foot_or_a_weight_is_not(
     assert unit.faults() == 0
 
 
+def switched_on(unit: BenchUnit, torque_nm: float) -> None:
+    """Standing, with so much on the pedals."""
+    unit.inputs(**{**STANDING, "torque_raw_counts": 100.0 * torque_nm})
+    unit.boot()
+
+
+@pytest.mark.parametrize(("load_nm", "is_a_foot"), [(7.0, False), (9.0, True), (-9.0, True)])
+def test_a_foot_at_switching_on_is_told_until_it_leaves(
+    unit: BenchUnit, load_nm: float, is_a_foot: bool
+) -> None:
+    zero = unit.config()["sensor_offset_counts"]
+    switched_on(unit, load_nm)
+    unit.advance(1.5)
+    assert (unit.faults() == FaultFlags.FOOT_AT_START) == is_a_foot
+
+    unit.inputs(torque_raw_counts=0.0)
+    unit.advance(1.5)
+    assert unit.faults() == 0
+    assert unit.config()["sensor_offset_counts"] == zero
+
+
+def test_a_foot_of_the_start_that_pedals_gets_no_assist_until_it_has_left(unit: BenchUnit) -> None:
+    switched_on(unit, 30.0)
+    unit.advance(1.5)
+    unit.inputs(**RIDING)
+    turns(unit, 5, swing=2900.0)  # a dead spot is no foot that has left
+    while_pushing = unit.motor_nm()
+
+    unit.inputs(torque_raw_counts=0.0)
+    unit.advance(1.5)
+    unit.inputs(**RIDING)
+    unit.advance(3.0)
+
+    assert while_pushing == 0.0
+    assert unit.faults() == 0
+    assert unit.motor_nm() > 0.1
+
+
+def test_a_foot_that_comes_after_free_pedals_or_rides_off_at_once_is_none_of_the_start(
+    unit: BenchUnit,
+) -> None:
+    switched_on(unit, 0.0)
+    unit.advance(0.2)
+    unit.inputs(torque_raw_counts=3000.0)
+    unit.advance(3.0)
+    assert unit.faults() == 0
+
+    switched_on(unit, 30.0)
+    unit.advance(0.5)
+    unit.inputs(**RIDING)
+    unit.advance(3.0)
+    assert unit.faults() == 0
+    assert unit.motor_nm() > 0.1
+
+
+def test_a_foot_that_leaves_a_moved_zero_behind_is_told_as_that(unit: BenchUnit) -> None:
+    switched_on(unit, 30.0)
+    unit.advance(1.5)
+    unit.inputs(torque_raw_counts=500.0)
+    unit.advance(12.0)
+
+    assert unit.faults() == FaultFlags.TORQUE_DRIFT
+
+
+def test_a_sensor_that_breaks_is_told_instead_of_a_foot(unit: BenchUnit) -> None:
+    unit.inputs(**{**STANDING, "torque_raw_counts": 32767.0})
+    unit.boot()
+    unit.advance(3.0)
+    assert unit.faults() == FaultFlags.TORQUE_SENSOR
+
+    switched_on(unit, 30.0)
+    unit.advance(1.5)
+    assert unit.faults() == FaultFlags.FOOT_AT_START
+    unit.inputs(torque_raw_counts=32767.0)
+    unit.advance(1.5)
+    assert unit.faults() == FaultFlags.TORQUE_SENSOR
+
+
+def test_a_silent_sensor_is_no_foot_that_has_left(unit: BenchUnit) -> None:
+    switched_on(unit, 30.0)
+    unit.advance(1.5)
+    unit.inputs(torque_age_ms=1000, torque_raw_counts=0.0)
+    unit.advance(3.0)
+    assert unit.faults() == FaultFlags.FOOT_AT_START | FaultFlags.TORQUE_LINK
+
+    unit.inputs(torque_age_ms=0, torque_raw_counts=3000.0)
+    unit.advance(1.5)
+    assert unit.faults() == FaultFlags.FOOT_AT_START
+
+
+def test_the_zero_of_a_cold_sensor_is_no_foot(unit: BenchUnit) -> None:
+    """The stored zero is corrected for temperature first: 20 counts a kelvin, 50 K colder."""
+    unit.inputs(**STANDING)
+    unit.advance(3.0)
+    told = {"sensor_offset_counts_per_k": 20.0, "sensor_reference_degc": 20.0}
+    assert unit.write(told).status == Status.OK
+    unit.inputs(sensor_temperature_degc=-30.0)
+
+    switched_on(unit, -10.0)
+    unit.advance(2.0)
+
+    assert unit.faults() == 0
+
+
 def test_a_motor_in_an_easy_gear_is_not_a_lost_speed_sensor(unit: BenchUnit) -> None:
     unit.inputs(speed_kmh=9.0)  # the configured gear would give 22 km/h; a big cog gives 9
     unit.advance(3.0)

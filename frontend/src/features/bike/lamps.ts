@@ -14,7 +14,7 @@ export interface Lamp {
 
 /** Which faults are about which part; every other one is about none of them. */
 const FAULTS_OF: Record<LampName, readonly string[]> = {
-  torque: ['torque_sensor', 'torque_stuck', 'torque_drift'],
+  torque: ['torque_sensor', 'torque_stuck', 'torque_drift', 'foot_at_start'],
   speed: ['speed_sensor', 'speed_mismatch', 'speed_stuck'],
   motor: ['motor_temperature', 'controller_temperature', 'motor_hall', 'over_current'],
   battery: ['battery_low', 'battery_cut', 'under_voltage'],

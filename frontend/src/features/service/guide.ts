@@ -50,6 +50,7 @@ const voltage: Proof = {
 export const CONDITIONS: Readonly<Partial<Record<FaultName, Proof>>> = {
   torque_sensor: sensor,
   torque_drift: zero,
+  foot_at_start: zero,
   torque_link: link,
   battery_low: voltage,
   under_voltage: voltage,
@@ -64,6 +65,7 @@ export const PROOFS: Readonly<Record<Cause, Proof | null>> = {
   rotor_supply: link,
   coil_gap: link,
   amplifier: shows('rider_torque_raw', 'counts'),
+  foot_on_pedal: zero,
   zero_moved: zero,
   gauge_bond: zero,
   magnet: shows('speed_kmh', 'km/h'),
@@ -109,6 +111,7 @@ export const CAUSES: Readonly<Record<FaultName, readonly Cause[]>> = {
   torque_stuck: ['amplifier', 'spindle_plug', 'rotor_supply'],
   torque_drift: ['zero_moved', 'gauge_bond'],
   torque_link: ['coil_gap', 'rotor_supply'],
+  foot_at_start: ['foot_on_pedal', 'zero_moved', 'amplifier'],
   speed_mismatch: ['magnet', 'wheel_settings', 'speed_cable'],
   speed_stuck: ['foreign_pulses', 'speed_cable', 'magnet'],
   motor_hall: ['hall_plug', 'hall_signal', 'motor_phase', 'gear_drags'],

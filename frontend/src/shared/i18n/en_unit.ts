@@ -177,6 +177,7 @@ export const enUnit = {
   'fault_flag.motor_hall': "Motor's position lost",
   'fault_flag.law_result': 'Assist could not be computed',
   'fault_flag.safe_stop': 'Unit stopped itself',
+  'fault_flag.foot_at_start': 'Foot on the pedal at switch-on',
   'fault_flag.not_provisioned': 'Never set up by the factory',
   'unit.start': 'Last start',
   'reset.power_on': 'switched on',

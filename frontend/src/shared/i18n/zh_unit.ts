@@ -170,6 +170,7 @@ export const zhUnit: Record<keyof typeof enUnit, string> = {
   'fault_flag.motor_hall': '电机位置信号丢失',
   'fault_flag.law_result': '无法计算助力',
   'fault_flag.safe_stop': '单元自行停机',
+  'fault_flag.foot_at_start': '开机时脚踩在踏板上',
   'fault_flag.not_provisioned': '出厂时未设置',
   'unit.start': '上次启动',
   'reset.power_on': '开机',

@@ -27,12 +27,15 @@ typedef struct {
     float rest_low_nm; /* of the averaged torque, since the bike came to rest */
     float rest_high_nm;
     uint16_t rest_steps;
+    uint8_t free_steps;  /* since switching on, without a load on the pedals */
+    uint8_t has_started; /* the pedals were free, or the bike moved: no foot of the start is left */
 } fault_watch;
 
 /* What the unit makes of its inputs. By the law, in the step before: the torque the motor was told,
  * what it was told or asked for (more, where the crank outruns it: the legs drive then), the
  * rider's average, and whether there was no number to tell. By the wheel's pulses: speed. */
 typedef struct {
+    float rider_torque_nm; /* unfiltered, from the stored zero; NaN: none */
     float motor_torque_nm;
     float asked_torque_nm;
     float rider_torque_filtered_nm;

@@ -15,7 +15,8 @@ static uint16_t bad_steps_max(uint32_t flag)
     case EBL_FAULT_BATTERY_LOW: return 50;     /* 0.5 s: a sag while starting is not empty */
     case EBL_FAULT_TORQUE_LINK: return 20;     /* with the hold 0.25 s: the ramp is over by then */
     case EBL_FAULT_SPEED_MISMATCH: return 100; /* 1 s: a wheel that slips, a pulse that is late */
-    case EBL_FAULT_MOTOR_HALL: return 50;      /* 0.5 s: a motor spins up in less */
+    case EBL_FAULT_FOOT_AT_START: return 100; /* 1 s: whoever rides off at once has moved by then */
+    case EBL_FAULT_MOTOR_HALL: return 50;     /* 0.5 s: a motor spins up in less */
     case EBL_FAULT_LAW_RESULT:
     case EBL_FAULT_BATTERY_CUT:
     case EBL_FAULT_TORQUE_STUCK:

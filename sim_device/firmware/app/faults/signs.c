@@ -42,6 +42,9 @@
 #define DRIFT_STILL_NM 0.3f
 #define REST_RPM 1.0f
 
+/* With the pedals free for so long after switching on, what is felt later is a rider's wish. */
+#define FREE_STEPS 10u
+
 #define S_PER_MIN 60.0f
 #define STEP_S ((float)EBL_CONTROL_PERIOD_US / 1000000.0f)
 
@@ -124,12 +127,16 @@ static fault_sign stuck_sign(fault_watch *watch, const hal_inputs *inputs, const
     return fault_sign_of(watch->lively_turns == LIVELY_TURNS && watch->still_turns == STUCK_TURNS);
 }
 
+static int is_standing(const hal_inputs *inputs, const fault_law *law)
+{
+    return float32_abs(law->speed_kmh) < EBL_RESTING_KMH &&
+           float32_abs(inputs->cadence_rpm) < REST_RPM;
+}
+
 static fault_sign drift_sign(fault_watch *watch, const hal_inputs *inputs, const fault_law *law)
 {
     float torque_nm = law->rider_torque_filtered_nm;
-    int resting = float32_abs(law->speed_kmh) < EBL_RESTING_KMH &&
-                  float32_abs(inputs->cadence_rpm) < REST_RPM &&
-                  inputs->torque_age_ms <= TORQUE_HOLD_MS &&
+    int resting = is_standing(inputs, law) && inputs->torque_age_ms <= TORQUE_HOLD_MS &&
                   inputs_torque_is_plausible(inputs->torque_raw_counts);
 
     if (!resting) {
@@ -152,6 +159,33 @@ static fault_sign drift_sign(fault_watch *watch, const hal_inputs *inputs, const
     }
     if (float32_abs(torque_nm) > DRIFT_NM_MAX) return FAULT_SIGN_NONE;
     return fault_sign_of(float32_abs(torque_nm) > DRIFT_NM);
+}
+
+/* At a standstill what is beyond the band of a zero that moved is a foot. It was there at switching
+ * on if the pedals have not been free since. A broken sensor tells of no foot, and a torque that is
+ * no number neither of one nor of free pedals. */
+static fault_sign foot_sign(fault_watch *watch, uint32_t active, const hal_inputs *inputs,
+                            const fault_law *law)
+{
+    float torque_nm = float32_abs(law->rider_torque_nm);
+
+    if (active & EBL_FAULT_TORQUE_SENSOR) return FAULT_SIGN_GOOD;
+    if (active & EBL_FAULT_FOOT_AT_START) {
+        /* What a foot leaves behind that stays is a zero that moved, and is told as that. */
+        float left_nm = (active & EBL_FAULT_TORQUE_DRIFT) ? DRIFT_NM_MAX : DRIFT_NM;
+
+        watch->has_started = 1;
+        return fault_sign_of(!(torque_nm <= left_nm));
+    }
+    if (!is_standing(inputs, law)) watch->has_started = 1;
+    if (watch->has_started) return FAULT_SIGN_NONE;
+    if (torque_nm > DRIFT_NM_MAX) {
+        watch->free_steps = 0;
+        return FAULT_SIGN_BAD;
+    }
+    if (torque_nm <= DRIFT_NM_MAX) watch->free_steps++;
+    if (watch->free_steps >= FREE_STEPS) watch->has_started = 1;
+    return FAULT_SIGN_GOOD;
 }
 
 static void sign_set(fault_sign *signs, uint32_t flag, fault_sign sign)
@@ -185,6 +219,7 @@ void fault_signs(fault_watch *watch, uint32_t active, const hal_inputs *inputs,
                        inputs->controller_temperature_degc, HEAT_CONTROLLER_WARM_DEGC,
                        HEAT_CONTROLLER_HOT_DEGC));
     sign_set(signs, EBL_FAULT_TORQUE_DRIFT, drift_sign(watch, inputs, law));
+    sign_set(signs, EBL_FAULT_FOOT_AT_START, foot_sign(watch, active, inputs, law));
     sign_set(signs, EBL_FAULT_TORQUE_LINK, fault_sign_of(!fresh));
     sign_set(signs, EBL_FAULT_SPEED_MISMATCH, fault_motion_mismatch(watch, inputs, config, law));
     sign_set(signs, EBL_FAULT_SPEED_STUCK, fault_motion_stuck(watch, inputs, config, law));

@@ -234,6 +234,7 @@ export const en = {
   figure_repeatability: 'Repeatability, 2 s',
   figure_zero_return: 'Zero return',
   figure_total: 'Total of the sensor',
+  pedals_free: 'Nothing is on the pedals: take it',
   figure_left_right: 'Left against right',
   figure_bending_across: 'Bending across the crank',
   figure_fit: 'Scatter',

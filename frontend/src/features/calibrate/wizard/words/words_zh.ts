@@ -221,6 +221,7 @@ export const zh: Record<keyof typeof en, string> = {
   figure_repeatability: '重复性，2 s',
   figure_zero_return: '回零',
   figure_total: '传感器总误差',
+  pedals_free: '踏板上没有任何东西：采集',
   figure_left_right: '左右之差',
   figure_bending_across: '垂直曲柄弯曲',
   figure_fit: '分散',
