@@ -12,6 +12,9 @@ SpindleError
 │   ├── ConfigConflict       somebody else changed the configuration first
 │   ├── AccessDenied         the parameter needs a higher access level
 │   │   └── TokenNeeded      the maker's token would do; it says what has to be signed
+│   ├── NotSignedIn          nobody is known to ask, or the password is wrong
+│   ├── NotAllowed           who asks is known, and may not
+│   ├── TooManyTries         wrong passwords came too often; says how long to wait
 │   ├── NotStandingStill     the wheel or the motor still turns
 │   ├── Conflict             the thing is not in a state that allows this
 │   │   ├── CapabilityMissing    this make of unit cannot do it; names what is missing
@@ -171,6 +174,28 @@ class TokenNeeded(AccessDenied):
     ) -> None:
         super().__init__(message, None, fields)
         self.challenge = dict(challenge)
+
+
+class NotSignedIn(RequestRefused):
+    """Nobody is known to ask, or the password is wrong."""
+
+    default_code = "sign_in_first"
+
+
+class NotAllowed(RequestRefused):
+    """Who asks is known, and their role or key does not allow it."""
+
+    default_code = "not_allowed"
+
+
+class TooManyTries(RequestRefused):
+    """Wrong passwords came too often. wait_s: until the next one is looked at."""
+
+    default_code = "too_many_tries"
+
+    def __init__(self, message: str, wait_s: float) -> None:
+        super().__init__(message)
+        self.wait_s = wait_s
 
 
 class NotStandingStill(RequestRefused):

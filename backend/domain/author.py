@@ -1,6 +1,6 @@
 """Who did something: a name, and how it is known.
 
-There is no sign-in yet: a name is what somebody says of themselves, and is kept marked as that.
+On a server without accounts a name is what somebody says of themselves, and is kept marked as that.
 """
 
 from __future__ import annotations
@@ -11,9 +11,20 @@ AUTHOR_MAX = 128
 STATED = "stated"
 """The name is what its owner says it is; nobody checked it."""
 
+SIGNED_IN = "signed_in"
+"""The name is that of an account, and its owner had signed in or used a key of it."""
+
+
+class SignedInName(str):
+    """A name that sign-in proved: a word like any other, and it carries its proof to the store."""
+
+    __slots__ = ()
+
 
 def proof_of(author: str) -> str | None:
     """How an author is known; None where there is no author."""
+    if isinstance(author, SignedInName):
+        return SIGNED_IN
     return STATED if author else None
 
 

@@ -24,7 +24,7 @@ MISSING, EMPTY, DAMAGED, FOREIGN, OK = "missing", "empty", "damaged", "foreign",
 OURS = frozenset({"ride", "upload"})
 # Tables whose rows somebody would miss, of every schema.
 MISSED = frozenset(
-    {"ride", "upload", "device", "config_revision", "unit", "revision", "calibration"}
+    {"ride", "upload", "device", "config_revision", "unit", "revision", "calibration", "account"}
 )
 
 

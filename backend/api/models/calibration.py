@@ -171,7 +171,7 @@ class JobSummary(Answer):
     opened_at: datetime
     closed_at: datetime | None
     author: str
-    author_proof: Literal["stated"] | None
+    author_proof: Literal["stated", "signed_in"] | None
     file_sha256: str | None = Field(description="Of the file of a closed one.")
     result: Result
 

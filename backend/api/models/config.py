@@ -137,8 +137,9 @@ class Revision(Answer):
     seq: int = Field(description="Counts the configurations of one unit from 1.")
     created_at: datetime
     author: str = Field(description="Empty where nobody knows.")
-    author_proof: Literal["stated"] | None = Field(
-        description="How the author is known: `stated` is by their own word."
+    author_proof: Literal["stated", "signed_in"] | None = Field(
+        description="How the author is known: `stated` is by their own word, `signed_in` by an "
+        "account or a key."
     )
     reason: str
     state: str

@@ -31,8 +31,9 @@ class LibraryRow(Answer):
     created_at: datetime | None
     changed_at: datetime | None
     author: str | None = Field(description="Who gave it this state.")
-    author_proof: Literal["stated"] | None = Field(
-        description="How the author is known: `stated` is by their own word."
+    author_proof: Literal["stated", "signed_in"] | None = Field(
+        description="How the author is known: `stated` is by their own word, `signed_in` by an "
+        "account or a key."
     )
 
 

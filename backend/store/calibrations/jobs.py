@@ -67,7 +67,7 @@ class CalibrationStore:
                 "model": model,
                 "open_for": unit_key,
                 "body": dict(body),
-                "author": author,
+                "author": str(author),
                 "author_proof": proof_of(author),
                 "opened_us": now_us(),
             }

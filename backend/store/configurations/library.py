@@ -157,7 +157,7 @@ def append(
         "deleted": deleted,
         "body": dict(body),
         "sha256": sha256_of(body),
-        "author": author,
+        "author": str(author),
         "author_proof": proof_of(author),
         "created_us": now_us(),
     }

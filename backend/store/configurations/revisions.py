@@ -45,7 +45,7 @@ class RevisionLog:
             "generation": generation,
             "crc32": crc32,
             "changed": [dict(change) for change in changed],
-            "author": author,
+            "author": str(author),
             "author_proof": proof_of(author),
             "reason": reason,
             "state": state,

@@ -1,4 +1,5 @@
-"""The tables: rides with tails and figures, uploads, units, bikes, configurations, calibrations.
+"""The tables: rides with tails and figures, uploads, units, bikes, configurations, calibrations,
+people.
 
 Times are microseconds since 1970 UTC in BIGINT, because SQLite drops time zones. Primary keys are
 BIGINT on PostgreSQL and the rowid on SQLite: a blob table without one doubles in size, since
@@ -361,4 +362,45 @@ ride_lod = Table(
     Column("step", Integer, nullable=False),
     Column("payload", LargeBinary, nullable=False),
     UniqueConstraint("ride_id", "step"),
+)
+
+# A person. folded: the name as it is compared. password: as argon2 writes it, with its salt.
+account = Table(
+    "account",
+    metadata,
+    key(),
+    Column("name", String(64), nullable=False),
+    Column("folded", String(128), nullable=False, unique=True),
+    Column("role", String(16), nullable=False),
+    Column("enabled", Boolean, nullable=False),
+    Column("password", Text, nullable=False),
+    Column("created_us", BigInteger, nullable=False),
+    Column("signed_in_us", BigInteger),
+)
+
+# A browser that signed in. token_sha256: of what its cookie holds, which is kept nowhere.
+session = Table(
+    "session",
+    metadata,
+    key(),
+    Column("account_id", KEY, ForeignKey("account.id"), nullable=False, index=True),
+    Column("token_sha256", String(64), nullable=False, unique=True),
+    Column("created_us", BigInteger, nullable=False),
+    Column("used_us", BigInteger, nullable=False),
+)
+
+# What programs sign in with. secret_sha256: of a random secret, which is shown once.
+api_key = Table(
+    "api_key",
+    metadata,
+    key(),
+    Column("account_id", KEY, ForeignKey("account.id"), nullable=False, index=True),
+    Column("name", String(64), nullable=False),
+    Column("prefix", String(16), nullable=False, unique=True),
+    Column("secret_sha256", String(64), nullable=False),
+    Column("scopes", JSON, nullable=False),
+    Column("created_us", BigInteger, nullable=False),
+    Column("expires_us", BigInteger),
+    Column("used_us", BigInteger),
+    Column("revoked_us", BigInteger),
 )

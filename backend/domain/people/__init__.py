@@ -1,0 +1,1 @@
+"""Who may do what: permissions, roles, the rule for passwords, and patience with wrong ones."""

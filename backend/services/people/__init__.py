@@ -1,0 +1,1 @@
+"""Who asks: people sign in, keys and tickets are known again, accounts are managed."""
