@@ -38,6 +38,7 @@ from backend.services.imports.mapping import TableMapping
 from backend.services.imports.sample import sample_ride
 from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
 from backend.services.keeping import Keeping
+from backend.services.people.people import people_of
 from backend.services.rides.bike.numbers import BikeNumbers
 from backend.services.rides.cards import RideCards
 from backend.services.rides.fault_moment import FaultMoments, RecentRows
@@ -113,8 +114,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
         for watcher in (memory.follow, recorder.watch, dashboards.follow, recent.follow):
             devices.watch(watcher)
         closing.enter_context(upkeep(recorder, uploads, store, last_seen, devices))
-        for url in settings.device:
-            in_background(url, partial(devices.add, url))
+        open_units(settings, devices)
         replay = RideReplay(Preview(), memory.ride_config)
         library, inspection = Library(store.library), Inspection(devices)
         proposals = Proposals(store, memory.ride_config, certificates)
@@ -153,6 +153,7 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
             tables=TableMapping(store, uploads),
             sample_ride=partial(sample_ride, store, uploads),
             collect=collect,
+            people=people_of(store) if settings.needs_sign_in else None,
         )
 
 
@@ -169,6 +170,12 @@ def make_devices(
     )
     devices.watch(last_seen.follower(devices.get))
     return devices
+
+
+def open_units(settings: Settings, devices: Devices) -> None:
+    """Begins to open the units that the settings name; one that is slow keeps nobody waiting."""
+    for url in settings.device:
+        in_background(url, partial(devices.add, url))
 
 
 def make_calibrations(
@@ -291,12 +298,12 @@ def build_app(settings: Settings, services: Services) -> FastAPI:
     api = ApiSettings(
         version=__version__,
         hosts=hosts,
-        guarded=settings.auth == "off",
+        guarded=settings.auth == "off" or settings.needs_sign_in,
         frontend=next((folder for folder in FRONTENDS if folder.is_dir()), None),
         upload_bytes_max=settings.upload_bytes_max,
         author=settings.author,
     )
-    return create_app(api, services)
+    return create_app(api, services, services.people)
 
 
 def listening_socket(host: str, port: int) -> socket.socket:
@@ -316,11 +323,18 @@ class AnnouncingServer(uvicorn.Server):
     """Prints one line with the address, and only once requests are really answered.
 
     end_waiting: lets go of requests that would wait for longer than the server takes to end.
+    first_token: of the link for the first administrator; None where none is needed.
     """
 
-    def __init__(self, config: uvicorn.Config, end_waiting: Callable[[], None]) -> None:
+    def __init__(
+        self,
+        config: uvicorn.Config,
+        end_waiting: Callable[[], None],
+        first_token: str | None = None,
+    ) -> None:
         super().__init__(config)
         self._end_waiting = end_waiting
+        self._first_token = first_token
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Starts to listen, then says where."""
@@ -329,6 +343,8 @@ class AnnouncingServer(uvicorn.Server):
             host, port = sockets[0].getsockname()[:2]
             shown = f"[{host}]" if ":" in host else host
             sys.stdout.write(f"Spindle is ready at http://{shown}:{port} (Ctrl-C stops it)\n")
+            if self._first_token is not None:
+                sys.stdout.write(first_link(host, port, self._first_token))
             sys.stdout.flush()
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
@@ -336,6 +352,19 @@ class AnnouncingServer(uvicorn.Server):
         ending = asyncio.create_task(asyncio.to_thread(self._end_waiting))
         await super().shutdown(sockets)
         await ending
+
+
+def first_link(host: str, port: int, token: str) -> str:
+    """What is printed while there is no administrator.
+
+    The token stands behind the `#`: a browser sends it to nobody, and no log of requests has it.
+    """
+    anywhere = host in ("0.0.0.0", "::")
+    shown = "localhost" if anywhere else f"[{host}]" if ":" in host else host
+    return (
+        "There is no administrator yet. Whoever opens this link first becomes one (it works once, "
+        f"until the next start):\n  http://{shown}:{port}/sign-in#first={token}\n"
+    )
 
 
 def serve(settings: Settings) -> int:
@@ -357,7 +386,9 @@ def serve_on(listening: socket.socket, settings: Settings) -> int:
         with open_services(settings) as services:
             config = server_config(build_app(settings, services))
             # Files that are being read are read at the next start.
-            server = AnnouncingServer(config, services.uploads.close)
+            people = services.people
+            first_token = None if people is None else people.managed.first_token()
+            server = AnnouncingServer(config, services.uploads.close, first_token)
             server.run(sockets=[listening])
             return 0 if server.started else 1
     except KeyboardInterrupt:

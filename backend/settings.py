@@ -24,7 +24,7 @@ FILE_NAME = "spindle.toml"
 CHECKOUT = Path(__file__).resolve().parent.parent
 BUSES = ("memory",)
 JOBS = ("inline",)
-AUTHS = ("auto", "off")
+AUTHS = ("auto", "off", "required")
 
 
 @dataclass(frozen=True)
@@ -33,9 +33,9 @@ class Settings:
 
     host, port: where it listens; port 0 takes a free one. data: folder of everything it keeps.
     device: units opened at the start. db, objects: URLs of the database and the object store.
-    bus, jobs: how events and work travel. auth: `auto` refuses to listen beyond loopback, because
-    there are no accounts yet; `off` says somebody else guards the door. allowed_hosts: names by
-    which browsers may call the server besides localhost. upload_bytes_max: largest file taken.
+    bus, jobs: how events and work travel. auth: `required` asks everybody to sign in, `auto` does
+    so beyond loopback, `off` says somebody else guards the door. allowed_hosts: names by which
+    browsers may call the server besides localhost. upload_bytes_max: largest file taken.
     author: whose changes those are whose request names nobody; the system's user unless set.
     calibration_limits: tables of the file alone, as of domain.calibration.judgement.limits.
     """
@@ -63,6 +63,11 @@ class Settings:
             return ip_address(self.host).is_loopback
         except ValueError:
             return False
+
+    @property
+    def needs_sign_in(self) -> bool:
+        """Whether only people with an account may do anything."""
+        return self.auth == "required" or (self.auth == "auto" and not self.is_loopback)
 
 
 def load(flags: Mapping[str, Any], environment: Mapping[str, str] | None = None) -> Settings:
@@ -119,14 +124,7 @@ def combine(
     }
     if errors:
         raise InvalidRequest("; ".join(error.message for error in errors), fields=errors)
-    settings = Settings(**values)
-    if not settings.is_loopback and settings.auth == "auto":
-        raise InvalidRequest(
-            f"Listening on {settings.host} would let the whole network change your bike, and there "
-            "are no accounts yet. Listen on 127.0.0.1, or set SPINDLE_AUTH=off if something else "
-            "guards the way to this machine."
-        )
-    return settings
+    return Settings(**values)
 
 
 def read_file(*candidates: Path) -> dict[str, Any]:

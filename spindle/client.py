@@ -28,7 +28,7 @@ from backend.api.models.device import (
 )
 from backend.api.models.law import FuzzyTable, Table, UnitLimits
 from backend.api.models.ride import Ride, RideList, Series
-from backend.cli.client import Server, default_server
+from backend.cli.client import Server, default_key, default_server
 from backend.errors import NoAnswer, RequestRefused
 from spindle.stimulus import Stimulus
 
@@ -42,10 +42,13 @@ STANDSTILL_MOTOR_RPM = 0.1
 
 
 class Spindle:
-    """A server. url: where it listens; as told by SPINDLE_HOST and SPINDLE_PORT if None."""
+    """A server. url: where it listens; as told by SPINDLE_HOST and SPINDLE_PORT if None.
 
-    def __init__(self, url: str | None = None) -> None:
-        self.server = Server(url or default_server())
+    key: for a server that asks who this is; as told by SPINDLE_KEY if None.
+    """
+
+    def __init__(self, url: str | None = None, key: str | None = None) -> None:
+        self.server = Server(url or default_server(), key=key or default_key())
 
     def health(self) -> Health:
         """Version and units. Raises LinkError when no server answers."""

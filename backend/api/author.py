@@ -1,4 +1,5 @@
-"""Who asks: by the name that comes with the request, else the one the server was started with."""
+"""Whose a change is: who signed in, else by the name that comes with the request, else the name the
+server was started with."""
 
 from __future__ import annotations
 
@@ -7,7 +8,8 @@ from urllib.parse import unquote
 
 from fastapi import Depends, Header, Request
 
-from backend.domain.author import AUTHOR_MAX, tidy_author
+from backend.api.permissions import caller_of
+from backend.domain.author import AUTHOR_MAX, SignedInName, tidy_author
 
 
 def author_of(
@@ -16,12 +18,16 @@ def author_of(
         str | None,
         Header(
             description="Whose change this is, percent-encoded UTF-8; without it that of the "
-            "server's setting `author`. It is kept, marked `stated`.",
+            "server's setting `author`. It is kept, marked `stated`. Who signed in or sends a key "
+            "is the author, whatever this says.",
             max_length=12 * AUTHOR_MAX,
         ),
     ] = None,
 ) -> str:
     """The author of a change; empty where nobody knows."""
+    caller = caller_of(request)
+    if caller is not None:
+        return SignedInName(caller.person.name)
     named = tidy_author(unquote(spindle_author or ""))
     return named or str(request.app.state.author)
 

@@ -9,7 +9,7 @@ from html import escape
 from typing import Any
 
 from fastapi import FastAPI
-from fastapi.responses import HTMLResponse
+from fastapi.responses import HTMLResponse, JSONResponse
 
 STYLE = """
 :root { color-scheme: light dark; }
@@ -20,12 +20,16 @@ table { border-collapse: collapse; } td { padding: .1rem 1rem .1rem 0; vertical-
 """
 
 
-def install(app: FastAPI) -> None:
-    """Adds the page."""
+def install(app: FastAPI, source: str) -> None:
+    """Adds the page, and the description itself at `source`."""
 
-    @app.get("/api/docs", include_in_schema=False)
+    @app.get("/api/docs", operation_id="get_docs", include_in_schema=False)
     async def docs() -> HTMLResponse:
-        return HTMLResponse(page(app.openapi(), app.openapi_url or ""))
+        return HTMLResponse(page(app.openapi(), source))
+
+    @app.get(source, operation_id="get_description", include_in_schema=False)
+    async def description() -> JSONResponse:
+        return JSONResponse(app.openapi())
 
 
 def page(description: dict[str, Any], source: str) -> str:

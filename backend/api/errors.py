@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from http import HTTPStatus
+from math import ceil
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
@@ -29,6 +30,9 @@ STATUS_OF: dict[type[errors.SpindleError], int] = {
     errors.ConfigConflict: 412,
     errors.AccessDenied: 403,
     errors.TokenNeeded: 403,
+    errors.NotSignedIn: 401,
+    errors.NotAllowed: 403,
+    errors.TooManyTries: 429,
     errors.NotStandingStill: 409,
     errors.CapabilityMissing: 409,
     errors.NameFirst: 409,
@@ -60,7 +64,7 @@ def status_of(error: errors.SpindleError) -> int:
     return next(STATUS_OF[kind] for kind in type(error).__mro__ if kind in STATUS_OF)
 
 
-def spindle_problem(_: Request, error: Exception) -> JSONResponse:
+def spindle_problem(_: Request | None, error: Exception) -> JSONResponse:
     """An error of our tree, with every field at fault."""
     assert isinstance(error, errors.SpindleError)
     status = status_of(error)
@@ -74,9 +78,19 @@ def spindle_problem(_: Request, error: Exception) -> JSONResponse:
         error.code,
         error.message,
         fields[:FIELD_ERRORS_MAX],
+        headers_of(error),
         challenge=asked,
         outcome=outcome,
     )
+
+
+def headers_of(error: errors.SpindleError) -> dict[str, str] | None:
+    """What HTTP has a header for: RFC 9110, 11.6.1 and 10.2.3."""
+    if isinstance(error, errors.NotSignedIn):
+        return {"www-authenticate": "Bearer"}
+    if isinstance(error, errors.TooManyTries):
+        return {"retry-after": str(ceil(error.wait_s))}
+    return None
 
 
 def validation_problem(_: Request, error: Exception) -> JSONResponse:

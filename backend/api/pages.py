@@ -67,6 +67,6 @@ def install(app: FastAPI, folder: Path | None) -> None:
         app.mount("/", Pages(folder), name="pages")
         return
 
-    @app.get("/", include_in_schema=False)
+    @app.get("/", operation_id="get_not_built", include_in_schema=False)
     async def not_built() -> HTMLResponse:
         return HTMLResponse(NOT_BUILT)

@@ -131,7 +131,8 @@ class SameOriginOnly:
                 403,
                 "passed_on",
                 f"A proxy passed this request on ({proxy}), and this server lets in whoever "
-                "reaches it. Set SPINDLE_AUTH=off if the proxy lets in only whom you know.",
+                "reaches it. Set SPINDLE_AUTH=required to have people sign in, or SPINDLE_AUTH=off "
+                "if the proxy lets in only whom you know.",
             )
         origin = headers.get("origin")
         if origin is not None and origin_host(origin) != host.lower():

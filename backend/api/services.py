@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from backend.services.imports.mapping import TableMapping
     from backend.services.imports.upload import Uploads
     from backend.services.keeping import Keeping
+    from backend.services.people.people import People
     from backend.services.rides.bike.numbers import BikeNumbers
     from backend.services.rides.fault_moment import FaultMoments
     from backend.services.rides.home import RiderHome
@@ -77,6 +78,8 @@ class Services:
     tables: TableMapping
     sample_ride: Callable[[], int]
     collect: Collect
+    # None where nobody is asked to sign in.
+    people: People | None
 
 
 def services_of(connection: HTTPConnection) -> Services:

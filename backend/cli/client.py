@@ -35,23 +35,36 @@ def default_server(environment: Mapping[str, str] | None = None) -> str:
     return f"http://{'127.0.0.1' if host == '0.0.0.0' else host}:{env.get('SPINDLE_PORT') or 8750}"
 
 
+def default_key(environment: Mapping[str, str] | None = None) -> str:
+    """The key that a server with accounts asks for; empty where none is set."""
+    env = os.environ if environment is None else environment
+    return env.get("SPINDLE_KEY", "")
+
+
 class Server:
     """One server's API.
 
     transport: stands in for the network in tests. author: whose changes these are; the server's own
-    word for it if empty.
+    word for it if empty. key: what is sent to a server that asks who this is.
     """
 
     def __init__(
-        self, url: str, transport: httpx.BaseTransport | None = None, author: str = ""
+        self,
+        url: str,
+        transport: httpx.BaseTransport | None = None,
+        author: str = "",
+        key: str = "",
     ) -> None:
         self.url = url.rstrip("/")
+        headers = {"spindle-author": quote(author)} if author else {}
+        if key:
+            headers["authorization"] = f"Bearer {key.strip()}"
         self._client = httpx.Client(
             base_url=f"{self.url}/api/v1",
             timeout=TIMEOUT,
             transport=transport,
             trust_env=False,
-            headers={"spindle-author": quote(author)} if author else None,
+            headers=headers,
         )
 
     def ask(self, method: str, path: str, **request: Any) -> Any:

@@ -8,7 +8,7 @@ from argparse import Namespace
 from pathlib import Path
 from typing import Any
 
-from backend.cli.client import Server, default_server, print_json, print_table, text_of
+from backend.cli.client import Server, default_key, default_server, print_json, print_table, text_of
 from backend.control import presets
 from backend.domain.author import tidy_author
 from backend.domain.fuzzy_table import PARAMETER_NAMES, SHARED_FIELDS
@@ -19,7 +19,8 @@ from backend.ingest.backup import Backup, backup_json, backup_of, read_backup
 def server_of(options: Namespace) -> Server:
     """The server the command line names."""
     author = tidy_author(options.author or os.environ.get("SPINDLE_AUTHOR") or "")
-    return Server(options.server or default_server(), author=author)
+    key = options.key or default_key()
+    return Server(options.server or default_server(), author=author, key=key)
 
 
 def list_devices(options: Namespace) -> int:

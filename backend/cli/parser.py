@@ -17,6 +17,7 @@ from backend.cli import (
     drift,
     law,
     library,
+    people,
     propose,
     ride,
     ride_compare,
@@ -26,6 +27,7 @@ from backend.cli import (
     unlock,
 )
 
+KEY = "for a server that asks who this is; default: SPINDLE_KEY"
 AUTHOR = "whose changes these are; default: the server's setting, else its system's user"
 
 
@@ -37,6 +39,7 @@ def build_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"spindle {__version__}")
     parser.add_argument("--author", metavar="NAME", help=AUTHOR)
+    parser.add_argument("--key", metavar="sp_...", help=KEY)
     verbs = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_serve(verbs)
     # These two go to the simulator before this parser sees them; they are here to be listed.
@@ -46,6 +49,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_library(verbs)
     _add_ride(verbs)
     _add_store(verbs)
+    people.add_arguments(_group(verbs, "people", people.WORDS))
     _add_law(verbs)
     _add_calibrate(verbs)
     _add_unlock(verbs)
@@ -72,6 +76,8 @@ def _asking(verbs: Any, name: str, run: Any, **words: Any) -> argparse.ArgumentP
     command: argparse.ArgumentParser = verbs.add_parser(name, **words)
     command.add_argument("--server", metavar="URL", help="default: this machine's, port 8750")
     command.add_argument("--json", action="store_true", help="the server's answer as it is")
+    # After the verb, too; absent it leaves what stands before the verb.
+    command.add_argument("--key", metavar="sp_...", default=argparse.SUPPRESS, help=KEY)
     _add_author(command)
     command.set_defaults(run=run)
     return command

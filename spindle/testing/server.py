@@ -83,6 +83,10 @@ class RunningServer:
         if self._process.poll() is None:
             self._process.send_signal(ending)
         self._process.wait(PATIENCE_S)
+        return self.said()
+
+    def said(self) -> str:
+        """What it has said since the address, or since this was asked before."""
         lines = []
         while not self._lines.empty():
             lines.append(self._lines.get_nowait())

@@ -55,11 +55,23 @@ def test_every_wrong_setting_is_named() -> None:
     assert {field.field for field in refusal.value.fields} == {"port", "bus", "colour"}
 
 
-def test_a_server_without_accounts_does_not_listen_beyond_this_machine_by_accident() -> None:
-    with pytest.raises(InvalidRequest, match="SPINDLE_AUTH=off"):
-        combine({"host": "0.0.0.0"}, {}, {})
-
-    assert not combine({"host": "0.0.0.0"}, {"SPINDLE_AUTH": "off"}, {}).is_loopback
+@pytest.mark.parametrize(
+    ("host", "auth", "needed"),
+    [
+        ("127.0.0.1", "auto", False),
+        ("localhost", "auto", False),
+        ("::1", "auto", False),
+        ("0.0.0.0", "auto", True),
+        ("192.168.1.7", "auto", True),
+        ("workshop", "auto", True),
+        ("127.0.0.1", "required", True),
+        ("0.0.0.0", "off", False),
+    ],
+)
+def test_whoever_comes_over_the_network_signs_in_unless_somebody_says_otherwise(
+    host: str, auth: str, needed: bool
+) -> None:
+    assert combine({"host": host}, {"SPINDLE_AUTH": auth}, {}).needs_sign_in is needed
 
 
 def test_the_file_of_the_data_folder_is_read(
