@@ -2,6 +2,7 @@
 import { Author } from '$shared/api/author.svelte'
 import { openHttp } from '$shared/api/client'
 import { Server } from '$shared/api/server'
+import { SIGN_IN, isSignedIn } from '$shared/api/signed_in'
 import { Drafts } from '$shared/config/drafts'
 import type { AppContext } from '$shared/context/app_context'
 import { DeviceWatch } from '$shared/context/device_watch.svelte'
@@ -48,9 +49,15 @@ const context: AppContext = {
   first_steps: new FirstSteps(chosen.first_steps),
   go: router.go,
 }
-router.start()
-devices.start()
-health.start()
-
+// A page of its own: who is not signed in may ask for nothing that the others show.
+const alone = location.pathname === SIGN_IN
 const target = document.getElementById('app')
-if (target) mount(App, { target, props: { context, drafts: new Drafts(server), router } })
+if (target && !alone) {
+  router.start()
+  devices.start()
+  health.start()
+  mount(App, { target, props: { context, drafts: new Drafts(server), router } })
+}
+if (alone || isSignedIn()) {
+  void import('../features/sign_in/sign_in').then(({ show }) => show(alone, server.http, locale))
+}

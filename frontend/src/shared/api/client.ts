@@ -2,6 +2,7 @@
 import type { paths } from '$generated/api'
 import createClient, { type Client } from 'openapi-fetch'
 import type { Author } from './author.svelte'
+import { SIGN_IN } from './signed_in'
 import type { FieldProblem, Problem, TokenChallenge } from './types'
 
 /** Why a request did not succeed. status 0: the server did not answer at all. */
@@ -32,6 +33,13 @@ export function openHttp(author: Author, base = location.origin): Http {
         request.headers.set('spindle-author', encodeURIComponent(name))
       }
       return request
+    },
+    onResponse({ response }) {
+      const { pathname, search } = location
+      // The sign-in page says by itself what is wrong.
+      if (response.status === 401 && pathname !== SIGN_IN) {
+        location.assign(`${SIGN_IN}?back=${encodeURIComponent(pathname + search)}`)
+      }
     },
   })
   return client

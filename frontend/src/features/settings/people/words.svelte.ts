@@ -1,0 +1,60 @@
+// The words of people and keys. They come with their panels.
+import type { Values } from '$shared/i18n/locale.svelte'
+import { pageWords } from '$shared/i18n/page_words.svelte'
+
+export const en = {
+  you: 'You',
+  you_are: '{name}, {role}',
+  you_note: 'Your name stands beside what you change.',
+  old: 'Password now',
+  new: 'New password',
+  change: 'Change the password',
+  changed: 'The password is changed; every other browser of yours is signed out.',
+  everywhere: 'Sign out everywhere',
+  people: 'People',
+  name: 'Name',
+  role: 'Role',
+  role_of: 'Role of {name}',
+  rider: 'Rider',
+  dealer: 'Dealer',
+  engineer: 'Engineer',
+  admin: 'Administrator',
+  password: 'Password',
+  add: 'Add',
+  added: '{name} can sign in now.',
+  never: 'never signed in',
+  last: 'signed in {when}',
+  disabled: 'disabled',
+  disable: 'Disable',
+  enable: 'Enable',
+  reset: 'Reset',
+  reset_named: 'Give {name} another password',
+  disable_named: 'Disable {name}',
+  enable_named: 'Enable {name}',
+  reset_done: '{name} has another password and is signed out everywhere.',
+  save: 'Save',
+  keys: 'Keys for programs',
+  keys_note: 'A program sends a key instead of signing in; the command takes it from SPINDLE_KEY.',
+  no_keys: 'There is no key.',
+  whose: 'Whose',
+  scopes: 'What for',
+  for_upload: 'Upload files only',
+  for_reading: 'See, change nothing',
+  for_all: 'Whatever its person may',
+  until: 'Until',
+  days: '{count} days',
+  forever: 'Revoked',
+  make: 'Make a key',
+  secret: 'The new key: copy it now, it is shown only once.',
+  used: 'used {when}',
+  unused: 'never used',
+  expires: 'until {when}',
+  revoked: 'revoked',
+  revoke: 'Revoke',
+  revoke_named: 'Revoke {name}',
+}
+
+export type PeopleKey = keyof typeof en
+export type Say = (key: PeopleKey, values?: Values) => string
+
+export const peopleWords = await pageWords(en, async () => (await import('./words_zh')).zh)
