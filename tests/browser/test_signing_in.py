@@ -1,41 +1,66 @@
 """Goal: who is not signed in meets the sign-in page and nothing else, comes back to where they
 wanted to go, and leaves again; an administrator lets others in.
 
-Method: a server of its own on every address of the machine, its printed link, a real browser.
+Method: a server of its own on every address of the machine, its printed link, a real browser; a
+phone in the dark, in Chinese; axe-core.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
-from playwright.sync_api import expect
+import pytest
+from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import OpenDesk
-from tests.browser.desk import REFUSED
+from tests.browser.desk import REFUSED, sideways
+from tests.browser.test_pages_for_everyone import JUDGE, SMALL_TARGETS
 from tests.fakes.server import SpindleServer, eventually
 
 PASSWORD = "eine lange Nacht"
 
 
-def test_signing_in_leads_back_and_signing_out_ends_it(open_desk: OpenDesk, tmp_path: Path) -> None:
+@dataclass
+class Workshop:
+    """A server that asks who is there. token: of the link it printed."""
+
+    server: SpindleServer
+    address: str
+    token: str
+
+
+@pytest.fixture
+def workshop(tmp_path: Path) -> Iterator[Workshop]:
     server = SpindleServer(tmp_path, [], SPINDLE_HOST="0.0.0.0").start()
     said = eventually(server.said, lambda words: "#first=" in words)
     address = server.url.replace("0.0.0.0", "127.0.0.1")
-    desk = open_desk(address=address)
+    yield Workshop(server, address, said.split("#first=")[1].split()[0])
+    server.stop()
+
+
+def fill_in(page: Page, name: str, password: str = PASSWORD) -> None:
+    """What the form asks for, in either language, and its button."""
+    page.locator("input[autocomplete=username]").fill(name)
+    page.locator("input[type=password]").fill(password)
+    page.locator("form button").click()
+
+
+def test_an_administrator_comes_by_the_link_and_lets_others_in(
+    open_desk: OpenDesk, workshop: Workshop, axe: str
+) -> None:
+    desk = open_desk(address=workshop.address)
     desk.allowed.append(REFUSED)
     page = desk.page
-
-    token = said.split("#first=")[1].split()[0]
-    page.goto(f"{address}/sign-in#first={token}")
+    page.goto(f"{workshop.address}/sign-in#first={workshop.token}")
     expect(page.get_by_role("heading")).to_have_text("The first administrator")
-    page.get_by_label("Name").fill("Anna Müller")
-    page.get_by_label("Password").fill(PASSWORD)
-    page.get_by_role("button", name="Begin").click()
+    fill_in(page, "Anna Müller")
     menu = page.get_by_test_id("person-menu")
     expect(menu).to_contain_text("AM")
 
-    page.goto(f"{address}/settings")
+    page.goto(f"{workshop.address}/settings")
     people = page.get_by_test_id("people")
     people.get_by_role("textbox", name="Name").fill("Rita")
     people.get_by_role("combobox", name="Role", exact=True).select_option("rider")
@@ -45,34 +70,46 @@ def test_signing_in_leads_back_and_signing_out_ends_it(open_desk: OpenDesk, tmp_
     keys = page.get_by_test_id("api-keys")
     keys.get_by_role("textbox", name="Name").fill("field")
     keys.get_by_role("button", name="Make a key").click()
-    expect(keys.get_by_label("The new key")).to_have_value(
-        re.compile("sp_[0-9a-f]{8}_[0-9a-f]{64}")
-    )
+    form = re.compile("sp_[0-9a-f]{8}_[0-9a-f]{64}")
+    expect(keys.get_by_label("The new key")).to_have_value(form)
+    page.evaluate(axe)
+    assert page.evaluate(JUDGE) == []
 
     menu.locator("summary").click()
     menu.get_by_role("button", name="Sign out").click()
-    page.wait_for_url("**/sign-in")
-    assert [
-        cookie for cookie in page.context.cookies() if "spindle" in cookie.get("name", "")
-    ] == []
-    # Back in the history is nothing of what was seen.
-    page.goto(f"{address}/rides?words=alps")
+    page.wait_for_url("**/sign-in*")
+    assert [one for one in page.context.cookies() if "spindle" in one.get("name", "")] == []
+    page.goto(f"{workshop.address}/rides?words=alps")
     page.wait_for_url("**/sign-in?back=*")
-
-    page.get_by_label("Name").fill("anna müller")
-    page.get_by_label("Password").fill("something else")
-    page.get_by_role("button", name="Sign in").click()
+    fill_in(page, "anna müller", "something else")
     expect(page.get_by_role("alert")).to_have_text("Name or password is wrong.")
-    page.get_by_label("Password").fill(PASSWORD)
-    page.get_by_role("button", name="Sign in").click()
+    fill_in(page, "anna müller")
     page.wait_for_url("**/rides?words=alps")
 
-    phone = open_desk(390, 844, "dark", "zh-CN", address=address)
-    phone.allowed.append(REFUSED)
-    phone.page.goto(f"{address}/tune")
-    phone.page.get_by_label("姓名").fill("Rita")
-    phone.page.get_by_label("密码").fill(PASSWORD)
-    phone.page.get_by_role("button", name="登录").click()
-    expect(phone.page.get_by_text("您已登录为 Rita。")).to_be_visible()
-    assert phone.page.evaluate("document.documentElement.scrollWidth") == 390
-    server.stop()
+
+def test_a_rider_on_a_phone_is_told_that_nothing_is_theirs_yet(
+    open_desk: OpenDesk, workshop: Workshop, axe: str
+) -> None:
+    ask = workshop.server.ask
+    ask("POST", "/first-person", json={"token": workshop.token, "name": "A", "password": PASSWORD})
+    rita = {"name": "Rita", "role": "rider", "password": PASSWORD}
+    ask("POST", "/people", json=rita, headers={"origin": workshop.server.url})
+    desk = open_desk(390, 844, "dark", "zh-CN", address=workshop.address, touch=True)
+    desk.allowed.append(REFUSED)
+    page = desk.page
+
+    page.goto(f"{workshop.address}/tune")
+    page.get_by_label("姓名").wait_for()
+    page.evaluate(axe)
+    assert page.evaluate(JUDGE) == []
+    assert page.evaluate(SMALL_TARGETS) == []
+    fill_in(page, "Rita")
+    expect(page.get_by_text("您已登录为 Rita。")).to_be_visible()
+    page.get_by_role("button", name="退出登录").click()
+
+    fill_in(page, "A")
+    page.wait_for_url("**/tune")
+    page.goto(f"{workshop.address}/settings")
+    page.get_by_test_id("api-keys").wait_for()
+    assert page.evaluate(SMALL_TARGETS) == []
+    assert sideways(page) == 0

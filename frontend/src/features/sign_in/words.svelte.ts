@@ -22,7 +22,7 @@ export const en = {
     'Nothing here is yours yet: riders see their own bikes and rides, and none is registered to ' +
     'you. Ask your dealer.',
   sign_out: 'Sign out',
-  person: 'Signed in as {name}',
+  person: '{initials}, signed in as {name}',
   settings: 'Password and account',
   role_rider: 'Rider',
   role_dealer: 'Dealer',

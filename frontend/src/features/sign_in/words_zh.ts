@@ -17,7 +17,7 @@ export const zh: Record<SignInKey, string> = {
   nothing_yours: '您已登录为 {name}。',
   nothing_yours_note: '这里还没有属于您的内容：骑手只能看到自己的车和骑行，而目前没有登记给您的。请询问您的经销商。',
   sign_out: '退出登录',
-  person: '已登录：{name}',
+  person: '{initials}，已登录：{name}',
   settings: '密码与账户',
   role_rider: '骑手',
   role_dealer: '经销商',

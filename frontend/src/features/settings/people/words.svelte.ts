@@ -28,7 +28,7 @@ export const en = {
   disable: 'Disable',
   enable: 'Enable',
   reset: 'Reset',
-  reset_named: 'Give {name} another password',
+  reset_named: 'Reset the password of {name}',
   disable_named: 'Disable {name}',
   enable_named: 'Enable {name}',
   reset_done: '{name} has another password and is signed out everywhere.',

@@ -27,7 +27,7 @@ export const zh: Record<PeopleKey, string> = {
   disable: '停用',
   enable: '启用',
   reset: '重设',
-  reset_named: '为 {name} 设置新密码',
+  reset_named: '重设 {name} 的密码',
   disable_named: '停用 {name}',
   enable_named: '启用 {name}',
   reset_done: '{name} 有了新密码，并已在所有地方退出。',
