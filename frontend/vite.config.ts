@@ -8,8 +8,9 @@ const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
 // What most pages need in one file, and pages of a kind in another: dozens of tiny ones compress
 // worse than they save.
 const MOST = [
-  'api/(?!pair_of_rides|upload)',
-  'context|device/(?!FaultMoment|fault_moment|moment_)|stream|ui|units',
+  'api/(?!pair_of_rides|people_server|upload)',
+  'context/(?!KeyList)',
+  'device/(?!FaultMoment|fault_moment|moment_)|stream|ui|units',
   'charts/(traces/plotly\\.ts|plot_axis\\.ts|[Ss]park)',
   'config/(config_draft|drafts|limits|page_draft|parameter_text|ratchet|trial|two_tables)',
   'i18n/(?!zh)',
@@ -31,7 +32,7 @@ const GROUPS = [
   chunk('compare', 'features/rides/compare/'),
   chunk('insight', 'features/rides/insight'),
   chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet)'),
-  chunk('settings', 'features/settings'),
+  chunk('settings', 'features/settings/(?!people)'),
   chunk('review', `shared/(certificate|config/(${REVIEW.join('|')}))`),
   chunk('config', 'shared/(config|lint)'),
   chunk('tune', 'features/tune/(?![Rr]escale|Scale|surface/(between|box|solid|Slice|Surface[MS]))'),
