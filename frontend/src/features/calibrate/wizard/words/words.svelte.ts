@@ -149,6 +149,7 @@ export const en = {
   agrees: 'agrees',
   disagrees: 'does not agree',
 
+  not_done: 'Not done, and nothing was changed:',
   server_lost:
     'Spindle’s server does not answer. What was captured is kept; this page goes on by itself ' +
     'when it is back.',

@@ -143,6 +143,7 @@ export const zh: Record<keyof typeof en, string> = {
   agrees: '一致',
   disagrees: '不一致',
 
+  not_done: '没有执行，也没有任何改变：',
   server_lost: 'Spindle 服务器没有应答。已采集的都保存着；恢复后本页自动继续。',
   unit_away: '单元未连接。已采集的都保存着：重新连接后继续。',
   bar_note: '每个读数之后即保存；离开不会丢失',
