@@ -19,7 +19,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from backend.api.errors import spindle_problem
 from backend.api.pages import NO_PAGES
 from backend.api.permissions import SIGN_IN_FIRST
-from backend.api.problem import problem_response
+from backend.api.problem import problem_response, refuse
 from backend.api.session_cookie import token_in
 from backend.domain.people.person import Caller
 from backend.errors import NotSignedIn, SpindleError
@@ -62,12 +62,8 @@ class Door:
             scope.setdefault("state", {})["caller"] = caller
         if refusal is None:
             await self.app(scope, receive, send)
-        elif scope["type"] == "websocket" and "websocket.http.response" not in scope.get(
-            "extensions", {}
-        ):
-            await send({"type": "websocket.close", "code": 1008})
         else:
-            await refusal(scope, receive, send)
+            await refuse(refusal, scope, receive, send)
 
     def _caller(self, connection: HTTPConnection) -> Caller | None:
         given = connection.headers.get("authorization", "")

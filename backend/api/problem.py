@@ -8,6 +8,8 @@ from typing import Any
 
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
+from starlette.responses import Response
+from starlette.types import Receive, Scope, Send
 
 from backend.errors import Outcome
 
@@ -77,6 +79,16 @@ def problem_response(
     return JSONResponse(
         problem.model_dump(exclude_none=True), status, headers=headers, media_type=MEDIA_TYPE
     )
+
+
+async def refuse(refusal: Response, scope: Scope, receive: Receive, send: Send) -> None:
+    """Answers a request or a WebSocket's handshake; a server that cannot tell the second why only
+    closes it."""
+    told = "websocket.http.response" in scope.get("extensions", {})
+    if scope["type"] == "websocket" and not told:
+        await send({"type": "websocket.close", "code": 1008})
+    else:
+        await refusal(scope, receive, send)
 
 
 def refusals(*statuses: int) -> dict[int | str, dict[str, Any]]:
