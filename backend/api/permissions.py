@@ -78,8 +78,8 @@ def caller_of(connection: HTTPConnection) -> Caller | None:
     return caller
 
 
-def require_permission(connection: HTTPConnection) -> None:
-    """A dependency of every route.
+async def require_permission(connection: HTTPConnection) -> None:
+    """A dependency of every route; without waiting, so that no request takes a thread for it.
 
     Raises NotSignedIn and NotAllowed where accounts are required, NotAllowed everywhere for what
     the table does not have.
