@@ -26,6 +26,7 @@ from backend.api.app import ApiSettings, create_app
 from backend.api.connections import PatientProtocol
 from backend.api.safety import AllowedHosts
 from backend.api.services import Services
+from backend.device.driver import LinkOpener
 from backend.device.families import FAMILIES, Families
 from backend.errors import LinkError, SpindleError, StoreError
 from backend.ingest import Readers
@@ -85,16 +86,21 @@ FRONTENDS = (CHECKOUT / "frontend" / "dist", Path(__file__).resolve().parent / "
 
 
 @contextlib.contextmanager
-def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator[Services]:
+def open_services(
+    settings: Settings,
+    families: Families = FAMILIES,
+    opener: Callable[[str], LinkOpener] | None = None,
+) -> Iterator[Services]:
     """Everything behind the API, opened; closed again in the other order, whatever happens.
 
-    families: of units. Raises StoreError without a store, InvalidRequest for a bad url.
+    families: of units. opener: how a url becomes a link, where not by backend.link. Raises
+    StoreError without a store, InvalidRequest for a bad url.
     """
     check(settings)
     with contextlib.ExitStack() as closing:
         store = closing.enter_context(open_store(settings.db, settings.objects))
         last_seen = closing.enter_context(contextlib.closing(LastSeen(store.units)))
-        devices = make_devices(settings, store, last_seen, families)
+        devices = make_devices(settings, store, last_seen, families, opener)
         certificates = KeptCertificates(store.certificates, __version__)
         revisions = CertifiedRevisions(store.revisions, certificates)
         tuning = Tuning(devices, revisions)
@@ -158,11 +164,16 @@ def open_services(settings: Settings, families: Families = FAMILIES) -> Iterator
 
 
 def make_devices(
-    settings: Settings, store: Store, last_seen: LastSeen, families: Families
+    settings: Settings,
+    store: Store,
+    last_seen: LastSeen,
+    families: Families,
+    opener: Callable[[str], LinkOpener] | None,
 ) -> Devices:
     """The units there are; none is opened yet."""
     devices = Devices(
         flash_folder=settings.data / "units",
+        opener=opener,
         schemas=SchemaFiles(settings.data / "schemas"),
         bike_of=store.units.bike_of,
         last_seen=last_seen.at,

@@ -34,7 +34,8 @@ SERIAL_RATE = 115200
 HOST_BOARD = "host"
 
 
-def _parser(program: str) -> argparse.ArgumentParser:
+def command_line(program: str = PROGRAM) -> argparse.ArgumentParser:
+    """What `unit` and `scenario` take, under the name that people typed."""
     parser = argparse.ArgumentParser(
         prog=program, description=__doc__, formatter_class=argparse.RawTextHelpFormatter
     )
@@ -143,11 +144,13 @@ def _live_names() -> list[str]:
     return [name for name in names() if load(name).live]
 
 
-def _serve(arguments: argparse.Namespace) -> None:
-    stop = Stop()
-    if arguments.board != HOST_BOARD:
-        _serve_board(arguments, stop)
-        return
+def host_unit(
+    arguments: argparse.Namespace,
+) -> tuple[LockstepUnit, FlashFile | None, LogFile | None]:
+    """The unit of a command line with the firmware's host build, and its memories on disk.
+
+    Raises ValueError for a memory that is none, OSError for one that cannot be read.
+    """
     flash = FlashFile(arguments.flash) if arguments.flash is not None else None
     log = LogFile(Path(f"{arguments.flash}.log")) if arguments.flash is not None else None
     unit = _bike(
@@ -159,6 +162,15 @@ def _serve(arguments: argparse.Namespace) -> None:
         boot_id=new_boot_id(),
         line_baud=arguments.serial_rate,
     )
+    return unit, flash, log
+
+
+def _serve(arguments: argparse.Namespace) -> None:
+    stop = Stop()
+    if arguments.board != HOST_BOARD:
+        _serve_board(arguments, stop)
+        return
+    unit, flash, log = host_unit(arguments)
     pty: Path | None = arguments.pty
     line: SerialLine = PtyLine(pty) if pty is not None else TcpLine(*arguments.tcp)
     try:
@@ -244,7 +256,7 @@ def _run(words: Sequence[str] | None) -> int:
     program = PROGRAM
     if given[:1] == ["--as"] and len(given) > 1:
         program, given = given[1], given[2:]
-    arguments = _parser(program).parse_args(given)
+    arguments = command_line(program).parse_args(given)
     try:
         if arguments.command == "scenario":
             _scenario(arguments)

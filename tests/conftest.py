@@ -16,7 +16,7 @@ import pytest
 from sim_device import emulator
 from tests import counts, parts
 from tests.fakes import board_rig
-from tests.fakes.server import SpindleServer
+from tests.fakes.server import ServerProcess, SpindleServer
 
 pytest_xdist_make_scheduler = parts.pytest_xdist_make_scheduler
 
@@ -61,7 +61,7 @@ def pytest_collection_finish(session: pytest.Session) -> None:
 @pytest.fixture(scope="session")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     """`spindle serve` with one simulated unit, on a free port, in a folder of its own."""
-    running = SpindleServer(tmp_path_factory.mktemp("spindle"), ["sim:bench?seed=1"]).start()
+    running = ServerProcess(tmp_path_factory.mktemp("spindle"), ["sim:bench?seed=1"]).start()
     yield running
     running.stop()
 

@@ -13,7 +13,7 @@ from playwright.sync_api import Browser, Playwright, expect, sync_playwright
 from tests.browser.chromium import NoChromium, find_chromium
 from tests.browser.desk import ROOT, Desk
 from tests.browser.long_ride import write_long_ride
-from tests.fakes.server import SpindleServer
+from tests.fakes.server import ServerProcess, SpindleServer
 
 OpenDesk = Callable[..., Desk]
 # With a window, slow enough to follow.
@@ -30,7 +30,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
         pytest.fail("The pages are not built: run `make setup`.", pytrace=False)
     data = tmp_path_factory.mktemp("browser")
     write_long_ride(data)
-    running = SpindleServer(data, ["sim:bench?seed=1"]).start()
+    running = ServerProcess(data, ["sim:bench?seed=1"]).start()
     yield running
     running.stop()
 

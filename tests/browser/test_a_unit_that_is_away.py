@@ -19,7 +19,7 @@ from tests.browser.conftest import OpenDesk
 from tests.browser.test_trial_bar import BAR, OVER, SHORT_S, first_rule, try_first_rule
 from tests.browser.test_tune_page import CELL
 from tests.fakes.relay import Relay
-from tests.fakes.server import SpindleServer
+from tests.fakes.server import ServerProcess
 
 pytestmark = pytest.mark.slow
 
@@ -70,7 +70,7 @@ def is_known_and_read_only(page: Page, address: str) -> None:
 def test_what_was_known_is_there_without_the_unit(open_desk: OpenDesk, tmp_path: Path) -> None:
     unit, port = plug_in()
     devices = [f"socket://127.0.0.1:{port}"]
-    server = SpindleServer(tmp_path, devices).start()
+    server = ServerProcess(tmp_path, devices).start()
     server.ready_device()
     desk = open_desk(address=server.url)
     desk.allow("status of 50[34]|WebSocket|ERR_CONNECTION")
@@ -82,7 +82,7 @@ def test_what_was_known_is_there_without_the_unit(open_desk: OpenDesk, tmp_path:
     page.reload()
     expect(page.get_by_test_id("draft-bar")).to_contain_text(SEEN)
     server.stop()
-    server = SpindleServer(tmp_path, devices).start()
+    server = ServerProcess(tmp_path, devices).start()
     is_known_and_read_only(page, server.url)
 
     page.goto(f"{server.url}/tune")
@@ -100,7 +100,7 @@ def test_a_trial_goes_back_by_itself_while_the_link_is_cut(
 ) -> None:
     unit, port = plug_in(scenario="none")
     cable = Relay(port)
-    server = SpindleServer(tmp_path, [f"socket://127.0.0.1:{cable.port}"]).start()
+    server = ServerProcess(tmp_path, [f"socket://127.0.0.1:{cable.port}"]).start()
     device = server.ready_device()
     before = first_rule(server, device)
     desk = open_desk(address=server.url)

@@ -17,7 +17,7 @@ from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk, sideways
 from tests.browser.recorded_ride import record_ride, ride_off
 from tests.browser.test_pages_for_everyone import COVERED, JUDGE, SMALL_TARGETS
-from tests.fakes.server import SpindleServer
+from tests.fakes.server import ServerProcess, SpindleServer
 
 Theme = Literal["light", "dark"]
 SHIFT_MAX = 0.02
@@ -63,7 +63,7 @@ PAGES = {
 @pytest.fixture(scope="module")
 def bike(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[SpindleServer, int]]:
     """A server whose unit is being ridden, and the id of the ride before."""
-    running = SpindleServer(tmp_path_factory.mktemp("pages"), ["sim:pages?seed=5&speed=5"]).start()
+    running = ServerProcess(tmp_path_factory.mktemp("pages"), ["sim:pages?seed=5&speed=5"]).start()
     device = running.ready_device()
     ride = record_ride(running, device)
     running.simulate(device, speed_factor=1.0)

@@ -16,7 +16,7 @@ from playwright.sync_api import Page, expect
 from tests.browser.conftest import OpenDesk
 from tests.browser.test_rides_page import TRACES, drop_file
 from tests.fakes.fit_file import START_S, fit_ride
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
 FILES = 200
 DAY_S = 86_400
@@ -25,7 +25,7 @@ ROWS_S = 60
 
 @pytest.fixture(scope="module")
 def fresh(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
-    running = SpindleServer(tmp_path_factory.mktemp("fresh"), ["sim:fresh?scenario=none"]).start()
+    running = ServerProcess(tmp_path_factory.mktemp("fresh"), ["sim:fresh?scenario=none"]).start()
     running.all_ready(1)
     yield running
     running.stop()

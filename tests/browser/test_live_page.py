@@ -19,7 +19,7 @@ from playwright.sync_api import expect
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk, sideways
 from tests.browser.test_pages_for_everyone import SHIFT
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
 OwnUnit = tuple[subprocess.Popen[str], str]
 
@@ -177,7 +177,7 @@ def test_a_silent_unit_is_shown_as_old_and_comes_back(
 
 
 def test_a_server_that_is_gone_is_said_to_be_gone(open_desk: OpenDesk, tmp_path: Path) -> None:
-    mortal = SpindleServer(tmp_path, ["sim"]).start()
+    mortal = ServerProcess(tmp_path, ["sim"]).start()
     mortal.ready_device()
     desk = open_desk(address=mortal.url)
     desk.allow("ERR_CONNECTION|WebSocket|Failed to load resource")

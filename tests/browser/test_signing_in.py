@@ -18,7 +18,7 @@ from playwright.sync_api import Page, expect
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import REFUSED, sideways
 from tests.browser.test_pages_for_everyone import JUDGE, SMALL_TARGETS
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
 PASSWORD = "eine lange Nacht"
 
@@ -34,7 +34,7 @@ class Workshop:
 
 @pytest.fixture
 def workshop(tmp_path: Path) -> Iterator[Workshop]:
-    server = SpindleServer(tmp_path, [], SPINDLE_HOST="0.0.0.0").start()
+    server = ServerProcess(tmp_path, [], SPINDLE_HOST="0.0.0.0").start()
     said = eventually(server.said, lambda words: "#first=" in words)
     address = server.url.replace("0.0.0.0", "127.0.0.1")
     yield Workshop(server, address, said.split("#first=")[1].split()[0])

@@ -23,7 +23,7 @@ from firmware_protocol._generated import CHANNELS
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk, sideways
 from tests.browser.test_pages_for_everyone import JUDGE
-from tests.fakes.server import SpindleServer
+from tests.fakes.server import ServerProcess, SpindleServer
 
 UNIT = ["sim:ridden?seed=5"]
 STARTED_US = 1_760_000_000_000_000
@@ -72,12 +72,12 @@ def write_rides(data: Path, unit_key: str) -> None:
 def shop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     """A server whose unit has ridden."""
     data = tmp_path_factory.mktemp("ridden")
-    before = SpindleServer(data, UNIT).start()
+    before = ServerProcess(data, UNIT).start()
     before.ready_device()
     unit_key = before.get("/devices")["items"][0]["unit_key"]
     before.stop()
     write_rides(data, unit_key)
-    running = SpindleServer(data, UNIT).start()
+    running = ServerProcess(data, UNIT).start()
     running.stand_still(running.ready_device())
     yield running
     running.stop()

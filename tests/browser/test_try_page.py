@@ -20,7 +20,7 @@ from tests.browser.desk import Desk, sideways
 from tests.browser.recorded_ride import record_ride
 from tests.browser.test_pages_for_everyone import JUDGE
 from tests.browser.test_rides_page import drop_file, steady_ride
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
 SENTENCE = "[data-testid=try-sentence]"
 SHIFTS = """
@@ -34,7 +34,7 @@ SHIFT_MAX = 0.02
 
 @pytest.fixture(scope="module")
 def workshop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
-    running = SpindleServer(tmp_path_factory.mktemp("try"), ["sim:try?seed=5&speed=5"]).start()
+    running = ServerProcess(tmp_path_factory.mktemp("try"), ["sim:try?seed=5&speed=5"]).start()
     yield running
     running.stop()
 

@@ -16,7 +16,7 @@ from tests.browser.conftest import OpenDesk
 from tests.browser.desk import ROOT, Desk, sideways
 from tests.browser.test_pages_for_everyone import JUDGE
 from tests.browser.test_tune_page import review
-from tests.fakes.server import SpindleServer
+from tests.fakes.server import ServerProcess, SpindleServer
 
 CUTOFF = "[data-parameter=assist_cutoff_kmh] input"
 PANEL = "[data-testid=unlock]"
@@ -43,7 +43,7 @@ def key(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def shop(key: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     """A server with one standing unit that carries the maker's key."""
     unit = f"sim:shop?scenario=none&unlock_key={key}.pub"
-    running = SpindleServer(tmp_path_factory.mktemp("shop"), [unit]).start()
+    running = ServerProcess(tmp_path_factory.mktemp("shop"), [unit]).start()
     running.ready_device()
     yield running
     running.stop()

@@ -1,15 +1,24 @@
-"""The real server as its own process on a free port, for stories and for browsers."""
+"""The real server on a free port: on a thread of the test's process, or as its own process."""
 
 from __future__ import annotations
 
+import contextlib
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
 from typing import Any, Self, TypeVar
 
 import httpx
+import uvicorn
 
-from spindle.client import rests
+from backend.device.families import FAMILIES, Families
+from backend.main import build_app, listening_socket, open_services, server_config
+from backend.settings import load
+from spindle.client import Spindle
 from spindle.testing.server import PATIENCE_S, RunningServer
+from tests.fakes import unit_here
 
 Answer = TypeVar("Answer")
 
@@ -43,13 +52,11 @@ def api_client(url: str) -> httpx.Client:
     )
 
 
-class SpindleServer(RunningServer):
+class SpindleServer:
     """A server whose API is asked in plain JSON, as a browser does. `client` is for refusals."""
 
-    def start(self) -> Self:
-        super().start()
-        self.client = api_client(self.url)
-        return self
+    url: str
+    client: httpx.Client
 
     def get(self, path: str, **request: Any) -> Any:
         """The JSON of a GET that must succeed."""
@@ -79,10 +86,73 @@ class SpindleServer(RunningServer):
         answer: dict[str, Any] = self.ask("PUT", f"/devices/{device}/simulation", json=change)
         return answer
 
+    def advance(self, device: str, seconds: float) -> dict[str, Any]:
+        """Lets time pass for a unit with a virtual clock."""
+        path = f"/devices/{device}/simulation/advance"
+        answer: dict[str, Any] = self.ask("POST", path, json={"seconds": seconds})
+        return answer
+
     def stand_still(self, device: str) -> None:
         """Brakes the bike until wheel and motor rest: what writing a configuration needs."""
-        self.simulate(device, scenario=None, rider={"kind": "off"}, brake=True)
-        eventually(
-            lambda: self.get(f"/devices/{device}/snapshot")["channels"],
-            rests,
-        )
+        Spindle(self.url).unit(device).stand_still()
+
+
+class ServerProcess(RunningServer, SpindleServer):
+    """The server as its own process, its simulated units as processes of their own."""
+
+    def start(self) -> Self:
+        super().start()
+        self.client = api_client(self.url)
+        return self
+
+
+class ServerHere(SpindleServer):
+    """The server on a thread of this process, with its simulated units.
+
+    Nothing of it can be killed; the rest, sockets, store and readers of files, is as in a process
+    of its own, which costs two seconds of a core more. Arguments as of RunningServer; families: the
+    makes of units it knows.
+    """
+
+    def __init__(
+        self,
+        data: Path,
+        devices: Sequence[str] = (),
+        families: Families = FAMILIES,
+        **environment: str,
+    ) -> None:
+        self._settings = load({"data": str(data), "device": list(devices)}, environment)
+        self._families = families
+        self._closing = contextlib.ExitStack()
+
+    def start(self) -> Self:
+        """Starts it; it answers at `url` from then on."""
+        with contextlib.ExitStack() as opening:
+            settings = self._settings
+            port = opening.enter_context(listening_socket(settings.host, 0))
+            reach = partial(unit_here.opener, flash_folder=settings.data / "units")
+            services = opening.enter_context(open_services(settings, self._families, reach))
+            server = uvicorn.Server(server_config(build_app(settings, services)))
+            thread = threading.Thread(target=server.run, kwargs={"sockets": [port]})
+            thread.start()
+
+            def end() -> None:
+                server.should_exit = True
+                services.uploads.close()
+                thread.join()
+
+            opening.callback(end)
+            self.url = f"http://127.0.0.1:{port.getsockname()[1]}"
+            self.client = opening.enter_context(api_client(self.url))
+            self._closing = opening.pop_all()
+        return self
+
+    def stop(self) -> None:
+        """Ends it as Ctrl-C does; twice is allowed."""
+        self._closing.close()
+
+    def __enter__(self) -> Self:
+        return self.start()
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()

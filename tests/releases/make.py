@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import Any
 
 from tests.fakes.fit_file import commute, fit_file
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
 HERE = Path(__file__).resolve().parent
 UNIT = "sim:release?seed=7&clock=virtual&scenario=none"
@@ -59,7 +59,7 @@ LEFT_OUT = shutil.ignore_patterns("*-wal", "*-shm", "*.lock", "collecting")
 
 def lived(data: Path) -> dict[str, Any]:
     """Lives a little with the server of the current folder; what it said of it at the end."""
-    server = SpindleServer(data, [UNIT]).start()
+    server = ServerProcess(data, [UNIT]).start()
     device = server.ready_device()
     server.ask("PATCH", f"/devices/{device}/config", json={"parameters": CHANGED, "reason": REASON})
     rider = {"kind": "legs", "torque_nm": 25.0, "cadence_rpm_max": 90.0}

@@ -17,7 +17,7 @@ import pytest
 from backend.store import open_store
 from backend.store.upkeep.check import check_store
 from firmware_protocol.retired import with_words_of_today
-from tests.fakes.server import SpindleServer
+from tests.fakes.server import ServerProcess
 from tests.releases.make import BYTES_MAX, CHANGED, NAME, REASON, UNIT, lived, zeros
 
 RELEASES = sorted(path.parent for path in Path(__file__).parent.glob("*/told.json"))
@@ -79,7 +79,7 @@ def test_what_the_next_release_leaves_holds_calibrations_and_a_zero(tmp_path: Pa
     assert [one["state"] for one in said["calibrations"]] == ["capturing", "closed"]
     assert [len(one["captures"]) for one in said["calibrations"]] == [2, 10]
     assert [one["zero_nm"] is not None for one in said["zeros"]] == [True]
-    server = SpindleServer(tmp_path, [UNIT]).start()
+    server = ServerProcess(tmp_path, [UNIT]).start()
     jobs = [server.get(f"/calibrations/{one['id']}") for one in said["calibrations"]]
     server.stop()
     assert kept_of(jobs, said["calibrations"]) == said["calibrations"]
@@ -101,7 +101,7 @@ PER_K = ("sensor_offset_counts_per_k", "sensor_gain_share_per_k")
 def test_the_server_starts_on_it_and_the_unit_keeps_its_settings(
     data: Path, told: dict[str, Any]
 ) -> None:
-    server = SpindleServer(data, [UNIT]).start()
+    server = ServerProcess(data, [UNIT]).start()
     device = server.ready_device()
     parameters = server.get(f"/devices/{device}/config")["parameters"]
     revisions = server.get(f"/devices/{device}/config/revisions")["items"]

@@ -15,7 +15,7 @@ from backend import control
 from backend.services.rides.replay import law_inputs, read_columns
 from backend.store import open_store
 from sim_device.scenario_file import load, names
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "current-control.md"
 RIDDEN_S, REST_S = 300.0, 60.0
@@ -74,7 +74,7 @@ def main() -> None:
     live = [name for name in names() if load(name).live]
     with tempfile.TemporaryDirectory() as folder:
         data = Path(folder)
-        server = SpindleServer(data, []).start()
+        server = ServerProcess(data, []).start()
         try:
             rides = {name: recorded(server, name) for name in live}
         finally:

@@ -8,14 +8,14 @@ from collections.abc import Iterator
 
 import pytest
 
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
 
 @pytest.fixture(scope="module")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     """One unit made for Japan, at rest."""
     devices = ["sim:tokyo?market=japan&scenario=none"]
-    running = SpindleServer(tmp_path_factory.mktemp("market"), devices).start()
+    running = ServerProcess(tmp_path_factory.mktemp("market"), devices).start()
     yield running
     running.stop()
 

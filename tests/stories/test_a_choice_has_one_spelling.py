@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 from backend.api.app import ApiSettings, create_app
-from tests.fakes.server import SpindleServer
+from tests.fakes.server import ServerProcess, SpindleServer
 from tests.stories.test_the_command_says_the_same import spindle
 
 pytestmark = pytest.mark.slow
@@ -61,7 +61,7 @@ MORE = [
 def pair(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[SpindleServer, str, str]]:
     """A server with a unit that was written in the old spelling, and one without a market."""
     urls = ["sim:known?scenario=none", "sim:blank?market=none&scenario=none"]
-    server = SpindleServer(tmp_path_factory.mktemp("spelling"), urls).start()
+    server = ServerProcess(tmp_path_factory.mktemp("spelling"), urls).start()
     server.all_ready(2)
     known, blank = (server.ready_device(number) for number in (0, 1))
     server.stand_still(known)

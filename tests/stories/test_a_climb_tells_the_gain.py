@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 from tests.stories.test_the_command_says_the_same import spindle
 from tests.stories.test_two_hours_take_seconds import advance
 
@@ -37,7 +37,7 @@ CIRCUMFERENCE_M = 2 * math.pi * 0.33
 @pytest.fixture(scope="module")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     device = "sim:one?clock=virtual&scenario=none&seed=4&sensor=drifted"
-    running = SpindleServer(tmp_path_factory.mktemp("climb"), [device]).start()
+    running = ServerProcess(tmp_path_factory.mktemp("climb"), [device]).start()
     yield running
     running.stop()
 

@@ -13,7 +13,7 @@ import pytest
 
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.config_flash import records_at
-from tests.fakes.server import SpindleServer
+from tests.fakes.server import ServerProcess, SpindleServer
 
 pytestmark = pytest.mark.host_build("the flash that is hurt here is a file of the host's build")
 
@@ -32,7 +32,7 @@ def hurt(folder: Path, record: str) -> str:
 
 @pytest.fixture
 def running(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[SpindleServer]:
-    server = SpindleServer(tmp_path / "data", [hurt(tmp_path, request.param)]).start()
+    server = ServerProcess(tmp_path / "data", [hurt(tmp_path, request.param)]).start()
     yield server
     server.stop()
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 from tests.stories.test_the_command_says_the_same import spindle
 from tests.stories.test_two_hours_take_seconds import advance
 
@@ -24,7 +24,7 @@ REST_S = 40
 @pytest.fixture(scope="module")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     device = "sim:one?clock=virtual&scenario=none&seed=4"
-    running = SpindleServer(tmp_path_factory.mktemp("drifting"), [device]).start()
+    running = ServerProcess(tmp_path_factory.mktemp("drifting"), [device]).start()
     yield running
     running.stop()
 

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from firmware_protocol._generated import FAULT_BY_NAME
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
 pytestmark = pytest.mark.slow
 
@@ -71,7 +71,7 @@ class Bike:
 def bike(tmp_path: Path) -> Iterator[Bike]:
     scenario = tmp_path / "foot.toml"
     scenario.write_text(SCENARIO, encoding="utf-8")
-    server = SpindleServer(tmp_path / "data", [f"sim:foot?scenario={scenario}"]).start()
+    server = ServerProcess(tmp_path / "data", [f"sim:foot?scenario={scenario}"]).start()
     yield Bike(server)
     server.stop()
 

@@ -16,7 +16,7 @@ import pytest
 
 from backend.errors import StoreError
 from backend.store import open_store
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, eventually
 
 pytestmark = [
     pytest.mark.slow,
@@ -51,7 +51,7 @@ def test_a_full_disk_while_recording_is_told_and_costs_nothing_when_freed(
 ) -> None:
     # The unit's own memory is on another disk, as a real unit's is.
     flash = tmp_path_factory.mktemp("unit") / "flash"
-    server = SpindleServer(small_disk, [f"sim?scenario=commute&flash={flash}"]).start()
+    server = ServerProcess(small_disk, [f"sim?scenario=commute&flash={flash}"]).start()
     device = server.ready_device()
 
     def recorder() -> dict[str, Any]:

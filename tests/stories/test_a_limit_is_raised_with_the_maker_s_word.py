@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -27,7 +27,7 @@ def shop(tmp_path: Path) -> Iterator[SpindleServer]:
     """A server with one standing unit that carries the maker's key."""
     assert spindle("unlock", "keygen", tmp_path / "maker.pem").returncode == 0
     unit = f"sim:shop?scenario=none&unlock_key={tmp_path / 'maker.pem.pub'}"
-    server = SpindleServer(tmp_path / "data", [unit]).start()
+    server = ServerProcess(tmp_path / "data", [unit]).start()
     eventually(lambda: [one["state"] for one in server.get("/devices")["items"]] == ["ready"])
     yield server
     server.stop()

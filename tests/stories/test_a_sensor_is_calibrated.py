@@ -21,7 +21,7 @@ import pytest
 from backend.cli import main
 from backend.services.calibration.telling import has_record
 from tests.fakes.relay import Relay
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, eventually
 
 pytestmark = pytest.mark.slow
 
@@ -80,7 +80,7 @@ class Workshop:
 
     def start(self) -> None:
         url = f"socket://127.0.0.1:{self.cable.port}"
-        self.server = SpindleServer(self.data, [url]).start()
+        self.server = ServerProcess(self.data, [url]).start()
         self.device = self.server.ready_device()
 
     def end(self) -> None:

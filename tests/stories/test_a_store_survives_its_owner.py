@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
 PATIENCE_S = 60.0
 
@@ -56,7 +56,7 @@ def longer_than(server: SpindleServer, rows: int) -> dict[str, Any]:
 @pytest.mark.long
 def test_a_store_survives_a_second_server_a_crash_and_a_lost_database(tmp_path: Path) -> None:
     data = tmp_path / "data"
-    server = SpindleServer(data, ["sim:one?seed=21&speed=5"]).start()
+    server = ServerProcess(data, ["sim:one?seed=21&speed=5"]).start()
     begin_to_ride(server)
     ride = longer_than(server, 500)
 
@@ -74,7 +74,7 @@ def test_a_store_survives_a_second_server_a_crash_and_a_lost_database(tmp_path: 
 
     # The server dies in the middle of the ride.
     server.kill()
-    server = SpindleServer(data, []).start()
+    server = ServerProcess(data, []).start()
     cut = server.get(f"/rides/{ride['id']}")
     assert (cut["state"], cut["cut_short"]) == ("done", True)
     server.ask("PATCH", f"/rides/{ride['id']}", json={"name": "Tour", "notes": "headwind"})
@@ -94,7 +94,7 @@ def test_a_store_survives_a_second_server_a_crash_and_a_lost_database(tmp_path: 
     assert rebuilt.returncode == 0, rebuilt.stderr
     assert json.loads(rebuilt.stdout)["rides"] == 1
 
-    server = SpindleServer(data, []).start()
+    server = ServerProcess(data, []).start()
     (back,) = server.get("/rides")["items"]
     said = server.stop()
     # Only the number may be another.

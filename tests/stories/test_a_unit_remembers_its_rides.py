@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
 pytestmark = pytest.mark.slow
 
@@ -23,7 +23,7 @@ pytestmark = pytest.mark.slow
 @pytest.fixture(scope="module")
 def workshop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     """A server with one unit in fast motion, standing."""
-    running = SpindleServer(
+    running = ServerProcess(
         tmp_path_factory.mktemp("memory"), ["sim:logger?seed=31&speed=5&scenario=none"]
     ).start()
     running.ready_device(0)
@@ -95,13 +95,13 @@ def test_a_ride_nobody_watched_comes_from_the_unit_s_log_with_what_it_was_made_w
 ) -> None:
     flash = tmp_path / "flash"
     unit = f"sim:alone?seed=32&speed=5&scenario=none&flash={flash}"
-    first = SpindleServer(tmp_path / "first", [unit]).start()
+    first = ServerProcess(tmp_path / "first", [unit]).start()
     device = first.ready_device(0)
     ride_a_bit(first, device)
     eventually(lambda: Path(f"{flash}.log").stat().st_size)
     first.stop()
 
-    second = SpindleServer(tmp_path / "second", [unit]).start()
+    second = ServerProcess(tmp_path / "second", [unit]).start()
     try:
         device = second.ready_device(0)
         waiting = closed(logs(second, device))

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 from tests.stories.test_the_command_says_the_same import spindle
 
 pytestmark = pytest.mark.slow
@@ -22,7 +22,7 @@ ROWS = 9000
 
 @pytest.fixture(scope="module")
 def desk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
-    running = SpindleServer(tmp_path_factory.mktemp("wish"), ["sim:wish?seed=5&speed=10"]).start()
+    running = ServerProcess(tmp_path_factory.mktemp("wish"), ["sim:wish?seed=5&speed=10"]).start()
     yield running
     running.stop()
 

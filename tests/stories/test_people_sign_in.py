@@ -18,7 +18,7 @@ import httpx
 import pytest
 from websockets.sync.client import connect
 
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
 pytestmark = pytest.mark.slow
 PASSWORD = "eine lange Nacht"
@@ -47,14 +47,14 @@ def preset(name: str) -> dict[str, object]:
 
 def on_the_network(data: Path) -> SpindleServer:
     """A server that other machines reach, with the settings as they come."""
-    return SpindleServer(data, ["sim:bench?scenario=none"], SPINDLE_HOST="0.0.0.0").start()
+    return ServerProcess(data, ["sim:bench?scenario=none"], SPINDLE_HOST="0.0.0.0").start()
 
 
 def test_a_workshop_opens_its_server_to_the_network(tmp_path: Path) -> None:
     data = tmp_path / "data"
     folder = ("--data", str(data))
     # Before: on this machine alone, nobody signs in, and who changes something says so.
-    alone = SpindleServer(data, [], SPINDLE_AUTHOR="王工").start()
+    alone = ServerProcess(data, [], SPINDLE_AUTHOR="王工").start()
     assert alone.get("/session") == {"sign_in": False, "needs_first": False, "signed_in": None}
     before = alone.client.post("/library", json=preset("before"))
     assert "set-cookie" not in before.headers

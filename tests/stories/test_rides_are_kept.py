@@ -17,7 +17,7 @@ import httpx
 import numpy as np
 import pytest
 
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
 QUICK = ["sim:one?seed=11&speed=5", "sim:two?seed=12&speed=5"]
 
@@ -25,7 +25,7 @@ QUICK = ["sim:one?seed=11&speed=5", "sim:two?seed=12&speed=5"]
 @pytest.fixture(scope="module")
 def workshop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     """A server with two units side by side, in fast motion."""
-    running = SpindleServer(tmp_path_factory.mktemp("workshop"), QUICK).start()
+    running = ServerProcess(tmp_path_factory.mktemp("workshop"), QUICK).start()
     running.all_ready(len(QUICK))
     yield running
     running.stop()
@@ -307,7 +307,7 @@ def test_two_units_are_two_bikes(workshop: SpindleServer) -> None:
 
 
 def test_a_killed_server_finishes_the_ride_at_its_next_start(tmp_path: Path) -> None:
-    server = SpindleServer(tmp_path / "data", QUICK[:1]).start()
+    server = ServerProcess(tmp_path / "data", QUICK[:1]).start()
     device = server.ready_device()
     begin_to_ride(server, device)
     live = eventually(
@@ -315,7 +315,7 @@ def test_a_killed_server_finishes_the_ride_at_its_next_start(tmp_path: Path) -> 
     )[0]
 
     server.kill()
-    again = SpindleServer(tmp_path / "data", []).start()
+    again = ServerProcess(tmp_path / "data", []).start()
     ride = again.get(f"/rides/{live['id']}")
     again.stop()
 
@@ -326,7 +326,7 @@ def test_a_killed_server_finishes_the_ride_at_its_next_start(tmp_path: Path) -> 
 
 
 def test_a_killed_server_leaves_no_simulator_behind(tmp_path: Path) -> None:
-    server = SpindleServer(tmp_path / "data").start()
+    server = ServerProcess(tmp_path / "data").start()
     server.ready_device()
     children = children_of(server.pid)
 

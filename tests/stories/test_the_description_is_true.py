@@ -32,7 +32,7 @@ from schemathesis.specs.openapi.checks import (
 
 from backend.api.app import ApiSettings, create_app
 from tests import counts
-from tests.fakes.server import SpindleServer
+from tests.fakes.server import ServerProcess, SpindleServer
 
 pytestmark = [pytest.mark.slow, pytest.mark.large_count]
 
@@ -69,7 +69,7 @@ OPERATIONS = {found.ok().label: found.ok() for found in DESCRIPTION.get_all_oper
 def unit(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[SpindleServer, str]]:
     """A server and the id of its one unit."""
     folder = tmp_path_factory.mktemp("described")
-    server = SpindleServer(folder, ["sim?clock=virtual&scenario=none"]).start()
+    server = ServerProcess(folder, ["sim?clock=virtual&scenario=none"]).start()
     yield server, server.ready_device()
     server.stop()
 

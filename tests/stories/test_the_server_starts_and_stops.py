@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 from tests.fakes.fit_file import commute, fit_file
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -56,7 +56,7 @@ def test_the_simulated_unit_appears_ready_with_its_identity(
 def test_the_end_of_the_server_is_the_end_of_its_simulator(
     tmp_path: Path, ending: signal.Signals
 ) -> None:
-    server = SpindleServer(tmp_path).start()
+    server = ServerProcess(tmp_path).start()
     server.ready_device()
     simulators = children_of(server.pid)
 
@@ -99,7 +99,7 @@ def test_a_unit_is_named_by_connecting_it_again_with_a_name(
 
 
 def test_what_a_unit_was_told_survives_a_restart(tmp_path: Path) -> None:
-    first = SpindleServer(tmp_path).start()
+    first = ServerProcess(tmp_path).start()
     device = first.ready_device()
     first.stand_still(device)
     body = {"parameters": {"torque_filter_s": 0.33}, "reason": "to stay"}
@@ -107,7 +107,7 @@ def test_what_a_unit_was_told_survives_a_restart(tmp_path: Path) -> None:
     bike_id = first.get(f"/devices/{device}")["bike_id"]
     first.stop()
 
-    second = SpindleServer(tmp_path).start()
+    second = ServerProcess(tmp_path).start()
     again = second.ready_device()
     value = second.get(f"/devices/{again}/config")["parameters"]["torque_filter_s"]
     reasons = [item["reason"] for item in second.get(f"/devices/{again}/config/revisions")["items"]]
@@ -133,7 +133,7 @@ def test_a_taken_port_is_said_before_anything_is_opened(tmp_path: Path) -> None:
 
 
 def test_two_servers_do_not_share_one_folder(tmp_path: Path) -> None:
-    first = SpindleServer(tmp_path, []).start()
+    first = ServerProcess(tmp_path, []).start()
 
     second = refused_start(tmp_path, "--port", "0")
 
@@ -151,7 +151,7 @@ def test_a_unit_s_address_that_is_none_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_unit_that_is_not_there_keeps_nobody_waiting(tmp_path: Path) -> None:
-    server = SpindleServer(tmp_path, ["/dev/no-such-port"]).start()
+    server = ServerProcess(tmp_path, ["/dev/no-such-port"]).start()
 
     unit = eventually(lambda: server.get("/devices")["items"])[0]
     answer = server.client.get(f"/devices/{unit['id']}/config")
@@ -166,7 +166,7 @@ def test_a_unit_that_is_not_there_keeps_nobody_waiting(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_a_server_that_ends_waits_for_no_file_that_is_read(tmp_path: Path) -> None:
     """A reader that stands still, as on a machine with too much to do."""
-    server = SpindleServer(tmp_path, []).start()
+    server = ServerProcess(tmp_path, []).start()
     with ThreadPoolExecutor(1) as browser:
         sending = browser.submit(
             server.client.post, "/rides/import?name=a.fit", content=fit_file(commute(60))
@@ -187,7 +187,7 @@ def test_a_server_that_ends_waits_for_no_file_that_is_read(tmp_path: Path) -> No
 def test_a_file_that_is_read_when_the_server_ends_is_one_ride_after_the_next_start(
     tmp_path: Path, ending: signal.Signals
 ) -> None:
-    first = SpindleServer(tmp_path, []).start()
+    first = ServerProcess(tmp_path, []).start()
     with ThreadPoolExecutor(1) as browser:
         # Its reader takes longer to start than to be found.
         sending = browser.submit(
@@ -202,7 +202,7 @@ def test_a_file_that_is_read_when_the_server_ends_is_one_ride_after_the_next_sta
     assert "Traceback" not in said
     assert ending == signal.SIGKILL or first.exit_code == 0
 
-    second = SpindleServer(tmp_path, []).start()
+    second = ServerProcess(tmp_path, []).start()
     (upload,) = eventually(
         lambda: second.get("/uploads")["items"], lambda items: items[0]["state"] == "complete"
     )
@@ -218,7 +218,7 @@ def test_a_file_that_is_read_when_the_server_ends_is_one_ride_after_the_next_sta
 @pytest.mark.host_build("a board takes a tenth of a core at rest: these are about the server")
 @pytest.mark.parametrize("wait_for_all", [True, False], ids=["ready", "starting"])
 def test_thirty_two_simulated_units_end_with_the_server(tmp_path: Path, wait_for_all: bool) -> None:
-    server = SpindleServer(tmp_path, [f"sim:unit{number}" for number in range(32)]).start()
+    server = ServerProcess(tmp_path, [f"sim:unit{number}" for number in range(32)]).start()
     if wait_for_all:
         server.all_ready(32)
     simulators = children_of(server.pid)

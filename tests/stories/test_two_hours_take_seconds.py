@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
 RIDE_S = 60
 REST_S = 40
@@ -22,7 +22,7 @@ REST_S = 40
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     """Three units in virtual time that stand still, and one whose clock is real."""
     devices = [f"sim:{name}?clock=virtual&scenario=none" for name in ("one", "two", "three")]
-    running = SpindleServer(tmp_path_factory.mktemp("virtual"), [*devices, "sim:real"]).start()
+    running = ServerProcess(tmp_path_factory.mktemp("virtual"), [*devices, "sim:real"]).start()
     running.all_ready(4)
     yield running
     running.stop()

@@ -16,7 +16,7 @@ from typing import Any
 
 import pytest
 
-from tests.fakes.server import SpindleServer
+from tests.fakes.server import ServerProcess, SpindleServer
 from tests.stories.test_rides_are_kept import recorded_ride
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -26,7 +26,7 @@ CELL = (1, 2)
 @pytest.fixture(scope="module")
 def pair(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[SpindleServer, list[int]]]:
     """A server, and its rides before and after the change."""
-    server = SpindleServer(tmp_path_factory.mktemp("pair"), ["sim:one?seed=11&speed=5"]).start()
+    server = ServerProcess(tmp_path_factory.mktemp("pair"), ["sim:one?seed=11&speed=5"]).start()
     device = server.ready_device()
     rides = [recorded_ride(server, device)["id"]]
     rules = server.get(f"/devices/{device}/config")["parameters"]["fuzzy_rules"]
