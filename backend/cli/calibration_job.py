@@ -12,7 +12,6 @@ from typing import Any
 from backend.cli.client import Server, print_json, print_table, text_of
 from backend.cli.device import read_json, server_of
 from backend.errors import RequestRefused
-from backend.services.calibration.paper import certificate_paper
 
 LOOK_S = 0.5
 STATE = ("kind", "side", "mass_kg", "crank_angle_deg", "stroke", "direction")
@@ -118,6 +117,8 @@ def certificate(options: Namespace) -> int:
     if which is not None and not which.isdecimal():
         if options.pdf is None:
             raise RequestRefused("Say with --pdf where the paper of a certificate's file goes.")
+        from backend.services.calibration.paper import certificate_paper
+
         data = certificate_paper(read_json(Path(which)), Path(which).name, **manner)
     else:
         options.job = options.job if which is None else int(which)

@@ -7,10 +7,8 @@ import os
 import sys
 from collections.abc import Mapping
 from http import HTTPStatus
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
-
-import httpx
 
 from backend.domain.quantities import plain
 from backend.errors import (
@@ -23,9 +21,13 @@ from backend.errors import (
     TokenNeeded,
 )
 
+if TYPE_CHECKING:
+    import httpx
+
+CONNECT_S = 10.0
 # A unit that is slow to answer is given up by the server after a few seconds; a large file takes
 # its time to be read and stored.
-TIMEOUT = httpx.Timeout(10.0, read=300.0, write=300.0)
+TRANSFER_S = 300.0
 
 
 def default_server(environment: Mapping[str, str] | None = None) -> str:
@@ -55,13 +57,16 @@ class Server:
         author: str = "",
         key: str = "",
     ) -> None:
+        # Verbs that ask no server start without it: it takes longer to load than all of ours.
+        import httpx
+
         self.url = url.rstrip("/")
         headers = {"spindle-author": quote(author)} if author else {}
         if key:
             headers["authorization"] = f"Bearer {key.strip()}"
         self._client = httpx.Client(
             base_url=f"{self.url}/api/v1",
-            timeout=TIMEOUT,
+            timeout=httpx.Timeout(CONNECT_S, read=TRANSFER_S, write=TRANSFER_S),
             transport=transport,
             trust_env=False,
             headers=headers,
@@ -78,6 +83,8 @@ class Server:
         Raises LinkError when no server answers, RequestRefused with every field when it refuses,
         NoAnswer when the unit did not answer the server, with the outcome of a change.
         """
+        import httpx
+
         try:
             response = self._client.request(method, path, **request)
         except httpx.InvalidURL as error:

@@ -6,14 +6,14 @@ import json
 import os
 from argparse import Namespace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from backend.cli.client import Server, default_key, default_server, print_json, print_table, text_of
-from backend.control import presets
 from backend.domain.author import tidy_author
-from backend.domain.fuzzy_table import PARAMETER_NAMES, SHARED_FIELDS
 from backend.errors import InvalidRequest, RequestRefused
-from backend.ingest.backup import Backup, backup_json, backup_of, read_backup
+
+if TYPE_CHECKING:
+    from backend.ingest.backup import Backup
 
 
 def server_of(options: Namespace) -> Server:
@@ -97,6 +97,8 @@ def set_parameters(options: Namespace) -> int:
 
 def backup(options: Namespace) -> int:
     """A configuration of a unit as a JSON file that `restore` and `diff` read."""
+    from backend.ingest.backup import backup_json
+
     server = server_of(options)
     unit = server.device_id(options.unit)
     device = server.ask("GET", f"/devices/{unit}")
@@ -139,6 +141,8 @@ def restore(options: Namespace) -> int:
 
 def diff(options: Namespace) -> int:
     """What differs between a backup and the unit, or between two backups; of a table the table."""
+    from backend.ingest.backup import read_backup
+
     one = backup_at(options.file)
     if options.other is not None and Path(options.other).is_file():
         other = backup_at(Path(options.other))
@@ -160,6 +164,8 @@ def diff(options: Namespace) -> int:
 
 def list_presets(options: Namespace) -> int:
     """The configurations and tables that come with Spindle; `restore` takes their names."""
+    from backend.control import presets
+
     found = [presets.load(name) for name in presets.names()]
     if options.json:
         items = [{"name": one.name, "kind": one.kind, "comment": one.comment} for one in found]
@@ -172,6 +178,9 @@ def list_presets(options: Namespace) -> int:
 
 def backup_at(file: Path) -> Backup:
     """A backup's file, or the preset of that name where there is no such file."""
+    from backend.control import presets
+    from backend.ingest.backup import backup_of, read_backup
+
     if not file.exists() and str(file) in presets.names():
         return backup_of(presets.load(str(file)))
     return read_backup(read_json(file), file.name)
@@ -200,6 +209,8 @@ def unknown_here(saved: dict[str, Any], items: list[dict[str, Any]]) -> list[str
 
 def second_table_moves(backup: Backup, items: list[dict[str, Any]]) -> list[str]:
     """Says that a table's points are the second one's too, if a mode uses that and they change."""
+    from backend.domain.fuzzy_table import PARAMETER_NAMES, SHARED_FIELDS
+
     now = {item["name"]: item["value"] for item in items}
     shared = [PARAMETER_NAMES[field] for field in SHARED_FIELDS]
     changes = any(backup.parameters.get(name) != now.get(name) for name in shared)

@@ -10,7 +10,6 @@ from typing import Any
 from backend.cli.client import Server, print_json, print_table, text_of
 from backend.cli.device import read_json, server_of
 from backend.errors import InvalidRequest, RequestRefused
-from backend.ingest.backup import backup_json
 
 FELT = ("start_s", "rise_nm_per_s", "ripple_pct", "lag_ms", "toggles_hz", "market", "seconds")
 
@@ -152,6 +151,8 @@ def keep(server: Server, document: dict[str, Any], options: Namespace) -> int:
 
 def of_unit(server: Server, unit: str) -> dict[str, Any]:
     """What a unit has now, as a document. unit: empty for the only one."""
+    from backend.ingest.backup import backup_json
+
     path = f"/devices/{server.device_id(unit or None)}"
     items = server.ask("GET", f"{path}/parameters")["items"]
     units = {item["name"]: item["unit"] for item in items}

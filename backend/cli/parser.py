@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
+from argparse import Namespace
 from pathlib import Path
 from typing import Any
 
 from backend import __version__
 from backend.cli import (
     bike_numbers,
-    calibrate,
     calibration_job,
     device,
     device_live,
@@ -24,7 +24,6 @@ from backend.cli import (
     ride_upload,
     serve,
     store,
-    unlock,
 )
 
 KEY = "for a server that asks who this is; default: SPINDLE_KEY"
@@ -342,7 +341,7 @@ def _add_calibrate(verbs: Any) -> None:
     command.add_argument("--zone", default="UTC", help="of its moments, like Europe/Zurich (UTC)")
     command.add_argument("--paper", choices=["a4", "letter"], default="a4", help="(a4)")
     words = "linearity, hysteresis, or a certificate again"
-    command = _asking(group, "evaluate", calibrate.evaluate, help=words)
+    command = _asking(group, "evaluate", _evaluate, help=words)
     words = "JSON: full_scale_nm, load_nm, forward, reverse; or a certificate, without a server"
     command.add_argument("file", type=Path, help=words)
     words = "the wheel's circumference: rolled out, or by the positions of a ride"
@@ -377,8 +376,29 @@ def _add_unlock(verbs: Any) -> None:
     group = _group(verbs, "unlock", "the maker's tool: keys, and tokens that raise limits")
     command = group.add_parser("keygen", help="a private key, and FILE.pub for units")
     command.add_argument("file", type=Path)
-    command.set_defaults(run=unlock.keygen)
+    command.set_defaults(run=_keygen)
     command = group.add_parser("sign", help="a token for the challenge of a refused change")
     command.add_argument("key", type=Path, help="the private key of keygen")
     command.add_argument("challenge", type=Path, nargs="?", help="JSON; standard input if absent")
-    command.set_defaults(run=unlock.sign)
+    command.set_defaults(run=_sign)
+
+
+# What these need takes longer to load than the rest of the command does to start.
+
+
+def _evaluate(options: Namespace) -> int:
+    from backend.cli.calibrate import evaluate
+
+    return evaluate(options)
+
+
+def _keygen(options: Namespace) -> int:
+    from backend.cli.unlock import keygen
+
+    return keygen(options)
+
+
+def _sign(options: Namespace) -> int:
+    from backend.cli.unlock import sign
+
+    return sign(options)

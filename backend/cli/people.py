@@ -17,7 +17,6 @@ from backend.cli.client import print_json, print_table
 from backend.cli.store import urls
 from backend.domain.people.permission import ROLES
 from backend.domain.people.person import Person, folded
-from backend.domain.ride import iso_utc
 from backend.errors import InvalidRequest, NotFound
 
 if TYPE_CHECKING:
@@ -132,6 +131,8 @@ def told(options: Namespace, person: Person) -> int:
 
 def as_json(person: Person) -> dict[str, Any]:
     """An account as plain JSON."""
+    from backend.domain.ride import iso_utc
+
     return {
         "id": person.id,
         "name": person.name,
@@ -144,4 +145,6 @@ def as_json(person: Person) -> dict[str, Any]:
 
 def seen(person: Person) -> str | None:
     """When somebody signed in last."""
+    from backend.domain.ride import iso_utc
+
     return None if person.signed_in_us is None else iso_utc(person.signed_in_us)
