@@ -1,3 +1,4 @@
+// @vitest-environment happy-dom
 /* Goal: g and a letter goes to a page, soon after each other and not while somebody types. */
 import { expect, it } from 'vitest'
 import { GoKeys } from './go_keys'

@@ -1,3 +1,4 @@
+// @vitest-environment happy-dom
 /* Goal: whoever searches for the cause of a fault is led through every fault there is, and a live
    value speaks for or against a cause by the limit that the unit itself uses. */
 import { FAULTS, CHANNELS } from '$generated/registry'

@@ -1,3 +1,4 @@
+// @vitest-environment happy-dom
 /* Goal: the sheet tells which faults there were before the work and what became of them. */
 import type { Fault } from '$shared/api/types'
 import { expect, it } from 'vitest'

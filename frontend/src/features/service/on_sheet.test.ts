@@ -1,3 +1,4 @@
+// @vitest-environment happy-dom
 /* Goal: the sheet shows a ride only if it was made after the work, a calibration only as the
    history has it, and of the sensor's zero what the rides told. */
 import type { Revision, Ride, SensorDrift } from '$shared/api/types'

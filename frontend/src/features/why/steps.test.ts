@@ -1,3 +1,4 @@
+// @vitest-environment happy-dom
 /* Goal: the sentence and the waterfall tell what the steps say: who took how much, in the unit's
    order, and what was not delivered or not measured is called so. Both languages have the same
    words. */

@@ -1,3 +1,4 @@
+// @vitest-environment happy-dom
 /* Goal: a file arrives whole although the network breaks. The server here counts bytes and fails as
    told; tus 1.0 says that after a failure only the server knows how far it got. */
 import { expect, it } from 'vitest'

@@ -1,3 +1,4 @@
+// @vitest-environment happy-dom
 import { expect, test } from 'vitest'
 import { clock, type Locale } from '$shared/i18n/locale.svelte'
 import { nameOf, valueOf } from './stated_lines'

@@ -1,3 +1,4 @@
+// @vitest-environment happy-dom
 /* Goal: a ride is told by eight figures, and one that is missing says why. */
 import { expect, it } from 'vitest'
 import type { Ride } from '$shared/api/types'

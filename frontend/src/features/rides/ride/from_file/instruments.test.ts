@@ -1,3 +1,4 @@
+// @vitest-environment happy-dom
 /* Goal: what recorded a ride is told in words where the file has words, and never guessed. */
 import { expect, it } from 'vitest'
 import { told, type FileSay } from './file_words.svelte'

@@ -1,3 +1,4 @@
+// @vitest-environment happy-dom
 import { fill, type Locale } from '$shared/i18n/locale.svelte'
 import { expect, test } from 'vitest'
 import { intakeLines } from './intake_lines'
