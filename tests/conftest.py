@@ -17,6 +17,7 @@ from sim_device import emulator
 from tests import counts, parts
 from tests.fakes import board_rig
 from tests.fakes.server import ServerProcess, SpindleServer
+from tests.run import again, guard, started
 
 pytest_xdist_make_scheduler = parts.pytest_xdist_make_scheduler
 
@@ -27,8 +28,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--prove", action="store_true", help="large counts in full, not a tenth")
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
     """The client of these tests is httpx, which is what the command uses too."""
+    guard.guarded(config)
+    started.counted(config)
+    again.told(config)
     config.addinivalue_line("filterwarnings", "ignore:Using `httpx` with `starlette.testclient`")
     if config.getoption("--prove"):
         os.environ[counts.PROVE_VARIABLE] = "1"
@@ -43,6 +48,7 @@ def pytest_configure(config: pytest.Config) -> None:
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """What only the host build can show is left out on the board."""
     items[:] = parts.long_ones_first(items)
+    again.may_be_tried_again(items)
     if config.getoption("--unit") == "qemu":
         for item in items:
             for mark in item.iter_markers("host_build"):

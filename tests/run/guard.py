@@ -1,0 +1,62 @@
+"""A run leaves nothing: no process, and no file but what failed tests need for a look."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+
+import pytest
+
+from tests.run import guardian, place
+
+
+class Guard:
+    """Of the process that hands out the tests; the workers are what it guards."""
+
+    def __init__(self, config: pytest.Config) -> None:
+        self.folder = place.of_this_run()
+        self.told = ""
+        mark = self.folder.name
+        if config.option.basetemp is None:
+            config.option.basetemp = str(self.folder / "tests")
+        environment = dict(os.environ)
+        os.environ |= {guardian.VARIABLE: mark, "TMPDIR": str(self.folder / "tmp")}
+        tempfile.tempdir = None
+        self._guardian = subprocess.Popen(
+            [sys.executable, "-S", guardian.__file__, mark, str(self.folder)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            # Not one of those that it ends; and Ctrl-C in the terminal is for the run.
+            env=environment,
+            start_new_session=True,
+        )
+        self._kept = False
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        if report.failed and not self._kept:
+            self._say("keep\n")
+            self._kept = True
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_unconfigure(self) -> None:
+        """Waits until everything has ended, and says what did not do so by itself."""
+        told, _ = self._guardian.communicate()
+        if told.strip():
+            sys.stderr.write(f"\nLeft running by the tests:\n{told}")
+        if self._kept:
+            sys.stderr.write(f"\nFiles of the failed tests, until the next run: {self.folder}\n")
+
+    def _say(self, words: str) -> None:
+        assert self._guardian.stdin is not None
+        self._guardian.stdin.write(words)
+        self._guardian.stdin.flush()
+
+
+def guarded(config: pytest.Config) -> None:
+    """Guards this run; a worker is guarded by who started it, a run within a test by its own."""
+    within = os.environ.get(guardian.VARIABLE)
+    if not hasattr(config, "workerinput") and within is None:
+        config.pluginmanager.register(Guard(config), "guard")

@@ -1,0 +1,111 @@
+"""How many servers, browsers and other processes a run starts: told at its end, and bounded.
+
+Each costs as much as dozens of tests; a run that starts more than it should fails, and says so.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections import Counter
+from collections.abc import Iterable, Sequence
+
+import pytest
+
+SERVER_HERE = "servers in the tests' processes"
+SERVER = "servers of their own"
+COMMAND = "spindle commands"
+UNIT = "simulated units"
+READER = "readers of files"
+COMPILER = "compilers"
+BROWSER = "browsers"
+OTHER = "other processes"
+
+# The most of each in a whole `make test`, beside what it takes today for one more test or two.
+MOST = {SERVER_HERE: 80, SERVER: 60, COMMAND: 120, UNIT: 80, BROWSER: 12}
+
+# By the first words that are found in a command.
+KINDS: tuple[tuple[str, tuple[str, ...]], ...] = (
+    (SERVER, ("backend.cli serve", "backend.dev")),
+    (COMMAND, ("backend.cli", "bin/spindle")),
+    (UNIT, ("sim_device unit",)),
+    (READER, ("backend.ingest.worker",)),
+    (COMPILER, ("gcc", "clang", "cc ")),
+)
+
+
+def kind_of(words: Sequence[object]) -> str:
+    """What a command starts."""
+    line = " ".join(map(str, words))
+    return next((kind for kind, signs in KINDS if any(s in line for s in signs)), OTHER)
+
+
+class Started:
+    """What this process of the run started. `note` is for what is no process."""
+
+    def __init__(self) -> None:
+        self.counts: Counter[str] = Counter()
+
+    def note(self, kind: str) -> None:
+        self.counts[kind] += 1
+
+    def hear(self, event: str, given: tuple[object, ...]) -> None:
+        """An audit hook: Python tells of each process that it starts."""
+        if event == "subprocess.Popen":
+            words = given[1]
+            named = [words] if isinstance(words, str | bytes) else list(words or ())  # type: ignore[call-overload]
+            self.note(kind_of(named))
+
+
+HERE = Started()
+
+
+class Told:
+    """Adds up what the workers started, tells it, and fails a run that started too much."""
+
+    def __init__(self) -> None:
+        self.total: Counter[str] = Counter()
+
+    @pytest.hookimpl(optionalhook=True)
+    def pytest_testnodedown(self, node: object) -> None:
+        self.total += Counter(getattr(node, "workeroutput", {}).get("started", {}))
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_sessionfinish(self, session: pytest.Session) -> None:
+        self.total += HERE.counts
+        if too_many(self.total) and session.exitstatus == pytest.ExitCode.OK:
+            session.exitstatus = pytest.ExitCode.TESTS_FAILED
+
+    def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
+        for line in lines(self.total):
+            terminalreporter.write_line(line)
+
+
+class Counted:
+    """In a worker: hands over what it started."""
+
+    def pytest_sessionfinish(self, session: pytest.Session) -> None:
+        session.config.workeroutput["started"] = dict(HERE.counts)  # type: ignore[attr-defined]
+
+
+def too_many(counts: Counter[str]) -> list[str]:
+    """A line for each kind of which a run started more than it should."""
+    return [
+        f"{counts[kind]} {kind} were started, {most} at most should be: let tests share one, or "
+        "say in tests/run/started.py why there are more"
+        for kind, most in MOST.items()
+        if counts[kind] > most
+    ]
+
+
+def lines(counts: Counter[str]) -> Iterable[str]:
+    """What was started, the most first."""
+    if counts:
+        yield "started: " + ", ".join(f"{count} {kind}" for kind, count in counts.most_common())
+    yield from too_many(counts)
+
+
+def counted(config: pytest.Config) -> None:
+    """Counts what this process starts, and tells it if this process hands out the tests."""
+    sys.addaudithook(HERE.hear)
+    worker = hasattr(config, "workerinput")
+    config.pluginmanager.register(Counted() if worker else Told(), "started")
