@@ -7,6 +7,7 @@ counts in full (tests/counts.py).
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from collections.abc import Iterator
@@ -16,8 +17,11 @@ import pytest
 from sim_device import emulator
 from tests import counts, parts
 from tests.fakes import board_rig
+from tests.fakes.new_database import new_databases_are_copied
 from tests.fakes.server import ServerProcess, SpindleServer
 from tests.run import again, guard, started
+
+__all__ = ["new_databases_are_copied"]
 
 pytest_xdist_make_scheduler = parts.pytest_xdist_make_scheduler
 
@@ -57,6 +61,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 def pytest_collection_finish(session: pytest.Session) -> None:
     """Tests of the unit's C get the board's C; stories start boards of their own."""
+    # Modules and tests live as long as the process: collecting garbage need not look at them.
+    gc.freeze()
     on_board = session.config.getoption("--unit") == "qemu"
     if on_board and "sim_device.firmware.python.law" in sys.modules and session.items:
         rig = board_rig.Rig()

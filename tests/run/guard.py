@@ -23,6 +23,8 @@ class Guard:
             config.option.basetemp = str(self.folder / "tests")
         environment = dict(os.environ)
         os.environ |= {guardian.VARIABLE: mark, "TMPDIR": str(self.folder / "tmp")}
+        # Several tests run side by side already; more threads would only wait for each other.
+        os.environ |= {"OPENBLAS_NUM_THREADS": "1", "POLARS_MAX_THREADS": "1"}
         tempfile.tempdir = None
         self._guardian = subprocess.Popen(
             [sys.executable, "-S", guardian.__file__, mark, str(self.folder)],
