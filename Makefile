@@ -6,26 +6,31 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := .make
 
-# Most tests wait more than they compute: twice the two cores of a small machine.
-# A browser computes: two at once.
-WORKERS ?= 4
+# Tests of a file share what it builds and stay together; a browser computes: two at once.
+WORKERS ?= 3
 PARALLEL := --dist loadfile --no-loadscope-reorder -n
+# Two recipes side by side, the output of each in one piece where this make can do so.
+SIDE_BY_SIDE := --no-print-directory -j2 $(if $(filter output-sync,$(.FEATURES)),--output-sync=target)
+
+# How long a long target took is its last line.
+BEGIN = @mkdir -p $(STAMP); date +%s > $(STAMP)/began-$@
+END = @seconds=$$(($$(date +%s) - $$(cat $(STAMP)/began-$@))); \
+	echo "make $@ took $$((seconds / 60)) min $$((seconds % 60)) s"
 
 # What runs against the emulated board; `make test-board-all` adds what takes minutes there.
+BOARD_SMOKE := tests/board tests/conformance tests/unit/sim_device_app
 BOARD_TESTS := tests/board tests/conformance tests/unit/sim_device_app tests/stories
 
 C_SOURCES := $(wildcard firmware_protocol/c/*.[ch] sim_device/firmware/*/*.[ch] \
 	sim_device/firmware/app/*/*.[ch] sim_device/firmware/boards/host/*.[ch] sim_device/physics/*.[ch] sim_device/twin/*.[ch] third_party/*/*.[ch])
 WEB_SOURCES := $(shell find frontend -type f -not -path '*/node_modules/*' -not -path '*/dist/*')
 
-# Tests start hundreds of processes, which would otherwise compile our Python anew each time.
-test prove test-fast test-board test-board-all: export PYTHONDONTWRITEBYTECODE =
-# Their folders are in memory where there is room: rides and databases wait for the disk too often.
-test prove test-fast: export PYTEST_DEBUG_TEMPROOT = $(shell .ci/folder-in-memory)
+# Tests start many processes, which would otherwise compile our Python anew each time.
+test prove test-fast test-board test-board-smoke test-board-all: export PYTHONDONTWRITEBYTECODE =
 
 .PHONY: help
 help: ## what can be made
-	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
 
 .PHONY: run
 run: setup ## start Spindle with one simulated drive unit; Ctrl-C stops all of it
@@ -43,27 +48,54 @@ sim: setup ## a simulated drive unit alone, on tcp port 7500
 setup: $(STAMP)/native $(STAMP)/web ## install and build everything, start nothing
 
 .PHONY: test
-test: setup $(STAMP)/chromium lint ## every test there is, a real browser included
-	cd frontend && npm run --silent test
-	$(BIN)/pytest -m serial
-	$(BIN)/pytest -m "not serial and not long" $(PARALLEL) $(WORKERS) --ignore=tests/browser
+test: ## every test but the longest, a real browser included
+	$(BEGIN)
+	@.ci/check-machine $(PYTHON)
+	@.ci/ensure-tools browser database
+	@$(MAKE) $(SIDE_BY_SIDE) setup lint test-web
+	$(BIN)/pytest -m "not long" $(PARALLEL) $(WORKERS) --ignore=tests/browser --ignore=tests/board
 	$(BIN)/pytest -m "not long" $(PARALLEL) 2 tests/browser
+	$(END)
 
 .PHONY: prove
-prove: setup $(STAMP)/chromium ## what takes longest, and the large counts of which `make test` does a tenth, in full
-	$(BIN)/pytest --prove -m "large_count or long" $(PARALLEL) $(WORKERS)
+prove: ## what takes longest, and the large counts of which `make test` does a part, in full
+	$(BEGIN)
+	@.ci/ensure-tools browser fuzzing database wireshark
+	@$(MAKE) $(SIDE_BY_SIDE) setup
+	$(BIN)/pytest --prove -m "large_count or long" $(PARALLEL) $(WORKERS) --ignore=tests/board
+	$(END)
+
+.PHONY: test-board-smoke
+test-board-smoke: ## the part of it that takes a minute: image, wire, law and product
+	$(BEGIN)
+	@.ci/ensure-tools board
+	@$(MAKE) $(SIDE_BY_SIDE) setup
+	$(BIN)/pytest --unit=qemu -m "not board_long and not long" $(BOARD_SMOKE)
+	$(END)
 
 .PHONY: test-board
-test-board: setup $(STAMP)/arm ## the unit's tests against the firmware on an emulated Cortex-M4F
+test-board: ## the unit's tests against the firmware on an emulated Cortex-M4F
+	$(BEGIN)
+	@.ci/ensure-tools board
+	@$(MAKE) $(SIDE_BY_SIDE) setup
 	$(BIN)/pytest --unit=qemu -m "not board_long" $(BOARD_TESTS)
+	$(END)
 
 .PHONY: test-board-all
-test-board-all: setup $(STAMP)/arm ## the same with the longest: power cuts at every byte, ten thousand guesses
+test-board-all: ## the same with the longest: power cuts at every byte, ten thousand guesses
+	$(BEGIN)
+	@.ci/ensure-tools board
+	@$(MAKE) $(SIDE_BY_SIDE) setup
 	$(BIN)/pytest --unit=qemu --prove $(BOARD_TESTS)
+	$(END)
+
+.PHONY: test-web
+test-web: $(STAMP)/web ## the tests of the pages' logic
+	cd frontend && npm run --silent test
 
 .PHONY: test-fast
 test-fast: $(STAMP)/native ## unit and conformance tests without the slow ones; ONLY=path for some
-	$(BIN)/pytest -m "not slow and not serial and not large_count and not long" $(PARALLEL) 2 \
+	$(BIN)/pytest -m "not slow and not large_count and not long" $(PARALLEL) 2 \
 		$(or $(ONLY),tests/unit tests/conformance)
 
 .PHONY: simulate
@@ -72,19 +104,26 @@ simulate: $(STAMP)/native ## the story of one seed of the simulated link: make s
 
 .PHONY: fuzz
 fuzz: $(STAMP)/native ## every fuzzer for SECONDS each, 60 unless told; C needs clang (libFuzzer)
+	@.ci/ensure-tools fuzzing
 	$(BIN)/python -m tests.fuzz $(or $(SECONDS),60)
 
 .PHONY: mutate
 mutate: $(STAMP)/native ## break the codec and the transaction in every known way; a test must notice
 	$(BIN)/python -m tests.mutation
 
-.PHONY: lint
-lint: $(STAMP)/native $(STAMP)/web-modules ## all static checks, Python, C and browser
+.PHONY: lint lint-python lint-c lint-web
+lint: lint-python lint-c lint-web ## all static checks, Python, C and browser
+
+lint-python: $(STAMP)/native
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+lint-c: $(STAMP)/python
 	.ci/lint-c
+
+lint-web: $(STAMP)/web-modules
 	cd frontend && npm run --silent lint && npm run --silent check
 
 .PHONY: fix
@@ -134,7 +173,8 @@ clean: ## everything built or installed here; rides in data/ stay
 	find sim_device -name '*.so' -delete
 
 .PHONY: ci
-ci: test ## what the delivery is checked with
+ci: ## what a delivery is checked with
+	.ci/run
 
 # ---------------------------------------------------------------- steps behind the targets above
 
@@ -158,15 +198,6 @@ $(STAMP)/web-modules: frontend/package-lock.json
 
 $(STAMP)/web: $(STAMP)/web-modules $(WEB_SOURCES)
 	cd frontend && npm run --silent build
-	@touch $@
-
-$(STAMP)/chromium: $(STAMP)/python
-	.ci/ensure-chromium $(BIN)
-	@touch $@
-
-$(STAMP)/arm:
-	@mkdir -p $(STAMP)
-	.ci/ensure-arm
 	@touch $@
 
 $(STAMP)/rivals: tests/bench/rivals.lock $(STAMP)/python

@@ -75,6 +75,7 @@ from backend.store import Store, open_store
 from backend.store.schemas import SchemaFiles
 
 LOG = logging.getLogger(__name__)
+OpenerOf = Callable[[str], LinkOpener]
 # An open WebSocket or a long download must not hold a stopping server back.
 SHUTDOWN_S = 2
 # Connections that may wait while the store and the units are being opened.
@@ -87,14 +88,11 @@ FRONTENDS = (CHECKOUT / "frontend" / "dist", Path(__file__).resolve().parent / "
 
 @contextlib.contextmanager
 def open_services(
-    settings: Settings,
-    families: Families = FAMILIES,
-    opener: Callable[[str], LinkOpener] | None = None,
+    settings: Settings, families: Families = FAMILIES, opener: OpenerOf | None = None
 ) -> Iterator[Services]:
     """Everything behind the API, opened; closed again in the other order, whatever happens.
 
-    families: of units. opener: how a url becomes a link, where not by backend.link. Raises
-    StoreError without a store, InvalidRequest for a bad url.
+    opener: how a url becomes a link, if not by backend.link. Raises StoreError, InvalidRequest.
     """
     check(settings)
     with contextlib.ExitStack() as closing:
@@ -127,9 +125,7 @@ def open_services(
         closing.callback(proposals.close)
         yield Services(
             keeping=Keeping(store, __version__),
-            health=Health(
-                __version__, devices, recorder, store.watch, store.database.ask, store.soundness
-            ),
+            health=make_health(devices, recorder, store),
             devices=devices,
             inspection=inspection,
             fault_moments=FaultMoments(store.rides, recent, inspection.faults, memory.ride_context),
@@ -163,12 +159,17 @@ def open_services(
         )
 
 
+def make_health(devices: Devices, recorder: Recorder, store: Store) -> Health:
+    """What is told of units, recordings and the store."""
+    return Health(__version__, devices, recorder, store.watch, store.database.ask, store.soundness)
+
+
 def make_devices(
     settings: Settings,
     store: Store,
     last_seen: LastSeen,
     families: Families,
-    opener: Callable[[str], LinkOpener] | None,
+    opener: OpenerOf | None,
 ) -> Devices:
     """The units there are; none is opened yet."""
     devices = Devices(

@@ -46,7 +46,7 @@ def missing() -> str | None:
     absent = [name for name in wanted if shutil.which(name) is None]
     if not absent:
         return None
-    return f"{', '.join(absent)} not found: on Debian, run .ci/ensure-arm"
+    return f"{', '.join(absent)} not found: run .ci/ensure-tools board"
 
 
 def build(image: str, frame_bytes: int = MTU) -> Path:

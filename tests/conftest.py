@@ -59,6 +59,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
                 item.add_marker(pytest.mark.skip(reason=mark.args[0]))
 
 
+def pytest_unconfigure() -> None:
+    """At its end a process gives back what it froze; libraries in C complain otherwise."""
+    gc.unfreeze()
+
+
 def pytest_collection_finish(session: pytest.Session) -> None:
     """Tests of the unit's C get the board's C; stories start boards of their own."""
     # Modules and tests live as long as the process: collecting garbage need not look at them.

@@ -22,9 +22,9 @@ def proving() -> bool:
     return os.environ.get(PROVE_VARIABLE) == "1"
 
 
-def of(full: int, least: int = 1) -> int:
-    """How many of `full` this run does: all, or a tenth and not less than `least`."""
-    return full if proving() else max(least, full // 10)
+def of(full: int, least: int = 1, share: int = 10) -> int:
+    """How many of `full` this run does: all, or one in `share` and not less than `least`."""
+    return full if proving() else max(least, full // share)
 
 
 def stride() -> int:

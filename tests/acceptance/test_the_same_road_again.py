@@ -26,8 +26,12 @@ from tests.fakes.known_roads import STEP_S, Columns, Outside, Ridden, configurat
 
 pytestmark = [pytest.mark.slow, pytest.mark.large_count]
 
-SEEDS = {False: range(1201, 1201 + counts.of(12, least=2)), True: range(1201, 1201 + counts.of(12))}
+SEEDS = dict.fromkeys((False, True), range(1201, 1201 + counts.of(12)))
 """Of roads in one gear, and of those with shifts."""
+GEARS = [
+    pytest.param(False, id="one gear"),
+    pytest.param(True, id="shifts", marks=pytest.mark.long),
+]
 CASSETTE = (11, 13, 15, 17, 19, 21, 24, 28, 32, 37, 42)
 CHANGES = ((1, 3), (3, 2))
 """Eco ridden again as sport, and sport as tour; the same slots in the configuration."""
@@ -169,7 +173,7 @@ def test_a_rider_whose_kind_is_known_uses_what_the_twin_says(
     assert np.mean(of_time <= 0.03) >= 0.9
 
 
-@pytest.mark.parametrize("shifts", [False, True], ids=["one gear", "shifts"])
+@pytest.mark.parametrize("shifts", GEARS)
 def test_riders_of_all_four_kinds_use_what_the_twin_says(shifts: bool) -> None:
     found = [errors(rider, told=False, shifts=shifts) for rider in RIDERS]
 
@@ -177,7 +181,7 @@ def test_riders_of_all_four_kinds_use_what_the_twin_says(shifts: bool) -> None:
     assert np.mean(np.concatenate([time for _, time, _ in found]) <= 0.03) >= 0.9
 
 
-@pytest.mark.parametrize("shifts", [False, True], ids=["one gear", "shifts"])
+@pytest.mark.parametrize("shifts", GEARS)
 def test_an_open_loop_is_ten_times_as_far_off(shifts: bool) -> None:
     of_work, _, open_work = errors("power", told=False, shifts=shifts)
 
@@ -185,7 +189,7 @@ def test_an_open_loop_is_ten_times_as_far_off(shifts: bool) -> None:
 
 
 @pytest.mark.parametrize("told", [False, True], ids=["nothing told", "bike told"])
-@pytest.mark.parametrize("shifts", [False, True], ids=["one gear", "shifts"])
+@pytest.mark.parametrize("shifts", GEARS)
 def test_the_band_holds_nine_of_ten_riders_nobody_knows(told: bool, shifts: bool) -> None:
     """Of work, time, what left the battery, and ripple."""
     work, time, battery, ripple = inside(told, shifts).mean(axis=0)

@@ -28,7 +28,7 @@ from sim_device.emulated import AT_STAGE, STAGE, Registers, prepare
 from sim_device.firmware.python.unit import Unit
 
 # The board's deadlines are met by the clock of the machine that emulates it.
-pytestmark = [pytest.mark.slow, pytest.mark.serial]
+pytestmark = pytest.mark.slow
 
 PATIENCE_S = 60.0
 LOOP, DEAF_LOOP, INSTRUCTION, STEPS = 1, 2, 3, 4

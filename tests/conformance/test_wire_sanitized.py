@@ -23,7 +23,7 @@ SANITIZERS = ["-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recove
 def compiler() -> str:
     found = shutil.which(os.environ.get("CC", "cc"))
     if found is None:
-        pytest.skip("no C compiler on this machine")
+        pytest.fail("There is no C compiler, which `make setup` asks for.", pytrace=False)
     return found
 
 

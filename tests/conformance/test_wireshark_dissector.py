@@ -2,14 +2,13 @@
 
 Method: the generated dissector reads the golden vectors and a conversation of the real firmware;
 the host's codec is the oracle. It runs in Lua 5.2 and 5.4 against a Wireshark that only records,
-and in the real `tshark` where one is installed.
+and in the real `tshark` in `make prove`, which installs it.
 """
 
 from __future__ import annotations
 
 import json
 import math
-import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -42,11 +41,7 @@ VECTORS = Path(__file__).resolve().parents[2] / "firmware_protocol" / "vectors"
 ENGINES = [
     pytest.param(52, id="lua 5.2"),
     pytest.param(54, id="lua 5.4"),
-    pytest.param(
-        0,
-        id="tshark",
-        marks=pytest.mark.skipif(shutil.which("tshark") is None, reason="no tshark here"),
-    ),
+    pytest.param(0, id="tshark", marks=pytest.mark.long),
 ]
 Serial = Callable[[list[bytes]], list[Seen]]
 Segments = list[tuple[str, bytes]]

@@ -11,6 +11,8 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 USER = "spindle"
 PATIENCE_S = 60.0
 
@@ -28,7 +30,7 @@ def missing() -> str | None:
     except ImportError:
         return "psycopg is not installed: pip install spindle[postgresql]"
     if tool("initdb") is None or tool("pg_ctl") is None:
-        return "PostgreSQL is not installed: .ci/ensure-postgresql"
+        return "PostgreSQL is not installed: .ci/ensure-tools database"
     if os.geteuid() == 0 and owner() is None:
         return "PostgreSQL does not run as root, and there is no user postgres"
     return None
@@ -46,6 +48,9 @@ class Postgres:
     """A running cluster; `url` of a new, empty database by `new_database`."""
 
     def __init__(self) -> None:
+        reason = missing()
+        if reason is not None:
+            pytest.fail(reason, pytrace=False)
         self._folder = Path(tempfile.mkdtemp(prefix="spindle-pg-"))
         user = owner()
         self._as: dict[str, Any] = {}

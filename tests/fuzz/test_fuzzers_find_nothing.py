@@ -1,8 +1,9 @@
 """Goal: no input makes the unit's C break a rule of C, nor the host's Python fail unexpectedly.
 
-Method: coverage-guided fuzzing. Here each target runs for some seconds from the golden vectors;
-`make fuzz SECONDS=3600` runs them as long as one likes. Without clang's libFuzzer the C targets are
-skipped; the seeded storm of tests/conformance/wire_storm.c runs everywhere.
+Method: coverage-guided fuzzing from the golden vectors. In `make test` two targets of the host run
+for a second, and the unit's C meets the storm of tests/conformance/wire_storm.c and a sanitizer
+(test_app_sanitized.py) instead; `make prove` fuzzes all, the C with clang's libFuzzer. `make fuzz
+SECONDS=3600` runs them as long as one likes.
 """
 
 from __future__ import annotations
@@ -19,14 +20,20 @@ from tests.fuzz import harness
 
 pytestmark = [pytest.mark.slow, pytest.mark.large_count]
 
-SECONDS = counts.of(20)
+# What anybody may send over a line or upload; the others take as long to start.
+ALWAYS = ("wire", "fit")
+HOST_TARGETS = [
+    pytest.param(name, marks=[] if name in ALWAYS else pytest.mark.long)
+    for name in ("wire", "csv", "fit", "track", "mahle", "log", "archive", "head")
+]
+SECONDS = counts.of(20, share=20)
 
 
 @pytest.fixture(scope="module")
 def clang(tmp_path_factory: pytest.TempPathFactory) -> str:
     found = harness.compiler(tmp_path_factory.mktemp("probe"))
     if found is None:
-        pytest.skip("no clang with libFuzzer here: apt-get install clang libclang-rt-14-dev")
+        pytest.fail("There is no clang with libFuzzer: .ci/ensure-tools fuzzing", pytrace=False)
     return found
 
 
@@ -38,6 +45,7 @@ def objects(clang: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("target", harness.TARGETS)
 def test_no_input_found_breaks_the_unit(
     clang: str, objects: Path, target: str, tmp_path: Path
@@ -51,9 +59,7 @@ def test_no_input_found_breaks_the_unit(
     assert harness.executions(done.stderr) > 100
 
 
-@pytest.mark.parametrize(
-    "target", ["wire", "csv", "fit", "track", "mahle", "log", "archive", "head"]
-)
+@pytest.mark.parametrize("target", HOST_TARGETS)
 def test_no_input_found_breaks_the_host(target: str, tmp_path: Path) -> None:
     pytest.importorskip("atheris", reason="atheris has no wheel for this machine")
 

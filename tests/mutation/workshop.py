@@ -41,8 +41,7 @@ PASSED, FAILED = 0, 1
 class Break:
     """One way to break the code, and who notices: tests, or the simulation's judge.
 
-    judged: part of what the judge says. seed: from which one on it is looked for. always: planted
-    in `make test`, not in `make prove` alone.
+    judged: part of what the judge says. seed: from which one on it is looked for.
     """
 
     name: str
@@ -52,7 +51,6 @@ class Break:
     caught_by: tuple[str, ...] = ()
     judged: str = ""
     seed: int = 1
-    always: bool = False
 
 
 def breaks() -> list[Break]:

@@ -36,15 +36,16 @@ class Guard:
             start_new_session=True,
         )
         self._kept = False
+        # The first that is noted runs last: after everybody who ends something of their own.
+        config.add_cleanup(self.wait_until_all_has_ended)
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         if report.failed and not self._kept:
             self._say("keep\n")
             self._kept = True
 
-    @pytest.hookimpl(trylast=True)
-    def pytest_unconfigure(self) -> None:
-        """Waits until everything has ended, and says what did not do so by itself."""
+    def wait_until_all_has_ended(self) -> None:
+        """Says what did not end by itself."""
         told, _ = self._guardian.communicate()
         if told.strip():
             sys.stderr.write(f"\nLeft running by the tests:\n{told}")

@@ -52,8 +52,7 @@ class Started:
         """An audit hook: Python tells of each process that it starts."""
         if event == "subprocess.Popen":
             words = given[1]
-            named = [words] if isinstance(words, str | bytes) else list(words or ())  # type: ignore[call-overload]
-            self.note(kind_of(named))
+            self.note(kind_of(words if isinstance(words, list | tuple) else [words]))
 
 
 HERE = Started()

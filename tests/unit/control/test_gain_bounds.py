@@ -27,7 +27,7 @@ from backend.domain.fuzzy_table import LABELS, LEAST_STEPS, RANGES, THESIS_TABLE
 from sim_device.firmware.python import law
 from tests import counts
 
-TABLES = 10_000
+TABLES = counts.of(10_000, share=50)
 BLOCKS = 20
 QUESTIONS = (
     ("speed", 1, math.inf, 0.001),
@@ -129,7 +129,7 @@ def excess(change: Change) -> float:
 def test_a_bound_is_never_below_what_the_unit_does(block: int) -> None:
     random = np.random.default_rng(block)
     blurred = 0
-    for number in range(counts.of(TABLES) // BLOCKS):
+    for number in range(TABLES // BLOCKS):
         table = hostile_table(random)
         axis, sign, distance, least = QUESTIONS[number % len(QUESTIONS)]
 
@@ -141,7 +141,7 @@ def test_a_bound_is_never_below_what_the_unit_does(block: int) -> None:
         if change.at_most > least and excess(change) > 0.0:
             blurred += 1
             assert excess(change) < BLUR_MAX, told
-    assert blurred <= 1 + counts.of(TABLES) // BLOCKS // 100
+    assert blurred <= 1 + TABLES // BLOCKS // 100
 
 
 @pytest.mark.slow

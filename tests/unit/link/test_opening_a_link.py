@@ -25,7 +25,7 @@ from backend.link.trouble import cannot_open
     ("url", "kind"),
     [
         ("sim", "simulated"),
-        ("sim:workshop?seed=3&speed=2&scenario=commute", "simulated"),
+        ("sim:workshop?seed=3&clock=virtual&scenario=commute", "simulated"),
         ("socket://127.0.0.1:9000", "socket"),
         ("/dev/ttyUSB0", "serial"),
         ("/dev/ttyUSB0?baud=921600", "serial"),

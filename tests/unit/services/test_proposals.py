@@ -161,6 +161,7 @@ def test_every_candidate_is_better_clean_and_says_all_that_it_sets(
     assert chosen(job)
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_a_candidate_s_band_and_filter_are_tried_and_come_to_what_was_proposed(
     proposals: Proposals, store: Store, ride_id: int
@@ -184,6 +185,7 @@ def test_a_candidate_s_band_and_filter_are_tried_and_come_to_what_was_proposed(
         assert one.duration_s.before == told["duration_s"]["recorded"]
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_a_battery_that_was_not_measured_is_the_twin_s_in_the_band_of_the_work(
     proposals: Proposals, store: Store

@@ -50,7 +50,7 @@ COMPILER = shutil.which("gcc") or shutil.which("clang")
 def sanitized(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The bench as a program whose every access is watched."""
     if COMPILER is None:
-        pytest.skip("no gcc or clang here")
+        pytest.fail("There is no C compiler, which `make setup` asks for.", pytrace=False)
     program = tmp_path_factory.mktemp("sanitized") / "unit"
     sources = [path for folder in FOLDERS[:4] for path in sorted((ROOT / folder).rglob("*.c"))]
     command = [COMPILER, "-std=c99", "-g", "-O1", "-ffp-contract=off", "-fno-math-errno"]

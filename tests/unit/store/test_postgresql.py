@@ -1,8 +1,7 @@
 """Goal: on PostgreSQL the store keeps, refuses and comes back as it does on SQLite.
 
-Method: a real server, in a cluster of its own; `.ci/run` sees to it that there is one, elsewhere
-these tests are skipped. Connections are ended from outside, as a restart of the database or a
-broken line does.
+Method: a real server, in a cluster of its own, of what `make test` has installed. Connections are
+ended from outside, as a restart of the database or a broken line does.
 """
 
 from __future__ import annotations
@@ -31,14 +30,10 @@ from backend.store.sql.advisory import AdvisoryLock, lock_engine
 from backend.store.sql.tables import metadata
 from backend.store.upkeep.check import check_store
 from backend.store.upkeep.rebuild import rebuild_store
-from tests.fakes import postgres
 from tests.fakes.postgres import Postgres
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(postgres.missing() is not None, reason=str(postgres.missing())),
-]
+pytestmark = pytest.mark.slow
 ROWS = 300
 # Tests look at the lock themselves, so that nothing has to be waited for.
 NEVER_S = 3600.0
