@@ -1,4 +1,4 @@
-"""Fixtures that stories and browser tests share: one real server with one simulated unit.
+"""Fixtures that stories and browser tests share: a real server, and simulated units.
 
 `pytest --unit=qemu` runs the same tests with the firmware on an emulated Cortex-M4F
 (sim_device/firmware/boards/mps2_an386) in place of the host build. `pytest --prove` runs large
@@ -8,6 +8,7 @@ counts in full (tests/counts.py).
 from __future__ import annotations
 
 import gc
+import itertools
 import os
 import sys
 from collections.abc import Iterator
@@ -18,10 +19,13 @@ from sim_device import emulator
 from tests import counts, parts
 from tests.fakes import board_rig
 from tests.fakes.new_database import new_databases_are_copied
-from tests.fakes.server import ServerProcess, SpindleServer
+from tests.fakes.server import ServerHere
 from tests.run import again, guard, started
 
 __all__ = ["new_databases_are_copied"]
+
+# Of units that tests make for themselves.
+NUMBERS = itertools.count(1)
 
 pytest_xdist_make_scheduler = parts.pytest_xdist_make_scheduler
 
@@ -76,14 +80,20 @@ def pytest_collection_finish(session: pytest.Session) -> None:
 
 
 @pytest.fixture(scope="session")
-def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
-    """`spindle serve` with one simulated unit, on a free port, in a folder of its own."""
-    running = ServerProcess(tmp_path_factory.mktemp("spindle"), ["sim:bench?seed=1"]).start()
-    yield running
-    running.stop()
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServerHere]:
+    """A server for all tests of this worker, in a folder of its own; a unit brings each test."""
+    with ServerHere(tmp_path_factory.mktemp("spindle")) as running:
+        yield running
 
 
-@pytest.fixture(scope="session")
-def device(server: SpindleServer) -> str:
-    """The id of the simulated unit, once it is ready."""
-    return server.ready_device()
+@pytest.fixture
+def device(server: ServerHere) -> Iterator[str]:
+    """The id of a simulated unit of the test's own: new, at rest, its time standing."""
+    number = next(NUMBERS)
+    url = f"sim:own{number}?seed={number}&clock=virtual&scenario=none"
+    device = str(server.ask("POST", "/devices", json={"url": url})["id"])
+    server.ready_device()
+    # Its first row.
+    server.advance(device, 0.1)
+    yield device
+    server.ask("DELETE", f"/devices/{device}")

@@ -23,6 +23,8 @@ from tests.fakes import unit_here
 Answer = TypeVar("Answer")
 
 LOOK_EVERY_S = 0.05
+# A unit takes the next configuration two seconds of its time after the one before.
+WRITES_EVERY_S = 2.0
 
 
 def eventually(
@@ -90,6 +92,17 @@ class SpindleServer:
         """Lets time pass for a unit with a virtual clock."""
         path = f"/devices/{device}/simulation/advance"
         answer: dict[str, Any] = self.ask("POST", path, json={"seconds": seconds})
+        return answer
+
+    def until_writable(self, device: str) -> None:
+        """Lets time pass until the memory of a unit with a virtual clock takes the next write."""
+        self.advance(device, WRITES_EVERY_S)
+
+    def configure(self, device: str, reason: str = "a story", **parameters: Any) -> dict[str, Any]:
+        """Writes parameters to a unit with a virtual clock."""
+        self.until_writable(device)
+        body = {"parameters": parameters, "reason": reason}
+        answer: dict[str, Any] = self.ask("PATCH", f"/devices/{device}/config", json=body)
         return answer
 
     def stand_still(self, device: str) -> None:

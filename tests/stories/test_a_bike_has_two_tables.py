@@ -6,7 +6,6 @@ gains are those of tables with one label in every cell, whose weighted average i
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -14,24 +13,16 @@ import pytest
 from backend.api.models.law import FuzzyTable
 from backend.errors import RequestRefused
 from spindle.client import Spindle, Unit
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import WRITES_EVERY_S, SpindleServer
 
 GAIN_FIRST = 0.05
 GAIN_SECOND = 0.25
 
 
 @pytest.fixture
-def unit(server: SpindleServer, device: str) -> Iterator[Unit]:
-    """A standing bike as a program drives it; it gets its configuration back."""
-    unit = Spindle(server.url).unit(device)
-    unit.stand_still()
-    before = unit.config().parameters
-    yield unit
-    unit.stand_still()
-    now = unit.config().parameters
-    changed = {name: before[name] for name in before if before[name] != now[name]}
-    if changed:
-        unit.write(changed, "put back")
+def unit(server: SpindleServer, device: str) -> Unit:
+    """A standing bike as a program drives it."""
+    return Spindle(server.url).unit(device)
 
 
 def flat(table: FuzzyTable, gain: float) -> FuzzyTable:
@@ -48,25 +39,27 @@ def flat(table: FuzzyTable, gain: float) -> FuzzyTable:
 
 
 def live_gain(unit: Unit, mode: int) -> float | None:
-    """The gain on the road in a mode, once the unit says one."""
+    """The gain on the road in a mode, after five seconds."""
     unit.simulate(
         brake=False,
         assist_mode=mode,
         rider={"kind": "constant", "torque_nm": 20.0, "cadence_rpm_max": 90.0},
         road={"grade_deg": 0.0, "wind_ms": 0.0},
     )
-    return eventually(
-        lambda: unit.snapshot().channels,
-        lambda now: now["fuzzy_gain"] is not None and now["assist_mode"] == mode,
-    )["fuzzy_gain"]
+    unit.advance(5.0)
+    now = unit.snapshot().channels
+    assert now["assist_mode"] == mode
+    return now["fuzzy_gain"]
 
 
 def test_each_mode_gets_the_gain_of_the_table_it_uses(unit: Unit) -> None:
     first, second = unit.fuzzy_table(), unit.fuzzy_table("second")
     unit.write({"mode_tables": [0, 0, 0, 0, 1]}, "boost by the second table")
+    unit.advance(WRITES_EVERY_S)
 
     change = unit.write_fuzzy_table(flat(second, GAIN_SECOND), "second", "a story")
     assert unit.fuzzy_table() == first
+    unit.advance(WRITES_EVERY_S)
     unit.write_fuzzy_table(flat(first, GAIN_FIRST), reason="a story")
 
     assert change.verified

@@ -6,29 +6,28 @@ What is fetched must agree with what was recorded live, sample by sample where b
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Iterator
+from contextlib import contextmanager
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from tests.fakes.server import ServerProcess, SpindleServer, eventually
+from tests.fakes import command
+from tests.fakes.ride_in_time import end_ride, legs, ride_on
+from tests.fakes.server import ServerHere, SpindleServer, eventually
 
 pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
 def workshop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
-    """A server with one unit in fast motion, standing."""
-    running = ServerProcess(
-        tmp_path_factory.mktemp("memory"), ["sim:logger?seed=31&speed=5&scenario=none"]
-    ).start()
-    running.ready_device(0)
-    yield running
-    running.stop()
+    """A server with one unit, standing."""
+    unit = "sim:logger?seed=31&clock=virtual&scenario=none"
+    with ServerHere(tmp_path_factory.mktemp("memory"), [unit]) as running:
+        running.ready_device(0)
+        yield running
 
 
 def logs(server: SpindleServer, device: str) -> list[dict[str, Any]]:
@@ -40,27 +39,32 @@ def closed(items: list[dict[str, Any]]) -> list[dict[str, Any]]:
     return [item for item in items if item["state"] == "closed"]
 
 
-def ride_a_bit(server: SpindleServer, device: str) -> None:
-    """Ten seconds and more of the unit's time, until the unit has closed its log."""
+def ride_a_bit(server: SpindleServer, device: str) -> dict[str, Any]:
+    """A quarter of a minute, until the unit has closed its log; the ride as the server has it."""
     before = len(closed(logs(server, device)))
-    rider = {"kind": "legs", "torque_nm": 25.0, "cadence_rpm_max": 80.0}
-    server.simulate(device, scenario=None, brake=False, rider=rider)
-    eventually(
-        lambda: logs(server, device),
-        lambda items: any(i["state"] == "recording" and i["duration_s"] > 12 for i in items),
-    )
-    server.simulate(device, scenario=None, brake=True, rider={"kind": "off"})
-    eventually(lambda: closed(logs(server, device)), lambda items: len(items) > before)
+    ride_on(server, device, 15.0, rider=legs(cadence_rpm_max=80.0))
+    ride = end_ride(server, device)
+    assert len(closed(logs(server, device))) == before + 1
+    return ride
+
+
+@contextmanager
+def time_goes_by(server: SpindleServer, device: str) -> Iterator[None]:
+    """The unit reads and erases its memory in time of its own, which then passes by itself."""
+    server.simulate(device, clock="real")
+    yield
+    server.simulate(device, clock="virtual")
 
 
 def fetched(server: SpindleServer, device: str, log_id: int) -> dict[str, Any]:
     path = f"/devices/{device}/logs/{log_id}/download"
-    begun = server.client.post(path)
-    assert begun.status_code == 202
-    assert begun.headers["location"].endswith(path)
-    done: dict[str, Any] = eventually(
-        lambda: server.get(path), lambda seen: seen["state"] in ("done", "failed")
-    )
+    with time_goes_by(server, device):
+        begun = server.client.post(path)
+        assert begun.status_code == 202
+        assert begun.headers["location"].endswith(path)
+        done: dict[str, Any] = eventually(
+            lambda: server.get(path), lambda seen: seen["state"] in ("done", "failed")
+        )
     assert done["state"] == "done", done
     return done
 
@@ -69,11 +73,7 @@ def test_a_ride_that_was_recorded_live_is_found_to_be_the_same_and_not_stored_tw
     workshop: SpindleServer,
 ) -> None:
     device = workshop.ready_device(0)
-    ride_a_bit(workshop, device)
-    ride = eventually(
-        lambda: workshop.get("/rides")["items"],
-        lambda items: items and all(item["state"] == "done" for item in items),
-    )[0]
+    ride = ride_a_bit(workshop, device)
     log = closed(logs(workshop, device))[-1]
     assert log["confirmed"] is False
     assert abs(log["duration_s"] - ride["summary"]["duration_s"]) < 5.0
@@ -94,15 +94,12 @@ def test_a_ride_nobody_watched_comes_from_the_unit_s_log_with_what_it_was_made_w
     tmp_path: Path,
 ) -> None:
     flash = tmp_path / "flash"
-    unit = f"sim:alone?seed=32&speed=5&scenario=none&flash={flash}"
-    first = ServerProcess(tmp_path / "first", [unit]).start()
-    device = first.ready_device(0)
-    ride_a_bit(first, device)
-    eventually(lambda: Path(f"{flash}.log").stat().st_size)
-    first.stop()
+    unit = f"sim:alone?seed=32&clock=virtual&scenario=none&flash={flash}"
+    with ServerHere(tmp_path / "first", [unit]) as first:
+        device = first.ready_device(0)
+        ride_a_bit(first, device)
 
-    second = ServerProcess(tmp_path / "second", [unit]).start()
-    try:
+    with ServerHere(tmp_path / "second", [unit]) as second:
         device = second.ready_device(0)
         waiting = closed(logs(second, device))
         assert waiting
@@ -130,8 +127,6 @@ def test_a_ride_nobody_watched_comes_from_the_unit_s_log_with_what_it_was_made_w
         again = fetched(second, device, waiting[-1]["log_id"])
         assert again["duplicate_of"] == ride["id"]
         assert len(second.get("/rides")["items"]) == 1
-    finally:
-        second.stop()
 
 
 def test_what_cannot_be_fetched_is_refused_with_the_reason(workshop: SpindleServer) -> None:
@@ -151,14 +146,14 @@ def test_the_command_lists_and_fetches(workshop: SpindleServer) -> None:
     newest = closed(logs(workshop, device))[-1]["log_id"]
 
     def spindle(*words: str) -> str:
-        command = [sys.executable, "-m", "backend.cli", *words, "--server", workshop.url]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        done = command.spindle(workshop, *words)
         assert done.returncode == 0, done.stderr
         return done.stdout
 
     assert str(newest) in spindle("device", "logs")
     refused = workshop.client.delete(f"/devices/{device}/logs/{newest}")
     assert (refused.status_code, refused.json()["code"]) == (409, "not_confirmed")
-    assert "ride" in spindle("device", "download", str(newest))
-    assert "erased" in spindle("device", "erase", str(newest))
+    with time_goes_by(workshop, device):
+        assert "ride" in spindle("device", "download", str(newest))
+        assert "erased" in spindle("device", "erase", str(newest))
     assert newest not in [log["log_id"] for log in logs(workshop, device)]

@@ -1,7 +1,7 @@
 """Goal: a shell finds settings for a wish on a ride, tries them on it, and sees what rides became.
 
-Method: `spindle serve` with a simulated unit ten times as fast as real, one ride of a minute and a
-half in a mode that its table rules, and the command as a process of its own.
+Method: a simulated unit in virtual time, one ride of a minute and a half from a standstill in a
+mode that its table rules, and the command.
 """
 
 from __future__ import annotations
@@ -12,37 +12,28 @@ from pathlib import Path
 
 import pytest
 
-from tests.fakes.server import ServerProcess, SpindleServer, eventually
-from tests.stories.test_the_command_says_the_same import spindle
+from tests.fakes.command import spindle
+from tests.fakes.ride_in_time import end_ride, ride_on
+from tests.fakes.server import ServerHere, SpindleServer
 
 pytestmark = pytest.mark.slow
-
-ROWS = 9000
 
 
 @pytest.fixture(scope="module")
 def desk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
-    running = ServerProcess(tmp_path_factory.mktemp("wish"), ["sim:wish?seed=5&speed=10"]).start()
-    yield running
-    running.stop()
+    unit = "sim:wish?seed=5&clock=virtual&scenario=none"
+    with ServerHere(tmp_path_factory.mktemp("wish"), [unit]) as running:
+        yield running
 
 
 @pytest.fixture(scope="module")
 def ride(desk: SpindleServer) -> str:
     """The number of a recorded ride."""
     device = desk.ready_device()
-    legs = {"kind": "legs", "torque_nm": 25.0, "cadence_rpm_max": 90.0}
+    ride_on(desk, device, 10.0)
     # Uphill, so that the motor has work that a twin can be held to.
-    desk.simulate(device, brake=False, assist_mode=3, rider=legs, road={"grade_deg": 1.0})
-    eventually(
-        lambda: desk.get("/rides")["items"],
-        lambda rides: rides and rides[0]["row_count"] > ROWS,
-    )
-    desk.stand_still(device)
-    (done,) = eventually(
-        lambda: desk.get("/rides")["items"], lambda rides: rides[0]["state"] == "done"
-    )
-    return str(done["id"])
+    ride_on(desk, device, 85.0, road={"grade_deg": 1.0})
+    return str(end_ride(desk, device)["id"])
 
 
 def test_settings_for_a_wish_are_found_kept_and_tried_and_nothing_is_written(

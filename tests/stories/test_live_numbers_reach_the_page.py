@@ -21,7 +21,16 @@ import numpy as np
 import pytest
 from websockets.sync.client import ClientConnection, connect
 
-from tests.fakes.server import PATIENCE_S, SpindleServer
+from tests.fakes.server import PATIENCE_S, ServerProcess, SpindleServer
+
+
+@pytest.fixture(scope="module")
+def device(server: SpindleServer) -> Iterator[str]:
+    """A unit whose clock is real: what it tells comes by itself."""
+    live = str(server.ask("POST", "/devices", json={"url": "sim:live?seed=76"})["id"])
+    server.ready_device()
+    yield live
+    server.ask("DELETE", f"/devices/{live}")
 
 
 @contextmanager
@@ -118,8 +127,9 @@ def test_a_unit_that_is_let_go_is_told_and_comes_back_when_added(
     assert guest["id"] not in [item["id"] for item in server.get("/devices")["items"]]
 
 
-def test_a_simulator_that_dies_is_told_and_the_unit_comes_back(server: SpindleServer) -> None:
-    guest = server.ask("POST", "/devices", json={"url": "sim:fragile?seed=78&speed=5"})["id"]
+def test_a_simulator_that_dies_is_told_and_the_unit_comes_back(tmp_path: Path) -> None:
+    server = ServerProcess(tmp_path, ["sim:fragile?seed=78"]).start()
+    guest = server.ready_device()
     states = []
 
     with live(server, guest) as socket:
@@ -129,7 +139,7 @@ def test_a_simulator_that_dies_is_told_and_the_unit_comes_back(server: SpindleSe
             states.append(next_text(socket, "state")["state"])
         after = next_rows(socket, 3)
 
-    server.ask("DELETE", f"/devices/{guest}")
+    server.stop()
     assert "lost" in states or "connecting" in states
     assert len(after) == 3
 

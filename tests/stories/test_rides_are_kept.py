@@ -1,8 +1,8 @@
 """Goal: a ride records itself, ends itself, loses nothing, and survives a server that is killed.
 
-Simulated units at five times real time: the recorder goes by the unit's own clock, so the rides
-are the same, only sooner. Figures are checked against physics (distance is the integral of speed,
-energy of power), not against the code that made the summary.
+Simulated units in virtual time: the recorder goes by the unit's own clock. Figures are checked
+against physics (distance is the integral of speed, energy of power), not against the code that made
+the summary.
 """
 
 from __future__ import annotations
@@ -17,59 +17,18 @@ import httpx
 import numpy as np
 import pytest
 
-from tests.fakes.server import ServerProcess, SpindleServer, eventually
+from tests.fakes.ride_in_time import recorded_ride, ride_on, rides_of
+from tests.fakes.server import ServerHere, ServerProcess, SpindleServer, eventually
 
-QUICK = ["sim:one?seed=11&speed=5", "sim:two?seed=12&speed=5"]
+UNITS = [f"sim:{name}?clock=virtual&scenario=none" for name in ("one", "two")]
 
 
 @pytest.fixture(scope="module")
 def workshop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
-    """A server with two units side by side, in fast motion."""
-    running = ServerProcess(tmp_path_factory.mktemp("workshop"), QUICK).start()
-    running.all_ready(len(QUICK))
-    yield running
-    running.stop()
-
-
-def begin_to_ride(server: SpindleServer, device: str, torque_nm: float = 25.0) -> None:
-    server.simulate(
-        device,
-        scenario=None,
-        brake=False,
-        assist_mode=3,
-        rider={"kind": "legs", "torque_nm": torque_nm, "cadence_rpm_max": 90.0},
-    )
-
-
-def stop_riding(server: SpindleServer, device: str) -> None:
-    server.simulate(device, scenario=None, rider={"kind": "off"}, brake=True)
-
-
-def rides_of(server: SpindleServer, device: str) -> list[dict[str, Any]]:
-    rides: list[dict[str, Any]] = server.get("/rides")["items"]
-    return [ride for ride in rides if ride["device"]["device_id"] == device]
-
-
-def states(rides: list[dict[str, Any]]) -> set[str]:
-    return {ride["state"] for ride in rides}
-
-
-def recorded_ride(server: SpindleServer, device: str) -> dict[str, Any]:
-    """Rides for half a minute of the unit's time and waits for the ride to end itself."""
-    stop_riding(server, device)
-    eventually(lambda: rides_of(server, device), lambda all_: "live" not in states(all_))
-    before = {ride["id"] for ride in rides_of(server, device)}
-    begin_to_ride(server, device)
-    eventually(
-        lambda: [ride for ride in rides_of(server, device) if ride["id"] not in before],
-        lambda found: found and found[0]["row_count"] > 3000,
-    )
-    stop_riding(server, device)
-    ended = eventually(
-        lambda: [ride for ride in rides_of(server, device) if ride["id"] not in before],
-        lambda found: found and found[0]["state"] == "done",
-    )
-    return ended[0]
+    """A server with two units side by side."""
+    with ServerHere(tmp_path_factory.mktemp("workshop"), UNITS) as running:
+        running.all_ready(len(UNITS))
+        yield running
 
 
 @pytest.fixture(scope="module")
@@ -289,51 +248,40 @@ def test_a_ride_says_where_in_the_table_it_was(
 
 def test_two_units_are_two_bikes(workshop: SpindleServer) -> None:
     one, two = workshop.ready_device(0), workshop.ready_device(1)
-    workshop.stand_still(one)
-    workshop.stand_still(two)
 
-    workshop.ask("PATCH", f"/devices/{one}/config", json={"parameters": {"torque_filter_s": 0.31}})
-    begin_to_ride(workshop, one)
-    eventually(
-        lambda: workshop.get(f"/devices/{one}/snapshot")["channels"]["speed_kmh"],
-        lambda speed_kmh: speed_kmh > 5.0,
-    )
+    workshop.configure(one, torque_filter_s=0.31)
+    ride_on(workshop, one, 5.0)
 
     other = workshop.get(f"/devices/{two}/config")["parameters"]
+    speeds = [workshop.get(f"/devices/{unit}/snapshot")["channels"]["speed_kmh"]
+              for unit in (one, two)]  # fmt: skip
     assert one != two
     assert other["torque_filter_s"] == pytest.approx(0.5)
-    assert workshop.get(f"/devices/{two}/snapshot")["channels"]["speed_kmh"] < 0.1
-    stop_riding(workshop, one)
+    assert speeds[0] > 5.0
+    assert speeds[1] == 0.0
 
 
-def test_a_killed_server_finishes_the_ride_at_its_next_start(tmp_path: Path) -> None:
-    server = ServerProcess(tmp_path / "data", QUICK[:1]).start()
+def test_a_killed_server_leaves_no_simulator_and_finishes_the_ride_at_its_next_start(
+    tmp_path: Path,
+) -> None:
+    server = ServerProcess(tmp_path / "data", UNITS[:1]).start()
     device = server.ready_device()
-    begin_to_ride(server, device)
+    children = children_of(server.pid)
+    ride_on(server, device, 12.0)
     live = eventually(
         lambda: rides_of(server, device), lambda found: found and found[0]["row_count"] > 1000
     )[0]
 
     server.kill()
-    again = ServerProcess(tmp_path / "data", []).start()
-    ride = again.get(f"/rides/{live['id']}")
-    again.stop()
 
+    assert children
+    eventually(lambda: [pid for pid in children if is_running(pid)], lambda left: not left)
+    with ServerHere(tmp_path / "data") as again:
+        ride = again.get(f"/rides/{live['id']}")
     assert ride["state"] == "done"
     assert ride["row_count"] >= live["row_count"]
     assert ride["completeness"] == 1.0
     assert ride["summary"]["distance_km"] > 0.0
-
-
-def test_a_killed_server_leaves_no_simulator_behind(tmp_path: Path) -> None:
-    server = ServerProcess(tmp_path / "data").start()
-    server.ready_device()
-    children = children_of(server.pid)
-
-    server.kill()
-
-    assert children
-    eventually(lambda: [pid for pid in children if is_running(pid)], lambda left: not left)
 
 
 def children_of(pid: int) -> list[int]:

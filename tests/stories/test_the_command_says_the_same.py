@@ -16,19 +16,24 @@ from pathlib import Path
 import pytest
 
 from firmware_protocol.parameters import default_config
+from tests.fakes.command import ROOT, spindle, spindle_process
 from tests.fakes.fit_file import fit_ride
 from tests.fakes.server import SpindleServer, eventually
 
-ROOT = Path(__file__).resolve().parents[2]
-
-
-def spindle(server: SpindleServer | None, *words: str | Path) -> subprocess.CompletedProcess[str]:
-    """Runs the command against this server."""
-    at = ["--server", server.url] if server is not None else []
-    return subprocess.run(
-        [sys.executable, "-m", "backend.cli", *map(str, words), *at],
-        cwd=ROOT, capture_output=True, text=True, timeout=60, check=False,
-    )  # fmt: skip
+WRONG = [
+    ["device"],
+    ["ride", "export", "not-a-number"],
+    ["surface", "--speeds", "0:25"],
+    ["device", "set", "no-equals-sign"],
+    ["device", "restore", "no-such-file.json"],
+    ["serve", "--port", "99999"],
+    ["fly"],
+    ["scenario", "run", "moon"],
+    ["scenario", "run", "kinematics", "--set", "speed_kmh"],
+    ["scenario", "run", "kinematics", "--set", "speed_kmh=fast"],
+    ["scenario", "run", "kinematics", "--set", "colour=red"],
+    ["sim", "--tcp", "nowhere"],
+]
 
 
 def test_a_unit_is_listed_and_shown(server: SpindleServer, device: str) -> None:
@@ -44,12 +49,12 @@ def test_a_unit_is_listed_and_shown(server: SpindleServer, device: str) -> None:
 def test_a_parameter_is_set_backed_up_compared_and_restored(
     server: SpindleServer, device: str, tmp_path: Path
 ) -> None:
-    server.stand_still(device)
     kept = tmp_path / "kept.json"
 
     backup = spindle(server, "device", "backup", "--output", kept)
     change = spindle(server, "device", "set", "torque_filter_s=0.7", "--reason", "a try")
     differing = spindle(server, "device", "diff", kept, "--json")
+    server.until_writable(device)
     restore = spindle(server, "device", "restore", kept)
     value = spindle(server, "device", "get", "torque_filter_s", "--json")
     before = spindle(server, "device", "get", "torque_filter_s", "--bank", "previous", "--json")
@@ -70,7 +75,6 @@ def test_a_parameter_is_set_backed_up_compared_and_restored(
 def test_a_preset_is_a_backup_that_comes_with_spindle(
     server: SpindleServer, device: str, tmp_path: Path
 ) -> None:
-    server.stand_still(device)
     kept = tmp_path / "kept.json"
     spindle(server, "device", "backup", "--output", kept)
 
@@ -78,6 +82,7 @@ def test_a_preset_is_a_backup_that_comes_with_spindle(
     differing = spindle(server, "device", "diff", "thesis", "--json")
     taken = spindle(server, "device", "restore", "thesis")
     band = spindle(server, "device", "get", "assist_cutoff_band_kmh", "--json")
+    server.until_writable(device)
     back = spindle(server, "device", "restore", kept)
 
     assert "thesis" in listed.stdout
@@ -90,24 +95,19 @@ def test_a_preset_is_a_backup_that_comes_with_spindle(
 def test_a_table_says_that_it_moves_the_second_one_s_points(
     server: SpindleServer, device: str
 ) -> None:
-    server.stand_still(device)
-    before = server.get(f"/devices/{device}/config")["parameters"]
     spindle(server, "device", "set", "mode_tables=[0,0,0,0,1]")
+    server.until_writable(device)
 
     taken = spindle(server, "device", "restore", "even")
     again = spindle(server, "device", "restore", "even")
-    spindle(server, "device", "restore", "thesis-table")
-    spindle(server, "device", "set", f"mode_tables={json.dumps(before['mode_tables'])}")
 
     assert "The second table, which a mode uses, shares its points" in taken.stdout
     assert again.stdout == "Nothing to restore.\n"
-    assert server.get(f"/devices/{device}/config")["parameters"] == before
 
 
 def test_a_table_that_comes_with_spindle_changes_the_table_alone(
     server: SpindleServer, device: str
 ) -> None:
-    server.stand_still(device)
     before = server.get(f"/devices/{device}/config")["parameters"]
 
     listed = spindle(server, "device", "presets", "--json")
@@ -115,6 +115,7 @@ def test_a_table_that_comes_with_spindle_changes_the_table_alone(
     taken = spindle(server, "device", "restore", "strong-start")
     now = server.get(f"/devices/{device}/config")["parameters"]
     none_left = spindle(server, "device", "diff", "strong-start", "--json")
+    server.until_writable(device)
     spindle(server, "device", "restore", "thesis-table")
 
     kinds = {item["name"]: item["kind"] for item in json.loads(listed.stdout)["items"]}
@@ -144,7 +145,6 @@ def test_a_table_that_comes_with_spindle_changes_the_table_alone(
 def test_a_file_for_another_unit_changes_nothing_and_says_why(
     server: SpindleServer, device: str, tmp_path: Path, change: dict[str, object], says: str
 ) -> None:
-    server.stand_still(device)
     kept = tmp_path / "kept.json"
     spindle(server, "device", "backup", "--output", kept)
     kept.write_text(json.dumps(json.loads(kept.read_text()) | change))
@@ -160,7 +160,6 @@ def test_a_file_for_another_unit_changes_nothing_and_says_why(
 def test_a_backup_of_an_older_unit_is_restored_and_says_what_became_of_the_wheel(
     server: SpindleServer, device: str, tmp_path: Path
 ) -> None:
-    server.stand_still(device)
     kept = tmp_path / "old.json"
     kept.write_text(json.dumps({"parameters": {"wheel_radius_m": 0.34, "gear_ratio": 40.34}}))
 
@@ -174,8 +173,6 @@ def test_a_backup_of_an_older_unit_is_restored_and_says_what_became_of_the_wheel
 
 
 def test_a_refused_value_is_named_and_ends_with_one(server: SpindleServer, device: str) -> None:
-    server.stand_still(device)
-
     refused = spindle(server, "device", "set", "assist_cutoff_kmh=60")
 
     assert refused.returncode == 1
@@ -287,33 +284,20 @@ def test_no_server_is_said_so_with_what_to_do() -> None:
     assert "spindle serve" in result.stderr
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        ["device"],
-        ["ride", "export", "not-a-number"],
-        ["surface", "--speeds", "0:25"],
-        ["device", "set", "no-equals-sign"],
-        ["device", "restore", "no-such-file.json"],
-        ["serve", "--port", "99999"],
-        ["fly"],
-        ["scenario", "run", "moon"],
-        ["scenario", "run", "kinematics", "--set", "speed_kmh"],
-        ["scenario", "run", "kinematics", "--set", "speed_kmh=fast"],
-        ["scenario", "run", "kinematics", "--set", "colour=red"],
-        ["sim", "--tcp", "nowhere"],
-    ],
-)
-def test_wrong_usage_ends_with_two(server: SpindleServer, words: list[str]) -> None:
-    at = None if words[0] in ("serve", "fly", "scenario", "sim") else server
-    result = spindle(at, *words)
+def test_wrong_usage_ends_with_two(
+    server: SpindleServer, device: str, subtests: pytest.Subtests
+) -> None:
+    for words in WRONG:
+        at = None if words[0] in ("serve", "fly", "scenario", "sim") else server
+        with subtests.test(words=words):
+            result = spindle(at, *words)
 
-    assert result.returncode == 2, result.stderr
-    assert result.stderr
-    assert "sim_device" not in result.stderr
+            assert result.returncode == 2, result.stderr
+            assert result.stderr
+            assert "sim_device" not in result.stderr
 
 
-def test_values_are_tried_and_wear_is_told(server: SpindleServer) -> None:
+def test_values_are_tried_and_wear_is_told(server: SpindleServer, device: str) -> None:
     tried = spindle(server, "device", "try", "pedal_stop_ms=222", "--seconds", "200", "--json")
     told = spindle(server, "device", "try")
     ended = spindle(server, "device", "try", "--end")
@@ -330,9 +314,12 @@ def test_values_are_tried_and_wear_is_told(server: SpindleServer) -> None:
 
 def test_scenarios_run_without_a_server() -> None:
     listed = spindle(None, "scenario", "list")
-    run = spindle(None, "scenario", "run", "kinematics", "--json", "--set", "speed_kmh=25")
+    run = spindle_process("scenario", "run", "kinematics", "--json", "--set", "speed_kmh=25")
+    wrong = spindle_process("scenario", "run", "moon")
 
     assert "slope" in listed.stdout
+    assert (run.returncode, wrong.returncode) == (0, 2)
+    assert wrong.stderr.startswith("spindle: ")
     # 25 km/h on a wheel of 0.33 m radius: 25 / 3.6 / (2 pi 0.33) * 60 turns a minute.
     assert json.loads(run.stdout)["wheel_rpm"] == pytest.approx(200.95, rel=0.01)
 

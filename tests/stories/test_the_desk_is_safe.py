@@ -20,19 +20,10 @@ from tests.fakes.server import SpindleServer
 def test_it_listens_on_loopback_only(server: SpindleServer) -> None:
     port = urlsplit(server.url).port
     assert urlsplit(server.url).hostname == "127.0.0.1"
-    other = next(
-        (
-            info[4][0]
-            for info in socket.getaddrinfo(socket.gethostname(), port, socket.AF_INET)
-            if not str(info[4][0]).startswith("127.")
-        ),
-        None,
-    )
-    if other is None:
-        pytest.skip("this machine has no other address")
 
-    with pytest.raises(OSError, match=r"refused|timed out|unreachable"):
-        socket.create_connection((other, port), timeout=2.0).close()
+    # Whoever listens on every address of a machine listens on this one of its loopback, too.
+    with pytest.raises(ConnectionRefusedError):
+        socket.create_connection(("127.0.0.2", port), timeout=2.0).close()
 
 
 def test_a_foreign_host_or_origin_gets_nothing(server: SpindleServer) -> None:
@@ -65,8 +56,8 @@ def test_a_big_body_is_refused_before_it_is_read(server: SpindleServer) -> None:
     assert answer.startswith(b"HTTP/1.1 413")
 
 
-def test_numbers_that_are_none_are_refused(server: SpindleServer) -> None:
-    table = server.get(f"/devices/{server.ready_device()}/fuzzy-table")
+def test_numbers_that_are_none_are_refused(server: SpindleServer, device: str) -> None:
+    table = server.get(f"/devices/{device}/fuzzy-table")
     for text in ("NaN", "Infinity", "-Infinity", "1e999"):
         body = (
             httpx.Request("POST", server.url, json={"fuzzy_table": table, "points": [[0.5, 0.25]]})
@@ -134,8 +125,6 @@ def test_what_makes_no_sense_is_refused_and_not_our_fault(
 
 
 def test_true_is_no_number(server: SpindleServer, device: str) -> None:
-    server.stand_still(device)
-
     response = server.client.patch(
         f"/devices/{device}/config", json={"parameters": {"torque_filter_s": True}}
     )

@@ -7,33 +7,17 @@ Method: the command, in this process, against a whole server with a simulated un
 from __future__ import annotations
 
 import json
-import subprocess
+from functools import partial
 from pathlib import Path
 
-import pytest
-
-from backend.cli import main
+from tests.fakes import command
 from tests.fakes.server import SpindleServer
 
 
-class Shell:
-    """Runs commands in this process, which costs no start of an interpreter."""
-
-    def __init__(self, server: SpindleServer, capture: pytest.CaptureFixture[str]) -> None:
-        self.server, self.capture = server, capture
-
-    def __call__(self, *words: str | Path) -> subprocess.CompletedProcess[str]:
-        arguments = [*map(str, words), "--server", self.server.url]
-        code = main(arguments)
-        said = self.capture.readouterr()
-        return subprocess.CompletedProcess(arguments, code, said.out, said.err)
-
-
 def test_a_dealer_keeps_compares_and_hands_on(
-    server: SpindleServer, device: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    server: SpindleServer, device: str, tmp_path: Path
 ) -> None:
-    spindle = Shell(server, capsys)
-    server.stand_still(device)
+    spindle = partial(command.spindle, server)
     before = server.get(f"/devices/{device}/config")
     document, fis = tmp_path / "mine.json", tmp_path / "mine.fis"
 
@@ -46,6 +30,7 @@ def test_a_dealer_keeps_compares_and_hands_on(
     newest = server.get(f"/devices/{device}/config/revisions")["items"][0]
     was = spindle("library", "compare", row["id"], f"unit@{newest['seq'] - 1}", "--json")
     told = spindle("library", "compare", "even", "unit")
+    server.until_writable(device)
     spindle("device", "set", "torque_filter_s=0.5")
 
     assert kept.returncode == now.returncode == was.returncode == told.returncode == 0, now.stderr

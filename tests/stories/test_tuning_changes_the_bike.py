@@ -1,37 +1,23 @@
 """Goal: what a mechanic writes is what the unit does, and what must not be written is not.
 
-The whole way is real: HTTP, the reader thread, the protocol on a pseudo-terminal, the unit's C.
+The whole way is real: HTTP, the reader thread, the protocol, the unit's C.
 Expected gains are the thesis' table 4-2 at its own points, where the centroid is a known number.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from urllib.parse import quote
 
 import pytest
 
-from tests.fakes.server import SpindleServer, eventually
+from tests.fakes.server import SpindleServer
 
 LABELS = ["NB", "NS", "ZO", "PS", "PB"]
 
 
-@pytest.fixture(autouse=True)
-def bike_as_it_was(server: SpindleServer, device: str) -> Iterator[None]:
-    """Each story leaves the unit with the configuration it found."""
-    before = server.get(f"/devices/{device}/config")["parameters"]
-    server.stand_still(device)
-    yield
-    server.stand_still(device)
-    now = server.get(f"/devices/{device}/config")["parameters"]
-    changed = {name: before[name] for name in before if before[name] != now[name]}
-    if changed:
-        body = {"parameters": changed, "reason": "put back"}
-        server.ask("PATCH", f"/devices/{device}/config", json=body)
-
-
-def ride_along(server: SpindleServer, device: str) -> None:
-    """A rider who pushes steadily in the fuzzy mode, on a flat road."""
+def ride_along(server: SpindleServer, device: str) -> dict[str, float]:
+    """A rider pushes steadily in the fuzzy mode, on a flat road; what the unit tells after five
+    seconds."""
     server.simulate(
         device,
         brake=False,
@@ -39,12 +25,9 @@ def ride_along(server: SpindleServer, device: str) -> None:
         rider={"kind": "constant", "torque_nm": 20.0, "cadence_rpm_max": 90.0},
         road={"grade_deg": 0.0, "wind_ms": 0.0},
     )
-
-
-def live_gain(server: SpindleServer, device: str) -> float | None:
-    channels = server.get(f"/devices/{device}/snapshot")["channels"]
-    gain: float | None = channels["fuzzy_gain"]
-    return gain
+    server.advance(device, 5.0)
+    channels: dict[str, float] = server.get(f"/devices/{device}/snapshot")["channels"]
+    return channels
 
 
 def test_a_table_of_one_label_gives_that_gain_on_the_road(
@@ -63,25 +46,19 @@ def test_a_table_of_one_label_gives_that_gain_on_the_road(
     assert change["verified"] is True
     assert change["state"] == "committed"
     assert server.get(f"/devices/{device}/fuzzy-table") == table
-    ride_along(server, device)
-    gain = eventually(lambda: live_gain(server, device), lambda gain: gain is not None)
-    assert gain == pytest.approx(0.25, abs=0.001)
+    assert ride_along(server, device)["fuzzy_gain"] == pytest.approx(0.25, abs=0.001)
 
 
 def test_the_live_gain_is_the_one_the_surface_promised(server: SpindleServer, device: str) -> None:
     table = server.get(f"/devices/{device}/fuzzy-table")
-    ride_along(server, device)
 
-    def gain_and_promise() -> tuple[float | None, float]:
-        now = server.get(f"/devices/{device}/snapshot")["channels"]
-        point = [now["speed_kmh"] or 0.0, max(0.0, now["torque_rate"] or 0.0)]
-        body = {"fuzzy_table": table, "points": [point]}
-        return now["fuzzy_gain"], server.ask("POST", "/surface/points", json=body)["gain"][0]
-
-    gain, promised = eventually(gain_and_promise, lambda pair: pair[0] is not None)
+    now = ride_along(server, device)
+    point = [now["speed_kmh"], max(0.0, now["torque_rate"])]
+    body = {"fuzzy_table": table, "points": [point]}
+    promised = server.ask("POST", "/surface/points", json=body)["gain"][0]
 
     # Counts of the wire: 0.01 km/h and 0.0005 in rate; the surface's steepest slope is 0.44.
-    assert gain == pytest.approx(promised, abs=0.002)
+    assert now["fuzzy_gain"] == pytest.approx(promised, abs=0.002)
 
 
 def test_values_out_of_range_are_named_one_by_one_and_change_nothing(
@@ -125,11 +102,7 @@ def test_a_change_made_for_an_older_configuration_is_refused(
 
 def test_nothing_is_written_while_the_bike_moves(server: SpindleServer, device: str) -> None:
     before = server.get(f"/devices/{device}/config")
-    ride_along(server, device)
-    eventually(
-        lambda: server.get(f"/devices/{device}/snapshot")["channels"]["speed_kmh"],
-        lambda speed_kmh: speed_kmh > 3.0,
-    )
+    assert ride_along(server, device)["speed_kmh"] > 3.0
 
     response = server.client.patch(
         f"/devices/{device}/config", json={"parameters": {"torque_filter_s": 0.4}}
@@ -156,6 +129,7 @@ def test_raw_counts_become_newton_metres_by_the_calibration_that_was_written(
     calibration["sensor_offset_counts"] += 100.0
 
     server.ask("PUT", f"/devices/{device}/calibration", json=calibration)
+    server.advance(device, 1.0)
     now = server.get(f"/devices/{device}/snapshot")["channels"]
 
     gain, offset = calibration["sensor_gain_nm_per_count"], calibration["sensor_offset_counts"]

@@ -1,6 +1,6 @@
 """Goal: whoever changed a setting between two rides sees both side by side, and what was changed.
 
-Method: a simulated unit in fast motion is ridden twice, the second time with another rule; the
+Method: a simulated unit in virtual time is ridden twice, the second time with another rule; the
 page's requests and the shell's command are asked. Figures are judged by each ride's own summary,
 settings by what was written to the unit.
 """
@@ -8,35 +8,31 @@ settings by what was written to the unit.
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
 
-from tests.fakes.server import ServerProcess, SpindleServer
-from tests.stories.test_rides_are_kept import recorded_ride
+from tests.fakes.command import Ran, spindle
+from tests.fakes.ride_in_time import recorded_ride
+from tests.fakes.server import ServerHere, SpindleServer
 
-ROOT = Path(__file__).resolve().parents[2]
 CELL = (1, 2)
 
 
 @pytest.fixture(scope="module")
 def pair(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[SpindleServer, list[int]]]:
     """A server, and its rides before and after the change."""
-    server = ServerProcess(tmp_path_factory.mktemp("pair"), ["sim:one?seed=11&speed=5"]).start()
-    device = server.ready_device()
-    rides = [recorded_ride(server, device)["id"]]
-    rules = server.get(f"/devices/{device}/config")["parameters"]["fuzzy_rules"]
-    row, column = CELL
-    rules[row][column] = "PB" if rules[row][column] != "PB" else "PS"
-    body = {"parameters": {"fuzzy_rules": rules, "torque_filter_s": 0.7}, "reason": "for the hill"}
-    server.ask("PATCH", f"/devices/{device}/config", json=body)
-    rides.append(recorded_ride(server, device)["id"])
-    yield server, rides
-    server.stop()
+    unit = "sim:one?seed=11&clock=virtual&scenario=none"
+    with ServerHere(tmp_path_factory.mktemp("pair"), [unit]) as server:
+        device = server.ready_device()
+        rides = [recorded_ride(server, device)["id"]]
+        rules = server.get(f"/devices/{device}/config")["parameters"]["fuzzy_rules"]
+        row, column = CELL
+        rules[row][column] = "PB" if rules[row][column] != "PB" else "PS"
+        server.configure(device, "for the hill", fuzzy_rules=rules, torque_filter_s=0.7)
+        rides.append(recorded_ride(server, device)["id"])
+        yield server, rides
 
 
 def asked(pair: tuple[SpindleServer, list[int]], what: str = "", **params: Any) -> dict[str, Any]:
@@ -100,12 +96,8 @@ def test_what_is_no_ride_or_no_window_is_refused(pair: tuple[SpindleServer, list
 def test_a_shell_says_the_same(pair: tuple[SpindleServer, list[int]]) -> None:
     server, rides = pair
 
-    def compare(*words: str) -> subprocess.CompletedProcess[str]:
-        command = ["ride", "compare", *map(str, rides), *words, "--server", server.url]
-        return subprocess.run(
-            [sys.executable, "-m", "backend.cli", *command],
-            cwd=ROOT, capture_output=True, text=True, timeout=60, check=False,
-        )  # fmt: skip
+    def compare(*words: str) -> Ran:
+        return spindle(server, "ride", "compare", *map(str, rides), *words)
 
     told, along, parted = (
         compare("--json"),
