@@ -155,7 +155,7 @@ class ServerHere(SpindleServer):
                 thread.join()
 
             opening.callback(end)
-            self.url = f"http://127.0.0.1:{port.getsockname()[1]}"
+            self.url = "http://{}:{}".format(*port.getsockname())
             self.client = opening.enter_context(api_client(self.url))
             self._closing = opening.pop_all()
         return self

@@ -13,8 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from backend.device.driver import LinkOpener
-from backend.errors import LinkError
-from backend.link import Opener
+from backend.link import Link, Opener
 from backend.link.base import READ_BYTES_MAX
 from backend.link.simulated import SimulatedAddress
 from sim_device.__main__ import command_line, host_unit
@@ -22,9 +21,15 @@ from sim_device.emulator import BOARD_VARIABLE
 from sim_device.lockstep import US_PER_S
 from sim_device.simulator import PIECE_US, Pace, save
 
+# Of PIECE_US, in one read: while virtual time passes, the host hears of half a second at once.
+PIECES_MAX = 5
+
 
 class UnitHere:
-    """A link whose far end is a simulated unit; arguments as of backend.link.Opener."""
+    """A link whose far end is a simulated unit; arguments as of backend.link.Opener.
+
+    Raises SystemExit for a url whose words the simulator does not take.
+    """
 
     def __init__(self, url: str, flash_folder: Path) -> None:
         address = SimulatedAddress.parse(url)
@@ -33,10 +38,7 @@ class UnitHere:
             address = replace(address, flash=str(flash_folder / address.memory_name))
         program_words = 3
         words = address.command(Path(os.devnull))[program_words:]
-        try:
-            self._unit, self._flash, self._log = host_unit(command_line().parse_args(words))
-        except SystemExit:
-            raise LinkError(f"{url}: the simulator does not take this.") from None
+        self._unit, self._flash, self._log = host_unit(command_line().parse_args(words))
         self._pace = Pace(time.monotonic(), self._unit.speed_factor)
         self.url = url
         self.bits_per_second: float | None = None
@@ -52,8 +54,11 @@ class UnitHere:
             unit.advance(due_us / US_PER_S)
         else:
             unit.poll()
-            unit.pay(PIECE_US)
         said = unit.receive(bytes_max)
+        for _ in range(PIECES_MAX):
+            if unit.pay(PIECE_US) == 0:
+                break
+            said += unit.receive(bytes_max)
         save(unit, self._flash, self._log)
         return said
 
@@ -71,8 +76,12 @@ class OpenerHere:
         self.url = url
         self._flash_folder = flash_folder
 
-    def open(self) -> UnitHere:
-        return UnitHere(self.url, self._flash_folder)
+    def open(self) -> Link:
+        try:
+            return UnitHere(self.url, self._flash_folder)
+        except SystemExit:
+            # In a process of its own it says what it does not take.
+            return Opener(self.url, self._flash_folder).open()
 
     def give_up(self) -> None:
         """Opening takes no time here."""

@@ -8,16 +8,15 @@ from collections.abc import Iterator
 
 import pytest
 
-from tests.fakes.server import ServerProcess, SpindleServer, eventually
+from tests.fakes.server import ServerHere, SpindleServer, eventually
 
 
 @pytest.fixture(scope="module")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     """One unit made for Japan, at rest."""
-    devices = ["sim:tokyo?market=japan&scenario=none"]
-    running = ServerProcess(tmp_path_factory.mktemp("market"), devices).start()
-    yield running
-    running.stop()
+    devices = ["sim:tokyo?market=japan&clock=virtual&scenario=none"]
+    with ServerHere(tmp_path_factory.mktemp("market"), devices) as running:
+        yield running
 
 
 def test_a_unit_for_japan_ends_assist_at_24_and_says_so(server: SpindleServer) -> None:

@@ -19,9 +19,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.fakes.server import ServerProcess, SpindleServer, eventually
-from tests.stories.test_the_command_says_the_same import spindle
-from tests.stories.test_two_hours_take_seconds import advance
+from tests.fakes.command import spindle
+from tests.fakes.server import ServerHere, SpindleServer, eventually
 
 pytestmark = pytest.mark.slow
 
@@ -37,14 +36,8 @@ CIRCUMFERENCE_M = 2 * math.pi * 0.33
 @pytest.fixture(scope="module")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     device = "sim:one?clock=virtual&scenario=none&seed=4&sensor=drifted"
-    running = ServerProcess(tmp_path_factory.mktemp("climb"), [device]).start()
-    yield running
-    running.stop()
-
-
-def configure(server: SpindleServer, device: str, **parameters: float) -> None:
-    body = {"parameters": parameters, "reason": "measured"}
-    server.ask("PATCH", f"/devices/{device}/config", json=body)
+    with ServerHere(tmp_path_factory.mktemp("climb"), [device]) as running:
+        yield running
 
 
 def ridden(server: SpindleServer, device: str) -> int:
@@ -54,14 +47,14 @@ def ridden(server: SpindleServer, device: str) -> int:
     for _ in range(2):
         legs = {"kind": "constant", "torque_nm": 60.0, "cadence_rpm_max": 90.0}
         server.simulate(device, brake=False, assist_mode=0, rider=legs, road=level)
-        advance(server, device, PUSH)
+        server.advance(device, PUSH)
         server.simulate(device, rider={"kind": "off"})
-        advance(server, device, COAST)
+        server.advance(device, COAST)
     legs = {"kind": "constant", "torque_nm": 50.0, "cadence_rpm_max": 90.0}
     server.simulate(device, rider=legs, road=level | {"grade_deg": GRADE_DEG})
-    advance(server, device, CLIMB)
+    server.advance(device, CLIMB)
     server.simulate(device, brake=True, rider={"kind": "off"}, road=level)
-    advance(server, device, REST)
+    server.advance(device, REST)
 
     def done() -> list[int]:
         rides = server.get("/rides")["items"]
@@ -106,8 +99,8 @@ def test_a_planted_gain_is_found_and_gone_once_it_is_written(
 ) -> None:
     device = server.ready_device()
     server.simulate(device, brake=True)
-    advance(server, device, 5.0)
-    configure(server, device, sensor_offset_counts=PLANTED_ZERO_COUNTS)
+    server.advance(device, 5.0)
+    server.configure(device, sensor_offset_counts=PLANTED_ZERO_COUNTS)
     asked = question(server, ridden(server, device))
 
     told = server.ask("POST", "/calibration/climb", json=asked)
@@ -140,7 +133,7 @@ def test_a_planted_gain_is_found_and_gone_once_it_is_written(
     assert (counted.returncode, pulses["whole"], pulses["agrees"]) == (0, 36, True)
 
     gain = server.get(f"/devices/{device}/config")["parameters"][GAIN]
-    configure(server, device, **{GAIN: gain / PLANTED_GAIN})
+    server.configure(device, **{GAIN: gain / PLANTED_GAIN})
     again = server.ask("POST", "/calibration/climb", json=question(server, ridden(server, device)))[
         "balance"
     ]

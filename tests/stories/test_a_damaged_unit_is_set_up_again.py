@@ -13,10 +13,12 @@ import pytest
 
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.config_flash import records_at
-from tests.fakes.server import ServerProcess, SpindleServer
+from tests.fakes.server import ServerHere, SpindleServer
 
 pytestmark = pytest.mark.host_build("the flash that is hurt here is a file of the host's build")
 
+# A row, and the faults of the start.
+SWITCHED_ON_S = 0.5
 SAME = {"parameters": {"torque_filter_s": 0.5}}
 """What every unit has from the factory."""
 
@@ -27,14 +29,14 @@ def hurt(folder: Path, record: str) -> str:
     flash[records_at(flash)[record].start + 5] ^= 0x10
     file = folder / f"{record}.flash"
     file.write_bytes(flash)
-    return f"sim:{record}?scenario=none&flash={file}"
+    return f"sim:{record}?clock=virtual&scenario=none&flash={file}"
 
 
 @pytest.fixture
 def running(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[SpindleServer]:
-    server = ServerProcess(tmp_path / "data", [hurt(tmp_path, request.param)]).start()
-    yield server
-    server.stop()
+    with ServerHere(tmp_path / "data", [hurt(tmp_path, request.param)]) as server:
+        server.advance(server.ready_device(), SWITCHED_ON_S)
+        yield server
 
 
 def active_faults(server: SpindleServer, device: str) -> list[str]:

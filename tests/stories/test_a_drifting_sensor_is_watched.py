@@ -13,9 +13,8 @@ from typing import Any
 
 import pytest
 
-from tests.fakes.server import ServerProcess, SpindleServer, eventually
-from tests.stories.test_the_command_says_the_same import spindle
-from tests.stories.test_two_hours_take_seconds import advance
+from tests.fakes.command import spindle
+from tests.fakes.server import ServerHere, SpindleServer, eventually
 
 DRIFT_NM_PER_S = 4.0 / 60.0
 REST_S = 40
@@ -24,25 +23,24 @@ REST_S = 40
 @pytest.fixture(scope="module")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     device = "sim:one?clock=virtual&scenario=none&seed=4"
-    running = ServerProcess(tmp_path_factory.mktemp("drifting"), [device]).start()
-    yield running
-    running.stop()
+    with ServerHere(tmp_path_factory.mktemp("drifting"), [device]) as running:
+        yield running
 
 
 def coasting_ride(server: SpindleServer, device: str, drift_s: float) -> dict[str, Any]:
     """The zero walks for so long; then a ride that coasts twice. What the watch then tells."""
     known = len(drift(server, device)["rides"])
     server.simulate(device, brake=True, faults={"torque_sensor": "drifting"})
-    advance(server, device, drift_s)
+    server.advance(device, drift_s)
     server.simulate(device, faults={"torque_sensor": "sound"})
     for _ in range(2):
         legs = {"kind": "legs", "torque_nm": 30.0, "cadence_rpm_max": 90.0}
         server.simulate(device, brake=False, assist_mode=3, rider=legs)
-        advance(server, device, 15.0)
+        server.advance(device, 15.0)
         server.simulate(device, rider={"kind": "off"})
-        advance(server, device, 13.0)
+        server.advance(device, 13.0)
     server.simulate(device, brake=True)
-    advance(server, device, REST_S)
+    server.advance(device, REST_S)
     return eventually(lambda: drift(server, device), lambda told: len(told["rides"]) > known)
 
 

@@ -1,7 +1,7 @@
 """Goal: a bike that is switched on with a foot on its pedal says so, keeps its zero, and assists
 once the foot has left; a calibration takes no zero of it unless somebody says what he saw.
 
-Method: `spindle serve` with a simulated unit whose scenario begins with a push on a braked crank.
+Method: a simulated unit in virtual time whose scenario begins with a push on a braked crank.
 """
 
 from __future__ import annotations
@@ -13,10 +13,12 @@ from typing import Any
 import pytest
 
 from firmware_protocol._generated import FAULT_BY_NAME
-from tests.fakes.server import ServerProcess, SpindleServer, eventually
+from tests.fakes.server import ServerHere, SpindleServer
 
 pytestmark = pytest.mark.slow
 
+# Long enough to notice that what a sensor says at the start is no zero.
+SWITCHED_ON_S = 5.0
 PUSH = {"kind": "constant", "torque_nm": 30.0, "cadence_rpm_max": 90.0}
 SCENARIO = """
 doc = "A foot rests on the pedal of a braked bike, from switching on."
@@ -47,6 +49,7 @@ class Bike:
     def __init__(self, server: SpindleServer) -> None:
         self.server = server
         self.device = server.ready_device()
+        server.advance(self.device, SWITCHED_ON_S)
 
     def faults(self) -> list[dict[str, Any]]:
         listed = self.server.get(f"/devices/{self.device}/faults")["items"]
@@ -63,21 +66,24 @@ class Bike:
     def ride(self) -> float:
         """Pedals from a standstill; what the motor gives at ten kilometres an hour."""
         self.server.simulate(self.device, brake=False, rider=PUSH)
-        rolling = eventually(self.channels, lambda told: told["speed_kmh"] > 10)
-        return float(rolling["motor_torque_nm"])
+        for _ in range(30):
+            self.server.advance(self.device, 1.0)
+            if (rolling := self.channels())["speed_kmh"] > 10:
+                return float(rolling["motor_torque_nm"])
+        raise AssertionError(f"It rolls at {rolling['speed_kmh']} km/h after half a minute.")
 
 
 @pytest.fixture
 def bike(tmp_path: Path) -> Iterator[Bike]:
     scenario = tmp_path / "foot.toml"
     scenario.write_text(SCENARIO, encoding="utf-8")
-    server = ServerProcess(tmp_path / "data", [f"sim:foot?scenario={scenario}"]).start()
-    yield Bike(server)
-    server.stop()
+    unit = f"sim:foot?clock=virtual&scenario={scenario}"
+    with ServerHere(tmp_path / "data", [unit]) as server:
+        yield Bike(server)
 
 
 def test_it_is_told_with_what_to_do_and_ends_when_the_foot_leaves(bike: Bike) -> None:
-    (told,) = eventually(bike.faults)
+    (told,) = bike.faults()
     zero = bike.zero_counts()
     assert told["name"] == "foot_at_start"
     assert told["description"] == FAULT_BY_NAME["FOOT_AT_START"].rider_text
@@ -85,7 +91,8 @@ def test_it_is_told_with_what_to_do_and_ends_when_the_foot_leaves(bike: Bike) ->
     assert [fault["name"] for fault in bike.faults()] == ["foot_at_start"]
 
     bike.server.stand_still(bike.device)
-    eventually(bike.faults, lambda faults: not faults)
+    bike.server.advance(bike.device, 10.0)
+    assert bike.faults() == []
     bike.server.simulate(bike.device, assist_mode=3)
 
     assert bike.ride() > 0.1
@@ -93,11 +100,12 @@ def test_it_is_told_with_what_to_do_and_ends_when_the_foot_leaves(bike: Bike) ->
 
 
 def test_a_calibration_takes_no_zero_of_a_foot(bike: Bike) -> None:
-    eventually(bike.faults)
+    assert bike.faults()
     job = bike.server.ask("POST", "/calibrations", json={"device_id": bike.device})
     path = f"/calibrations/{job['id']}"
     bike.server.ask("PUT", f"{path}/setup", json=SETUP)
-    eventually(lambda: bike.server.get(f"{path}/reading"), lambda told: told["steady"])
+    bike.server.advance(bike.device, 5.0)
+    assert bike.server.get(f"{path}/reading")["steady"]
 
     refused = bike.server.client.post(f"{path}/captures", json=ZERO)
     assert refused.status_code == 409
@@ -109,6 +117,7 @@ def test_a_calibration_takes_no_zero_of_a_foot(bike: Bike) -> None:
     assert taken["captures"][0]["mean_counts"] == pytest.approx(3000.0, abs=10.0)
 
     # And a load is a load, whatever hung there when the unit was switched on.
-    eventually(lambda: bike.server.get(f"{path}/reading"), lambda told: told["steady"])
+    bike.server.advance(bike.device, 5.0)
+    assert bike.server.get(f"{path}/reading")["steady"]
     load = {"kind": "load", "side": "right", "mass_kg": 10.0, "direction": "loading"}
     assert len(bike.server.ask("POST", f"{path}/captures", json=load)["captures"]) == 2

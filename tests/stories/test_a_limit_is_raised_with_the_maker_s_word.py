@@ -3,53 +3,44 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from tests.fakes.server import ServerProcess, SpindleServer, eventually
-
-ROOT = Path(__file__).resolve().parents[2]
-
-
-def spindle(*words: str | Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "backend.cli", *map(str, words)],
-        cwd=ROOT, capture_output=True, text=True, timeout=60, check=False,
-    )  # fmt: skip
+from tests.fakes.command import spindle
+from tests.fakes.server import ServerHere, SpindleServer
 
 
 @pytest.fixture
 def shop(tmp_path: Path) -> Iterator[SpindleServer]:
     """A server with one standing unit that carries the maker's key."""
-    assert spindle("unlock", "keygen", tmp_path / "maker.pem").returncode == 0
-    unit = f"sim:shop?scenario=none&unlock_key={tmp_path / 'maker.pem.pub'}"
-    server = ServerProcess(tmp_path / "data", [unit]).start()
-    eventually(lambda: [one["state"] for one in server.get("/devices")["items"]] == ["ready"])
-    yield server
-    server.stop()
+    assert spindle(None, "unlock", "keygen", tmp_path / "maker.pem").returncode == 0
+    unit = f"sim:shop?clock=virtual&scenario=none&unlock_key={tmp_path / 'maker.pem.pub'}"
+    with ServerHere(tmp_path / "data", [unit]) as server:
+        server.advance(server.ready_device(), 0.1)
+        yield server
 
 
 def test_a_lowered_limit_goes_up_with_a_token_and_not_without(
     shop: SpindleServer, tmp_path: Path
 ) -> None:
-    at = ["--server", shop.url]
-    lowered = spindle("device", "set", "assist_cutoff_kmh=20", *at)
+    device = shop.ready_device()
+    lowered = spindle(shop, "device", "set", "assist_cutoff_kmh=20")
     assert lowered.returncode == 0, lowered.stderr
 
-    refused = spindle("device", "set", "assist_cutoff_kmh=25", *at)
+    refused = spindle(shop, "device", "set", "assist_cutoff_kmh=25")
     assert refused.returncode == 1
     assert "assist_cutoff_kmh should go up from 20.0 to 25.0 km/h" in refused.stderr
     challenge = tmp_path / "challenge.json"
     challenge.write_text(refused.stdout)
-    signed = spindle("unlock", "sign", tmp_path / "maker.pem", challenge)
+    signed = spindle(None, "unlock", "sign", tmp_path / "maker.pem", challenge)
     token = signed.stdout.strip()
-    raised = spindle("device", "set", "assist_cutoff_kmh=25", "--token", token, *at)
-    again = spindle("device", "set", "assist_cutoff_kmh=20", *at)
-    replayed = spindle("device", "set", "assist_cutoff_kmh=25", "--token", token, *at)
+    shop.until_writable(device)
+    raised = spindle(shop, "device", "set", "assist_cutoff_kmh=25", "--token", token)
+    shop.until_writable(device)
+    again = spindle(shop, "device", "set", "assist_cutoff_kmh=20")
+    replayed = spindle(shop, "device", "set", "assist_cutoff_kmh=25", "--token", token)
 
     assert raised.returncode == 0, raised.stderr
     assert again.returncode == 0, again.stderr
@@ -58,7 +49,7 @@ def test_a_lowered_limit_goes_up_with_a_token_and_not_without(
 
 
 def test_the_api_s_refusal_carries_the_challenge(shop: SpindleServer) -> None:
-    device = shop.get("/devices")["items"][0]["id"]
+    device = shop.ready_device()
     path = f"/devices/{device}/config"
     shop.ask("PATCH", path, json={"parameters": {"motor_torque_nm_max": 1.0}})
 
@@ -73,7 +64,7 @@ def test_the_api_s_refusal_carries_the_challenge(shop: SpindleServer) -> None:
 
 
 def test_a_typed_view_takes_the_token_as_well(shop: SpindleServer, tmp_path: Path) -> None:
-    device = shop.get("/devices")["items"][0]["id"]
+    device = shop.ready_device()
     path = f"/devices/{device}/limits"
     before = shop.get(path)
     shop.ask("PUT", path, json=before | {"motor_torque_nm_max": 1.0})
@@ -81,7 +72,8 @@ def test_a_typed_view_takes_the_token_as_well(shop: SpindleServer, tmp_path: Pat
     refused = shop.client.put(path, json=before)
     challenge = tmp_path / "challenge.json"
     challenge.write_text(json.dumps(refused.json()["challenge"]))
-    signed = spindle("unlock", "sign", tmp_path / "maker.pem", challenge)
+    signed = spindle(None, "unlock", "sign", tmp_path / "maker.pem", challenge)
+    shop.until_writable(device)
     raised = shop.client.put(path, json=before, params={"token": signed.stdout.strip()})
     no_token = shop.client.put(path, json=before, params={"token": "open sesame"})
 
@@ -92,17 +84,18 @@ def test_a_typed_view_takes_the_token_as_well(shop: SpindleServer, tmp_path: Pat
 
 
 def test_a_riding_bike_looks_at_no_token(shop: SpindleServer) -> None:
-    device = shop.get("/devices")["items"][0]["id"]
+    device = shop.ready_device()
     path = f"/devices/{device}/config"
     raised = {"parameters": {"motor_torque_nm_max": 1.5}, "token": "00" * 72}
     shop.ask("PATCH", path, json={"parameters": {"motor_torque_nm_max": 1.0}})
     rider = {"kind": "constant", "torque_nm": 40.0}
-    shop.ask("PUT", f"/devices/{device}/simulation", json={"rider": rider})
+    standing = shop.client.patch(path, json=raised)
+    shop.simulate(device, rider=rider)
+    shop.advance(device, 5.0)
 
-    # Until it rolls: 403, because there is no challenge that this token could answer.
-    response = eventually(
-        lambda: shop.client.patch(path, json=raised), lambda answer: answer.status_code != 403
-    )
+    response = shop.client.patch(path, json=raised)
 
+    # There is no challenge that this token could answer.
+    assert standing.status_code == 403
     assert response.status_code == 409
     assert "Stop the bike" in response.json()["detail"]

@@ -7,21 +7,16 @@ no serial number (tests/fakes/tiny), behind a real TCP port.
 from __future__ import annotations
 
 import json
-import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
-import uvicorn
 from websockets.sync.client import connect
 
 from backend.device.families import FAMILIES
-from backend.main import build_app, listening_socket, open_services, server_config
-from backend.settings import load
-from tests.fakes.server import api_client, eventually
+from tests.fakes.server import ServerHere, eventually
 from tests.fakes.tiny.motor import SETTINGS, TinyMotor, listening
 from tests.fakes.tiny.unit import TinyUnit
 
@@ -78,31 +73,14 @@ class Workshop:
         eventually(lambda: self.ask("GET", f"/devices/{device}")["state"], lambda now: now == state)
 
 
-@contextmanager
-def served(data: Path) -> Iterator[str]:
-    """A server that knows the second family; its address."""
-    settings = load({"data": str(data), "device": []}, {})
-    families = {**FAMILIES, TinyUnit.family: TinyUnit}
-    with open_services(settings, families) as services, listening_socket("127.0.0.1", 0) as port:
-        server = uvicorn.Server(server_config(build_app(settings, services)))
-        thread = threading.Thread(target=server.run, kwargs={"sockets": [port]})
-        thread.start()
-        try:
-            yield f"http://127.0.0.1:{port.getsockname()[1]}"
-        finally:
-            server.should_exit = True
-            thread.join()
-
-
 @pytest.fixture
 def workshop(tmp_path: Path) -> Iterator[Workshop]:
     motor = TinyMotor()
     with (
         listening(motor) as url,
-        served(tmp_path) as server,
-        api_client(server) as client,
+        ServerHere(tmp_path, families={**FAMILIES, TinyUnit.family: TinyUnit}) as server,
     ):
-        yield Workshop(client, motor, url)
+        yield Workshop(server.client, motor, url)
 
 
 def test_it_says_what_it_is_and_what_it_can_do(workshop: Workshop) -> None:
@@ -225,17 +203,18 @@ def test_its_revisions_are_found_under_its_name_on_another_port(workshop: Worksh
     assert newest["changed"] == [{"name": "assist_levels", "old": SETTINGS[4], "new": 3}]
 
 
-@pytest.mark.parametrize(("method", "path", "body", "capability"), CANNOT)
 def test_what_it_cannot_do_is_refused_by_name(
-    workshop: Workshop, method: str, path: str, body: object, capability: str
+    workshop: Workshop, subtests: pytest.Subtests
 ) -> None:
     device = workshop.connect()
 
-    status, problem = workshop.refused(method, f"{device}{path}", body)
+    for method, path, body, capability in CANNOT:
+        with subtests.test(method=method, path=path):
+            status, problem = workshop.refused(method, f"{device}{path}", body)
 
-    assert (status, problem["code"]) == (409, "capability_missing")
-    assert [fault["field"] for fault in problem["errors"]] == [capability]
-    assert workshop.motor.settings == SETTINGS
+            assert (status, problem["code"]) == (409, "capability_missing")
+            assert [fault["field"] for fault in problem["errors"]] == [capability]
+            assert workshop.motor.settings == SETTINGS
 
 
 def test_every_question_about_it_has_an_answer_or_a_reason(workshop: Workshop) -> None:

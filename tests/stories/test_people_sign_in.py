@@ -1,16 +1,13 @@
 """Goal: a server that the network reaches asks who is there, and a program with a key works on it.
 
-Method: `spindle people` and `spindle serve` as processes, on every address of the machine; a shell
-with and without a key; `kill -9`; old authors beside new ones.
+Method: `spindle people`, a server on every address of the machine; a shell with and without a key;
+`kill -9`; old authors beside new ones. A server is a process where it is killed or prints its link.
 """
 
 from __future__ import annotations
 
 import json
-import os
 import re
-import subprocess
-import sys
 from importlib.resources import files
 from pathlib import Path
 
@@ -18,25 +15,15 @@ import httpx
 import pytest
 from websockets.sync.client import connect
 
-from tests.fakes.server import ServerProcess, SpindleServer, eventually
+from tests.fakes.command import spindle
+from tests.fakes.server import ServerHere, ServerProcess, eventually
 
 pytestmark = pytest.mark.slow
 PASSWORD = "eine lange Nacht"
 LIBRARY = "/api/v1/library"
-
-
-def spindle(*words: str, said: str = "", **environment: str) -> subprocess.CompletedProcess[str]:
-    """The command as a shell runs it."""
-    kept = {name: value for name, value in os.environ.items() if "SPINDLE" not in name}
-    return subprocess.run(
-        [sys.executable, "-m", "backend.cli", *words],
-        env={**kept, **environment},
-        input=said,
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
-    )
+UNIT = "sim:bench?clock=virtual&scenario=none"
+# With the settings as they come, a server that other machines reach asks who is there.
+REACHED = {"SPINDLE_HOST": "0.0.0.0"}
 
 
 def preset(name: str) -> dict[str, object]:
@@ -45,31 +32,25 @@ def preset(name: str) -> dict[str, object]:
     return {**json.loads(path.read_text(encoding="utf-8")), "name": name}
 
 
-def on_the_network(data: Path) -> SpindleServer:
-    """A server that other machines reach, with the settings as they come."""
-    return ServerProcess(data, ["sim:bench?scenario=none"], SPINDLE_HOST="0.0.0.0").start()
-
-
 def test_a_workshop_opens_its_server_to_the_network(tmp_path: Path) -> None:
     data = tmp_path / "data"
     folder = ("--data", str(data))
     # Before: on this machine alone, nobody signs in, and who changes something says so.
-    alone = ServerProcess(data, [], SPINDLE_AUTHOR="王工").start()
-    assert alone.get("/session") == {"sign_in": False, "needs_first": False, "signed_in": None}
-    before = alone.client.post("/library", json=preset("before"))
+    with ServerHere(data, SPINDLE_AUTHOR="王工") as alone:
+        assert alone.get("/session") == {"sign_in": False, "needs_first": False, "signed_in": None}
+        before = alone.client.post("/library", json=preset("before"))
     assert "set-cookie" not in before.headers
     assert (before.json()["author"], before.json()["author_proof"]) == ("王工", "stated")
-    alone.stop()
 
-    added = spindle("people", "add", "Anna", "--role", "admin", "--password-stdin", *folder,
-                    said=f"{PASSWORD}\n")  # fmt: skip
+    added = spindle(None, "people", "add", "Anna", "--role", "admin", "--password-stdin", *folder,
+                    stdin=f"{PASSWORD}\n")  # fmt: skip
     assert added.returncode == 0, added.stderr
-    server = on_the_network(data)
+    server = ServerProcess(data, [UNIT], **REACHED).start()
     url = server.url
     assert server.client.get("/devices").status_code == 401
     assert httpx.get(f"{url}/healthz").status_code == 200
     # No second hand in the folder of a running server.
-    assert spindle("people", "list", *folder).returncode == 1
+    assert spindle(None, "people", "list", *folder).returncode == 1
 
     browser = httpx.Client(base_url=url, headers={"origin": url})
     browser.post("/api/v1/sign-in", json={"name": "anna", "password": PASSWORD})
@@ -85,7 +66,7 @@ def test_a_workshop_opens_its_server_to_the_network(tmp_path: Path) -> None:
     rows = {row["name"]: row for row in browser.get(LIBRARY).json()["items"]}
     assert (rows["before"]["author"], rows["before"]["author_proof"]) == ("王工", "stated")
 
-    listing = ("device", "list", "--server", url)
+    listing = (server, "device", "list")
     nobody = spindle(*listing)
     assert nobody.returncode == 1
     assert "SPINDLE_KEY" in nobody.stderr
@@ -101,17 +82,16 @@ def test_a_workshop_opens_its_server_to_the_network(tmp_path: Path) -> None:
 
     # A power cut signs nobody out and loses no key.
     server.kill()
-    server = on_the_network(data)
-    moved = httpx.Client(base_url=server.url, cookies=browser.cookies)
-    assert moved.get("/api/v1/session").json()["signed_in"]["person"]["name"] == "Anna"
-    again = spindle("device", "list", "--server", server.url, SPINDLE_KEY=keys["shell"])
-    assert again.returncode == 0
-    said = server.stop()
+    said = server.said()
     assert not [secret for secret in (*keys.values(), PASSWORD) if secret in said]
+    with ServerHere(data, **REACHED) as again:
+        moved = httpx.Client(base_url=again.url, cookies=browser.cookies)
+        assert moved.get("/api/v1/session").json()["signed_in"]["person"]["name"] == "Anna"
+        assert spindle(again, "device", "list", SPINDLE_KEY=keys["shell"]).returncode == 0
 
 
 def a_program_watches_by_a_ticket(url: str, key: str) -> None:
-    """Opens the live stream of the one unit without a header."""
+    """Opens the live stream of the one unit without a header: where it stands comes first."""
     bearer = {"authorization": f"Bearer {key}"}
     device = httpx.get(f"{url}/api/v1/devices", headers=bearer).json()["items"][0]["id"]
     ticket = httpx.post(f"{url}/api/v1/tickets", headers=bearer).json()["ticket"]
@@ -123,7 +103,7 @@ def a_program_watches_by_a_ticket(url: str, key: str) -> None:
 
 
 def test_the_first_administrator_comes_by_the_printed_link(tmp_path: Path) -> None:
-    server = on_the_network(tmp_path)
+    server = ServerProcess(tmp_path, [], **REACHED).start()
     link = eventually(lambda: printed(server), bool)
     body = {"token": link, "name": "Anna", "password": PASSWORD}
 
@@ -135,15 +115,14 @@ def test_the_first_administrator_comes_by_the_printed_link(tmp_path: Path) -> No
     assert (made.status_code, made.json()["role"]) == (201, "admin")
     assert (twice.status_code, twice.json()["code"]) == (403, "link_used")
     server.stop()
-    later = on_the_network(tmp_path)
-    assert later.get("/session")["needs_first"] is False
-    assert "first=" not in later.stop()
-    lost = spindle("people", "reset", "anna", "--password-stdin", "--data", str(tmp_path),
-                   said="ein anderer Tag\n")  # fmt: skip
+    with ServerHere(tmp_path, **REACHED) as later:
+        assert later.get("/session")["needs_first"] is False
+    lost = spindle(None, "people", "reset", "anna", "--password-stdin", "--data", tmp_path,
+                   stdin="ein anderer Tag\n")  # fmt: skip
     assert (lost.returncode, lost.stdout) == (0, "Anna: admin\n")
 
 
-def printed(server: SpindleServer) -> str:
+def printed(server: ServerProcess) -> str:
     """The token of the link, once it was printed."""
     found = re.search(r"#first=(\S+)", server.said())
     return found[1] if found else ""

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.fakes.server import ServerProcess, SpindleServer, eventually
+from tests.fakes.server import ServerHere, SpindleServer, eventually
 
 RIDE_S = 60
 REST_S = 40
@@ -22,22 +22,15 @@ REST_S = 40
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     """Three units in virtual time that stand still, and one whose clock is real."""
     devices = [f"sim:{name}?clock=virtual&scenario=none" for name in ("one", "two", "three")]
-    running = ServerProcess(tmp_path_factory.mktemp("virtual"), [*devices, "sim:real"]).start()
-    running.all_ready(4)
-    yield running
-    running.stop()
+    with ServerHere(tmp_path_factory.mktemp("virtual"), [*devices, "sim:real"]) as running:
+        running.all_ready(4)
+        yield running
 
 
 def named(server: SpindleServer, name: str) -> str:
     """The id of the unit `sim:name`; they become ready in any order."""
     devices = server.get("/devices")["items"]
     return next(str(one["id"]) for one in devices if one["url"].startswith(f"sim:{name}"))
-
-
-def advance(server: SpindleServer, device: str, seconds: float) -> dict[str, Any]:
-    path = f"/devices/{device}/simulation/advance"
-    answer: dict[str, Any] = server.ask("POST", path, json={"seconds": seconds})
-    return answer
 
 
 def ride(server: SpindleServer, device: str) -> dict[str, Any]:
@@ -50,9 +43,9 @@ def ride(server: SpindleServer, device: str) -> dict[str, Any]:
         assist_mode=3,
         rider={"kind": "legs", "torque_nm": 25.0, "cadence_rpm_max": 90.0},
     )
-    advance(server, device, RIDE_S)
+    server.advance(device, RIDE_S)
     server.simulate(device, rider={"kind": "off"}, brake=True)
-    advance(server, device, REST_S)
+    server.advance(device, REST_S)
     rides = eventually(
         lambda: [
             ride
@@ -67,7 +60,7 @@ def test_time_passes_only_when_it_is_told_to(server: SpindleServer) -> None:
     device = named(server, "three")
     before = server.get(f"/devices/{device}/simulation")
 
-    after = advance(server, device, 12.5)
+    after = server.advance(device, 12.5)
     later = server.get(f"/devices/{device}/simulation")
 
     assert after["t_s"] - before["t_s"] == pytest.approx(12.5, abs=1e-9)
@@ -81,7 +74,7 @@ def test_a_mass_hangs_on_a_pedal_and_the_unit_tells_its_torque(server: SpindleSe
     said = {"side": "left", "mass_kg": 30.0, "crank_angle_deg": 60.0, "arm_m": 0.17, **exact}
 
     hung = server.simulate(device, workbench=said)
-    advance(server, device, 30.0)
+    server.advance(device, 30.0)
     told = server.get(f"/devices/{device}/snapshot")["channels"]
     free = server.simulate(device, workbench=None)
 
