@@ -15,9 +15,9 @@ from typing import Any
 
 import pytest
 
-from backend.api.app import ApiSettings, create_app
-from tests.fakes.server import ServerProcess, SpindleServer
-from tests.stories.test_the_command_says_the_same import spindle
+from tests.fakes.command import spindle
+from tests.fakes.description import description
+from tests.fakes.server import ServerHere, SpindleServer
 
 pytestmark = pytest.mark.slow
 
@@ -36,21 +36,6 @@ TODAY = {
     "mode_laws": ["off", "fixed", "fuzzy", "fuzzy", "fuzzy"],
     "mode_tapers": ["none", "none", "japan_1_to_1", "japan_2_to_1", "taper_speeds"],
 }
-DESCRIPTION = create_app(ApiSettings(version="0")).openapi()
-# Every question about a unit, or about nothing, that needs no more than its address.
-QUESTIONS = [
-    path.removeprefix("/api/v1")
-    for path, operations in DESCRIPTION["paths"].items()
-    if path.startswith("/api/v1") and "get" in operations
-    if "application/json" in operations["get"]["responses"]["200"]["content"]
-    if set(re.findall(r"{(\w+)}", path)) <= {"device_id"}
-    # This server asks nobody to sign in, and has no accounts to tell of.
-    if operations["get"].get("x-permission") != "manage_people"
-    if not any(
-        parameter["required"] and parameter["in"] == "query"
-        for parameter in operations["get"].get("parameters", ())
-    )
-]
 MORE = [
     "/devices/{device_id}/fuzzy-table?table=second",
     "/devices/{device_id}/config?bank=default",
@@ -60,15 +45,35 @@ MORE = [
 @pytest.fixture(scope="module")
 def pair(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[SpindleServer, str, str]]:
     """A server with a unit that was written in the old spelling, and one without a market."""
-    urls = ["sim:known?scenario=none", "sim:blank?market=none&scenario=none"]
-    server = ServerProcess(tmp_path_factory.mktemp("spelling"), urls).start()
-    server.all_ready(2)
-    known, blank = (server.ready_device(number) for number in (0, 1))
-    server.stand_still(known)
-    body = {"parameters": OLD, "reason": "as version 0.2 asked"}
-    server.ask("PATCH", f"/devices/{known}/config", json=body)
-    yield server, known, blank
-    server.stop()
+    urls = [
+        "sim:known?clock=virtual&scenario=none",
+        "sim:blank?market=none&clock=virtual&scenario=none",
+    ]
+    with ServerHere(tmp_path_factory.mktemp("spelling"), urls) as server:
+        server.all_ready(2)
+        known, blank = (server.ready_device(number) for number in (0, 1))
+        # Their first rows.
+        for one in (known, blank):
+            server.advance(one, 0.1)
+        server.configure(known, "as version 0.2 asked", **OLD)
+        yield server, known, blank
+
+
+def questions() -> list[str]:
+    """Every question about a unit, or about nothing, that needs no more than its address."""
+    return [
+        path.removeprefix("/api/v1")
+        for path, operations in description()["paths"].items()
+        if path.startswith("/api/v1") and "get" in operations
+        if "application/json" in operations["get"]["responses"]["200"]["content"]
+        if set(re.findall(r"{(\w+)}", path)) <= {"device_id"}
+        # This server asks nobody to sign in, and has no accounts to tell of.
+        if operations["get"].get("x-permission") != "manage_people"
+        if not any(
+            parameter["required"] and parameter["in"] == "query"
+            for parameter in operations["get"].get("parameters", ())
+        )
+    ]
 
 
 def texts(node: Any) -> Iterator[str]:
@@ -81,7 +86,7 @@ def texts(node: Any) -> Iterator[str]:
 
 def test_no_answer_has_a_choice_in_upper_case(pair: tuple[SpindleServer, str, str]) -> None:
     server, *devices = pair
-    paths = {path.format(device_id=one) for path in QUESTIONS + MORE for one in devices}
+    paths = {path.format(device_id=one) for path in questions() + MORE for one in devices}
     answers = {path: server.get(path) for path in sorted(paths)}
 
     shouted = {

@@ -1,8 +1,8 @@
 """Goal: whoever hangs masses on a pedal gets a calibrated sensor, whatever is lost on the way: the
 cable, the server, the right mass.
 
-Method: `spindle serve`, the unit's firmware behind a cable that is pulled, its sensor with a zero
-and a gain of its own. Masses hang on the workbench of the simulated bike: they swing at first, and
+Method: a server, the unit's firmware behind a cable that is pulled, its sensor with a zero and a
+gain of its own. Masses hang on the workbench of the simulated bike: they swing at first, and
 mass, arm and angle are in truth off within their limits. What is found is compared with what was
 planted, and the file is worked out again by the command without a server.
 """
@@ -21,7 +21,7 @@ import pytest
 from backend.cli import main
 from backend.services.calibration.telling import has_record
 from tests.fakes.relay import Relay
-from tests.fakes.server import ServerProcess, eventually
+from tests.fakes.server import ServerHere, ServerProcess, eventually
 
 pytestmark = pytest.mark.slow
 
@@ -44,6 +44,8 @@ brake = true
 COUNTS_PER_NM = 100.0
 GRAVITY_MS2, ARM_M = 9.81, 0.17
 FASTER = 10
+# A mass that was hung swings no more.
+SETTLES_S = 15.0
 MASS_LIMIT_SHARE = 1.6e-4
 """Of class M2, OIML R 111-1:2004, table 1."""
 
@@ -61,30 +63,40 @@ GAIN = "sensor_gain_nm_per_count"
 class Workshop:
     """A unit on a cable, and the server that is asked; `path` of the open calibration.
 
-    gain: of its sensor, times that of the one as drawn. maker: whose tokens it takes.
+    gain: of its sensor, times that of the one as drawn. maker: whose tokens it takes. virtual: time
+    passes for it only while a mass is waited for; without, by itself and faster than for others.
+    here: the server is on a thread of the test, where it is not to be killed.
     """
 
-    def __init__(self, folder: Path, gain: float, maker: Path) -> None:
+    def __init__(
+        self, folder: Path, gain: float, maker: Path, virtual: bool = False, here: bool = False
+    ) -> None:
         self.gain = gain
+        self.virtual = virtual
         scenario = folder / "workshop.toml"
         scenario.write_text(SCENARIO.format(gain=gain, zero=PLANTED_ZERO), encoding="utf-8")
         words = [sys.executable, "-m", "sim_device", "unit", "--tcp", "0", "--seed", "7"]
-        words += ["--speed", str(FASTER), "--scenario", str(scenario)]
+        words += ["--virtual"] if virtual else ["--speed", str(FASTER)]
+        words += ["--scenario", str(scenario)]
         words += ["--unlock-key", f"{maker}.pub"]
         self.unit = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
         assert self.unit.stdout is not None
         port = int(self.unit.stdout.readline().split()[-1].rsplit(":", 1)[-1])
         self.cable = Relay(port)
         self.data = folder / "data"
-        self.start()
+        self.start(here)
 
-    def start(self) -> None:
+    def start(self, here: bool = False) -> None:
+        """Starts the server; it tells where the unit stands."""
         url = f"socket://127.0.0.1:{self.cable.port}"
-        self.server = ServerProcess(self.data, [url]).start()
+        server = ServerHere if here else ServerProcess
+        self.server: ServerHere | ServerProcess = server(self.data, [url]).start()
         self.device = self.server.ready_device()
+        if self.virtual:
+            self.server.advance(self.device, 1.0)
 
     def end(self) -> None:
-        self.server.kill()
+        self.server.stop()
         self.cable.cut()
         self.unit.kill()
         self.unit.wait(10)
@@ -115,6 +127,8 @@ class Workshop:
         def hangs(reading: dict[str, Any]) -> bool:
             return bool(reading["steady"]) and abs(reading["mean_counts"] - seen) < 10 + seen / 200
 
+        if self.virtual:
+            self.server.advance(self.device, SETTLES_S)
         eventually(lambda: self.server.get(f"{self.path}/reading"), hangs)
 
     def next_state(self) -> dict[str, Any] | None:
@@ -149,13 +163,14 @@ def maker(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def workshop(tmp_path: Path, maker: Path, request: pytest.FixtureRequest) -> Iterator[Workshop]:
-    made = Workshop(tmp_path, request.param, maker)
+    gain, here = request.param
+    made = Workshop(tmp_path, gain, maker, virtual=True, here=here)
     yield made
     made.end()
 
 
-def of_gain(gain: float) -> pytest.MarkDecorator:
-    return pytest.mark.parametrize("workshop", [gain], indirect=True, ids=[f"gain {gain}"])
+def of_gain(gain: float, here: bool) -> pytest.MarkDecorator:
+    return pytest.mark.parametrize("workshop", [(gain, here)], indirect=True, ids=[f"gain {gain}"])
 
 
 def within_its_uncertainty(worked: dict[str, Any], gain: float) -> float:
@@ -168,7 +183,7 @@ def within_its_uncertainty(worked: dict[str, Any], gain: float) -> float:
     return float(budget["expanded_nm"][-1])
 
 
-@of_gain(1.03)
+@of_gain(1.03, here=False)
 def test_a_sensor_is_calibrated_though_cable_server_and_a_mass_go_wrong(
     workshop: Workshop, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -188,8 +203,9 @@ def test_a_sensor_is_calibrated_though_cable_server_and_a_mass_go_wrong(
 
     # The server is gone without a word.
     kept = workshop.job()["captures"]
+    assert isinstance(workshop.server, ServerProcess)
     workshop.server.kill()
-    workshop.start()
+    workshop.start(here=True)
     assert workshop.open()["captures"] == kept
     assert len(kept) == 8
 
@@ -236,7 +252,7 @@ def test_a_sensor_is_calibrated_though_cable_server_and_a_mass_go_wrong(
     assert json.loads(file.read_text())["written"]["sha256"] == written["certificate_sha256"]
 
 
-@of_gain(1.2)
+@of_gain(1.2, here=True)
 def test_from_the_shell_with_the_maker_s_word_and_back_to_what_the_unit_had(
     workshop: Workshop, maker: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

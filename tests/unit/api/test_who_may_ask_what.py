@@ -8,6 +8,7 @@ application are accounts on SQLite and nothing else: who is let through meets a 
 
 from __future__ import annotations
 
+import functools
 import re
 import sys
 from collections.abc import Iterator
@@ -27,13 +28,8 @@ from backend.api.services import Services
 from backend.domain.people.permission import ROLES, Permission, RoleName
 from backend.services.people.people import People, people_of
 from backend.store import open_store
+from tests.fakes.description import description
 
-DESCRIPTION = create_app(ApiSettings("test")).openapi()
-OPERATIONS = {
-    operation["operationId"]: (method.upper(), path)
-    for path, methods in DESCRIPTION["paths"].items()
-    for method, operation in methods.items()
-}
 # Not described, because no program asks for them by its description.
 BESIDE = {"get_not_built", "get_docs", "get_description", "live"}
 # The first of rider, dealer, engineer, admin who may; everything else a dealer may.
@@ -49,6 +45,16 @@ ORDER: list[RoleName] = ["rider", "dealer", "engineer", "admin"]
 CLOSED = {"sign_in_first", "not_allowed", "not_in_the_table"}
 PASSWORD = "eine lange Nacht"
 ORIGIN = {"origin": "http://127.0.0.1"}
+
+
+@functools.cache
+def operations() -> dict[str, tuple[str, str]]:
+    """Method and path of every operation that is described, by its id."""
+    return {
+        operation["operationId"]: (method.upper(), path)
+        for path, methods in description()["paths"].items()
+        for method, operation in methods.items()
+    }
 
 
 @dataclass
@@ -111,7 +117,7 @@ def first_who_may(operation: str) -> str:
 
 def asked(client: TestClient, operation: str, **request: Any) -> Any:
     """A request for an operation. Its numbers are of nothing; its body is refused later."""
-    method, path = OPERATIONS[operation]
+    method, path = operations()[operation]
     where = re.sub(r"{[^}]*}", "999", path)
     answer = client.request(method, where, headers=ORIGIN, **request)
     content = answer.content and "problem" in answer.headers.get("content-type", "")
@@ -119,11 +125,11 @@ def asked(client: TestClient, operation: str, **request: Any) -> Any:
 
 
 def test_every_operation_is_in_the_table_and_the_table_has_no_other() -> None:
-    assert set(NEEDED) == set(OPERATIONS) | BESIDE
+    assert set(NEEDED) == set(operations()) | BESIDE
 
 
 def test_what_a_stranger_may_is_the_same_at_the_door_and_in_the_table() -> None:
-    described = {route for name, route in OPERATIONS.items() if NEEDED[name] is Anyone.STRANGER}
+    described = {route for name, route in operations().items() if NEEDED[name] is Anyone.STRANGER}
 
     assert described == STRANGERS
 
@@ -131,7 +137,7 @@ def test_what_a_stranger_may_is_the_same_at_the_door_and_in_the_table() -> None:
 def test_the_matrix_of_routes_and_roles(house: House) -> None:
     clients = [house.client(), *(house.client(role) for role in ORDER)]
     lines, wrong = [], []
-    for operation in sorted(OPERATIONS):
+    for operation in sorted(operations()):
         # Signing out would end what the rest of this test needs.
         if operation in ("sign_out", "change_own_password"):
             continue
@@ -162,10 +168,10 @@ def test_a_stranger_learns_not_even_what_is_there(house: House, path: str) -> No
 
 
 def test_the_description_is_for_whoever_signed_in(house: House) -> None:
-    description = house.client("rider").get("/api/v1/openapi.json")
+    told = house.client("rider").get("/api/v1/openapi.json")
 
-    assert description.status_code == 200
-    assert description.json()["paths"].keys() == DESCRIPTION["paths"].keys()
+    assert told.status_code == 200
+    assert told.json()["paths"].keys() == description()["paths"].keys()
 
 
 def test_an_operation_that_nobody_listed_is_refused_even_where_nobody_signs_in() -> None:

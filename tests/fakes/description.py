@@ -1,0 +1,14 @@
+"""What the application says of itself, made once for all tests of a process."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+from backend.api.app import ApiSettings, create_app
+
+
+@functools.cache
+def description() -> dict[str, Any]:
+    """The OpenAPI description; made when it is first asked for, not when tests are collected."""
+    return create_app(ApiSettings(version="0")).openapi()
