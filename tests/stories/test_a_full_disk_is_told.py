@@ -16,6 +16,7 @@ import pytest
 
 from backend.errors import StoreError
 from backend.store import open_store
+from tests.fakes.ride_in_time import ride_on
 from tests.fakes.server import ServerProcess, eventually
 
 pytestmark = [
@@ -51,15 +52,18 @@ def test_a_full_disk_while_recording_is_told_and_costs_nothing_when_freed(
 ) -> None:
     # The unit's own memory is on another disk, as a real unit's is.
     flash = tmp_path_factory.mktemp("unit") / "flash"
-    server = ServerProcess(small_disk, [f"sim?scenario=commute&flash={flash}"]).start()
+    unit = f"sim?clock=virtual&scenario=none&flash={flash}"
+    server = ServerProcess(small_disk, [unit]).start()
     device = server.ready_device()
 
     def recorder() -> dict[str, Any]:
         told: dict[str, Any] = server.get("/health")["devices"][0]["recorder"]
         return told
 
+    ride_on(server, device, 15.0)
     eventually(recorder, lambda told: told["rows_saved"] > 0)
     fill(small_disk / "filler")
+    server.advance(device, 15.0)
     full = eventually(lambda: server.get("/health"), lambda told: told["status"] == "degraded")
     assert {reason["code"] for reason in full["reasons"]} == {"disk_full"}
     eventually(recorder, lambda told: told["rows_waiting"] > 200)

@@ -31,15 +31,21 @@ from tests.fakes.unit_link import UnitOpener
 
 URL = "socket://unit:1"
 AWAY_S = 30.0
+REST_S = 40.0
+# So much of the unit's time in one read of its host.
+PIECE_S, PIECES = 0.1, 5
 MISSING = -32768
 
 
-class FastUnit:
-    """A unit whose time passes ten times as fast as the reader's, a step at a time."""
+class UnitInTime:
+    """A unit whose time passes only as far as it is told to, while its host reads; `goes_by`: or
+    with every read, as it must for a host that waits for the unit's flash."""
 
     def __init__(self, lockstep: LockstepUnit) -> None:
         self._lockstep = lockstep
         self._said = bytearray()
+        self.owed_s = 0.0
+        self.goes_by = False
 
     def receive(self, data: bytes) -> object:
         return self._lockstep.send(data)
@@ -51,9 +57,17 @@ class FastUnit:
         return said
 
     def advance(self, seconds: float) -> None:
-        for _ in range(10):
+        if self.goes_by:
             self._lockstep.advance(seconds)
+        elif self.owed_s <= 0.0:
+            self._lockstep.poll()
+        for _ in range(PIECES):
+            if self.owed_s <= 0.0:
+                break
+            # What the unit says meanwhile fits its queue.
+            self._lockstep.advance(PIECE_S)
             self._said += self._lockstep.receive()
+            self.owed_s -= PIECE_S
 
 
 @dataclass
@@ -61,6 +75,7 @@ class Desk:
     """One unit on a cable, and a Spindle that records and fetches."""
 
     unit: LockstepUnit
+    in_time: UnitInTime
     cable: UnitOpener
     devices: Devices
     recorder: Recorder
@@ -70,9 +85,17 @@ class Desk:
     device: str
 
     def ridden_for(self, seconds: float) -> None:
-        """Wait until so much more of the unit's time is recorded."""
+        """Let time pass until so much more of it is recorded."""
         until = self.rows() + round(seconds * 100)
-        eventually(self.rows, lambda rows: rows >= until)
+        self.in_time.owed_s = seconds
+
+        def recorded() -> int:
+            # The bike rolls, and with it the recorder, a moment after the rider pushes.
+            if self.in_time.owed_s <= 0.0:
+                self.in_time.owed_s = PIECE_S
+            return self.rows()
+
+        eventually(recorded, lambda rows: rows >= until)
 
     def rows(self) -> int:
         status = self.recorder.status(self.device)
@@ -90,7 +113,8 @@ def read_here(path: Path, name: str) -> Outcome:
 @pytest.fixture
 def desk(tmp_path: Path) -> Iterator[Desk]:
     unit = LockstepUnit(seed=6)
-    cable = UnitOpener(FastUnit(unit), URL)
+    in_time = UnitInTime(unit)
+    cable = UnitOpener(in_time, URL)
     devices = Devices(opener=lambda url: cable)
     with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as store:
         memory = UnitMemory(devices, store.revisions, store.units, lambda unit: None)
@@ -100,7 +124,7 @@ def desk(tmp_path: Path) -> Iterator[Desk]:
         devices.watch(memory.follow)
         devices.watch(recorder.watch)
         device = devices.add(URL).id
-        yield Desk(unit, cable, devices, recorder, store, collect, uploads, device)
+        yield Desk(unit, in_time, cable, devices, recorder, store, collect, uploads, device)
         collect.close()
         devices.close()
         recorder.close()
@@ -120,13 +144,12 @@ def test_the_stretch_without_a_cable_comes_from_the_unit_and_the_rest_stays_as_i
     assert desk.cable.tried.wait(20.0)
     desk.unit.advance(AWAY_S)
     desk.cable.plug_in()
+    eventually(lambda: devices.list()[0].state, lambda state: state == "ready")
     desk.ridden_for(AWAY_S + 10.0)
     Inspection(devices).simulate(desk.device, {"rider": {"kind": "off"}, "brake": True})
-    eventually(
-        lambda: [log.state for log in desk.collect.logs(desk.device).items],
-        lambda states: states == ["closed"],
-    )
+    desk.in_time.owed_s = REST_S
     eventually(lambda: desk.only_ride().state, lambda state: state == "done")
+    assert [log.state for log in desk.collect.logs(desk.device).items] == ["closed"]
     heard = desk.only_ride()
     names = [channel.name for channel in heard.channels]
     before = store.rides.reader(heard.id).counts(names, 0, heard.row_count)
@@ -134,6 +157,7 @@ def test_the_stretch_without_a_cable_comes_from_the_unit_and_the_rest_stays_as_i
     lost = sum(gap.rows_lost or 0 for gap in heard.gaps)
     assert lost >= AWAY_S * 100
 
+    desk.in_time.goes_by = True
     desk.collect.start(desk.device, 1)
     done = eventually(
         lambda: desk.collect.get(desk.device, 1), lambda seen: seen.state in ("done", "failed")
