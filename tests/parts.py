@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 SPREAD = {
     "tests/fuzz/test_fuzzers_find_nothing.py",
     "tests/mutation/test_every_known_break_is_noticed.py",
-    "tests/stories/test_a_unit_of_another_make.py",
     "tests/unit/control/test_gain_bounds.py",
     "tests/unit/sim_device/test_no_transient_breaks_a_law.py",
 }
