@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -17,6 +18,11 @@ from tests.fakes.ride_in_time import ride_on, rides_of
 from tests.fakes.server import ServerHere, ServerProcess, eventually
 
 pytestmark = pytest.mark.slow
+
+
+def has_its_card(ride: dict[str, Any]) -> bool:
+    """Whether what is made of a ride after it ended is there."""
+    return bool(ride["speed_line_kmh"])
 
 
 def test_a_store_survives_a_second_server_a_crash_and_a_lost_database(
@@ -46,7 +52,7 @@ def test_a_store_survives_a_second_server_a_crash_and_a_lost_database(
         cut = here.get(f"/rides/{ride['id']}")
         assert (cut["state"], cut["cut_short"]) == ("done", True)
         here.ask("PATCH", f"/rides/{ride['id']}", json={"name": "Tour", "notes": "headwind"})
-        whole = here.get(f"/rides/{ride['id']}")
+        whole = eventually(lambda: here.get(f"/rides/{ride['id']}"), has_its_card)
 
     # The database is deleted, and somebody starts the server as if nothing had happened.
     (data / "spindle.db").unlink()
@@ -63,7 +69,9 @@ def test_a_store_survives_a_second_server_a_crash_and_a_lost_database(
 
     caplog.clear()
     with here:
-        (back,) = here.get("/rides")["items"]
+        (back,) = eventually(
+            lambda: here.get("/rides")["items"], lambda rides: has_its_card(rides[0])
+        )
     # Only the number may be another.
     assert {**back, "id": 0} == {**whole, "id": 0}
     assert caplog.messages == []

@@ -114,7 +114,8 @@ def test_a_ride_nobody_watched_comes_from_the_unit_s_log_with_what_it_was_made_w
         assert ride["device"]["device_serial"] == unit["identity"]["serial_number"]
         assert (ride["unit_key"], ride["bike_id"]) == (unit["unit_key"], unit["bike_id"])
         assert ride["bike_id"] is not None
-        assert ride in second.get(f"/rides?device={device}")["items"]
+        found = second.get(f"/rides?device={device}")["items"]
+        assert [one["id"] for one in found] == [ride["id"]]
         assert ride["device"]["gear_ratio"] == pytest.approx(40.34)
         assert ride["completeness"] == 1.0
         assert ride["period_us"] == 100_000
