@@ -91,8 +91,7 @@ def device(server: ServerHere) -> Iterator[str]:
     """The id of a simulated unit of the test's own: new, at rest, its time standing."""
     number = next(NUMBERS)
     url = f"sim:own{number}?seed={number}&clock=virtual&scenario=none"
-    device = str(server.ask("POST", "/devices", json={"url": url})["id"])
-    server.ready_device()
+    device = server.add_unit(url)
     # Its first row.
     server.advance(device, 0.1)
     yield device

@@ -1,8 +1,11 @@
-"""One real server for all browser tests: a simulated unit, and a two-hour ride on its shelf."""
+"""One real server for all browser tests, with a two-hour ride on its shelf; each test brings the
+simulated unit it needs, and takes it away again.
+"""
 
 from __future__ import annotations
 
 import os
+import zlib
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -13,7 +16,9 @@ from playwright.sync_api import Browser, Playwright, expect, sync_playwright
 from tests.browser.chromium import NoChromium, find_chromium
 from tests.browser.desk import ROOT, Desk
 from tests.browser.long_ride import write_long_ride
-from tests.fakes.server import ServerProcess, SpindleServer
+from tests.browser.recorded_ride import get_under_way
+from tests.fakes.server import ServerHere, SpindleServer
+from tests.run import started
 
 OpenDesk = Callable[..., Desk]
 # With a window, slow enough to follow.
@@ -25,20 +30,13 @@ expect.set_options(timeout=30_000)
 
 @pytest.fixture(scope="session")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
-    """`spindle serve` with one simulated unit that stands still, and the long ride."""
+    """A server without a unit, with the long ride."""
     if not (ROOT / "frontend" / "dist" / "index.html").is_file():
         pytest.fail("The pages are not built: run `make setup`.", pytrace=False)
     data = tmp_path_factory.mktemp("browser")
     write_long_ride(data)
-    running = ServerProcess(data, ["sim:bench?seed=1"]).start()
-    yield running
-    running.stop()
-
-
-@pytest.fixture(scope="session")
-def device(server: SpindleServer) -> str:
-    """The id of the simulated unit, once it is ready."""
-    return server.ready_device()
+    with ServerHere(data) as running:
+        yield running
 
 
 @pytest.fixture(scope="session")
@@ -58,6 +56,7 @@ def launch(playwright: Playwright) -> Callable[..., Browser]:
 
     # No sandbox: it needs rights that containers of test machines do not give.
     def start(*words: str) -> Browser:
+        started.HERE.note(started.BROWSER)
         return playwright.chromium.launch(
             executable_path=path,
             args=["--no-sandbox", *words],
@@ -118,31 +117,19 @@ def desk(open_desk: OpenDesk) -> Desk:
 
 
 @pytest.fixture
-def standing(server: SpindleServer, device: str) -> str:
-    """The id of the unit, with its bike at rest and the configuration of the factory."""
-    server.stand_still(device)
-    parameters = server.get(f"/devices/{device}/parameters")["items"]
-    changed = {
-        p["name"]: p["default"]
-        for p in parameters
-        if p["value"] != p["default"] and p["access"] != "factory"
-    }
-    if changed:
-        body = {"parameters": changed, "reason": "before a test"}
-        server.ask("PATCH", f"/devices/{device}/config", json=body)
-    return device
+def standing(server: SpindleServer, tmp_path: Path) -> Iterator[str]:
+    """The id of the only unit there is: at rest, with the configuration of the factory."""
+    # Another one for each test, and for each attempt at one.
+    seed = zlib.crc32(tmp_path.name.encode())
+    device = server.add_unit(f"sim:own?scenario=none&seed={seed}")
+    yield device
+    server.ask("DELETE", f"/devices/{device}")
 
 
 @pytest.fixture
 def riding(server: SpindleServer, standing: str) -> str:
     """The id of the unit, with a rider who pushes steadily in the fuzzy mode on a flat road."""
-    server.simulate(
-        standing,
-        brake=False,
-        assist_mode=3,
-        rider={"kind": "legs", "torque_nm": 20.0, "cadence_rpm_max": 90.0},
-        road={"grade_deg": 0.0, "wind_ms": 0.0},
-    )
+    get_under_way(server, standing)
     return standing
 
 

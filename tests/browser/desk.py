@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -20,6 +21,10 @@ REFUSED = re.compile(r"Failed to load resource: the server responded with a stat
 BELOW = "(({ scrollHeight, clientHeight }) => scrollHeight - clientHeight)(main)"
 SIDEWAYS = """() => Math.max(...[document.documentElement, document.getElementById('main')]
     .map(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth))"""
+# An answer makes a page ask for more: a unit, its configuration, what that gives.
+QUESTIONS_IN_TURN = 3
+TWO_FRAMES = """() => new Promise((shown) =>
+    requestAnimationFrame(() => requestAnimationFrame(shown)))"""
 
 
 def sideways(page: Page) -> int:
@@ -43,16 +48,29 @@ class Desk:
         self.address = address
         self.complaints: list[str] = []
         self.allowed: list[re.Pattern[str]] = []
+        self.unanswered: set[Request] = set()
         page.add_init_script(TRACED)
         page.on("console", self._console)
         page.on("pageerror", lambda error: self.complaints.append(f"script: {error}"))
         page.on("request", self._request)
+        page.on("requestfinished", self._answered)
+        page.on("requestfailed", self._answered)
 
     def open(self, path: str) -> Page:
         """Loads a page of the application and waits until it says something."""
         self.page.goto(self.address + path)
         self.page.wait_for_selector("main :is(section, form, fieldset, table, div)")
         return self.page
+
+    def settle(self) -> None:
+        """Waits until what the page has asked for is answered and shown, and what it asked then.
+
+        A page that follows a rider asks for ever, so that there is no end to wait for.
+        """
+        for _ in range(QUESTIONS_IN_TURN):
+            asked = set(self.unanswered)
+
+            eventually(partial(self._left_of, asked), lambda urls: urls == [])
 
     def picture(self, name: str, full: bool = False) -> None:
         """Keeps a picture for people to look at."""
@@ -92,7 +110,16 @@ class Desk:
         if message.type in ("error", "warning") and not REFUSED.search(message.text):
             self.complaints.append(f"console: {message.text}")
 
+    def _left_of(self, asked: set[Request]) -> list[str]:
+        """Which of these are not answered two frames later."""
+        self.page.evaluate(TWO_FRAMES)
+        return [request.url for request in asked & self.unanswered]
+
+    def _answered(self, request: Request) -> None:
+        self.unanswered.discard(request)
+
     def _request(self, request: Request) -> None:
+        self.unanswered.add(request)
         parts = urlsplit(request.url)
         if parts.scheme not in ("data", "blob") and parts.hostname != "127.0.0.1":
             self.complaints.append(f"request leaves the machine: {request.url}")

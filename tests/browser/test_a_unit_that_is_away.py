@@ -8,8 +8,6 @@ Method: a simulated unit behind a socket of its own, so that its cable can be pu
 from __future__ import annotations
 
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -19,26 +17,14 @@ from tests.browser.conftest import OpenDesk
 from tests.browser.test_trial_bar import BAR, OVER, SHORT_S, first_rule, try_first_rule
 from tests.browser.test_tune_page import CELL
 from tests.fakes.relay import Relay
-from tests.fakes.server import ServerProcess
+from tests.fakes.server import ServerHere
+from tests.fakes.unit_on_port import UnitOnPort
 
 pytestmark = pytest.mark.slow
 
 PILL = "[data-testid=device-pill]"
+WORDS = ("--seed", "7", "--scenario", "none")
 SEEN = re.compile(r"Last seen \d\d:\d\d")
-
-
-def plug_in(port: int = 0, scenario: str = "commute") -> tuple[subprocess.Popen[str], int]:
-    """A unit on a port, the next free one for 0."""
-    words = [sys.executable, "-m", "sim_device", "unit", "--tcp", str(port), "--seed", "7"]
-    words += ["--scenario", scenario]
-    unit = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
-    assert unit.stdout is not None
-    return unit, int(unit.stdout.readline().split()[-1].rsplit(":", 1)[-1])
-
-
-def unplug(unit: subprocess.Popen[str]) -> None:
-    unit.terminate()
-    unit.wait(10)
 
 
 def is_known_and_read_only(page: Page, address: str) -> None:
@@ -68,39 +54,38 @@ def is_known_and_read_only(page: Page, address: str) -> None:
 
 
 def test_what_was_known_is_there_without_the_unit(open_desk: OpenDesk, tmp_path: Path) -> None:
-    unit, port = plug_in()
-    devices = [f"socket://127.0.0.1:{port}"]
-    server = ServerProcess(tmp_path, devices).start()
+    unit = UnitOnPort(*WORDS)
+    server = ServerHere(tmp_path, [unit.url]).start()
     server.ready_device()
     desk = open_desk(address=server.url)
     desk.allow("status of 50[34]|WebSocket|ERR_CONNECTION")
     page = desk.open("/tune")
     expect(page.get_by_test_id("draft-bar")).to_contain_text("Same as in the unit")
 
-    unplug(unit)
+    unit.unplug()
     expect(page.locator(PILL)).to_contain_text(SEEN)
     page.reload()
     expect(page.get_by_test_id("draft-bar")).to_contain_text(SEEN)
     server.stop()
-    server = ServerProcess(tmp_path, devices).start()
+    server = ServerHere(tmp_path, [unit.url]).start()
     is_known_and_read_only(page, server.url)
 
     page.goto(f"{server.url}/tune")
     expect(page.get_by_test_id("draft-bar")).to_contain_text(SEEN)
-    unit, _ = plug_in(port)
+    unit = UnitOnPort(*WORDS, port=unit.port)
     expect(page.locator(PILL)).to_contain_text("Connected")
     expect(page.get_by_test_id("draft-bar")).to_contain_text("Same as in the unit")
     page.context.close()
     server.stop()
-    unplug(unit)
+    unit.unplug()
 
 
 def test_a_trial_goes_back_by_itself_while_the_link_is_cut(
     open_desk: OpenDesk, tmp_path: Path
 ) -> None:
-    unit, port = plug_in(scenario="none")
-    cable = Relay(port)
-    server = ServerProcess(tmp_path, [f"socket://127.0.0.1:{cable.port}"]).start()
+    unit = UnitOnPort(*WORDS)
+    cable = Relay(unit.port)
+    server = ServerHere(tmp_path, [f"socket://127.0.0.1:{cable.port}"]).start()
     device = server.ready_device()
     before = first_rule(server, device)
     desk = open_desk(address=server.url)
@@ -116,7 +101,7 @@ def test_a_trial_goes_back_by_itself_while_the_link_is_cut(
     expect(page.locator(BAR).get_by_role("button", name="Keep")).to_be_disabled()
     expect(page.locator(BAR)).to_contain_text("goes back")
     # By the unit's own clock, which nobody hears.
-    page.wait_for_timeout(1000 * SHORT_S)
+    unit.let_pass(SHORT_S)
     cable.mend()
     expect(page.locator(PILL)).to_contain_text("Connected")
     expect(page.locator(OVER)).to_contain_text("ran out")
@@ -125,4 +110,4 @@ def test_a_trial_goes_back_by_itself_while_the_link_is_cut(
     page.context.close()
     server.stop()
     cable.cut()
-    unplug(unit)
+    unit.unplug()

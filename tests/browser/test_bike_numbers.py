@@ -17,8 +17,8 @@ from playwright.sync_api import Page, Route, expect
 
 from backend.domain.calibration.bike.balance import Climb, balance
 from backend.domain.calibration.bike.coast_down import Known, resistance
-from tests.browser.desk import Desk, sideways
-from tests.browser.test_pages_for_everyone import JUDGE
+from tests.browser.desk import TWO_FRAMES, Desk, sideways
+from tests.browser.judged import JUDGE
 from tests.fakes.server import SpindleServer
 
 KEPT = "wheel_circumference_m"
@@ -90,9 +90,16 @@ def test_a_climb_says_whether_it_agrees_and_where_its_energy_went(
         route.fulfill(json=climbed(1.0 if len(asked) == 1 else 0.7))
 
     desk.page.route("**/calibration/climb", answer)
+    # The question is asked before the rides are there.
+    late: list[Route] = []
+    desk.page.route("**/api/v1/rides?*", lambda route: late.append(route))
     page = desk.open("/sensor")
     panel = page.get_by_test_id("bike-numbers")
     panel.get_by_role("button", name="Climb", exact=True).click()
+    page.evaluate(TWO_FRAMES)
+    page.unroute("**/api/v1/rides?*")
+    for route in late:
+        route.continue_()
     panel.get_by_role("button", name="This part is the climb").click()
     expect(panel).to_contain_text("No coast-down")
     expect(panel.get_by_role("button", name="Compare")).to_be_disabled()

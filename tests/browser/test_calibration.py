@@ -17,9 +17,9 @@ from playwright.sync_api import Page, expect
 from backend.cli import main
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk, sideways
-from tests.browser.test_pages_for_everyone import COVERED, JUDGE, SMALL_TARGETS
+from tests.browser.judged import COVERED, JUDGE, SMALL_TARGETS
 from tests.fakes.relay import Relay
-from tests.fakes.server import eventually
+from tests.fakes.server import ServerProcess, eventually
 from tests.stories.test_a_sensor_is_calibrated import Workshop
 
 GAIN = 1.03
@@ -86,11 +86,12 @@ def lose(page: Page, workshop: Workshop, way: Relay) -> Relay:
     expect(page.get_by_test_id("away")).to_have_count(0)
     capture(page, workshop, 2)
 
+    assert isinstance(workshop.server, ServerProcess)
     workshop.server.kill()
     way.cut()
     expect(page.get_by_test_id("lost")).to_be_visible()
     expect(page.locator("[data-capture]")).to_have_count(6)
-    workshop.start()
+    workshop.start(here=True)
     way = relay_to(workshop, way.port)
     expect(page.get_by_test_id("lost")).to_have_count(0)
     expect(page.get_by_test_id("capture")).to_be_visible()

@@ -8,7 +8,6 @@ ends them. Only what no simulator can do (a newer firmware, a lost unit) is answ
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -16,7 +15,7 @@ from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk, sideways
-from tests.browser.test_pages_for_everyone import JUDGE
+from tests.browser.judged import JUDGE
 from tests.fakes.server import SpindleServer, eventually
 
 PILL = "[data-testid=device-pill]"
@@ -36,20 +35,6 @@ def break_torque_sensor(server: SpindleServer, device: str) -> None:
     eventually(lambda: active(server, device), lambda names: names == ["torque_sensor"])
 
 
-@pytest.fixture
-def unit(server: SpindleServer, standing: str) -> Iterator[str]:
-    """The id of the standing unit; whatever a test breaks in it is sound and cleared after it."""
-    yield standing
-    server.simulate(standing, faults=SOUND)
-    server.stand_still(standing)
-
-    def cleared() -> bool:
-        server.ask("POST", f"/devices/{standing}/faults/clear")
-        return active(server, standing) == []
-
-    eventually(cleared)
-
-
 def listed(desk: Desk, server: SpindleServer, device: str, **change: Any) -> None:
     """The list of units says this of the unit, whatever it is."""
     unit = server.get(f"/devices/{device}") | change
@@ -63,23 +48,23 @@ def clear(page: Page) -> None:
 
 
 def test_a_latched_fault_whose_cause_is_gone_is_cleared_by_a_click(
-    desk: Desk, server: SpindleServer, unit: str
+    desk: Desk, server: SpindleServer, standing: str
 ) -> None:
-    break_torque_sensor(server, unit)
+    break_torque_sensor(server, standing)
     page = desk.open("/service")
     clear(page)
     told = page.get_by_test_id("clear-result")
     expect(told).to_contain_text("Not cleared")
     expect(told).to_contain_text("cause is still there")
-    assert active(server, unit) == ["torque_sensor"]
+    assert active(server, standing) == ["torque_sensor"]
     desk.picture("fault-not-cleared")
 
-    server.simulate(unit, faults=SOUND)
+    server.simulate(standing, faults=SOUND)
 
     def cleared() -> bool:
-        if active(server, unit):
+        if active(server, standing):
             clear(page)
-        return active(server, unit) == []
+        return active(server, standing) == []
 
     eventually(cleared)
     expect(page.get_by_test_id("faults")).to_contain_text("No active faults")
@@ -88,9 +73,9 @@ def test_a_latched_fault_whose_cause_is_gone_is_cleared_by_a_click(
 
 @pytest.mark.parametrize(("width", "theme"), [(1280, "light"), (390, "dark")])
 def test_a_fault_is_seen_on_every_page_with_word_and_icon(
-    open_desk: OpenDesk, server: SpindleServer, unit: str, axe: str, width: int, theme: str
+    open_desk: OpenDesk, server: SpindleServer, standing: str, axe: str, width: int, theme: str
 ) -> None:
-    break_torque_sensor(server, unit)
+    break_torque_sensor(server, standing)
     desk = open_desk(width=width, height=844, theme=theme)
 
     page = desk.open("/rides")
@@ -110,9 +95,9 @@ def test_a_fault_is_seen_on_every_page_with_word_and_icon(
 
 
 def test_live_says_why_nothing_helps_and_what_ends_it(
-    desk: Desk, server: SpindleServer, unit: str, axe: str
+    desk: Desk, server: SpindleServer, standing: str, axe: str
 ) -> None:
-    break_torque_sensor(server, unit)
+    break_torque_sensor(server, standing)
 
     page = desk.open("/live")
 
@@ -128,15 +113,10 @@ def test_live_says_why_nothing_helps_and_what_ends_it(
 
 
 def test_while_the_bike_moves_the_page_says_so_and_stops_a_simulated_rider(
-    desk: Desk, server: SpindleServer, unit: str
+    desk: Desk, server: SpindleServer, riding: str
 ) -> None:
-    server.simulate(unit, brake=False, speed_factor=5.0, rider={"kind": "legs", "torque_nm": 30.0})
-    eventually(
-        lambda: server.get(f"/devices/{unit}/snapshot")["channels"]["speed_kmh"],
-        lambda speed_kmh: speed_kmh > 8,
-    )
-    break_torque_sensor(server, unit)
-    server.simulate(unit, faults=SOUND)
+    break_torque_sensor(server, riding)
+    server.simulate(riding, faults=SOUND)
     page = desk.open("/live")
     box = page.locator(BOX)
     expect(box).to_contain_text("The bike moves")
@@ -146,12 +126,11 @@ def test_while_the_bike_moves_the_page_says_so_and_stops_a_simulated_rider(
     expect(page.get_by_test_id("clear-result")).to_contain_text("the bike moves")
     box.get_by_role("button", name="Stop the simulated rider").click()
     expect(page.locator(BOX)).to_have_count(0)
-    assert active(server, unit) == []
-    server.simulate(unit, speed_factor=1.0)
+    assert active(server, riding) == []
 
 
 def test_a_fault_that_comes_is_told_once_and_one_that_goes_by_itself_too(
-    desk: Desk, server: SpindleServer, unit: str
+    desk: Desk, server: SpindleServer, standing: str
 ) -> None:
     page = desk.open("/settings")
     expect(page.locator(PILL)).to_contain_text("Connected")
@@ -171,10 +150,10 @@ def test_a_fault_that_comes_is_told_once_and_one_that_goes_by_itself_too(
             with page.expect_response(lambda answer: answer.url.endswith("/devices")):
                 pass
 
-    server.simulate(unit, faults={"link_lost": True})
+    server.simulate(standing, faults={"link_lost": True})
     expect(page.get_by_role("alert")).to_contain_text("Torque signal interrupted")
     looked(3)
-    server.simulate(unit, faults=SOUND)
+    server.simulate(standing, faults=SOUND)
     expect(page.locator(PILL)).to_contain_text("Connected")
     looked(2)
 
@@ -186,9 +165,9 @@ def test_a_fault_that_comes_is_told_once_and_one_that_goes_by_itself_too(
 
 
 def test_a_fault_of_a_newer_firmware_is_shown_and_can_be_cleared(
-    desk: Desk, server: SpindleServer, unit: str
+    desk: Desk, server: SpindleServer, standing: str
 ) -> None:
-    listed(desk, server, unit, faults_active=["fault_29", "torque_sensor"])
+    listed(desk, server, standing, faults_active=["fault_29", "torque_sensor"])
 
     page = desk.open("/live")
 
@@ -199,9 +178,9 @@ def test_a_fault_of_a_newer_firmware_is_shown_and_can_be_cleared(
 
 
 def test_a_lost_unit_s_fault_is_told_as_old_and_not_cleared(
-    desk: Desk, server: SpindleServer, unit: str
+    desk: Desk, server: SpindleServer, standing: str
 ) -> None:
-    listed(desk, server, unit, faults_active=["torque_sensor"], state="lost", reason="Silent.")
+    listed(desk, server, standing, faults_active=["torque_sensor"], state="lost", reason="Silent.")
 
     page = desk.open("/live")
 

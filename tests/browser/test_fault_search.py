@@ -7,43 +7,32 @@ The fault is real: an open arm of the bridge in the simulated unit, planted whil
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import sideways
-from tests.browser.test_pages_for_everyone import COVERED, JUDGE, SHIFT
+from tests.browser.judged import COVERED, JUDGE, moved
 from tests.fakes.server import SpindleServer, eventually
 
-SOUND = {"torque_sensor": "sound"}
+# What a moment tells begins before its fault and ends after it.
+BEFORE_S, AFTER_S = 20.0, 10.0
 
 
 @pytest.fixture
-def faulty(server: SpindleServer, standing: str) -> Iterator[str]:
-    """The id of a unit whose torque sensor broke on a ride; it is sound and cleared afterwards."""
-
-    def active() -> list[str]:
-        return list(server.get(f"/devices/{standing}")["faults_active"])
-
-    def speed_kmh() -> float:
-        channels = server.get(f"/devices/{standing}/snapshot")["channels"]
-        return float(channels["speed_kmh"] or 0.0)
-
-    server.simulate(standing, scenario="commute", running=True, brake=False)
-    eventually(speed_kmh, lambda speed: speed > 8.0, within_s=40.0)
+def faulty(server: SpindleServer, standing: str) -> str:
+    """The id of a unit whose torque sensor broke on a ride."""
+    server.simulate(standing, clock="virtual", scenario="commute", running=True, brake=False)
+    server.advance(standing, BEFORE_S)
     server.simulate(standing, faults={"torque_sensor": "open_high"})
-    eventually(active, lambda names: names == ["torque_sensor"])
-    yield standing
-    server.simulate(standing, faults=SOUND)
-    server.stand_still(standing)
-
-    def cleared() -> bool:
-        server.ask("POST", f"/devices/{standing}/faults/clear")
-        return active() == []
-
-    eventually(cleared)
+    server.advance(standing, AFTER_S)
+    eventually(
+        lambda: server.get(f"/devices/{standing}")["faults_active"],
+        lambda names: names == ["torque_sensor"],
+    )
+    server.simulate(standing, clock="real")
+    return standing
 
 
 def writes_of(page: Page) -> list[str]:
@@ -93,7 +82,7 @@ def test_a_search_ends_with_its_cause_on_the_sheet(
     done = page.get_by_role("textbox", name="Done")
     expect(done).to_have_value("Torque sensor: bridge arm open or shorted.")
     assert asked == []
-    assert page.evaluate(SHIFT) < 0.02
+    assert moved(page) == []
 
 
 def test_a_dark_phone_searches_in_chinese_and_finds_none(

@@ -13,7 +13,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import sideways
-from tests.browser.test_pages_for_everyone import JUDGE, SMALL_TARGETS
+from tests.browser.judged import JUDGE, SMALL_TARGETS
 from tests.fakes.server import SpindleServer
 
 
@@ -57,9 +57,9 @@ def replaced_and_brought_back(
 
 
 def test_a_dealer_keeps_opens_compares_and_takes_back(
-    open_desk: OpenDesk, server: SpindleServer, device: str, tmp_path: Path, axe: str
+    open_desk: OpenDesk, server: SpindleServer, standing: str, tmp_path: Path, axe: str
 ) -> None:
-    before = server.get(f"/devices/{device}/config")["parameters"]
+    before = server.get(f"/devices/{standing}/config")["parameters"]
     desk = open_desk(width=1440, height=900)
     page = desk.open("/settings")
     page.get_by_label("Your name").fill("张工")
@@ -74,7 +74,7 @@ def test_a_dealer_keeps_opens_compares_and_takes_back(
     page.locator("[data-entry=strong-start]").get_by_role("button", name="Open as a draft").click()
     page.wait_for_selector("[data-testid=surface][data-draws]")
     expect(page.get_by_test_id("draft-bar")).to_contain_text("not yet in the unit")
-    assert server.get(f"/devices/{device}/config")["parameters"] == before
+    assert server.get(f"/devices/{standing}/config")["parameters"] == before
 
     page.get_by_role("link", name="Library").click()
     page.get_by_label("Name", exact=True).fill("Zhang, city")
@@ -104,7 +104,7 @@ def test_a_dealer_keeps_opens_compares_and_takes_back(
     expect(mine).to_have_count(0)
     page.get_by_role("button", name="Undo").click()
     expect(mine).to_be_visible()
-    was = restored(page, server, device)
+    was = restored(page, server, standing)
     assert was == 0.5
     page.get_by_role("link", name="Library").click()
     compared(page)
@@ -112,7 +112,7 @@ def test_a_dealer_keeps_opens_compares_and_takes_back(
     assert page.evaluate(JUDGE) == []
     assert sideways(page) <= 0
     desk.picture("library-1440", full=True)
-    assert server.get(f"/devices/{device}/config")["parameters"] == before
+    assert server.get(f"/devices/{standing}/config")["parameters"] == before
 
 
 def test_without_a_unit_a_phone_still_looks_and_compares(

@@ -7,7 +7,7 @@ from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk, sideways
-from tests.browser.test_pages_for_everyone import JUDGE
+from tests.browser.judged import JUDGE
 from tests.browser.test_rides_page import TRACES, long_ride
 from tests.fakes.server import SpindleServer
 

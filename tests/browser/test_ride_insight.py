@@ -9,7 +9,7 @@ from __future__ import annotations
 from playwright.sync_api import expect
 
 from tests.browser.desk import Desk, sideways
-from tests.browser.test_pages_for_everyone import JUDGE
+from tests.browser.judged import JUDGE
 from tests.browser.test_rides_page import long_ride
 from tests.fakes.server import SpindleServer
 

@@ -17,8 +17,8 @@ from playwright.sync_api import expect
 from backend.domain.logbook.zero import RideZero, ZeroOfRide
 from backend.domain.revision import Revision
 from backend.services.rides.sensor_drift import SensorDrift
-from tests.browser.desk import Desk
-from tests.browser.test_pages_for_everyone import JUDGE, sideways
+from tests.browser.desk import Desk, sideways
+from tests.browser.judged import JUDGE
 from tests.fakes.server import SpindleServer
 
 DAY_US = 86_400_000_000

@@ -8,16 +8,17 @@ from __future__ import annotations
 
 import json
 import re
-import time
+from datetime import UTC, datetime
 from pathlib import Path
 
-from playwright.sync_api import expect
+from playwright.sync_api import Route, expect
 
 from backend.ingest.backup import read_backup
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import sideways
-from tests.browser.test_pages_for_everyone import COVERED, JUDGE, SHIFT
-from tests.fakes.server import SpindleServer, eventually
+from tests.browser.judged import COVERED, JUDGE, moved
+from tests.browser.recorded_ride import record_ride
+from tests.fakes.server import SpindleServer
 
 
 def test_two_of_the_history_are_compared_and_the_rules_of_one_restored(
@@ -46,7 +47,7 @@ def test_two_of_the_history_are_compared_and_the_rules_of_one_restored(
     page.get_by_role("textbox", name="Job", exact=True).fill("0815")
     page.reload()
     expect(page.get_by_test_id("service-bar")).to_contain_text("Job 0815")
-    assert page.evaluate(SHIFT) < 0.02
+    assert moved(page) == []
     page.evaluate(axe)
     assert page.evaluate(JUDGE) == []
 
@@ -73,41 +74,30 @@ def test_a_dark_phone_reads_the_service_in_chinese(
     assert re.findall(r"\b[a-z]+\.[a-z_]+\b", page.inner_text("main")) == []
 
 
-def rides_over(server: SpindleServer) -> None:
-    """What an earlier test rode is over, and no ride of this one goes on from it."""
-    eventually(
-        lambda: server.get("/rides")["items"],
-        lambda rides: all(ride["state"] == "done" for ride in rides),
-        within_s=60.0,
-    )
-
-
 def test_the_sheet_has_the_calibration_and_the_ride_after_the_work(
     open_desk: OpenDesk, server: SpindleServer, standing: str
 ) -> None:
-    rides_over(server)
     config = server.get(f"/devices/{standing}/config")
     offset = config["parameters"]["sensor_offset_counts"]
     body = {"parameters": {"sensor_offset_counts": offset - 3.0}, "reason": "cold morning"}
     server.ask("PATCH", f"/devices/{standing}/config", json=body)
-    changed_s = time.monotonic()
+    server.simulate(standing, clock="virtual")
     # A ride begins two seconds before the bike moves.
-    eventually(lambda: time.monotonic() - changed_s, lambda passed_s: passed_s > 3.0)
-    known = len(server.get("/rides")["items"])
-    server.simulate(standing, scenario="commute", running=True, brake=False, speed_factor=10.0)
-
-    def top_kmh() -> float:
-        return float(server.get(f"/devices/{standing}/snapshot")["channels"]["speed_kmh"] or 0.0)
-
-    eventually(top_kmh, lambda speed: speed > 15.0)
-    server.stand_still(standing)
-    eventually(
-        lambda: server.get("/rides")["items"],
-        lambda rides: len(rides) > known and rides[0]["state"] == "done",
-        within_s=60.0,
-    )
-    server.simulate(standing, speed_factor=1.0)
+    server.advance(standing, 3.0)
+    record_ride(server, standing)
+    server.simulate(standing, clock="real")
     desk = open_desk(width=1440, height=900)
+
+    ridden_at = datetime.now(UTC).isoformat()
+
+    def later(route: Route) -> None:
+        """By the wall's clock, which stood while it was ridden, it would be before the change."""
+        rides = route.fetch().json()
+        for ride in rides["items"]:
+            ride["started_at"] = ridden_at
+        route.fulfill(json=rides)
+
+    desk.page.route("**/api/v1/rides?*", later)
     page = desk.open("/service")
     page.get_by_role("textbox", name="Complaint").fill("No help since this afternoon")
     expect(page.get_by_test_id("checks").locator("tbody .passed").first).to_be_visible()

@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 from backend.store.upkeep.check import check_store
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import sideways
-from tests.browser.test_pages_for_everyone import COVERED, JUDGE, SHIFT
+from tests.browser.judged import COVERED, JUDGE, moved
 from tests.fakes.server import SpindleServer
 
 
@@ -23,7 +23,7 @@ def test_a_backup_is_saved_from_where_everything_is_told(
     data = page.get_by_test_id("data-folder")
     expect(data).to_contain_text(place["folder"])
     expect(data).to_contain_text("rides ·")
-    assert page.evaluate(SHIFT) < 0.02
+    assert moved(page) == []
     data.locator("summary").click()
     expect(data).to_contain_text("spindle serve --data FOLDER")
     page.evaluate(axe)

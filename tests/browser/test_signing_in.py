@@ -1,7 +1,7 @@
 """Goal: who is not signed in meets the sign-in page and nothing else, comes back to where they
 wanted to go, and leaves again; an administrator lets others in.
 
-Method: a server of its own on every address of the machine, its printed link, a real browser; a
+Method: a server of its own on every address of the machine, its link, a real browser; a
 phone in the dark, in Chinese; axe-core.
 """
 
@@ -17,15 +17,15 @@ from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import REFUSED, sideways
-from tests.browser.test_pages_for_everyone import JUDGE, SMALL_TARGETS
-from tests.fakes.server import ServerProcess, SpindleServer, eventually
+from tests.browser.judged import JUDGE, SMALL_TARGETS
+from tests.fakes.server import ServerHere, SpindleServer
 
 PASSWORD = "eine lange Nacht"
 
 
 @dataclass
 class Workshop:
-    """A server that asks who is there. token: of the link it printed."""
+    """A server that asks who is there. token: of the link it prints."""
 
     server: SpindleServer
     address: str
@@ -34,11 +34,11 @@ class Workshop:
 
 @pytest.fixture
 def workshop(tmp_path: Path) -> Iterator[Workshop]:
-    server = ServerProcess(tmp_path, [], SPINDLE_HOST="0.0.0.0").start()
-    said = eventually(server.said, lambda words: "#first=" in words)
-    address = server.url.replace("0.0.0.0", "127.0.0.1")
-    yield Workshop(server, address, said.split("#first=")[1].split()[0])
-    server.stop()
+    with ServerHere(tmp_path, [], SPINDLE_HOST="0.0.0.0") as server:
+        assert server.services.people is not None
+        token = server.services.people.managed.first_token()
+        assert token is not None
+        yield Workshop(server, server.url.replace("0.0.0.0", "127.0.0.1"), token)
 
 
 def fill_in(page: Page, name: str, password: str = PASSWORD) -> None:

@@ -11,7 +11,7 @@ from playwright.sync_api import expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import sideways
-from tests.browser.test_pages_for_everyone import JUDGE
+from tests.browser.judged import JUDGE
 from tests.browser.test_tune_page import open_tune, reading
 from tests.fakes.server import eventually
 

@@ -22,10 +22,10 @@ from backend.store import open_store
 from firmware_protocol._generated import CHANNELS
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk, sideways
-from tests.browser.test_pages_for_everyone import JUDGE
-from tests.fakes.server import ServerProcess, SpindleServer
+from tests.browser.judged import JUDGE
+from tests.fakes.server import ServerHere, SpindleServer
 
-UNIT = ["sim:ridden?seed=5"]
+UNIT = ["sim:ridden?seed=5&scenario=none"]
 STARTED_US = 1_760_000_000_000_000
 # Rows of 10 ms at one place of the table: speed, torque rate, how many.
 RIDES = (
@@ -72,15 +72,13 @@ def write_rides(data: Path, unit_key: str) -> None:
 def shop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     """A server whose unit has ridden."""
     data = tmp_path_factory.mktemp("ridden")
-    before = ServerProcess(data, UNIT).start()
-    before.ready_device()
-    unit_key = before.get("/devices")["items"][0]["unit_key"]
-    before.stop()
+    with ServerHere(data, UNIT) as before:
+        before.ready_device()
+        unit_key = before.get("/devices")["items"][0]["unit_key"]
     write_rides(data, unit_key)
-    running = ServerProcess(data, UNIT).start()
-    running.stand_still(running.ready_device())
-    yield running
-    running.stop()
+    with ServerHere(data, UNIT) as running:
+        running.ready_device()
+        yield running
 
 
 def open_tune(desk: Desk, address: str = "/tune") -> Page:

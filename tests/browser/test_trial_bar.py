@@ -5,14 +5,12 @@ The clock that matters is the unit's: what the unit has is read from the API, no
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk, sideways
-from tests.browser.test_pages_for_everyone import JUDGE
+from tests.browser.judged import JUDGE
 from tests.browser.test_tune_page import CELL, open_tune, review
 from tests.fakes.server import SpindleServer
 
@@ -42,16 +40,8 @@ def try_first_rule(page: Page, seconds: int, reason: str = "softer start") -> No
     expect(page.locator("dialog")).to_have_count(0)
 
 
-@pytest.fixture
-def untried(server: SpindleServer, standing: str) -> Iterator[str]:
-    """The id of the standing unit; whatever a test left on trial is given up after it."""
-    yield standing
-    if server.get(f"/devices/{standing}")["config"]["state"] == "provisional":
-        server.ask("POST", f"/devices/{standing}/config/rollback")
-
-
 def test_a_change_on_trial_is_shown_on_every_page_and_kept(
-    desk: Desk, server: SpindleServer, untried: str
+    desk: Desk, server: SpindleServer, standing: str
 ) -> None:
     page = open_tune(desk)
     try_first_rule(page, LONG_S)
@@ -65,17 +55,17 @@ def test_a_change_on_trial_is_shown_on_every_page_and_kept(
     page.reload()
     expect(bar).to_contain_text("Rules")
     expect(bar.locator("[role=timer]")).to_contain_text("goes back by itself in")
-    assert server.get(f"/devices/{untried}/config")["parameters"]["fuzzy_rules"][0][0] == "NB"
+    assert server.get(f"/devices/{standing}/config")["parameters"]["fuzzy_rules"][0][0] == "NB"
     page.click(f"{BAR} >> text=Keep")
 
     expect(page.locator("[role=status]", has_text="Kept")).to_be_visible()
     expect(bar).to_have_count(0)
-    assert server.get(f"/devices/{untried}")["config"]["state"] == "committed"
-    assert first_rule(server, untried) == "NB"
+    assert server.get(f"/devices/{standing}")["config"]["state"] == "committed"
+    assert first_rule(server, standing) == "NB"
 
 
 def test_a_change_on_trial_is_reverted_and_the_table_follows(
-    desk: Desk, server: SpindleServer, untried: str
+    desk: Desk, server: SpindleServer, standing: str
 ) -> None:
     page = open_tune(desk)
     try_first_rule(page, LONG_S)
@@ -84,32 +74,35 @@ def test_a_change_on_trial_is_reverted_and_the_table_follows(
     page.click(f"{BAR} >> text=Revert")
 
     expect(page.locator(OVER)).to_contain_text("Reverted as asked")
-    assert first_rule(server, untried) == "ZO"
+    assert first_rule(server, standing) == "ZO"
     expect(page.locator(f"{CELL} .label")).to_have_text("ZO")
     expect(page.locator("[data-testid=draft-bar]")).to_contain_text("Same as in the unit")
 
 
 def test_a_trial_nobody_keeps_runs_out_and_the_page_says_so(
-    desk: Desk, server: SpindleServer, untried: str
+    desk: Desk, server: SpindleServer, standing: str
 ) -> None:
-    before = server.get(f"/devices/{untried}/config")
+    before = server.get(f"/devices/{standing}/config")
     page = open_tune(desk)
     try_first_rule(page, SHORT_S)
 
-    expect(page.locator(OVER)).to_contain_text("ran out", timeout=30_000)
+    server.simulate(standing, clock="virtual")
+    server.advance(standing, SHORT_S)
+
+    expect(page.locator(OVER)).to_contain_text("ran out")
     desk.picture("trial-over")
-    after = server.get(f"/devices/{untried}/config")
+    after = server.get(f"/devices/{standing}/config")
     assert after["parameters"] == before["parameters"]
     expect(page.locator(f"{CELL} .label")).to_have_text("ZO")
 
 
 def test_a_trial_that_ends_early_by_another_hand_is_told_apart(
-    desk: Desk, server: SpindleServer, untried: str
+    desk: Desk, server: SpindleServer, standing: str
 ) -> None:
     page = open_tune(desk)
     try_first_rule(page, LONG_S)
 
-    server.ask("POST", f"/devices/{untried}/config/rollback")
+    server.ask("POST", f"/devices/{standing}/config/rollback")
 
     expect(page.locator(OVER)).to_contain_text("Reverted as asked")
     page.click(f"{OVER} >> text=Dismiss")
@@ -117,7 +110,7 @@ def test_a_trial_that_ends_early_by_another_hand_is_told_apart(
 
 
 def test_nothing_else_is_written_while_a_trial_runs(
-    desk: Desk, server: SpindleServer, untried: str
+    desk: Desk, server: SpindleServer, standing: str
 ) -> None:
     page = open_tune(desk)
     try_first_rule(page, LONG_S)
@@ -131,11 +124,11 @@ def test_nothing_else_is_written_while_a_trial_runs(
 
 @pytest.mark.parametrize("language", ["en-GB", "zh-CN"])
 def test_the_bar_fits_a_phone_and_a_screen_reader(
-    open_desk: OpenDesk, server: SpindleServer, untried: str, axe: str, language: str
+    open_desk: OpenDesk, server: SpindleServer, standing: str, axe: str, language: str
 ) -> None:
     parameters = {"torque_filter_s": 0.3}
     body = {"parameters": parameters, "reason": "湿滑坡道", "confirm_s": LONG_S}
-    server.ask("PATCH", f"/devices/{untried}/config", json=body)
+    server.ask("PATCH", f"/devices/{standing}/config", json=body)
     desk = open_desk(width=360, height=740, language=language)
     page = desk.open("/service")
 

@@ -1,9 +1,9 @@
 """Goal: a tuner sees what other tables would have made of a ride he knows, and is told what the
 answer is worth; and why the motor gave what it gave at a moment of it.
 
-Method: a simulated unit rides for half a minute of its time, five times as fast as real, and its
-ride records itself. Rules that say the largest gain everywhere must give more work for every
-kilometre; nothing changed must give what was recorded.
+Method: a simulated unit rides for half a minute of virtual time, and its ride records itself.
+Rules that say the largest gain everywhere must give more work for every kilometre; nothing changed
+must give what was recorded.
 """
 
 from __future__ import annotations
@@ -17,10 +17,11 @@ from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk, sideways
+from tests.browser.judged import JUDGE
 from tests.browser.recorded_ride import record_ride
-from tests.browser.test_pages_for_everyone import JUDGE
 from tests.browser.test_rides_page import drop_file, steady_ride
-from tests.fakes.server import ServerProcess, SpindleServer, eventually
+from tests.fakes.ride_in_time import ride_on
+from tests.fakes.server import ServerHere, SpindleServer, eventually
 
 SENTENCE = "[data-testid=try-sentence]"
 SHIFTS = """
@@ -34,14 +35,25 @@ SHIFT_MAX = 0.02
 
 @pytest.fixture(scope="module")
 def workshop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
-    running = ServerProcess(tmp_path_factory.mktemp("try"), ["sim:try?seed=5&speed=5"]).start()
-    yield running
-    running.stop()
+    unit = "sim:try?seed=5&scenario=none&clock=virtual"
+    with ServerHere(tmp_path_factory.mktemp("try"), [unit]) as running:
+        yield running
 
 
 @pytest.fixture(scope="module")
-def ride(workshop: SpindleServer) -> int:
-    """The id of a recorded ride, in the mode that the first table rules."""
+def braked(workshop: SpindleServer) -> int:
+    """The id of a ride on which the brake was touched twice, which cut the motor."""
+    device = workshop.ready_device()
+    for _ in range(2):
+        ride_on(workshop, device, 12.0)
+        workshop.simulate(device, brake=True)
+        workshop.advance(device, 0.5)
+    return record_ride(workshop, device)
+
+
+@pytest.fixture(scope="module")
+def ride(workshop: SpindleServer, braked: int) -> int:
+    """The id of the newest ride, in the mode that the first table rules."""
     return record_ride(workshop, workshop.ready_device())
 
 
@@ -268,10 +280,10 @@ def shown_nm(page: Page, row: str) -> float:
 
 
 def test_a_moment_says_who_took_what_and_the_next_cut_is_a_key_away(
-    tuner: Desk, workshop: SpindleServer, ride: int, axe: str
+    tuner: Desk, workshop: SpindleServer, braked: int, axe: str
 ) -> None:
-    cuts = workshop.get(f"/rides/{ride}/cuts")["items"]
-    page = tuner.open(f"/rides/{ride}")
+    cuts = workshop.get(f"/rides/{braked}/cuts")["items"]
+    page = tuner.open(f"/rides/{braked}")
     expect(page.get_by_test_id("energy")).to_contain_text("sport")
     page.get_by_role("link", name="Why").click()
     page.wait_for_selector("[data-testid=waterfall]")
@@ -280,7 +292,7 @@ def test_a_moment_says_who_took_what_and_the_next_cut_is_a_key_away(
     page.wait_for_function(f"() => location.search.includes('t_s={cuts[0]['at_s']:.2f}')")
     expect(page.get_by_test_id("why-sentence")).to_contain_text(" took ")
     expect(page.get_by_test_id("why-bar")).to_contain_text(f"cut 1 of {len(cuts)}")
-    why = workshop.get(f"/rides/{ride}/why", params={"t_s": cuts[0]["at_s"]})
+    why = workshop.get(f"/rides/{braked}/why", params={"t_s": cuts[0]["at_s"]})
     assert shown_nm(page, "delivered") == pytest.approx(why["delivered_nm"], abs=0.06)
     expect(page.locator("[data-testid=fired-rules] tbody tr")).to_have_count(len(why["rules"]))
 

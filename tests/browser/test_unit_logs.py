@@ -10,40 +10,24 @@ from playwright.sync_api import Route, expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk, sideways
-from tests.browser.test_pages_for_everyone import JUDGE
-from tests.fakes.server import SpindleServer, eventually
+from tests.browser.judged import JUDGE
+from tests.browser.recorded_ride import record_ride
+from tests.fakes.server import SpindleServer
 
 LOGS = "[data-testid=unit-logs]"
-WITHIN_S = 90.0
+# The unit closes its log when the bike has stood for this long.
+LOG_REST_S = 60.0
 
 
 def ride_and_rest(server: SpindleServer, device: str) -> int:
-    """A short ride on a fast clock, then rest until the unit has closed its log; its number.
-
-    A log that is still open belongs to the ride of an earlier test: this ride goes on in it.
-    """
-
-    def closed_logs() -> set[int]:
-        logs = server.get(f"/devices/{device}/logs")["items"]
-        return {log["log_id"] for log in logs if log["state"] == "closed"}
-
-    before = closed_logs()
-    server.simulate(
-        device,
-        brake=False,
-        assist_mode=3,
-        speed_factor=10.0,
-        rider={"kind": "legs", "torque_nm": 20.0, "cadence_rpm_max": 90.0},
-    )
-    eventually(
-        lambda: server.get(f"/devices/{device}/snapshot")["channels"]["speed_kmh"],
-        lambda speed: speed > 10,
-    )
-    server.stand_still(device)
-
-    numbers = eventually(lambda: closed_logs() - before, within_s=WITHIN_S)
-    server.simulate(device, speed_factor=1.0)
-    return max(numbers)
+    """A short ride, then rest until the unit has closed its log; its number."""
+    server.simulate(device, clock="virtual")
+    record_ride(server, device)
+    server.advance(device, LOG_REST_S)
+    logs = server.get(f"/devices/{device}/logs")["items"]
+    server.simulate(device, clock="real")
+    (number,) = [log["log_id"] for log in logs if log["state"] == "closed"]
+    return int(number)
 
 
 def test_a_ride_in_the_unit_is_fetched_freed_there_and_opened(
@@ -57,7 +41,7 @@ def test_a_ride_in_the_unit_is_fetched_freed_there_and_opened(
 
     log.locator("button").click()
 
-    expect(log).to_have_attribute("data-state", "done", timeout=60_000)
+    expect(log).to_have_attribute("data-state", "done")
     desk.picture("unit-logs-done")
     page.reload()
     expect(log).to_have_attribute("data-state", "done")
@@ -73,7 +57,7 @@ def test_a_ride_in_the_unit_is_fetched_freed_there_and_opened(
     expect(log).to_have_count(0)
     assert number not in [log["log_id"] for log in server.get(f"/devices/{standing}/logs")["items"]]
     desk.open(ride)
-    page.wait_for_selector("[data-testid=traces][data-draws]", timeout=30_000)
+    page.wait_for_selector("[data-testid=traces][data-draws]")
 
 
 def test_a_download_that_broke_off_says_why_and_can_go_on(desk: Desk, standing: str) -> None:

@@ -4,8 +4,6 @@ maker's token and nothing but the page and the maker's own tool.
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,29 +11,29 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import OpenDesk
-from tests.browser.desk import ROOT, Desk, sideways
-from tests.browser.test_pages_for_everyone import JUDGE
+from tests.browser.desk import Desk, sideways
+from tests.browser.judged import JUDGE
 from tests.browser.test_tune_page import review
-from tests.fakes.server import ServerProcess, SpindleServer
+from tests.fakes.command import spindle
+from tests.fakes.server import ServerHere, SpindleServer
 
 CUTOFF = "[data-parameter=assist_cutoff_kmh] input"
 PANEL = "[data-testid=unlock]"
 ASK = "Ask the unit for a challenge"
 
 
-def spindle(*words: str | Path) -> str:
-    done = subprocess.run(
-        [sys.executable, "-m", "backend.cli", *map(str, words)],
-        cwd=ROOT, capture_output=True, text=True, timeout=60, check=True,
-    )  # fmt: skip
-    return done.stdout.strip()
+def maker(*words: str | Path) -> str:
+    """What the maker's tool printed."""
+    ran = spindle(None, "unlock", *words)
+    assert ran.returncode == 0, ran.stderr
+    return ran.stdout.strip()
 
 
 @pytest.fixture(scope="module")
 def key(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The maker's private key; the public one lies beside it."""
     file = tmp_path_factory.mktemp("maker") / "maker.pem"
-    spindle("unlock", "keygen", file)
+    maker("keygen", file)
     return file
 
 
@@ -43,10 +41,9 @@ def key(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def shop(key: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     """A server with one standing unit that carries the maker's key."""
     unit = f"sim:shop?scenario=none&unlock_key={key}.pub"
-    running = ServerProcess(tmp_path_factory.mktemp("shop"), [unit]).start()
-    running.ready_device()
-    yield running
-    running.stop()
+    with ServerHere(tmp_path_factory.mktemp("shop"), [unit]) as running:
+        running.ready_device()
+        yield running
 
 
 def ask_for_cutoff(page: Page, kmh: str) -> None:
@@ -90,7 +87,7 @@ def test_a_limit_is_lowered_freely_and_raised_with_a_token(
     panel.get_by_label("Token from the maker").fill("hello")
     expect(panel).to_contain_text("This is no token")
     token = tmp_path / "token.txt"
-    token.write_text(spindle("unlock", "sign", key, challenge) + "\n")
+    token.write_text(maker("sign", key, challenge) + "\n")
     panel.locator("input[type=file]").set_input_files(token)
     panel.get_by_role("button", name="Write with the token").click()
 

@@ -13,12 +13,14 @@ from typing import Any, Self, TypeVar
 import httpx
 import uvicorn
 
+from backend.api.services import Services
 from backend.device.families import FAMILIES, Families
 from backend.main import build_app, listening_socket, open_services, server_config
 from backend.settings import load
 from spindle.client import Spindle
 from spindle.testing.server import PATIENCE_S, RunningServer
 from tests.fakes import unit_here
+from tests.run import started
 
 Answer = TypeVar("Answer")
 
@@ -78,6 +80,12 @@ class SpindleServer:
         )
         return str(devices[number]["id"])
 
+    def add_unit(self, url: str) -> str:
+        """The id of a unit that is added, once it is ready."""
+        device = self.ask("POST", "/devices", json={"url": url})["id"]
+        eventually(lambda: self.get(f"/devices/{device}")["state"], lambda state: state == "ready")
+        return str(device)
+
     def all_ready(self, count: int) -> None:
         """Wait until `count` units are ready; they become so in any order."""
         for number in range(count):
@@ -124,8 +132,10 @@ class ServerHere(SpindleServer):
 
     Nothing of it can be killed; the rest, sockets, store and readers of files, is as in a process
     of its own, which costs two seconds of a core more. Arguments as of RunningServer; families: the
-    makes of units it knows.
+    makes of units it knows. services: what is behind its API, once it is started.
     """
+
+    services: Services
 
     def __init__(
         self,
@@ -140,6 +150,7 @@ class ServerHere(SpindleServer):
 
     def start(self) -> Self:
         """Starts it; it answers at `url` from then on."""
+        started.HERE.note(started.SERVER_HERE)
         with contextlib.ExitStack() as opening:
             settings = self._settings
             port = opening.enter_context(listening_socket(settings.host, 0))
@@ -155,6 +166,7 @@ class ServerHere(SpindleServer):
                 thread.join()
 
             opening.callback(end)
+            self.services = services
             self.url = "http://{}:{}".format(*port.getsockname())
             self.client = opening.enter_context(api_client(self.url))
             self._closing = opening.pop_all()

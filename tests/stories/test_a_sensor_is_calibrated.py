@@ -10,8 +10,6 @@ planted, and the file is worked out again by the command without a server.
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -22,6 +20,7 @@ from backend.cli import main
 from backend.services.calibration.telling import has_record
 from tests.fakes.relay import Relay
 from tests.fakes.server import ServerHere, ServerProcess, eventually
+from tests.fakes.unit_on_port import UnitOnPort
 
 pytestmark = pytest.mark.slow
 
@@ -43,7 +42,6 @@ brake = true
 """
 COUNTS_PER_NM = 100.0
 GRAVITY_MS2, ARM_M = 9.81, 0.17
-FASTER = 10
 # A mass that was hung swings no more.
 SETTLES_S = 15.0
 MASS_LIMIT_SHARE = 1.6e-4
@@ -63,26 +61,18 @@ GAIN = "sensor_gain_nm_per_count"
 class Workshop:
     """A unit on a cable, and the server that is asked; `path` of the open calibration.
 
-    gain: of its sensor, times that of the one as drawn. maker: whose tokens it takes. virtual: time
-    passes for it only while a mass is waited for; without, by itself and faster than for others.
-    here: the server is on a thread of the test, where it is not to be killed.
+    gain: of its sensor, times that of the one as drawn. maker: whose tokens it takes. here: the
+    server is on a thread of the test, where it is not to be killed. Time passes for the unit only
+    while a mass is waited for.
     """
 
-    def __init__(
-        self, folder: Path, gain: float, maker: Path, virtual: bool = False, here: bool = False
-    ) -> None:
+    def __init__(self, folder: Path, gain: float, maker: Path, here: bool = False) -> None:
         self.gain = gain
-        self.virtual = virtual
         scenario = folder / "workshop.toml"
         scenario.write_text(SCENARIO.format(gain=gain, zero=PLANTED_ZERO), encoding="utf-8")
-        words = [sys.executable, "-m", "sim_device", "unit", "--tcp", "0", "--seed", "7"]
-        words += ["--virtual"] if virtual else ["--speed", str(FASTER)]
-        words += ["--scenario", str(scenario)]
-        words += ["--unlock-key", f"{maker}.pub"]
-        self.unit = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
-        assert self.unit.stdout is not None
-        port = int(self.unit.stdout.readline().split()[-1].rsplit(":", 1)[-1])
-        self.cable = Relay(port)
+        words = ["--virtual", "--seed", "7", "--scenario", str(scenario)]
+        self.unit = UnitOnPort(*words, "--unlock-key", f"{maker}.pub")
+        self.cable = Relay(self.unit.port)
         self.data = folder / "data"
         self.start(here)
 
@@ -92,14 +82,12 @@ class Workshop:
         server = ServerHere if here else ServerProcess
         self.server: ServerHere | ServerProcess = server(self.data, [url]).start()
         self.device = self.server.ready_device()
-        if self.virtual:
-            self.server.advance(self.device, 1.0)
+        self.server.advance(self.device, 1.0)
 
     def end(self) -> None:
         self.server.stop()
         self.cable.cut()
-        self.unit.kill()
-        self.unit.wait(10)
+        self.unit.unplug()
 
     def config(self) -> dict[str, Any]:
         parameters: dict[str, Any] = self.server.get(f"/devices/{self.device}/config")["parameters"]
@@ -127,8 +115,7 @@ class Workshop:
         def hangs(reading: dict[str, Any]) -> bool:
             return bool(reading["steady"]) and abs(reading["mean_counts"] - seen) < 10 + seen / 200
 
-        if self.virtual:
-            self.server.advance(self.device, SETTLES_S)
+        self.server.advance(self.device, SETTLES_S)
         eventually(lambda: self.server.get(f"{self.path}/reading"), hangs)
 
     def next_state(self) -> dict[str, Any] | None:
@@ -164,7 +151,7 @@ def maker(tmp_path: Path) -> Path:
 @pytest.fixture
 def workshop(tmp_path: Path, maker: Path, request: pytest.FixtureRequest) -> Iterator[Workshop]:
     gain, here = request.param
-    made = Workshop(tmp_path, gain, maker, virtual=True, here=here)
+    made = Workshop(tmp_path, gain, maker, here=here)
     yield made
     made.end()
 
