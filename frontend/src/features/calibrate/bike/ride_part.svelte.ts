@@ -66,8 +66,10 @@ export class RidePart {
     const end_s = ride?.summary?.duration_s ?? 0
     this.ride = ride
     const names = ({ lines }: TraceRow) => lines.map(({ channel }) => channel)
-    this.rows = ride ? ROWS.filter((row) => offers(ride, names(row))) : []
-    const channels = this.rows.flatMap(names)
+    // Not read back from `this`: an effect that chooses would then never come to rest.
+    const rows = ride ? ROWS.filter((row) => offers(ride, names(row))) : []
+    this.rows = rows
+    const channels = rows.flatMap(names)
     const drawn = ride !== null && end_s > 0 && channels.length > 0
     this.view = drawn ? new RideView(ofRide(this.server, ride.id), channels, end_s, null) : null
   }
