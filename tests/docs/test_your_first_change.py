@@ -134,7 +134,7 @@ class Copy:
 
     def tests(self, *words: str) -> None:
         """Tests of the copy that are not slow."""
-        options = ("-q", "-p", "no:cacheprovider", "-m", "not slow and not serial")
+        options = ("-q", "-p", "no:cacheprovider", "-m", "not slow")
         self.must(sys.executable, "-m", "pytest", *options, *words)
 
     def untranslated(self) -> str:
