@@ -17,6 +17,12 @@ BEGIN = @mkdir -p $(STAMP); date +%s > $(STAMP)/began-$@
 END = @seconds=$$(($$(date +%s) - $$(cat $(STAMP)/began-$@))); \
 	echo "make $@ took $$((seconds / 60)) min $$((seconds % 60)) s"
 
+define BOARD_READY
+$(BEGIN)
+@.ci/ensure-tools board
+@$(MAKE) $(SIDE_BY_SIDE) setup
+endef
+
 # What runs against the emulated board; `make test-board-all` adds what takes minutes there.
 BOARD_SMOKE := tests/board tests/conformance tests/unit/sim_device_app
 BOARD_TESTS := tests/board tests/conformance tests/unit/sim_device_app tests/stories
@@ -66,26 +72,20 @@ prove: ## what takes longest, and the large counts of which `make test` does a p
 	$(END)
 
 .PHONY: test-board-smoke
-test-board-smoke: ## the part of it that takes a minute: image, wire, law and product
-	$(BEGIN)
-	@.ci/ensure-tools board
-	@$(MAKE) $(SIDE_BY_SIDE) setup
+test-board-smoke: ## a minute of test-board: image, wire, law and product
+	$(BOARD_READY)
 	$(BIN)/pytest --unit=qemu -m "not board_long and not long" $(BOARD_SMOKE)
 	$(END)
 
 .PHONY: test-board
 test-board: ## the unit's tests against the firmware on an emulated Cortex-M4F
-	$(BEGIN)
-	@.ci/ensure-tools board
-	@$(MAKE) $(SIDE_BY_SIDE) setup
+	$(BOARD_READY)
 	$(BIN)/pytest --unit=qemu -m "not board_long" $(BOARD_TESTS)
 	$(END)
 
 .PHONY: test-board-all
 test-board-all: ## the same with the longest: power cuts at every byte, ten thousand guesses
-	$(BEGIN)
-	@.ci/ensure-tools board
-	@$(MAKE) $(SIDE_BY_SIDE) setup
+	$(BOARD_READY)
 	$(BIN)/pytest --unit=qemu --prove $(BOARD_TESTS)
 	$(END)
 

@@ -48,6 +48,7 @@ def test_numbers_move_and_strips_are_drawn(desk: Desk, riding: str) -> None:
         lambda: [int(str(one.get_attribute("data-draws"))) for one in strips.all()],
         lambda now: all(one > was for one, was in zip(now, drawn, strict=True)),
     )
+    expect(page.get_by_test_id("gaps")).to_contain_text(re.compile(r"\d"))
     desk.picture("live")
 
 

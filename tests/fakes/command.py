@@ -64,7 +64,7 @@ def spindle_process(*words: str | Path, **streams: int) -> subprocess.CompletedP
     return subprocess.run(
         [sys.executable, "-m", "backend.cli", *map(str, words)],
         cwd=ROOT,
-        env={name: value for name, value in os.environ.items() if "SPINDLE" not in name},
+        env=_foreign_variables(),
         text=True,
         timeout=60,
         check=False,
@@ -100,6 +100,9 @@ def _text(stream: io.TextIOWrapper) -> str:
 
 @contextlib.contextmanager
 def _environment(given: dict[str, str]) -> Iterator[None]:
-    kept = {name: value for name, value in os.environ.items() if "SPINDLE" not in name}
-    with mock.patch.dict(os.environ, {**kept, **given}, clear=True):
+    with mock.patch.dict(os.environ, _foreign_variables() | given, clear=True):
         yield
+
+
+def _foreign_variables() -> dict[str, str]:
+    return {name: value for name, value in os.environ.items() if "SPINDLE" not in name}

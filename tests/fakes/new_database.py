@@ -35,8 +35,7 @@ def template() -> sqlite3.Connection:
 
 def copied(engine: Engine, url: str) -> None:
     """In the place of backend.store.sql.database.migrate."""
-    making = not template.cache_info().currsize
-    if making or engine.dialect.name != "sqlite" or database.current_revision(engine) is not None:
+    if engine.dialect.name != "sqlite" or database.current_revision(engine) is not None:
         migrate(engine, url)
         return
     connection = engine.raw_connection()
@@ -51,6 +50,7 @@ def copied(engine: Engine, url: str) -> None:
 @pytest.fixture(scope="session", autouse=True)
 def new_databases_are_copied() -> Iterator[None]:
     """For every store that a test opens in its own process."""
+    # While the migrations still are what makes it.
     template()
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(database, "migrate", copied)

@@ -17,7 +17,6 @@ class Guard:
 
     def __init__(self, config: pytest.Config) -> None:
         self.folder = place.of_this_run()
-        self.told = ""
         mark = self.folder.name
         if config.option.basetemp is None:
             config.option.basetemp = str(self.folder / "tests")
