@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -29,6 +30,8 @@ AGREED, AGREED_SHARE = 1e-4, 0.005
 ROUNDS_MAX = 100
 BOXES_MAX = 200_000
 """After so many a search ends with the bound it has: half a second of a core."""
+KEPT = 512
+"""Answers: a page asks again for the same table, an undo for the one before."""
 SAME = 1e-6
 """A distance this much too long, as a share, is so by rounding only."""
 
@@ -52,6 +55,7 @@ class Change:
         return f"{self.speed_kmh:.1f} km/h, torque rate {self.torque_rate:.2f}"
 
 
+@lru_cache(KEPT)
 def largest_rise(
     table: FuzzyTable,
     axis: str,
@@ -72,6 +76,7 @@ def largest_rise(
     return Change(at_most, search.seen, *search.seen_at)
 
 
+@lru_cache(KEPT)
 def gain_range(table: FuzzyTable, first_rate_only: bool = False) -> tuple[float, float]:
     """The least and the greatest gain over the table, or at its first torque rate.
 
