@@ -20,6 +20,8 @@ from tests.fakes.server import eventually
 from tests.run import again, guardian, place, started
 
 ROOT = Path(__file__).resolve().parents[2]
+# One plugin, the one that tries again: loading all of them takes longer than the test.
+WORDS = ("-q", "-p", "no:cacheprovider", "-p", "pytest_rerunfailures", ".")
 CONFTEST = """
 import pytest
 from tests.run import again, guard, started
@@ -59,9 +61,9 @@ def run_of(folder: Path, test: str) -> subprocess.Popen[str]:
     (folder / "test_one.py").write_text(test)
     kept = {name: value for name, value in os.environ.items() if name != guardian.VARIABLE}
     return subprocess.Popen(
-        [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "."],
+        [sys.executable, "-m", "pytest", *WORDS],
         cwd=folder,
-        env={**kept, "PYTHONPATH": str(ROOT)},
+        env={**kept, "PYTHONPATH": str(ROOT), "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,

@@ -93,6 +93,7 @@ def question(server: SpindleServer, ride: int) -> dict[str, Any]:
     }
 
 
+@pytest.mark.long
 @pytest.mark.board_long
 def test_a_planted_gain_is_found_and_gone_once_it_is_written(
     server: SpindleServer, tmp_path: Path

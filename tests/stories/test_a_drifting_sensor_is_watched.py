@@ -49,6 +49,7 @@ def drift(server: SpindleServer, device: str) -> dict[str, Any]:
     return told
 
 
+@pytest.mark.long
 def test_a_drift_is_seen_calibrated_and_gone(server: SpindleServer) -> None:
     device = server.ready_device()
     assert (drift(server, device)["rides"], drift(server, device)["level"]) == ([], None)

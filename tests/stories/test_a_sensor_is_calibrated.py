@@ -170,6 +170,7 @@ def within_its_uncertainty(worked: dict[str, Any], gain: float) -> float:
     return float(budget["expanded_nm"][-1])
 
 
+@pytest.mark.long
 @of_gain(1.03, here=False)
 def test_a_sensor_is_calibrated_though_cable_server_and_a_mass_go_wrong(
     workshop: Workshop, tmp_path: Path, capsys: pytest.CaptureFixture[str]

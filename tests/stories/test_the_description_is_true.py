@@ -24,7 +24,7 @@ from tests.fakes.server import ServerHere, SpindleServer
 pytestmark = [pytest.mark.slow, pytest.mark.large_count]
 
 # Enough to find what is wrong with a route at first sight; a night finds more.
-EXAMPLES = counts.of(6, least=2)
+EXAMPLES = counts.of(6)
 PARTS = 8
 # Of a request to a unit that some other request added, on a port where there is none.
 ABSENT = {"not_connected", "no_answer"}
