@@ -10,6 +10,7 @@ SpindleError
 │   ├── InvalidRequest       the values make no sense
 │   ├── LimitViolation       a value is outside what the parameter allows; each is named
 │   ├── ConfigConflict       somebody else changed the configuration first
+│   ├── OtherUnit            the unit on this connection is not the one that was meant
 │   ├── AccessDenied         the parameter needs a higher access level
 │   │   └── TokenNeeded      the maker's token would do; it says what has to be signed
 │   ├── NotSignedIn          nobody is known to ask, or the password is wrong
@@ -149,6 +150,12 @@ class ConfigConflict(RequestRefused):
     """The configuration is no longer the one the change was made for."""
 
     default_code = "config_changed"
+
+
+class OtherUnit(RequestRefused):
+    """The unit on the connection is not the one that was meant; it was asked for nothing."""
+
+    default_code = "other_unit"
 
 
 class AccessDenied(RequestRefused):

@@ -28,6 +28,7 @@ STATUS_OF: dict[type[errors.SpindleError], int] = {
     errors.InvalidRequest: 422,
     errors.LimitViolation: 422,
     errors.ConfigConflict: 412,
+    errors.OtherUnit: 412,
     errors.AccessDenied: 403,
     errors.TokenNeeded: 403,
     errors.NotSignedIn: 401,

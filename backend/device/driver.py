@@ -19,7 +19,7 @@ from typing import Protocol, TypeVar
 from backend.device.conversation import Conversation, Operation
 from backend.device.snapshot import DeviceStatus
 from backend.device.states import CONNECTED, DeviceEvent, LinkState
-from backend.errors import LinkError, NoAnswer, SpindleError
+from backend.errors import LinkError, NoAnswer, OtherUnit, SpindleError
 from backend.link import Link
 
 LOG = logging.getLogger(__name__)
@@ -135,17 +135,27 @@ class Driver:
         with self._lock:
             return work()
 
-    def run(self, operation: Operation[Result], timeout_s: float) -> Result:
+    def run(
+        self, operation: Operation[Result], timeout_s: float, meant: str | None = None
+    ) -> Result:
         """Run an operation and wait for its result; for any thread but the driver's own.
 
-        Raises what the operation raises. After `timeout_s` the operation gets NoAnswer in place of
-        the answer it waits for, and what it makes of that is raised: a change knows how far it was.
+        meant: the serial number of the unit it is for, None for whichever is there. Raises
+        OtherUnit when another one has come onto the line, and what the operation raises. After
+        `timeout_s` the operation gets NoAnswer in place of the answer it waits for, and what it
+        makes of that is raised: a change knows how far it was.
         """
         future: Future[Result] = Future()
 
         def begin() -> None:
-            if future.set_running_or_notify_cancel():
-                self._session.start(operation, future.set_result, future.set_exception)
+            if not future.set_running_or_notify_cancel():
+                return
+            there = self._session.status().identity
+            if meant is not None and there is not None and there.serial_number != meant:
+                operation.close()
+                future.set_exception(other_unit(self._opener.url, meant, there.serial_number))
+                return
+            self._session.start(operation, future.set_result, future.set_exception)
 
         self._command(begin)
         try:
@@ -325,6 +335,14 @@ class Driver:
         except (OSError, SpindleError) as error:
             LOG.warning("%s: closing the port failed: %s", self._opener.url, error)
         self._link = None
+
+
+def other_unit(url: str, meant: str, there: str | None) -> OtherUnit:
+    """The refusal of what was meant for a unit that is not on the line any more."""
+    return OtherUnit(
+        f"This was meant for the unit {meant}, but {url} leads to {there or 'another one'} now: "
+        "nothing was changed. Connect the unit it was meant for, or look at this one first."
+    )
 
 
 def _read_every_s(busy: bool, received: int, within_s: float) -> float:

@@ -9,7 +9,8 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
-from typing import Any, ClassVar, NoReturn
+from copy import copy
+from typing import Any, ClassVar, NoReturn, Self, TypeVar
 
 from backend.device.configuration import (
     Config,
@@ -19,6 +20,7 @@ from backend.device.configuration import (
     TrialStatus,
     Value,
 )
+from backend.device.conversation import Operation
 from backend.device.driver import Driver
 from backend.device.faults import UnitFault
 from backend.device.live_values import LiveValues
@@ -28,6 +30,8 @@ from backend.device.wear_counters import WearCounters
 from backend.domain.capability import Capability
 from backend.domain.channels import ChannelSpec
 from backend.errors import CapabilityMissing
+
+Result = TypeVar("Result")
 
 MEANING = {
     Capability.READ_CONFIG: "let its configuration be read",
@@ -59,6 +63,20 @@ class Unit(ABC):
 
     def __init__(self, driver: Driver) -> None:
         self.driver = driver
+        self.meant: str | None = None
+
+    def only(self, serial_number: str | None) -> Self:
+        """The same, for questions to the unit with this serial number and to no other.
+
+        They raise OtherUnit once another one is on the line. None: whichever is there.
+        """
+        same = copy(self)
+        same.meant = serial_number
+        return same
+
+    def run(self, operation: Operation[Result], timeout_s: float) -> Result:
+        """Run an operation, as of Driver.run, on the unit that is meant."""
+        return self.driver.run(operation, timeout_s, self.meant)
 
     # ------------------------------------------------------------------ what it is
 

@@ -10,6 +10,8 @@ unit, and it is on no bike, until somebody says which one it is.
 
 from __future__ import annotations
 
+import hashlib
+
 # The family of our own protocol: every unit of before units had keys.
 EBL = "ebl"
 # So much of a serial number is enough to tell the bikes of a workshop apart.
@@ -28,6 +30,12 @@ def serial_key(family: str, serial_number: str) -> str:
     return f"{family}:{serial_number}"
 
 
+def serial_of(key: str) -> str | None:
+    """The serial number in a key; None of a unit without one."""
+    number = key.partition(":")[2]
+    return None if number.startswith(("name:", "url:")) else number
+
+
 def ebl_key(serial_number: str | None) -> str | None:
     """The key of a unit from something that is older than keys; None where it names no unit."""
     return None if serial_number is None else serial_key(EBL, serial_number)
@@ -36,6 +44,11 @@ def ebl_key(serial_number: str | None) -> str | None:
 def tells_unit(key: str) -> bool:
     """Whether a key names one unit, and not whatever is behind a url."""
     return not key.partition(":")[2].startswith("url:")
+
+
+def unit_tag(key: str) -> str:
+    """Eight hex digits that name a unit where its key would be too long or not ASCII."""
+    return hashlib.sha256(key.encode()).hexdigest()[:8]
 
 
 def bike_name(key: str, name: str | None, model: str | None) -> str:

@@ -77,6 +77,7 @@ class LastKnown(Answer):
 
 
 class Config(Answer):
+    unit_key: str = Field(description="Of the unit that has it.")
     generation: int
     crc32: int
     parameters: Parameters
@@ -117,6 +118,7 @@ class ParameterChange(Answer):
 class ConfigChange(Answer):
     """A change that the unit took, read back and compared field by field."""
 
+    unit_key: str = Field(description="Of the unit that took it.")
     generation: int
     crc32: int
     state: Literal["committed", "provisional", "needs_restart"] = Field(

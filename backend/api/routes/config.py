@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, cast
 from fastapi import APIRouter, Header, Query, Response
 
 from backend.api.author import Author
+from backend.api.meant import FOR_ONE_UNIT
 from backend.api.models.config import (
     CONFIRM_S,
     CONFIRM_S_MAX,
@@ -31,6 +32,7 @@ from backend.services.tuning.config_view import etag
 router = APIRouter(
     prefix="/devices/{device_id}",
     tags=["configuration"],
+    dependencies=FOR_ONE_UNIT,
     responses=refusals(403, 404, 409, 412, 503, 504),
 )
 IfMatch = Annotated[
@@ -69,7 +71,7 @@ def get_config(
     """The whole configuration, read from the unit; 404 where it never had a previous one."""
     config = services.tuning.read_config(device_id, bank)
     if bank == "active":
-        response.headers["etag"] = etag(config.generation, config.crc32)
+        response.headers["etag"] = etag(config.unit_key, config.generation, config.crc32)
     return config
 
 
@@ -102,7 +104,7 @@ def patch_config(
         author,
         body.token,
     )
-    response.headers["etag"] = etag(change.generation, change.crc32)
+    response.headers["etag"] = etag(change.unit_key, change.generation, change.crc32)
     return change
 
 
@@ -265,10 +267,10 @@ def put_limits(
 
 
 def _tagged(view: Any, response: Response) -> Any:
-    response.headers["etag"] = etag(view.generation, view.crc32)
+    response.headers["etag"] = etag(view.unit_key, view.generation, view.crc32)
     return view.value
 
 
 def _stamped(change: Any, response: Response) -> Any:
-    response.headers["etag"] = etag(change.generation, change.crc32)
+    response.headers["etag"] = etag(change.unit_key, change.generation, change.crc32)
     return change

@@ -6,6 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Response, status
 
+from backend.api.meant import FOR_ONE_UNIT
 from backend.api.models.device import (
     Dashboard,
     Device,
@@ -28,6 +29,7 @@ from backend.services.units.asked_url import check_asked
 from backend.services.units.simulate import advance, scenarios
 
 router = APIRouter(tags=["devices"], responses=refusals(404, 409, 503, 504))
+MEANT: Any = {"dependencies": FOR_ONE_UNIT, "responses": refusals(412)}
 
 
 @router.get("/ports", operation_id="list_ports", response_model=PortList)
@@ -114,7 +116,10 @@ def moment_of_fault(
 
 
 @router.post(
-    "/devices/{device_id}/faults/clear", operation_id="clear_faults", response_model=FaultList
+    "/devices/{device_id}/faults/clear",
+    operation_id="clear_faults",
+    response_model=FaultList,
+    **MEANT,
 )
 def clear_faults(device_id: str, services: Provided) -> Any:
     """Ends latched faults whose cause has been gone for a second, if the bike stands still, and
@@ -127,6 +132,7 @@ def clear_faults(device_id: str, services: Provided) -> Any:
     "/devices/{device_id}/marks",
     operation_id="mark_moment",
     response_model=RideMark,
+    **MEANT,
     status_code=status.HTTP_201_CREATED,
 )
 def mark_moment(device_id: str, services: Provided) -> Any:
@@ -149,7 +155,10 @@ def get_simulation(device_id: str, services: Provided) -> Any:
 
 
 @router.put(
-    "/devices/{device_id}/simulation", operation_id="put_simulation", response_model=Simulation
+    "/devices/{device_id}/simulation",
+    operation_id="put_simulation",
+    response_model=Simulation,
+    **MEANT,
 )
 def put_simulation(device_id: str, body: SimulationChange, services: Provided) -> Any:
     """Changes what the body names and leaves the rest."""
@@ -160,6 +169,7 @@ def put_simulation(device_id: str, body: SimulationChange, services: Provided) -
     "/devices/{device_id}/simulation/advance",
     operation_id="advance_simulation",
     response_model=Simulation,
+    **MEANT,
 )
 def advance_simulation(device_id: str, body: SimulationAdvance, services: Provided) -> Any:
     """Lets time pass for a unit with a virtual clock, as fast as it can; 409 for any other."""

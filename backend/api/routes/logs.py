@@ -6,11 +6,14 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Response, status
 
+from backend.api.meant import FOR_ONE_UNIT
 from backend.api.models.log import ErasedLog, LogDownload, UnitLogs
 from backend.api.problem import refusals
 from backend.api.services import Provided
 
-router = APIRouter(tags=["devices"], responses=refusals(404, 409, 503, 504))
+router = APIRouter(
+    tags=["devices"], dependencies=FOR_ONE_UNIT, responses=refusals(404, 409, 412, 503, 504)
+)
 
 LogId = Annotated[int, Path(ge=1, lt=2**32)]
 DOWNLOAD = "/devices/{device_id}/logs/{log_id}/download"

@@ -237,4 +237,4 @@ class EblUnit(Unit):
         return self.driver.between_turns(lambda: self._session.mtu)
 
     def _run(self, operation: Operation[Result], timeout_s: float = ANSWER_S) -> Result:
-        return self.driver.run(operation, timeout_s)
+        return self.run(operation, timeout_s)

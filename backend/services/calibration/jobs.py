@@ -58,9 +58,8 @@ class CalibrationJobs:
 
         Raises NotFound, NoAnswer for one that is not there, NameFirst, CapabilityMissing.
         """
-        unit = self._devices.writable(device_id)
+        key, unit = self._devices.own(device_id)
         unit.require(Capability.CALIBRATE, Capability.STREAM)
-        key = self._devices.own_key(device_id)
         config = unit.read_config()
         identity = self._devices.get(device_id).identity
         parameters = config.parameters

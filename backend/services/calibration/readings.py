@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from backend.device.states import DeviceEvent
+from backend.device.states import CONNECTED, DeviceEvent, StateChanged
 from backend.device.stream import StreamBlock
 from backend.domain.channels import Values
 
@@ -96,7 +96,10 @@ class RecentReadings:
         self._kept: dict[str, _Kept] = {}
 
     def follow(self, device_id: str, event: DeviceEvent) -> None:
-        """Keep what a unit sent; anything but rows is not for us."""
+        """Keep what a unit sent; once it is gone, whoever comes next may be another one."""
+        if isinstance(event, StateChanged) and event.state not in CONNECTED:
+            with self._lock:
+                self._kept.pop(device_id, None)
         if not isinstance(event, StreamBlock) or not len(event.values):
             return
         with self._lock:

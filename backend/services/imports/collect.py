@@ -28,15 +28,15 @@ from typing import BinaryIO
 from backend.device.ride_logs import LogPieces, RideLog, RideLogs
 from backend.device.unit import Unit
 from backend.domain.ride import iso_utc
-from backend.domain.unit_key import EBL
+from backend.domain.unit_key import EBL, serial_of
 from backend.errors import (
     Conflict,
     DeviceRefused,
     LinkError,
-    NameFirst,
     NoAnswer,
     NotFound,
     PeerProtocolError,
+    RequestRefused,
     SpindleError,
     StoreError,
 )
@@ -110,6 +110,15 @@ class Erased:
     erases: int | None
 
 
+@dataclass(frozen=True)
+class _Source:
+    """The unit that logs are fetched from, and no other that takes its place on the connection."""
+
+    device_id: str
+    key: str
+    unit: Unit
+
+
 class Stopping(SpindleError):
     """Spindle is closing; the download goes on at the next try."""
 
@@ -133,15 +142,15 @@ class Collect:
 
     def logs(self, device_id: str) -> UnitLogs:
         """What a unit has. Raises NotFound, NoAnswer, Conflict for a unit that keeps no logs."""
-        unit_id = self._devices.get(device_id).id
-        found = self._listed(unit_id)
+        source = self._source(device_id)
+        found = source.unit.logs()
         now_us = time.time_ns() // 1000
         items = []
         for log in found.logs:
             same_boot = log.boot_id == found.boot_id
             started_us = now_us - (found.now_us - log.t0_us)
             with self._lock:
-                download = self._downloads.get((unit_id, log.log_id))
+                download = self._downloads.get((source.key, log.log_id))
             items.append(
                 UnitLog(
                     log_id=log.log_id,
@@ -162,15 +171,15 @@ class Collect:
         Beginnings of logs that the unit no longer has become rides meanwhile. Raises NotFound,
         NoAnswer, Conflict while the log is still being written.
         """
-        unit_id = self._devices.get(device_id).id
+        source = self._source(device_id)
         with self._lock:
-            running = self._downloads.get((unit_id, log_id))
+            running = self._downloads.get((source.key, log_id))
             if running is not None and running.state in RUNNING:
                 return running
-        found = self._listed(unit_id)
-        for path in self._orphans(self._devices.unit_key(unit_id), found):
-            self._worker(unit_id).submit(self._salvage, path)
-        log = self._find(unit_id, log_id, found)
+        found = source.unit.logs()
+        for path in self._orphans(source.key, found):
+            self._worker(source.device_id).submit(self._salvage, path)
+        log = _find(found, log_id, source.device_id)
         if log.recording:
             raise Conflict(
                 f"Ride log {log_id} is still being written. It is closed after the bike has stood "
@@ -178,19 +187,19 @@ class Collect:
                 code="recording",
             )
         download = Download(length=log.length)
-        worker = self._worker(unit_id)
+        worker = self._worker(source.device_id)
         with self._lock:
-            self._downloads[unit_id, log_id] = download
-        worker.submit(self._run, unit_id, log)
+            self._downloads[source.key, log_id] = download
+        worker.submit(self._run, source, log)
         return download
 
     def get(self, device_id: str, log_id: int) -> Download:
         """How far a download is. Raises NotFound when none was begun."""
-        unit_id = self._devices.get(device_id).id
+        key = self._devices.known_key(device_id)
         with self._lock:
-            found = self._downloads.get((unit_id, log_id))
+            found = self._downloads.get((key, log_id))
         if found is None:
-            raise NotFound(f"Nobody has begun to fetch ride log {log_id} of {unit_id}.")
+            raise NotFound(f"Nobody has begun to fetch ride log {log_id} of {key}.")
         return found
 
     def erase(self, device_id: str, log_id: int) -> Erased:
@@ -200,12 +209,11 @@ class Collect:
         Conflict while it is being written or fetched, or before the unit knows that it is safe.
         NameFirst.
         """
-        unit_id = self._devices.get(device_id).id
         with telling("unchanged"):
-            self._devices.own_key(unit_id)
-            log = self._find(unit_id, log_id)
+            key, unit = self._devices.own(device_id)
+            log = _find(unit.logs(), log_id, device_id)
         with self._lock:
-            download = self._downloads.get((unit_id, log_id))
+            download = self._downloads.get((key, log_id))
         if log.recording or (download is not None and download.state in RUNNING):
             raise Conflict(f"Ride log {log_id} is being written or fetched.", code="recording")
         if not log.confirmed:
@@ -216,14 +224,16 @@ class Collect:
             )
         try:
             with telling("unknown"):
-                erases = self._devices.unit(unit_id).erase_log(log)
+                erases = unit.erase_log(log)
         except NoAnswer as error:
             if error.outcome != "unknown":
                 raise
-            find_outcome(self._devices, unit_id, lambda unit: unit.outcome_of_erase(log), error)
+            find_outcome(
+                self._devices, device_id, key, lambda unit: unit.outcome_of_erase(log), error
+            )
             erases = None
         with self._lock:
-            self._downloads.pop((unit_id, log_id), None)
+            self._downloads.pop((key, log_id), None)
         return Erased(log_id, erases)
 
     def close(self) -> None:
@@ -236,66 +246,66 @@ class Collect:
 
     # ------------------------------------------------------------------ one download
 
-    def _run(self, unit_id: str, log: RideLog) -> None:
+    def _run(self, source: _Source, log: RideLog) -> None:
         try:
-            path = self._fetch(unit_id, self._devices.unit_key(unit_id), log)
-            self._keep(unit_id, log, path)
+            path = self._fetch(source, log)
+            self._keep(source, log, path)
         except SpindleError as error:
-            self._note(unit_id, log, state="failed", detail=error.message)
+            self._note(source, log, state="failed", detail=error.message)
         except Exception as error:
-            LOG.exception("Ride log %d of %s was not fetched.", log.log_id, unit_id)
-            self._note(unit_id, log, state="failed", detail=f"A fault in Spindle: {error}")
+            LOG.exception("Ride log %d of %s was not fetched.", log.log_id, source.key)
+            self._note(source, log, state="failed", detail=f"A fault in Spindle: {error}")
 
-    def _fetch(self, unit_id: str, key: str, log: RideLog) -> Path:
+    def _fetch(self, source: _Source, log: RideLog) -> Path:
         """The whole log on the disk, checked by the unit."""
         self._folder.mkdir(parents=True, exist_ok=True)
-        stem = stem_of(key, log)
+        stem = stem_of(source.key, log)
         part, whole = self._folder / f"{stem}.part", self._folder / f"{stem}{BLOCKS_SUFFIX}"
         with storing(part), part.open("a+b") as file:
             fruitless = 0
             while True:
                 before = file.seek(0, os.SEEK_END)
                 try:
-                    self._continue(unit_id, log, file)
+                    self._continue(source, log, file)
                     break
                 except LinkError as error:
                     fruitless = 0 if file.seek(0, os.SEEK_END) > before else fruitless + 1
                     if fruitless > FRUITLESS_MAX:
                         raise
-                    self._note(unit_id, log, detail=f"{error.message} Waiting to go on.")
-                    self._wait_connected(unit_id)
+                    self._note(source, log, detail=f"{error.message} Waiting to go on.")
+                    self._wait_connected(source.device_id)
             file.flush()
             os.fsync(file.fileno())
         part.replace(whole)
         return whole
 
-    def _continue(self, unit_id: str, log: RideLog, file: BinaryIO) -> None:
+    def _continue(self, source: _Source, log: RideLog, file: BinaryIO) -> None:
         """From what is in the file to the whole log. Raises LinkError where that breaks off."""
-        have = self._proven_prefix(unit_id, log, file)
+        have = self._proven_prefix(source, log, file)
         if have < log.length:
-            self._note(unit_id, log, state="fetching", received=have, detail=None)
-            with self._devices.unit(unit_id).fetch_log(log, have) as pieces:
-                self._take(unit_id, log, pieces, file)
-        self._note(unit_id, log, state="checking", received=log.length, bytes_per_s=None)
-        if self._proven_prefix(unit_id, log, file) != log.length:
+            self._note(source, log, state="fetching", received=have, detail=None)
+            with source.unit.fetch_log(log, have) as pieces:
+                self._take(source, log, pieces, file)
+        self._note(source, log, state="checking", received=log.length, bytes_per_s=None)
+        if self._proven_prefix(source, log, file) != log.length:
             raise PeerProtocolError(
                 f"Ride log {log.log_id} does not have the check value the unit gives for it. Fetch "
                 "it again; if it stays so, the unit's flash is defective."
             )
 
-    def _proven_prefix(self, unit_id: str, log: RideLog, file: BinaryIO) -> int:
+    def _proven_prefix(self, source: _Source, log: RideLog, file: BinaryIO) -> int:
         """How much of the file is the beginning of the log; anything else is cut away."""
         size = file.seek(0, os.SEEK_END)
         have = min(size - size % PAGE_BYTES, log.length)
         if have > 0:
             file.seek(0)
             local = zlib.crc32(file.read(have))
-            if self._devices.unit(unit_id).log_crc(log, have) != local:
+            if source.unit.log_crc(log, have) != local:
                 have = 0
         file.truncate(have)
         return have
 
-    def _take(self, unit_id: str, log: RideLog, pieces: LogPieces, file: BinaryIO) -> None:
+    def _take(self, source: _Source, log: RideLog, pieces: LogPieces, file: BinaryIO) -> None:
         """Write pieces as they come, until the last."""
         began_s, had = time.monotonic(), pieces.received
         while True:
@@ -304,7 +314,7 @@ class Collect:
             received = pieces.received
             taken_s = time.monotonic() - began_s
             rate = (received - had) / taken_s if taken_s > 0 else None
-            self._note(unit_id, log, received=received, bytes_per_s=rate)
+            self._note(source, log, received=received, bytes_per_s=rate)
             if over:
                 break
             if self._stopping.wait(TAKE_EVERY_S):
@@ -312,19 +322,19 @@ class Collect:
         if pieces.failure is not None:
             raise NoAnswer(pieces.failure)
 
-    def _keep(self, unit_id: str, log: RideLog, path: Path) -> None:
+    def _keep(self, source: _Source, log: RideLog, path: Path) -> None:
         """Into the store, and then the unit may free it."""
-        self._note(unit_id, log, state="keeping")
+        self._note(source, log, state="keeping")
         with storing(path):
             crc32 = zlib.crc32(path.read_bytes())
             with path.open("ab") as file:
-                file.write(self._wall_time(unit_id, log))
+                file.write(self._wall_time(source, log))
         upload = self._uploads.receive_file(f"log {log.log_id}{BLOCKS_SUFFIX}", path)
         if upload.object_key is None:
             raise StoreError(f"Ride log {log.log_id} was not kept: {upload.detail}")
         path.unlink(missing_ok=True)
         self._note(
-            unit_id,
+            source,
             log,
             upload_id=upload.id,
             ride_id=upload.ride_ids[0] if upload.ride_ids else None,
@@ -332,17 +342,17 @@ class Collect:
             detail=upload.detail,
         )
         try:
-            self._devices.own_key(unit_id)
-            self._again(unit_id, lambda unit: unit.confirm_log(log, crc32))
-            self._note(unit_id, log, state="done", confirmed=True)
-        except (LinkError, DeviceRefused, NameFirst) as error:
+            self._devices.own(source.device_id, source.key)
+            self._again(source, lambda unit: unit.confirm_log(log, crc32))
+            self._note(source, log, state="done", confirmed=True)
+        except (LinkError, DeviceRefused, RequestRefused) as error:
             told = f"The ride is kept; the unit does not know it yet: {error.message}"
-            self._note(unit_id, log, state="done", detail=told)
+            self._note(source, log, state="done", detail=told)
 
-    def _wall_time(self, unit_id: str, log: RideLog) -> bytes:
+    def _wall_time(self, source: _Source, log: RideLog) -> bytes:
         """When it was ridden, for a file that does not say: known for the unit's present start."""
         try:
-            found = self._listed(unit_id)
+            found = source.unit.logs()
         except SpindleError:
             return b""
         if found.boot_id != log.boot_id:
@@ -389,22 +399,19 @@ class Collect:
                 self._workers[unit_id] = worker
             return worker
 
-    def _again(self, unit_id: str, work: Callable[[Unit], None]) -> None:
+    def _source(self, device_id: str) -> _Source:
+        """The unit that is on a connection now. Raises NotFound, NoAnswer."""
+        key = self._devices.unit_key(device_id)
+        unit = self._devices.unit(device_id).only(serial_of(key))
+        return _Source(self._devices.get(device_id).id, key, unit)
+
+    def _again(self, source: _Source, work: Callable[[Unit], None]) -> None:
         """Ask the unit something; once more when it was away."""
         try:
-            work(self._devices.unit(unit_id))
+            work(source.unit)
         except LinkError:
-            self._wait_connected(unit_id)
-            work(self._devices.unit(unit_id))
-
-    def _listed(self, unit_id: str) -> RideLogs:
-        return self._devices.unit(unit_id).logs()
-
-    def _find(self, unit_id: str, log_id: int, found: RideLogs | None = None) -> RideLog:
-        for log in (found or self._listed(unit_id)).logs:
-            if log.log_id == log_id:
-                return log
-        raise NotFound(f"{unit_id} has no ride log {log_id}; it may have been overwritten.")
+            self._wait_connected(source.device_id)
+            work(source.unit)
 
     def _wait_connected(self, unit_id: str) -> None:
         """Wait for the unit to come back. Raises NoAnswer when it does not, Stopping."""
@@ -415,11 +422,19 @@ class Collect:
             if time.monotonic() > until_s:
                 raise NoAnswer(f"{unit_id} did not come back. Fetch the log again when it is here.")
 
-    def _note(self, unit_id: str, log: RideLog, **changes: object) -> None:
+    def _note(self, source: _Source, log: RideLog, **changes: object) -> None:
         with self._lock:
-            key = (unit_id, log.log_id)
+            key = (source.key, log.log_id)
             changed = replace(self._downloads[key], **changes)  # type: ignore[arg-type]
             self._downloads[key] = changed
+
+
+def _find(found: RideLogs, log_id: int, device_id: str) -> RideLog:
+    """The log with this number. Raises NotFound."""
+    for log in found.logs:
+        if log.log_id == log_id:
+            return log
+    raise NotFound(f"{device_id} has no ride log {log_id}; it may have been overwritten.")
 
 
 def stem_of(key: str, log: RideLog) -> str:

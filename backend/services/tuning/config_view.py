@@ -9,13 +9,15 @@ from datetime import datetime
 from typing import Any
 
 from backend.device.configuration import ConfigImage, Free, ParameterRow, Value
-from backend.errors import ConfigConflict
+from backend.domain.unit_key import unit_tag
+from backend.errors import ConfigConflict, OtherUnit
 
 
 @dataclass(frozen=True)
 class ConfigView:
     """A unit's whole configuration; parameters by registry name."""
 
+    unit_key: str
     generation: int
     crc32: int
     parameters: dict[str, Value]
@@ -58,11 +60,13 @@ class Change:
 class ConfigChange:
     """A change the unit took, and the whole configuration as it was read back.
 
-    state: `committed`; `provisional`: the unit returns to what it had at `expires_at` unless the
-    change is confirmed; `needs_restart`: it holds from the unit's next start on. verified: read
-    back whole and equal field by field, and nothing is left that only a restart can show.
+    unit_key: of the unit that took it. state: `committed`; `provisional`: the unit returns to what
+    it had at `expires_at` unless the change is confirmed; `needs_restart`: it holds from the unit's
+    next start on. verified: read back whole and equal field by field, and nothing is left that only
+    a restart can show.
     """
 
+    unit_key: str
     generation: int
     crc32: int
     state: str
@@ -74,6 +78,7 @@ class ConfigChange:
     @classmethod
     def of(
         cls,
+        unit_key: str,
         found: ConfigImage,
         state: str = "committed",
         changed: tuple[Change, ...] = (),
@@ -82,7 +87,14 @@ class ConfigChange:
         """A change after which the unit has `found`."""
         verified = state != "needs_restart"
         return cls(
-            found.generation, found.crc32, state, verified, changed, expires_at, found.parameters
+            unit_key,
+            found.generation,
+            found.crc32,
+            state,
+            verified,
+            changed,
+            expires_at,
+            found.parameters,
         )
 
 
@@ -90,6 +102,7 @@ class ConfigChange:
 class TypedView:
     """A part of the configuration in the shape people edit, and which configuration it is of."""
 
+    unit_key: str
     generation: int
     crc32: int
     value: dict[str, Any]
@@ -97,25 +110,34 @@ class TypedView:
 
 # Entity tags of a list, a weak one with its mark. A comma may stand inside the quotes.
 ENTITY_TAGS = re.compile(r'[^\s,"]*"[^"]*"')
+TAGS_OF_UNITS = re.compile(r"\d+-[0-9a-f]{8}-[0-9a-f]{8}")
 
 
-def etag(generation: int, crc32: int) -> str:
-    """Names one configuration: it changes with every commit and with the content."""
-    return f'"{generation}-{crc32:08x}"'
+def etag(unit_key: str, generation: int, crc32: int) -> str:
+    """Names one configuration of one unit: another one at every commit, content and unit."""
+    return f'"{generation}-{crc32:08x}-{unit_tag(unit_key)}"'
 
 
-def check_base(config: ConfigImage, if_match: str | None) -> None:
-    """Raise ConfigConflict when the change was made for another configuration.
+def check_base(unit_key: str, config: ConfigImage, if_match: str | None) -> None:
+    """Raise OtherUnit when the change was made for another unit, ConfigConflict when for another
+    configuration of this one.
 
     if_match: an ETag or several as HTTP writes them, `*` or None for any. One that is marked weak
     never matches, as for every method that changes something (RFC 9110, 13.1.1).
     """
-    found = etag(config.generation, config.crc32)
-    if not is_match(found, if_match):
-        raise ConfigConflict(
-            f"The change was made for configuration {if_match}, but the unit has {found} now: "
-            "somebody else changed it. Read it again, look at the difference, and write once more."
+    found = etag(unit_key, config.generation, config.crc32)
+    if is_match(found, if_match):
+        return
+    units = {tag.strip('"').split("-")[2] for tag in TAGS_OF_UNITS.findall(if_match or "")}
+    if units and unit_tag(unit_key) not in units:
+        raise OtherUnit(
+            f"The change was made for another unit than {unit_key}, which is on this connection "
+            "now: nothing was changed. Connect the unit it was made for, or look at this one first."
         )
+    raise ConfigConflict(
+        f"The change was made for configuration {if_match}, but the unit has {found} now: "
+        "somebody else changed it. Read it again, look at the difference, and write once more."
+    )
 
 
 def is_match(found: str, if_match: str | None) -> bool:

@@ -45,7 +45,7 @@ class LiveTuning:
         Raises InvalidRequest, LimitViolation with every fault named, AccessDenied for what the
         maker protects, NotFound, Conflict, NameFirst, NoAnswer.
         """
-        unit = self._devices.writable(device_id)
+        key, unit = self._devices.own(device_id)
         unit.require(Capability.LIVE_SET)
         if not 1 <= ttl_s <= TTL_S_MAX:
             message = f"ttl_s is from 1 to {TTL_S_MAX} seconds."
@@ -54,7 +54,6 @@ class LiveTuning:
         if unknown:
             raise InvalidRequest(" ".join(fault.message for fault in unknown), fields=unknown)
         with telling("unchanged"):
-            self._devices.own_key(device_id)
             in_force = unit.values_in_force()
         intended = {**in_force, **changes}
         faults = unit.parameters.faults_of(intended)
@@ -70,22 +69,25 @@ class LiveTuning:
                 raise
             before = {name: in_force[name] for name in changes}
             state = find_outcome(
-                self._devices, device_id, lambda unit: unit.outcome_of_live(before, values), error
+                self._devices,
+                device_id,
+                key,
+                lambda unit: unit.outcome_of_live(before, values),
+                error,
             )
         return self._view(state)
 
     def end(self, device_id: str) -> LiveView:
         """End what is tried: the law runs on the configuration again. Raises as `set`."""
-        unit = self._devices.writable(device_id)
+        key, unit = self._devices.own(device_id)
         try:
             with telling("unknown"):
-                self._devices.own_key(device_id)
                 state = unit.end_live()
         except NoAnswer as error:
             if error.outcome != "unknown":
                 raise
             state = find_outcome(
-                self._devices, device_id, lambda unit: unit.outcome_of_live_end(), error
+                self._devices, device_id, key, lambda unit: unit.outcome_of_live_end(), error
             )
         return self._view(state)
 

@@ -18,6 +18,7 @@ from backend.device.configuration import NO_TRIAL, ConfigImage, ParameterTable, 
 from backend.device.unit import Unit
 from backend.domain.capability import Capability
 from backend.domain.revision import Revision, RevisionLog
+from backend.domain.unit_key import serial_of
 from backend.errors import (
     Conflict,
     FieldError,
@@ -77,22 +78,22 @@ class Tuning:
 
         Raises NotFound, also where the unit never had a previous one, and NoAnswer.
         """
-        unit = self._devices.writable(device_id)
+        key, unit = self._known(device_id)
         config = unit.read_config() if bank == ACTIVE else unit.read_bank(bank)
-        return ConfigView(config.generation, config.crc32, config.parameters)
+        return ConfigView(key, config.generation, config.crc32, config.parameters)
 
     def read_part(self, device_id: str, name: str) -> TypedView:
         """A part of the configuration in the shape people edit; name: one of `PARTS`.
 
         Raises CapabilityMissing for a unit without it, NotFound, NoAnswer.
         """
-        unit = self._devices.writable(device_id)
+        key, unit = self._known(device_id)
         part = _part(unit, name)
         config = unit.read_config()
         value = part.read(config.parameters)
         if part.unknown_while_lost and unit.settings_are_lost():
             value = {**value, **dict.fromkeys(part.unknown_while_lost)}
-        return TypedView(config.generation, config.crc32, value)
+        return TypedView(key, config.generation, config.crc32, value)
 
     def revisions(self, device_id: str) -> Sequence[Revision]:
         """Every configuration the unit is known to have had, newest first."""
@@ -158,21 +159,23 @@ class Tuning:
         author: str = "",
         token: str | None = None,
         kept: Collection[str] = (),
+        unit_key: str | None = None,
     ) -> ConfigChange:
         """Write all of `changes` or none, read everything back and compare.
 
         if_match: ETag of the configuration the change was made for. confirm_s: 0 for good; else the
         change is on trial, and the unit returns to what it had unless `confirm_config` comes within
         so many seconds. token: the maker's answer to TokenNeeded. kept: names among `changes`
-        that are there to be compared: another value than the unit's is refused. Raises
-        InvalidRequest, LimitViolation with every fault named, TokenNeeded, AccessDenied,
-        ConfigConflict, NotStandingStill, CapabilityMissing, NameFirst; after each of them the unit
-        is unchanged. NoAnswer says in `outcome` what became of the change. PeerProtocolError names
-        the fields that read back different.
+        that are there to be compared: another value than the unit's is refused. unit_key: of the
+        unit the change is for; None for the one that is there. Raises InvalidRequest,
+        LimitViolation with every fault named, TokenNeeded, AccessDenied, ConfigConflict, OtherUnit,
+        NotStandingStill, CapabilityMissing, NameFirst; after each of them the unit is unchanged.
+        NoAnswer says in `outcome` what became of the change. PeerProtocolError names the fields
+        that read back different.
         """
         if not 0 <= confirm_s <= CONFIRM_S_MAX:
             raise InvalidRequest(f"confirm_s is from 0 to {CONFIRM_S_MAX} seconds.")
-        unit = self._devices.writable(device_id)
+        key, unit = self._devices.own(device_id, unit_key)
         unit.require(Capability.WRITE_CONFIG)
         if confirm_s:
             unit.require(Capability.UNIT_TRIAL)
@@ -181,9 +184,8 @@ class Tuning:
         if unknown:
             raise InvalidRequest(" ".join(fault.message for fault in unknown), fields=unknown)
         with self._turn(device_id), telling("unchanged"):
-            key = self._devices.own_key(device_id)
             base = unit.read_config()
-            check_base(base, if_match)
+            check_base(key, base, if_match)
             intended = _intended(unit.parameters, base, changes)
             changed = differences(base.parameters, intended)
             _check_kept(changed, kept)
@@ -194,7 +196,7 @@ class Tuning:
                 crc32 = unit.parameters.crc32_of(intended)
                 meant = Meant(crc32, changed, reason, author, TRIED if confirm_s else KEPT)
                 try:
-                    found = self._commit(device_id, base, intended, changed, confirm_s, permit)
+                    found = self._commit(device_id, key, base, intended, changed, confirm_s, permit)
                 except NoAnswer as error:
                     if error.outcome == "unknown":
                         self._book.leave_open(key, meant)
@@ -203,9 +205,9 @@ class Tuning:
         if writes and confirm_s:
             with telling("changed"):
                 expires_at = self._expires_at(unit, found)
-            return ConfigChange.of(found, "provisional", changed, expires_at)
+            return ConfigChange.of(key, found, "provisional", changed, expires_at)
         waits = writes and Capability.RESTART_TO_APPLY in unit.capabilities
-        return ConfigChange.of(found, "needs_restart" if waits else "committed", changed)
+        return ConfigChange.of(key, found, "needs_restart" if waits else "committed", changed)
 
     def confirm_config(self, device_id: str, author: str = "") -> ConfigChange:
         """Keep the change on trial, after reading it back and comparing it field by field.
@@ -214,9 +216,8 @@ class Tuning:
         Spindle, PeerProtocolError naming fields that read back different, NotFound, NameFirst,
         NoAnswer.
         """
+        key, unit = self._devices.own(device_id)
         with self._turn(device_id), telling("unchanged"):
-            key = self._devices.own_key(device_id)
-            unit = self._devices.unit(device_id)
             trial = unit.trial()
             if not trial.on_trial:
                 raise Conflict(NO_TRIAL, "no_trial")
@@ -230,12 +231,13 @@ class Tuning:
             tried = ConfigImage(trial.generation, trial.crc32, dict(meant.parameters))
             found = self._certainly(
                 device_id,
+                key,
                 lambda unit: unit.confirm_config(tried.parameters),
                 lambda unit: unit.outcome_of_confirm(tried),
             )
             reason = f"Kept after its trial: {meant.reason}" if meant.reason else KEPT_REASON
             self._book.note(key, found, Meant(found.crc32, (), reason, author, KEPT))
-        return ConfigChange.of(found)
+        return ConfigChange.of(key, found)
 
     def rollback_config(self, device_id: str, author: str = "") -> ConfigChange:
         """Give up the change on trial; what the unit has then is read back.
@@ -243,20 +245,20 @@ class Tuning:
         changed: from what was on trial to what is active again. Raises Conflict without a trial,
         NotFound, NoAnswer.
         """
+        key, unit = self._devices.own(device_id)
+        unit.require(Capability.UNIT_TRIAL)
         with self._turn(device_id), telling("unchanged"):
-            unit = self._devices.writable(device_id)
-            unit.require(Capability.UNIT_TRIAL)
-            key = self._devices.own_key(device_id)
             tried = unit.read_config()
             found = self._certainly(
                 device_id,
+                key,
                 lambda unit: unit.rollback_config(),
                 lambda unit: unit.outcome_of_rollback(tried),
             )
             changed = differences(tried.parameters, found.parameters)
             meant = Meant(found.crc32, changed, RETURNED_REASON, author, KEPT)
             self._book.note(key, found, meant)
-        return ConfigChange.of(found, changed=changed)
+        return ConfigChange.of(key, found, changed=changed)
 
     def note_trial_end(self, device_id: str) -> None:
         """Note what the unit has, if the newest it is known to have had was on trial and is over.
@@ -265,11 +267,17 @@ class Tuning:
         whose answer never came. Raises NotFound, NoAnswer, StoreError.
         """
         with self._turn(device_id):
-            key = self._devices.unit_key(device_id)
+            key, unit = self._known(device_id)
             if self._book.may_have_ended(key):
-                self._book.back_up(key, self._devices.writable(device_id).read_config())
+                self._book.back_up(key, unit.read_config())
 
     # ------------------------------------------------------------------ inside
+
+    def _known(self, device_id: str) -> tuple[str, Unit]:
+        """As Devices.own, for whoever only reads: of a unit without a name, too."""
+        unit = self._devices.writable(device_id)
+        key = self._devices.unit_key(device_id)
+        return key, unit.only(serial_of(key))
 
     def _turn(self, device_id: str) -> threading.Lock:
         """The lock that makes changes of one device wait for each other."""
@@ -280,6 +288,7 @@ class Tuning:
     def _commit(
         self,
         device_id: str,
+        key: str,
         base: ConfigImage,
         intended: Mapping[str, Value],
         changed: Sequence[Change],
@@ -289,6 +298,7 @@ class Tuning:
         changes = {change.name: change.new for change in changed}
         return self._certainly(
             device_id,
+            key,
             lambda unit: unit.write_config(base, changes, confirm_s, permit),
             lambda unit: unit.outcome_of_write(base, intended),
         )
@@ -296,17 +306,18 @@ class Tuning:
     def _certainly(
         self,
         device_id: str,
+        key: str,
         change: Callable[[Unit], ConfigImage],
         look: Callable[[Unit], ConfigImage],
     ) -> ConfigImage:
         """Make a change; where nobody said what became of it, find out by `look`."""
         try:
             with telling("unknown"):
-                return change(self._devices.unit(device_id))
+                return change(self._devices.own(device_id, key)[1])
         except NoAnswer as error:
             if error.outcome != "unknown":
                 raise
-            return find_outcome(self._devices, device_id, look, error)
+            return find_outcome(self._devices, device_id, key, look, error)
 
     def _expires_at(self, unit: Unit, written: ConfigImage) -> datetime:
         """When the unit gives up what was just written on trial, by its own count."""

@@ -13,7 +13,7 @@ from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
 
-from backend.device.driver import LinkOpener, Listener
+from backend.device.driver import LinkOpener, Listener, other_unit
 from backend.device.families import DEFAULT_FAMILY, FAMILIES, Families
 from backend.device.identity import Identity
 from backend.device.ports import Opener, PortInfo, family_of, kind_of, list_ports
@@ -22,7 +22,7 @@ from backend.device.unit import Unit
 from backend.domain.capability import Capability
 from backend.domain.channels import ChannelSpec
 from backend.domain.sighting import Sighting
-from backend.domain.unit_key import tells_unit, unit_key
+from backend.domain.unit_key import serial_of, tells_unit, unit_key
 from backend.errors import Conflict, InvalidRequest, NameFirst, NoAnswer, NotFound
 from backend.services.units.device_ids import canonical, id_of
 from backend.services.units.device_view import ConfigStamp, DeviceView
@@ -253,6 +253,25 @@ class Devices:
                 "connection. Give it a name first: connect it again with the name you call it by."
             )
         return key
+
+    def own(self, device_id: str, meant: str | None = None) -> tuple[str, Unit]:
+        """The key of the unit, and the unit for whoever is about to change it, and no other.
+
+        What is asked of it raises OtherUnit once another unit is on the connection. meant: the key
+        of the unit the change is for, None for the one that is there. Raises OtherUnit, NotFound,
+        Conflict, NameFirst, NoAnswer.
+        """
+        unit = self.writable(device_id)
+        key = self.own_key(device_id)
+        if meant is not None and key != meant:
+            raise other_unit(self.get(device_id).url, meant, key)
+        return key, unit.only(serial_of(key))
+
+    def check_meant(self, device_id: str, meant: str) -> None:
+        """Raise OtherUnit where a connection leads to another unit than the one with this key."""
+        key = self.unit_at(device_id)
+        if key is not None and key != meant:
+            raise other_unit(self.get(device_id).url, meant, key)
 
     def wait_connected(self, device_id: str, timeout_s: float) -> bool:
         """Wait until the unit can be asked; False when it cannot after `timeout_s`."""

@@ -44,8 +44,8 @@ class Inspection:
         NameFirst.
         """
         with telling("unknown"):
-            self._devices.own_key(device_id)
-            return self._devices.unit(device_id).clear_faults()
+            _, unit = self._devices.own(device_id)
+            return unit.clear_faults()
 
     def wear_counters(self, device_id: str) -> WearCounters:
         """What the unit knows of its own wear. Raises Conflict of one we do not understand."""

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from backend.device.driver import NEVER_ASKED
 from backend.device.unit import Unit
-from backend.errors import LinkError, NoAnswer, NotFound, Outcome, RequestRefused
+from backend.errors import LinkError, NoAnswer, NotFound, OtherUnit, Outcome, RequestRefused
 from backend.services.units.connect import Devices
 
 Result = TypeVar("Result")
@@ -34,24 +34,30 @@ def telling(outcome: Outcome) -> Iterator[None]:
 def find_outcome(
     devices: Devices,
     device_id: str,
+    unit_key: str,
     look: Callable[[Unit], Result],
     error: NoAnswer,
 ) -> Result:
     """Ask what became of a change, until the unit answers.
 
-    look: raises NoAnswer with an outcome where it found one out. Raises what `look` raises;
-    `error`, as unknown, when the unit does not come back.
+    unit_key: of the unit that was to change: another one in its place knows nothing. look: raises
+    NoAnswer with an outcome where it found one out. Raises what `look` raises; `error`, as unknown,
+    when the unit does not come back.
     """
     until_s = time.monotonic() + OUTCOME_WAIT_S
     while (left_s := until_s - time.monotonic()) > 0.0:
         try:
             devices.wait_connected(device_id, left_s)
-            unit = devices.writable(device_id)
+            _, unit = devices.own(device_id, unit_key)
         except RequestRefused:
-            # It was removed, or came back as one whose configuration nobody here understands.
+            # It was removed, another one has its place, or nobody here understands it any more.
             break
+        except NoAnswer:
+            continue
         try:
             return look(unit)
+        except OtherUnit:
+            break
         except NoAnswer as silent:
             if silent.outcome is not None:
                 raise silent from error

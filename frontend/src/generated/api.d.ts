@@ -3521,6 +3521,11 @@ export interface components {
         };
         /** Config */
         Config: {
+            /**
+             * Unit Key
+             * @description Of the unit that has it.
+             */
+            unit_key: string;
             /** Generation */
             generation: number;
             /** Crc32 */
@@ -3535,6 +3540,11 @@ export interface components {
          * @description A change that the unit took, read back and compared field by field.
          */
         ConfigChange: {
+            /**
+             * Unit Key
+             * @description Of the unit that took it.
+             */
+            unit_key: string;
             /** Generation */
             generation: number;
             /** Crc32 */
@@ -10714,7 +10724,10 @@ export interface operations {
     clear_faults: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -10767,6 +10780,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description Precondition Failed */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Unprocessable Entity */
             422: {
                 headers: {
@@ -10799,7 +10821,10 @@ export interface operations {
     mark_moment: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -10845,6 +10870,15 @@ export interface operations {
             };
             /** @description Conflict */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Precondition Failed */
+            412: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -11052,7 +11086,10 @@ export interface operations {
     put_simulation: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -11118,6 +11155,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description Precondition Failed */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Unprocessable Entity */
             422: {
                 headers: {
@@ -11150,7 +11196,10 @@ export interface operations {
     advance_simulation: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -11216,6 +11265,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description Precondition Failed */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Unprocessable Entity */
             422: {
                 headers: {
@@ -11248,7 +11306,10 @@ export interface operations {
     list_logs: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -11301,6 +11362,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description Precondition Failed */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Unprocessable Entity */
             422: {
                 headers: {
@@ -11333,7 +11403,10 @@ export interface operations {
     erase_log: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
                 log_id: number;
@@ -11387,6 +11460,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description Precondition Failed */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Unprocessable Entity */
             422: {
                 headers: {
@@ -11419,7 +11501,10 @@ export interface operations {
     get_log_download: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
                 log_id: number;
@@ -11473,6 +11558,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description Precondition Failed */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Unprocessable Entity */
             422: {
                 headers: {
@@ -11505,7 +11599,10 @@ export interface operations {
     start_log_download: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
                 log_id: number;
@@ -11559,6 +11656,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description Precondition Failed */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Unprocessable Entity */
             422: {
                 headers: {
@@ -11591,7 +11697,10 @@ export interface operations {
     list_parameters: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -11688,7 +11797,10 @@ export interface operations {
                 /** @description Of the unit: what is in force, what was before, what its firmware brings. */
                 bank?: "active" | "previous" | "default";
             };
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -11785,6 +11897,8 @@ export interface operations {
             header?: {
                 /** @description The ETag of the configuration the change was made for, several, or `*`. */
                 "if-match"?: string | null;
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
                 /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. Who signed in or sends a key is the author, whatever this says. */
                 "spindle-author"?: string | null;
             };
@@ -11894,7 +12008,10 @@ export interface operations {
     get_last_known: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -11989,6 +12106,8 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
                 /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. Who signed in or sends a key is the author, whatever this says. */
                 "spindle-author"?: string | null;
             };
@@ -12086,6 +12205,8 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
                 /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. Who signed in or sends a key is the author, whatever this says. */
                 "spindle-author"?: string | null;
             };
@@ -12182,7 +12303,10 @@ export interface operations {
     list_revisions: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -12276,7 +12400,10 @@ export interface operations {
     since_revision: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
                 seq: number;
@@ -12371,7 +12498,10 @@ export interface operations {
     why_of_device: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -12478,7 +12608,10 @@ export interface operations {
     get_live: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -12572,7 +12705,10 @@ export interface operations {
     set_live: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -12679,7 +12815,10 @@ export interface operations {
     end_live: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -12776,7 +12915,10 @@ export interface operations {
                 /** @description Which of the unit's two tables; a mode names the one it uses so, too. */
                 table?: "first" | "second";
             };
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -12882,6 +13024,8 @@ export interface operations {
             header?: {
                 /** @description The ETag of the configuration the change was made for, several, or `*`. */
                 "if-match"?: string | null;
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
                 /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. Who signed in or sends a key is the author, whatever this says. */
                 "spindle-author"?: string | null;
             };
@@ -12991,7 +13135,10 @@ export interface operations {
     get_assist_modes: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -13095,6 +13242,8 @@ export interface operations {
             header?: {
                 /** @description The ETag of the configuration the change was made for, several, or `*`. */
                 "if-match"?: string | null;
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
                 /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. Who signed in or sends a key is the author, whatever this says. */
                 "spindle-author"?: string | null;
             };
@@ -13204,7 +13353,10 @@ export interface operations {
     get_calibration: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -13308,6 +13460,8 @@ export interface operations {
             header?: {
                 /** @description The ETag of the configuration the change was made for, several, or `*`. */
                 "if-match"?: string | null;
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
                 /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. Who signed in or sends a key is the author, whatever this says. */
                 "spindle-author"?: string | null;
             };
@@ -13417,7 +13571,10 @@ export interface operations {
     get_limits: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
             path: {
                 device_id: string;
             };
@@ -13521,6 +13678,8 @@ export interface operations {
             header?: {
                 /** @description The ETag of the configuration the change was made for, several, or `*`. */
                 "if-match"?: string | null;
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
                 /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. Who signed in or sends a key is the author, whatever this says. */
                 "spindle-author"?: string | null;
             };

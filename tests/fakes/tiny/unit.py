@@ -138,17 +138,17 @@ class TinyUnit(Unit):
         return CHANNELS
 
     def values(self) -> LiveValues:
-        counts = self.driver.run(ask_values(), ANSWER_S)
+        counts = self.run(ask_values(), ANSWER_S)
         # It has no clock: the moment is ours.
         return LiveValues(time.monotonic_ns() // 1000, named_values(CHANNELS, counts))
 
     def read_config(self) -> ConfigImage:
-        return self.driver.run(read_config(), ANSWER_S)
+        return self.run(read_config(), ANSWER_S)
 
     def write_config(
         self, base: ConfigImage, changes: Config, confirm_s: int = 0, permit: object = None
     ) -> ConfigImage:
-        return self.driver.run(write_config(base, changes), ANSWER_S)
+        return self.run(write_config(base, changes), ANSWER_S)
 
     def outcome_of_write(self, base: ConfigImage, intended: Config) -> ConfigImage:
         found = self.read_config()

@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 from backend.cli import main
+from backend.device.states import LinkState, StateChanged
 from backend.domain.calibration.capture import State
 from backend.domain.calibration.certificate import evaluate, written_document
 from backend.domain.calibration.coefficients import Coefficients
@@ -205,6 +206,20 @@ def test_seconds_before_a_silence_are_not_now(bench: Workshop) -> None:
 
     assert refused(error) == ["no_readings"]
     assert bench.view().checks == ()
+
+
+def test_what_came_before_the_link_was_lost_is_no_reading_of_who_comes_next(
+    bench: Workshop,
+) -> None:
+    bench.open()
+    bench.use.jobs.set_up(bench.job, SETUP)
+    bench.hang(10.0)
+    bench.use.readings.recent.follow(bench.device, StateChanged(LinkState.LOST, "unplugged"))
+
+    with pytest.raises(Conflict) as error:
+        bench.use.jobs.capture(bench.job, state(10.0))
+
+    assert refused(error) == ["no_readings"]
 
 
 def test_a_wrong_mass_is_named_and_the_step_can_be_repeated(bench: Workshop) -> None:

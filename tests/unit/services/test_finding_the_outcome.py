@@ -11,7 +11,7 @@ from typing import cast
 import pytest
 
 from backend.device.unit import Unit
-from backend.errors import LinkError, NoAnswer, NotFound, SpindleError
+from backend.errors import LinkError, NoAnswer, NotFound, OtherUnit, SpindleError
 from backend.services.units import outcome
 from backend.services.units.connect import Devices
 from backend.services.units.outcome import find_outcome
@@ -29,8 +29,8 @@ class ScriptedDevices:
     def wait_connected(self, device_id: str, timeout_s: float) -> bool:
         return True
 
-    def writable(self, device_id: str) -> ScriptedDevices:
-        return self
+    def own(self, device_id: str, meant: str) -> tuple[str, ScriptedDevices]:
+        return meant, self
 
     def look(self, unit: Unit) -> str:
         step = next(self._script)
@@ -46,8 +46,15 @@ class RemovedDevices(ScriptedDevices):
         raise NotFound("There is no device.")
 
 
+class ReplacedDevices(ScriptedDevices):
+    """Another unit came onto the connection meanwhile."""
+
+    def own(self, device_id: str, meant: str) -> tuple[str, ScriptedDevices]:
+        raise OtherUnit("B is there.")
+
+
 def ask(devices: ScriptedDevices) -> str:
-    return find_outcome(cast(Devices, devices), "bike", devices.look, NoAnswer("lost"))
+    return find_outcome(cast(Devices, devices), "bike", "ebl:A", devices.look, NoAnswer("lost"))
 
 
 @pytest.fixture(autouse=True)
@@ -73,5 +80,17 @@ def test_what_is_not_found_out_in_its_time_is_unknown(monkeypatch: pytest.Monkey
 def test_a_device_that_was_removed_meanwhile_leaves_the_change_unknown() -> None:
     with pytest.raises(NoAnswer) as told:
         ask(RemovedDevices())
+
+    assert told.value.outcome == "unknown"
+
+
+@pytest.mark.parametrize(
+    "devices",
+    [ReplacedDevices(FOUND), ScriptedDevices(SILENT, OtherUnit("B is there."), FOUND)],
+    ids=["before it was looked", "while it was looked"],
+)
+def test_another_unit_does_not_know_what_became_of_it(devices: ScriptedDevices) -> None:
+    with pytest.raises(NoAnswer) as told:
+        ask(devices)
 
     assert told.value.outcome == "unknown"

@@ -149,7 +149,7 @@ def test_a_factory_parameter_is_denied(bench: Bench) -> None:
 
 def test_a_change_made_for_another_configuration_is_a_conflict(bench: Bench) -> None:
     seen = bench.tuning.read_config(bench.id)
-    tag = etag(seen.generation, seen.crc32)
+    tag = etag(seen.unit_key, seen.generation, seen.crc32)
     bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200}, if_match=tag)
 
     with pytest.raises(ConfigConflict):
