@@ -26,7 +26,7 @@ const chosen = readPreferences()
 const theme = new Theme(chosen.theme)
 theme.apply()
 const author = new Author(chosen.author)
-const server = new Server(openHttp(author))
+const server: Server = new Server(openHttp(author, (device_id) => devices.keyOf(device_id)))
 const locale = new Locale()
 // Words that cannot be fetched leave the pages in English: that is better than none.
 await locale.speak(chosen.language).catch(() => undefined)

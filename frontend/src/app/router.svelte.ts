@@ -36,6 +36,13 @@ export function isOfTune(page: PageName): page is TunePage {
   return (TUNE_PAGES as readonly PageName[]).includes(page)
 }
 
+const PAGES_OF_A_UNIT: readonly PageName[] = ['bike', 'live', 'sensor', 'service']
+
+/** Whether what a page shows and holds is of the unit that is there. */
+export function isOfUnit(page: PageName): boolean {
+  return isOfTune(page) || PAGES_OF_A_UNIT.includes(page)
+}
+
 export function tunePath(page: TunePage): string {
   return page === TUNE_PAGES[0] ? `/${page}` : `/${TUNE_PAGES[0]}/${page}`
 }

@@ -18,7 +18,7 @@ beforeEach(async () => {
     parameters: async () => Object.keys(parameters).map((name) => ({ name, group: 'assist' })),
     config: async () => [{ generation: 1, crc32: 2, parameters }, 'tag'],
   }
-  draft = new ConfigDraft('bench', server as unknown as Server)
+  draft = new ConfigDraft({ id: 'bench', unit_key: null }, server as unknown as Server)
   await draft.load()
 })
 

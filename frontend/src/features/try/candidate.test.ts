@@ -38,7 +38,7 @@ async function draftOf(values: Record<string, ParameterValue>): Promise<ConfigDr
       rows.map(([name, row]) => ({ ...row, name, choices: null }) as unknown as Parameter),
     config: async () => [{ parameters: values, generation: 1, crc32: 1 }, 'tag'],
   }
-  const draft = new ConfigDraft('unit', server as unknown as Server)
+  const draft = new ConfigDraft({ id: 'unit', unit_key: null }, server as unknown as Server)
   await draft.load()
   return draft
 }

@@ -23,15 +23,23 @@ export class Refusal extends Error {
 
 export type Http = Client<paths>
 
-/** A client of the server this page came from, whose changes carry the author's name. */
-export function openHttp(author: Author, base = location.origin): Http {
+const OF_A_CONNECTION = /\/api\/v1\/devices\/([^/]+)\//
+
+/** The key of the unit that the page shows on a connection; null while nobody knows it. */
+export type KeyOf = (device_id: string) => string | null
+
+/** A client of the server this page came from, whose changes carry the author's name and which unit
+    they are for: another one may have come onto its connection. */
+export function openHttp(author: Author, keyOf: KeyOf, base = location.origin): Http {
   const client = createClient<paths>({ baseUrl: base })
   client.use({
     onRequest({ request }) {
+      if (request.method === 'GET') return request
       const name = author.name.trim()
-      if (name && request.method !== 'GET') {
-        request.headers.set('spindle-author', encodeURIComponent(name))
-      }
+      if (name) request.headers.set('spindle-author', encodeURIComponent(name))
+      const id = OF_A_CONNECTION.exec(new URL(request.url).pathname)?.[1]
+      const key = id === undefined ? null : keyOf(decodeURIComponent(id))
+      if (key !== null) request.headers.set('spindle-unit', encodeURIComponent(key))
       return request
     },
     onResponse({ response }) {

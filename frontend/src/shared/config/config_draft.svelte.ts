@@ -1,8 +1,11 @@
 // Edits to a unit's configuration that live here, not in the unit, until they are written.
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
-import type { ConfigChange, Parameter, ParameterValue } from '../api/types'
+import type { ConfigChange, Device, Parameter, ParameterValue } from '../api/types'
 import { isFactorys } from './ratchet'
+
+/** A unit and where it is; its key is null until it said who it is. */
+export type UnitThere = Pick<Device, 'id' | 'url' | 'unit_key'>
 
 export type Edits = Readonly<Record<string, ParameterValue>>
 
@@ -35,19 +38,34 @@ export class ConfigDraft {
   private future = $state.raw<Edits[]>([])
   private gesture: string | null = null
 
-  constructor(
-    readonly device_id: string,
-    private readonly server: Server,
-  ) {}
+  /** The connection that the unit was last on. */
+  device_id: string
+  /** Null until the unit said who it is. */
+  unit_key: string | null
 
-  /** Reads the unit's configuration; edits stay and are compared with the new values. */
+  constructor(
+    there: Pick<UnitThere, 'id' | 'unit_key'>,
+    private readonly server: Server,
+  ) {
+    this.device_id = there.id
+    this.unit_key = there.unit_key
+  }
+
+  /** The unit was given a name: it is the same one, and its tags are new. */
+  rename(unit_key: string): void {
+    this.unit_key = unit_key
+    this.crc32 = null
+  }
+
+  /** Reads the unit's configuration; edits stay and are compared with the new values. Throws
+      Refusal, also where another unit is in its place. */
   async load(): Promise<void> {
     const [parameters, [config, tag]] = await Promise.all([
       this.server.parameters(this.device_id),
       this.server.config(this.device_id),
     ])
-    this.parameters = parameters
     this.take(config, config.parameters, tag)
+    this.parameters = parameters
     this.loaded = true
   }
 
@@ -60,8 +78,9 @@ export class ConfigDraft {
     const values = Object.fromEntries(
       known.parameters.flatMap(({ name, value }) => (value === null ? [] : [[name, value]])),
     ) as Edits
+    const { unit_key, generation, crc32 } = known
+    this.take({ unit_key, generation: generation ?? 0, crc32: crc32 ?? 0 }, values, '')
     this.parameters = known.parameters
-    this.take({ generation: known.generation ?? 0, crc32: known.crc32 ?? 0 }, values, '')
     this.crc32 = null
     this.loaded = true
   }
@@ -74,8 +93,13 @@ export class ConfigDraft {
     await this.load()
   }
 
-  /** What the unit has, by its own word: the one place where that comes in. */
-  private take(stamp: ConfigStamp, parameters: Edits, tag: string): void {
+  /** What the unit has, by its own word: the one place where that comes in. Throws Refusal for what
+      another unit has. */
+  private take(stamp: ConfigStamp & { unit_key: string }, parameters: Edits, tag: string): void {
+    this.unit_key ??= stamp.unit_key
+    if (stamp.unit_key !== this.unit_key) {
+      throw new Refusal(412, 'other_unit', `This is for the unit ${this.unit_key}; another is there.`)
+    }
     this.baseline = parameters
     this.generation = stamp.generation
     this.crc32 = stamp.crc32

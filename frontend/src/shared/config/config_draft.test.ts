@@ -4,7 +4,7 @@ import { describe, expect, it } from 'vitest'
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
 import type { Parameter, ParameterValue } from '../api/types'
-import { ConfigDraft } from './config_draft.svelte'
+import { ConfigDraft, type UnitThere } from './config_draft.svelte'
 import { Drafts } from './drafts'
 
 const parameter = (name: string): Parameter => ({
@@ -25,8 +25,12 @@ const parameter = (name: string): Parameter => ({
   description: '',
 })
 
-/** A server with one unit whose configuration can be changed behind the draft's back. */
+const A: UnitThere = { id: 'cable', url: 'socket://cable:1', unit_key: 'ebl:11' }
+const B: UnitThere = { ...A, unit_key: 'ebl:22' }
+
+/** A server with one unit at a time, whose configuration can be changed behind the draft's back. */
 class FakeServer {
+  unit_key = 'ebl:11'
   values: Record<string, ParameterValue> = { assist_cutoff_kmh: 25, fixed_taper_end_kmh: 24 }
   generation = 1
   reads = 0
@@ -36,7 +40,7 @@ class FakeServer {
   config = async () => {
     this.reads += 1
     const stamp = { generation: this.generation, crc32: 1000 + this.generation }
-    return [{ ...stamp, parameters: { ...this.values } }, `"${this.generation}"`]
+    return [{ unit_key: this.unit_key, ...stamp, parameters: { ...this.values } }, `"${this.generation}"`]
   }
   writeConfig = async (
     _id: string,
@@ -54,6 +58,7 @@ class FakeServer {
     Object.assign(this.values, changes)
     this.generation += 1
     const result = {
+      unit_key: this.unit_key,
       generation: this.generation,
       crc32: 1000 + this.generation,
       parameters: { ...this.values },
@@ -68,7 +73,7 @@ class FakeServer {
 
 async function loadedDraft() {
   const server = new FakeServer()
-  const draft = new ConfigDraft('unit', server as unknown as Server)
+  const draft = new ConfigDraft(A, server as unknown as Server)
   await draft.load()
   return { server, draft }
 }
@@ -168,13 +173,13 @@ describe('a draft', () => {
   it('is the same one when the page is opened again', () => {
     const drafts = new Drafts(new FakeServer() as unknown as Server)
 
-    expect(drafts.of('a', 'tune')).toBe(drafts.of('a', 'tune'))
-    expect(drafts.of('a', 'tune')).not.toBe(drafts.of('a', 'sensor'))
+    expect(drafts.of(A, 'tune')).toBe(drafts.of(A, 'tune'))
+    expect(drafts.of(A, 'tune')).not.toBe(drafts.of(A, 'sensor'))
   })
 
   it('keeps what is edited while a write is on its way', async () => {
     const server = new FakeServer()
-    const draft = new ConfigDraft('unit', server as unknown as Server)
+    const draft = new ConfigDraft(A, server as unknown as Server)
     await draft.load()
     draft.set('assist_cutoff_kmh', 20)
 
@@ -222,5 +227,65 @@ describe('a draft', () => {
     server.config = config
     await draft.follow({ generation: 2, crc32: 1002 })
     expect(server.reads).toBe(3)
+  })
+})
+
+describe('drafts of the bikes that one cable sees', () => {
+  const opened = () => {
+    const server = new FakeServer()
+    return { server, drafts: new Drafts(server as unknown as Server) }
+  }
+
+  it('belong to their unit: the one of A is there when A comes back', async () => {
+    const { server, drafts } = opened()
+    await drafts.of(A, 'tune').load()
+    drafts.of(A, 'tune').set('assist_cutoff_kmh', 20)
+
+    server.unit_key = 'ebl:22'
+    await drafts.of(B, 'tune').load()
+
+    expect([drafts.count('ebl:11'), drafts.count('ebl:22')]).toEqual([1, 0])
+    const elsewhere = drafts.of({ ...A, id: 'other-cable' }, 'tune')
+    expect(elsewhere.value('assist_cutoff_kmh')).toBe(20)
+    expect(elsewhere.device_id).toBe('other-cable')
+  })
+
+  it('take nothing of what another unit has', async () => {
+    const { server, drafts } = opened()
+    const draft = drafts.of(A, 'tune')
+    await draft.load()
+    server.unit_key = 'ebl:22'
+    server.values = { assist_cutoff_kmh: 18 }
+
+    await expect(draft.load()).rejects.toMatchObject({ status: 412, code: 'other_unit' })
+    expect(draft.base('assist_cutoff_kmh')).toBe(25)
+    expect(draft.parameters).toHaveLength(2)
+  })
+
+  it('do not take a change back on another unit, whose configuration is not the one that was left', async () => {
+    const { server, drafts } = opened()
+    const draft = drafts.of(A, 'tune')
+    await draft.load()
+    draft.set('assist_cutoff_kmh', 20)
+    const change = await draft.write('quiet street')
+    Object.assign(server, { unit_key: 'ebl:22', generation: 7, written: [] })
+
+    await expect(draft.takeBack(change, 'undo')).rejects.toMatchObject({ code: 'other_unit' })
+    expect(server.written).toEqual([])
+  })
+
+  it('stay when a unit without a serial number gets a name', async () => {
+    const { server, drafts } = opened()
+    const bare = { ...A, unit_key: `bare:url:${A.url}` }
+    server.unit_key = bare.unit_key
+    await drafts.of(bare, 'tune').load()
+    drafts.of(bare, 'tune').set('assist_cutoff_kmh', 20)
+
+    const named = drafts.of({ ...A, unit_key: 'bare:name:Commuter' }, 'tune')
+    server.unit_key = 'bare:name:Commuter'
+    await named.follow({ generation: 1, crc32: 1001 })
+
+    expect(named.changes.map((change) => change.value)).toEqual([20])
+    expect(server.reads).toBe(2)
   })
 })

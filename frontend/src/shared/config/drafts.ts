@@ -1,18 +1,44 @@
 // Drafts by unit and page, made once by app/main.ts and handed down through Svelte's context.
 import { createContext } from 'svelte'
 import type { Server } from '../api/server'
-import { ConfigDraft } from './config_draft.svelte'
+import { ConfigDraft, type UnitThere } from './config_draft.svelte'
 
-/** Each page edits and writes its own draft. */
+/** Each page edits and writes its own draft, which belongs to the unit and not to its connection. */
 export class Drafts {
-  private readonly byKey: Record<string, ConfigDraft> = {}
+  private readonly byKey = new Map<string, ConfigDraft>()
 
   constructor(private readonly server: Server) {}
 
-  of(device_id: string, page: string): ConfigDraft {
-    const key = `${device_id}\n${page}`
-    return (this.byKey[key] ??= new ConfigDraft(device_id, this.server))
+  of(there: UnitThere, page: string): ConfigDraft {
+    const key = keyOf(there.unit_key ?? there.id, page)
+    const draft =
+      this.byKey.get(key) ?? this.beforeItsName(there, page) ?? new ConfigDraft(there, this.server)
+    this.byKey.set(key, draft)
+    draft.device_id = there.id
+    return draft
   }
+
+  /** How many values of a unit are edited and not written, on all pages. */
+  count(unit_key: string): number {
+    const own = [...this.byKey.values()].filter((draft) => draft.unit_key === unit_key)
+    return own.reduce((sum, draft) => sum + draft.count, 0)
+  }
+
+  /** The draft of a unit without a serial number from before somebody gave it a name. */
+  private beforeItsName({ unit_key, url }: UnitThere, page: string): ConfigDraft | null {
+    const [family, name] = unit_key?.split(':name:') ?? []
+    if (!unit_key || name === undefined) return null
+    const key = keyOf(`${family}:url:${url}`, page)
+    const draft = this.byKey.get(key)
+    if (!draft) return null
+    this.byKey.delete(key)
+    draft.rename(unit_key)
+    return draft
+  }
+}
+
+function keyOf(unit: string, page: string): string {
+  return `${unit}\n${page}`
 }
 
 export const [useDrafts, provideDrafts] = createContext<Drafts>()

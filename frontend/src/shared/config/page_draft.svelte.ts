@@ -20,11 +20,10 @@ export function pageDraft(page: string): PageDraft {
   const drafts = useDrafts()
   let trouble = $state<string | null>(null)
   const device = $derived(devices.current)
-  const device_id = $derived(device?.id ?? null)
   const readable = $derived(devices.ready && can(device, 'read_config'))
   const generation = $derived(device?.config?.generation)
   const crc32 = $derived(device?.config?.crc32)
-  const draft = $derived(device_id ? drafts.of(device_id, page) : null)
+  const draft = $derived(device ? drafts.of(device, page) : null)
 
   // Of a unit that is away, what it was last known to have.
   const recalled = $derived(devices.away && !devices.unreachable && can(device, 'read_config'))

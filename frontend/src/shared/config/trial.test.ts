@@ -13,7 +13,7 @@ type Cause = 'asked' | 'time_out' | 'restart' | null
 function unit(crc32: number, state: 'committed' | 'provisional', cause: Cause = null): Device {
   const remaining_s = state === 'provisional' ? LEFT_S : null
   const config = { generation: 8, crc32, state, remaining_s, rollback_cause: cause }
-  return { id: 'unit', state: 'ready', config } as unknown as Device
+  return { id: 'unit', unit_key: 'ebl:11', state: 'ready', config } as unknown as Device
 }
 
 const trial = trialOf(unit(TRIED, 'provisional'), NOW_MS) as Trial
@@ -25,7 +25,7 @@ it('counts down what the unit has left, whatever the clocks say, and not below z
 
 it('is not over while the unit is away, nor because another unit has none', () => {
   expect(isOver(trial, { ...unit(BEFORE, 'committed'), state: 'lost' })).toBe(false)
-  expect(isOver(trial, { ...unit(BEFORE, 'committed'), id: 'other' })).toBe(false)
+  expect(isOver(trial, { ...unit(BEFORE, 'committed', 'asked'), unit_key: 'ebl:22' })).toBe(false)
   expect(isOver(trial, unit(BEFORE, 'committed', 'asked'))).toBe(true)
 })
 

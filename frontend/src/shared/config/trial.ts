@@ -3,6 +3,7 @@ import type { Device, Revision } from '../api/types'
 
 export interface Trial {
   device_id: string
+  unit_key: string | null
   generation: number
   crc32: number
   ends_ms: number
@@ -18,12 +19,13 @@ export function trialOf(device: Device | null, now_ms: number): Trial | null {
   const config = device?.config
   if (!device || config?.state !== 'provisional' || config.remaining_s === null) return null
   const { generation, crc32, remaining_s } = config
-  return { device_id: device.id, generation, crc32, ends_ms: now_ms + remaining_s * 1000 }
+  const { id: device_id, unit_key } = device
+  return { device_id, unit_key, generation, crc32, ends_ms: now_ms + remaining_s * 1000 }
 }
 
 /** Whether a unit answers, no longer has this trial, and has said why. */
 export function isOver(trial: Trial, device: Device | null): boolean {
-  if (!device || device.id !== trial.device_id || device.state !== 'ready') return false
+  if (!device || device.unit_key !== trial.unit_key || device.state !== 'ready') return false
   if (device.config?.state !== 'committed') return false
   return device.config.crc32 === trial.crc32 || device.config.rollback_cause !== null
 }

@@ -76,7 +76,7 @@ async function draftOf(): Promise<ConfigDraft> {
     parameters: async () => Object.keys(values).map(parameter),
     config: async () => [{ generation: 1, crc32: 0, parameters: values }, '"1"'],
   }
-  const draft = new ConfigDraft('unit', server as unknown as Server)
+  const draft = new ConfigDraft({ id: 'unit', unit_key: null }, server as unknown as Server)
   await draft.load()
   return draft
 }

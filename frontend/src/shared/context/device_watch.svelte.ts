@@ -11,6 +11,11 @@ export class DeviceWatch {
   known = $state(false) // false until the server answered once
   unreachable = $state(false)
   chosen_id = $state<string | null>(null)
+  /** The unit in whose place another one is, as it was last seen; null once it is back or its
+      leaving was noted. */
+  replaced = $state.raw<Device | null>(null)
+  /** How often another unit came into the place of the current one. */
+  replacements = $state(0)
   current = $derived(this.items.find((d) => d.id === this.chosen_id) ?? this.items[0] ?? null)
   private readonly polling = new PollWhileVisible(() => this.refresh(), PERIOD_MS)
 
@@ -47,11 +52,24 @@ export class DeviceWatch {
     return this.seen_at_ms !== null && state !== 'ready' && state !== 'read_only'
   }
 
+  keyOf(device_id: string): string | null {
+    return this.items.find((d) => d.id === device_id)?.unit_key ?? null
+  }
+
+  private noteReplaced(before: Device | null): void {
+    const now = this.current
+    if (!before || before.id !== now?.id || !isAnother(before.unit_key, now.unit_key)) return
+    this.replaced = now.unit_key === this.replaced?.unit_key ? null : before
+    this.replacements += 1
+  }
+
   /** Asks now; also after something was connected or removed. */
   async refresh(): Promise<void> {
     try {
       const items = await this.server.devices()
+      const before = this.current
       this.items = items
+      this.noteReplaced(before)
       // A choice that an earlier version kept is a serial number.
       const serial = this.chosen_id
       const chosen = items.find((d) => serial && d.identity?.serial_number === serial)
@@ -63,4 +81,10 @@ export class DeviceWatch {
       this.unreachable = true
     }
   }
+}
+
+/** Whether two keys are of two units: one that nobody could tell from another may have got its name
+    meanwhile. */
+function isAnother(before: string | null, now: string | null): boolean {
+  return before !== null && now !== null && before !== now && !before.includes(':url:')
 }

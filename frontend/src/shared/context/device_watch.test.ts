@@ -30,3 +30,41 @@ describe('the chosen unit', () => {
     expect((await watching(null)).chosen_id).toBeNull()
   })
 })
+
+describe('another unit in the place of the one that was there', () => {
+  const there = (unit_key: string | null) => [{ ...device('cable', null), unit_key }]
+
+  async function seeing(...keys: (string | null)[]): Promise<DeviceWatch> {
+    let items: Device[] = []
+    const watch = new DeviceWatch({ devices: async () => items } as unknown as Server, null)
+    for (const key of keys) {
+      items = there(key)
+      await watch.refresh()
+    }
+    return watch
+  }
+
+  it('is noted with the unit that was there, and every time', async () => {
+    const watch = await seeing('ebl:11', 'ebl:22', 'ebl:33')
+
+    expect(watch.replaced?.unit_key).toBe('ebl:22')
+    expect(watch.replacements).toBe(2)
+    expect(watch.keyOf('cable')).toBe('ebl:33')
+  })
+
+  it('is no news once the first is back', async () => {
+    const watch = await seeing('ebl:11', 'ebl:22', 'ebl:11')
+
+    expect([watch.replaced, watch.replacements]).toEqual([null, 2])
+  })
+
+  it.each([
+    [null, 'ebl:11'],
+    ['ebl:11', 'ebl:11'],
+    ['bare:url:socket://cable:1', 'bare:name:Commuter'],
+  ])('is not seen where %s is followed by %s', async (before, now) => {
+    const watch = await seeing(before, now)
+
+    expect([watch.replaced, watch.replacements]).toEqual([null, 0])
+  })
+})

@@ -68,6 +68,9 @@ export const en = {
   'banner.lost':
     'The link to the unit is lost; it comes back by itself when the unit does. {reason}',
   'banner.closed': 'The link to the unit is closed. {reason}',
+  'banner.replaced': 'This is another bike: {name} is where {before} was.',
+  'banner.edits_kept':
+    'What was edited for {before} ({count}) is kept, and is there when it comes back.',
   'no_unit.title': 'No drive unit is connected',
   'no_unit.text':
     'This page shows a connected unit. Connect one, or add a simulated one to look ' + 'around.',
@@ -179,7 +182,7 @@ export const en = {
   'draft.redo': 'Redo',
   'draft.discard': 'Discard',
   'draft.review': 'Review and write…',
-  'review.title': 'Review before writing',
+  'review.title': 'Review before writing to {name}',
   'review.what': 'What',
   'review.old': 'In the unit',
   'review.new': 'New',

@@ -65,6 +65,8 @@ export const zh: Record<Key, string> = {
   'banner.read_only': '驱动单元只能读取，不能修改。{reason}',
   'banner.lost': '与驱动单元的连接已断开；单元恢复后会自动重连。{reason}',
   'banner.closed': '与驱动单元的连接已关闭。{reason}',
+  'banner.replaced': '这是另一辆车：原来接着 {before} 的地方，现在是 {name}。',
+  'banner.edits_kept': '为 {before} 所做的修改（{count} 处）已保留，它重新连上时仍在。',
   'no_unit.title': '没有连接驱动单元',
   'no_unit.text': '本页显示已连接的单元。请连接一个，或添加一个模拟单元先看看。',
 
@@ -171,7 +173,7 @@ export const zh: Record<Key, string> = {
   'draft.redo': '重做',
   'draft.discard': '放弃',
   'draft.review': '核对并写入…',
-  'review.title': '写入前核对',
+  'review.title': '写入 {name} 前核对',
   'review.what': '项目',
   'review.old': '单元中',
   'review.new': '新值',

@@ -53,6 +53,7 @@ const refusal = {
   read_back_differs: '回读的内容与写入的不同。请重新读取后再试。',
   invalid: '数值无效。',
   out_of_range: '有数值超出允许范围。',
+  other_unit: '这是为另一台驱动单元做的，而该连接上现在不是它：没有任何改动。请接回原来的单元，或先查看当前这一台。',
   config_changed: '期间有人修改了单元的配置。请重新读取，核对后再写入。',
   access_denied: '此参数需要更高的权限。',
   token_needed: '此修改需要制造商的令牌。没有写入任何内容。',
