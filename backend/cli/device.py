@@ -115,33 +115,61 @@ def backup(options: Namespace) -> int:
 
 
 def restore(options: Namespace) -> int:
-    """Writes the values of a backup that differ from the unit's and that we may change."""
+    """Writes the values of a backup that differ from the unit's and that we may change.
+
+    All of them into the unit it was made of. Into another one the set-up alone: the calibration of
+    the sensor, its certificate and the wheel stay with the unit they were measured on.
+    """
     server = server_of(options)
     unit = server.device_id(options.unit)
     backup = backup_at(options.file)
     items = server.ask("GET", f"/devices/{unit}/parameters")["items"]
-    family = server.ask("GET", f"/devices/{unit}")["family"]
-    require_same_kind(backup, options.file.name, family, items)
+    device = server.ask("GET", f"/devices/{unit}")
+    require_same_kind(backup, options.file.name, device["family"], items)
     saved = backup.parameters
     if not options.json:
         notes = [*backup.notes, *unknown_here(saved, items)]
         for note in [*notes, *second_table_moves(backup, items)]:
             print(note)
     differing = [p for p in items if p["name"] in saved and saved[p["name"]] != p["value"]]
-    kept = [p["name"] for p in differing if p["access"] == "factory"]
-    changes = {p["name"]: saved[p["name"]] for p in differing if p["access"] != "factory"}
-    if kept and not options.json:
-        print(f"Left as they are, because only the factory may change them: {', '.join(kept)}.")
+    is_same = backup.unit_key is not None and backup.unit_key == device["unit_key"]
+    factory = [p["name"] for p in differing if p["access"] == "factory"]
+    stays = [
+        p["name"]
+        for p in differing
+        if p.get("of_the_unit") and not is_same and p["name"] not in factory
+    ]
+    left_out = {*factory, *stays}
+    changes = {p["name"]: saved[p["name"]] for p in differing if p["name"] not in left_out}
+    if not options.json:
+        print_left_out(factory, stays, backup.unit_key)
     if not changes:
-        print_json({"changed": []}) if options.json else print("Nothing to restore.")
+        done: dict[str, Any] = {"changed": [], "left_out": sorted(left_out)}
+        print_json(done) if options.json else print("Nothing to restore.")
         return 0
     options.reason = options.reason or f"restored from {options.file.name}"
-    return write(server, unit, changes, options)
+    read_from = {"read_from": backup.unit_key} if backup.unit_key else {}
+    return write(server, unit, changes, options, read_from, {"left_out": sorted(left_out)})
+
+
+def print_left_out(factory: list[str], stays: list[str], made_of: str | None) -> None:
+    """Says which values of a backup the unit does not get, and why."""
+    if factory:
+        print(f"Left as they are, because only the factory may change them: {', '.join(factory)}.")
+    if stays:
+        other = f"it is of {made_of}" if made_of else "it does not say which unit it is of"
+        print(
+            f"Left as they are, because they stay with the unit they were measured on, and the "
+            f"file is not this unit's own ({other}): {', '.join(stays)}."
+        )
 
 
 def diff(options: Namespace) -> int:
-    """What differs between a backup and the unit, or between two backups; of a table the table."""
-    from backend.ingest.backup import read_backup
+    """What differs between a backup and the unit, or between two backups; of a table the table.
+
+    Of values of two units, which of them stay with the unit they were measured on.
+    """
+    from backend.ingest.backup import of_the_unit, read_backup
 
     one = backup_at(options.file)
     if options.other is not None and Path(options.other).is_file():
@@ -153,12 +181,14 @@ def diff(options: Namespace) -> int:
         other = read_backup(server.ask("GET", f"/devices/{unit}/config"), unit)
     told = [backup for backup in (one, other) if backup.is_table] or [one, other]
     old, new = one.parameters, other.parameters
-    changed = [
-        {"name": name, "old": old.get(name), "new": new.get(name)}
-        for name in dict.fromkeys(name for backup in told for name in backup.parameters)
-        if old.get(name) != new.get(name)
-    ]
-    print_changes({"changed": changed}, options)
+    names = dict.fromkeys(name for backup in told for name in backup.parameters)
+    differing = [name for name in names if old.get(name) != new.get(name)]
+    changed = [{"name": name, "old": old.get(name), "new": new.get(name)} for name in differing]
+    same = one.unit_key is not None and one.unit_key == other.unit_key
+    stays = [] if same else of_the_unit(differing)
+    print_changes({"changed": changed, "stays_with_unit": stays}, options)
+    if stays and not options.json:
+        print(f"Of these stay with the unit they were measured on: {', '.join(stays)}.")
     return 0
 
 
@@ -221,15 +251,25 @@ def second_table_moves(backup: Backup, items: list[dict[str, Any]]) -> list[str]
     ]
 
 
-def write(server: Server, unit: str, changes: dict[str, Any], options: Namespace) -> int:
-    """One transaction, made for the configuration as it is now."""
+def write(
+    server: Server,
+    unit: str,
+    changes: dict[str, Any],
+    options: Namespace,
+    said: dict[str, Any] | None = None,
+    told: dict[str, Any] | None = None,
+) -> int:
+    """One transaction, made for the configuration as it is now.
+
+    said: more of the request. told: more of what is printed as JSON.
+    """
     path = f"/devices/{unit}/config"
     etag = server.response("GET", path).headers["etag"]
-    body = {"parameters": changes, "reason": options.reason}
+    body = {"parameters": changes, "reason": options.reason, **(said or {})}
     if options.token is not None:
         body["token"] = options.token
     answer = server.ask("PATCH", path, json=body, headers={"if-match": etag})
-    print_changes(answer, options)
+    print_changes({**answer, **(told or {})}, options)
     return 0
 
 

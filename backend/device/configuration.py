@@ -59,7 +59,9 @@ class ParameterRow:
     """What a parameter is. choices: of an enumeration, None for numbers and texts.
 
     access: who may change it: rider, dealer or factory. length: bytes a text may have, None for
-    numbers. may_be_none: whether the unit takes it without a value.
+    numbers. may_be_none: whether the unit takes it without a value. of_the_unit: measured or set
+    for this one unit and its bike, as its sensor's calibration and its wheel: it is no part of a
+    set-up for another one.
     """
 
     id: int
@@ -76,6 +78,7 @@ class ParameterRow:
     length: int | None
     description: str
     may_be_none: bool = False
+    of_the_unit: bool = False
 
 
 @dataclass(frozen=True)

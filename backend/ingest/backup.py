@@ -3,10 +3,13 @@ which had the values alone."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
 from typing import Any
 
+from backend.domain.unit_key import EBL, serial_key
 from backend.errors import InvalidRequest
+from firmware_protocol._generated import PARAMETER_BY_NAME
 from firmware_protocol.configuration_file import (
     CONFIGURATION,
     TABLE,
@@ -18,10 +21,7 @@ from firmware_protocol.configuration_file import (
 )
 from firmware_protocol.retired import brought_forward
 
-__all__ = ["Backup", "backup_json", "backup_of", "read_backup"]
-
-# The family whose parameters changed their names and spelling over the versions.
-EBL = "ebl"
+__all__ = ["Backup", "backup_json", "backup_of", "of_the_unit", "read_backup"]
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,8 @@ class Backup:
 
     notes: what was made of those of an older unit, in words. family: of the unit it is for, None
     where an old file does not say. units: of each value, empty for an old file. is_table: it is one
-    fuzzy table and says nothing of the rest.
+    fuzzy table and says nothing of the rest. unit_key: of the unit it was made of; None where the
+    file does not say, or is of none.
     """
 
     parameters: dict[str, Any]
@@ -38,6 +39,7 @@ class Backup:
     family: str | None = None
     units: dict[str, str] = field(default_factory=dict)
     is_table: bool = False
+    unit_key: str | None = None
 
 
 def read_backup(saved: object, name: str) -> Backup:
@@ -47,13 +49,37 @@ def read_backup(saved: object, name: str) -> Backup:
     """
     if is_configuration_file(saved):
         try:
-            return backup_of(read(saved))
+            return replace(backup_of(read(saved)), unit_key=key_of(saved))
         except BadConfigurationFile as error:
             raise InvalidRequest(f"{name} cannot be used: {error}.") from None
     parameters = saved.get("parameters") if isinstance(saved, dict) else None
     if not isinstance(parameters, dict):
         raise InvalidRequest(f"{name} is not a backup: it has no `parameters`.")
-    return Backup(*brought_forward(parameters))
+    return replace(Backup(*brought_forward(parameters)), unit_key=key_of(saved))
+
+
+def of_the_unit(names: Iterable[str]) -> list[str]:
+    """Those names whose values were measured or set for one unit and its bike alone."""
+    known = (name for name in names if name in PARAMETER_BY_NAME)
+    return [name for name in known if PARAMETER_BY_NAME[name].record != "TUNABLE"]
+
+
+def key_of(saved: object) -> str | None:
+    """The key of the unit that a backup was made of; None where it does not say.
+
+    Files of before units had keys have a serial number in their `identity`, and are of our own
+    protocol.
+    """
+    if not isinstance(saved, dict):
+        return None
+    if isinstance(key := saved.get("unit_key"), str):
+        return key
+    identity = saved.get("identity")
+    serial_number = identity.get("serial_number") if isinstance(identity, dict) else None
+    family = saved.get("family", EBL)
+    if isinstance(serial_number, str) and isinstance(family, str):
+        return serial_key(family, serial_number)
+    return None
 
 
 def backup_of(file: ConfigurationFile) -> Backup:

@@ -20,15 +20,22 @@ from tests.browser.judged import COVERED, JUDGE, moved
 from tests.browser.recorded_ride import record_ride
 from tests.fakes.server import SpindleServer
 
+CALIBRATED = {
+    "calibrated_at_utc_s": 1795650000,
+    "calibration_number": 4,
+    "calibration_certificate": [1, 2, 3, 4, 5, 6, 7, 8],
+}
 
-def test_two_of_the_history_are_compared_and_the_rules_of_one_restored(
+
+def test_two_of_the_history_are_compared_and_parts_of_one_restored(
     open_desk: OpenDesk, server: SpindleServer, standing: str, axe: str
 ) -> None:
     before = server.get(f"/devices/{standing}/config")
     rules = [list(row) for row in before["parameters"]["fuzzy_rules"]]
     rules[0][0] = "NB"
-    for parameters in ({"fuzzy_rules": rules}, {"pedal_stop_ms": 210.0}):
-        body = {"parameters": parameters, "reason": "wet climbs"}
+    for parameters in (CALIBRATED, {"fuzzy_rules": rules}, {"pedal_stop_ms": 210.0}):
+        own = {"read_from": before["unit_key"]}
+        body = {"parameters": parameters, "reason": "wet climbs", **own}
         server.ask("PATCH", f"/devices/{standing}/config", json=body)
     desk = open_desk(width=1440, height=900)
     page = desk.open("/service")
@@ -42,6 +49,7 @@ def test_two_of_the_history_are_compared_and_the_rules_of_one_restored(
     page.get_by_role("button", name=name).first.click()
     expect(against.locator(".differs")).to_have_count(2)
     expect(against).to_contain_text("210 ms")
+    expect(against).to_contain_text("0102030405060708")
     changes = page.get_by_role("region", name="Changes of the configuration").first
     expect(changes).to_contain_text("1 differ: ZO → NB")
     page.get_by_role("textbox", name="Job", exact=True).fill("0815")
@@ -51,12 +59,23 @@ def test_two_of_the_history_are_compared_and_the_rules_of_one_restored(
     page.evaluate(axe)
     assert page.evaluate(JUDGE) == []
 
-    page.get_by_role("button", name=name).first.click()
-    page.get_by_role("button", name="Only the rules").click()
+    for restored, told in (("Only the rules", "1 changed"), ("Restore A", "2 changed")):
+        page.goto(f"{server.url}/service")
+        page.get_by_role("button", name=name).first.click()
+        expect(against.get_by_label("Calibration")).not_to_be_checked()
+        page.get_by_role("button", name=restored).click()
+        expect(page).to_have_url(re.compile("/tune$"))
+        expect(page.get_by_test_id("draft-bar")).to_contain_text(told)
+        page.get_by_role("button", name="Discard").click()
 
-    expect(page).to_have_url(re.compile("/tune$"))
-    expect(page.get_by_test_id("draft-bar")).to_contain_text("1 changed")
-    page.get_by_role("button", name="Discard").click()
+    page.goto(f"{server.url}/service")
+    page.get_by_role("button", name=name).first.click()
+    against.get_by_label("Calibration").check()
+    desk.picture("service-restore", full=True)
+    page.get_by_role("button", name="Restore A").click()
+    page.get_by_role("button", name="Review and write").click()
+    row = page.get_by_role("dialog").get_by_role("row", name="Certificate")
+    expect(row).to_contain_text("0102030405060708")
 
 
 def test_a_dark_phone_reads_the_service_in_chinese(

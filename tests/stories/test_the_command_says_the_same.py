@@ -161,7 +161,9 @@ def test_a_backup_of_an_older_unit_is_restored_and_says_what_became_of_the_wheel
     server: SpindleServer, device: str, tmp_path: Path
 ) -> None:
     kept = tmp_path / "old.json"
-    kept.write_text(json.dumps({"parameters": {"wheel_radius_m": 0.34, "gear_ratio": 40.34}}))
+    identity = server.get(f"/devices/{device}")["identity"]
+    values = {"wheel_radius_m": 0.34, "gear_ratio": 40.34}
+    kept.write_text(json.dumps({"identity": identity, "parameters": values}))
 
     restore = spindle(server, "device", "restore", kept)
     value = spindle(server, "device", "get", "wheel_circumference_m", "--json")

@@ -53,6 +53,11 @@ class Parameter(Answer):
     may_be_none: bool = Field(
         default=False, description="Whether `null` is a value: a correction that is not known."
     )
+    of_the_unit: bool = Field(
+        default=False,
+        description="Whether it was measured or set for this one unit and its bike, as the "
+        "sensor's calibration and the wheel: no part of a set-up for another one.",
+    )
     free: Free | None = Field(
         default=None, description="Only of parameters that are held near the factory's value."
     )
@@ -91,6 +96,13 @@ class ConfigPatch(Question):
         default=None,
         pattern=TOKEN_PATTERN,
         description=TOKEN,
+    )
+    read_from: str | None = Field(
+        default=None,
+        max_length=400,
+        description="The `unit_key` of the unit that the values were read from, where they come "
+        "from a backup or a revision. What stays with a unit (`of_the_unit`) is refused of another "
+        "one, the record of a calibration also where this is not told: 422 `of_another_unit`.",
     )
 
 

@@ -103,6 +103,7 @@ def patch_config(
         body.confirm_s,
         author,
         body.token,
+        read_from=body.read_from,
     )
     response.headers["etag"] = etag(change.unit_key, change.generation, change.crc32)
     return change

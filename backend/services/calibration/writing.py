@@ -124,7 +124,13 @@ class CalibrationRecord:
         self._store.change(job.id, kept.changed(pending=pending, certificate=certificate))
         try:
             written = self._tuning.write_config(
-                device_id, record, reason, author=author, token=token, unit_key=job.unit_key
+                device_id,
+                record,
+                reason,
+                author=author,
+                token=token,
+                unit_key=job.unit_key,
+                read_from=job.unit_key,
             )
         except (RequestRefused, NoAnswer) as error:
             # Only what nobody answered may be in the unit.

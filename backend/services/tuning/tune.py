@@ -141,9 +141,20 @@ class Tuning:
         """
         part = _part(self._devices.writable(device_id), name)
         changes = part.changes(value)
+        # A part is of the unit that it is written to: the sensor's calibration is one.
+        own = self._devices.unit_key(device_id)
         try:
             return self.write_config(
-                device_id, changes, reason, if_match, confirm_s, author, token, part.kept
+                device_id,
+                changes,
+                reason,
+                if_match,
+                confirm_s,
+                author,
+                token,
+                part.kept,
+                own,
+                own,
             )
         except LimitViolation as error:
             fields = [part.renamed(fault) for fault in error.fields]
@@ -160,6 +171,7 @@ class Tuning:
         token: str | None = None,
         kept: Collection[str] = (),
         unit_key: str | None = None,
+        read_from: str | None = None,
     ) -> ConfigChange:
         """Write all of `changes` or none, read everything back and compare.
 
@@ -167,11 +179,12 @@ class Tuning:
         change is on trial, and the unit returns to what it had unless `confirm_config` comes within
         so many seconds. token: the maker's answer to TokenNeeded. kept: names among `changes`
         that are there to be compared: another value than the unit's is refused. unit_key: of the
-        unit the change is for; None for the one that is there. Raises InvalidRequest,
-        LimitViolation with every fault named, TokenNeeded, AccessDenied, ConfigConflict, OtherUnit,
-        NotStandingStill, CapabilityMissing, NameFirst; after each of them the unit is unchanged.
-        NoAnswer says in `outcome` what became of the change. PeerProtocolError names the fields
-        that read back different.
+        unit the change is for; None for the one that is there. read_from: the key of the unit the
+        values were read from, None where they were not, or nobody says: what stays with a unit is
+        refused of another one. Raises InvalidRequest, LimitViolation with every fault named,
+        TokenNeeded, AccessDenied, ConfigConflict, OtherUnit, NotStandingStill, CapabilityMissing,
+        NameFirst; after each of them the unit is unchanged. NoAnswer says in `outcome` what became
+        of the change. PeerProtocolError names the fields that read back different.
         """
         if not 0 <= confirm_s <= CONFIRM_S_MAX:
             raise InvalidRequest(f"confirm_s is from 0 to {CONFIRM_S_MAX} seconds.")
@@ -189,6 +202,8 @@ class Tuning:
             intended = _intended(unit.parameters, base, changes)
             changed = differences(base.parameters, intended)
             _check_kept(changed, kept)
+            if read_from != key:
+                _check_of_this_unit(unit.parameters, changed, read_from)
             self._book.back_up(key, base)
             found = base
             writes = bool(changed) or unit.settings_are_lost()
@@ -363,6 +378,30 @@ def _check_kept(changed: Sequence[Change], kept: Collection[str]) -> None:
     ]
     if faults:
         raise LimitViolation(faults[0].message, "shared_points", faults)
+
+
+def _check_of_this_unit(
+    table: ParameterTable, changed: Sequence[Change], read_from: str | None
+) -> None:
+    """Raise LimitViolation naming what stays with a unit, of values that are not this unit's own.
+
+    Of values that nobody says are another unit's, those alone that no one types: the record of a
+    calibration.
+    """
+    rows = {row.name: row for row in table.rows}
+    faults = [
+        FieldError(
+            change.name,
+            "of_another_unit",
+            f"{change.name} stays with the unit it was measured on: leave it out, or say in "
+            "`read_from` that it was read from this one.",
+        )
+        for change in changed
+        if rows[change.name].of_the_unit
+        and (read_from is not None or rows[change.name].group == "calibration")
+    ]
+    if faults:
+        raise LimitViolation(faults[0].message, "of_another_unit", faults)
 
 
 def _intended(

@@ -3594,6 +3594,11 @@ export interface components {
              * @description The maker's answer to the `challenge` of a refusal `token_needed`.
              */
             token?: string | null;
+            /**
+             * Read From
+             * @description The `unit_key` of the unit that the values were read from, where they come from a backup or a revision. What stays with a unit (`of_the_unit`) is refused of another one, the record of a calibration also where this is not told: 422 `of_another_unit`.
+             */
+            read_from?: string | null;
         };
         /**
          * ConfigSlot
@@ -5577,6 +5582,12 @@ export interface components {
              * @default false
              */
             may_be_none: boolean;
+            /**
+             * Of The Unit
+             * @description Whether it was measured or set for this one unit and its bike, as the sensor's calibration and the wheel: no part of a set-up for another one.
+             * @default false
+             */
+            of_the_unit: boolean;
             /** @description Only of parameters that are held near the factory's value. */
             free: components["schemas"]["Free"] | null;
             /** Choices */

@@ -6,14 +6,15 @@ import { PARAMETERS_OF, tableOf, type TableName } from '$shared/config/two_table
 /** What of the draft is kept: one of its tables, or all of it. */
 export type Kept = TableName | 'configuration'
 
-/** The draft as a document; only what its unit tells is in it. A table is kept by the names of the
-    first one, whichever of the two it was. */
+/** The draft as a document; only what its unit tells is in it, and nothing that stays with a unit.
+    A table is kept by the names of the first one, whichever of the two it was. */
 export function documentOf(draft: ConfigDraft, name: string, what: Kept): LibraryDocument {
   const whole = what === 'configuration'
   const from = Object.entries(PARAMETERS_OF[whole ? 'first' : what])
   const to: Record<string, string> = PARAMETERS_OF.first
   const called = new Map(from.map(([role, own]) => [own, to[role] ?? own]))
-  const kept = (parameter: Parameter) => whole || called.has(parameter.name)
+  const kept = (parameter: Parameter) =>
+    whole ? !parameter.of_the_unit : called.has(parameter.name)
   const parameters = draft.parameters.filter(kept).flatMap(({ name, unit }) => {
     const value = draft.value(name)
     const entry = { value: value as ParameterValue, unit, comment: '' }
@@ -30,13 +31,18 @@ export function documentOf(draft: ConfigDraft, name: string, what: Kept): Librar
   }
 }
 
-/** Puts values into the draft, taken back together; what only the factory may change
-    stays as it is. Nothing is written. */
-export function openIn(draft: ConfigDraft, values: Record<string, ParameterValue>): void {
+/** Puts values into the draft, taken back together; what only the factory may change and what was
+    measured on one bike alone stay as they are. Nothing is written. Gives the names of what differs
+    and was left out. */
+export function openIn(draft: ConfigDraft, values: Record<string, ParameterValue>): string[] {
+  const left_out: string[] = []
   for (const [name, value] of Object.entries(values)) {
     const known = draft.parameter(name)
-    if (known && known.access !== 'factory') draft.set(name, value, 'library')
+    if (!known || known.access === 'factory') continue
+    if (!known.of_the_unit) draft.set(name, value, 'library')
+    else if (JSON.stringify(value) !== JSON.stringify(draft.base(name))) left_out.push(name)
   }
+  return left_out
 }
 
 /** The sides of a comparison by the word that stands for them in the address. */

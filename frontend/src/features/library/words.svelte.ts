@@ -28,6 +28,7 @@ export const en = {
   open: 'Open as a draft',
   open_unit: 'needs a connected unit',
   opened: '{name} is a draft now. Nothing is in the unit yet.',
+  left_out: 'Left out, because it stays with the bike it was measured on: {names}.',
   files: 'Files',
   delete: 'Delete',
   deleted: '{name} is deleted.',

@@ -26,6 +26,7 @@ export const zh: Record<LibraryKey, string> = {
   open: '作为草稿打开',
   open_unit: '需要已连接的单元',
   opened: '{name} 现在是草稿，尚未写入单元。',
+  left_out: '以下各项只属于测得它们的那辆车，未载入：{names}。',
   files: '文件',
   delete: '删除',
   deleted: '{name} 已删除。',

@@ -58,6 +58,8 @@ export const en = {
   table_of: '{side} · {when}',
   setting: 'Setting',
   restore_all: 'Restore A…',
+  restore_parts: 'What of A goes back',
+  restore_measured: 'measured on this bike: goes back only if you tick it',
   restore_rules: 'Only the rules…',
   restore_note: 'Opens as a draft on Tune; reviewed there before anything is written.',
   restored: 'Generation {generation} is open as a draft.',

@@ -57,6 +57,8 @@ export const zh: Record<ServiceKey, string> = {
   table_of: '{side} · {when}',
   setting: '设置',
   restore_all: '恢复 A…',
+  restore_parts: 'A 中要恢复的部分',
+  restore_measured: '在这辆车上测得：勾选后才会恢复',
   restore_rules: '仅恢复规则…',
   restore_note: '在调校页作为草稿打开；写入前须在那里检查。',
   restored: '第 {generation} 代已作为草稿打开。',

@@ -124,7 +124,8 @@ export class Server {
 
   /** Writes parameters; `tag` is the ETag of the configuration the change was made for. confirm_s:
       0 for good, else the unit returns after so many seconds unless it is confirmed. token: the
-      maker's, where a refusal asked for one. */
+      maker's, where a refusal asked for one. read_from: the key of the unit whose values these are.
+      */
   writeConfig(
     id: string,
     parameters: Record<string, ParameterValue>,
@@ -132,11 +133,12 @@ export class Server {
     tag: string,
     confirm_s = 0,
     token: string | null = null,
+    read_from: string | null = null,
   ): Promise<[ConfigChange, string]> {
     return bodyAndTag(
       this.http.PATCH('/api/v1/devices/{device_id}/config', {
         params: { path: { device_id: id }, header: { 'if-match': tag } },
-        body: { parameters, reason, confirm_s, token },
+        body: { parameters, reason, confirm_s, token, read_from },
       }),
     )
   }

@@ -98,7 +98,8 @@ export class ConfigDraft {
   private take(stamp: ConfigStamp & { unit_key: string }, parameters: Edits, tag: string): void {
     this.unit_key ??= stamp.unit_key
     if (stamp.unit_key !== this.unit_key) {
-      throw new Refusal(412, 'other_unit', `This is for the unit ${this.unit_key}; another is there.`)
+      const told = `This is for the unit ${this.unit_key}; another is there.`
+      throw new Refusal(412, 'other_unit', told)
     }
     this.baseline = parameters
     this.generation = stamp.generation
@@ -231,6 +232,7 @@ export class ConfigDraft {
         this.tag,
         confirm_s,
         token,
+        this.unit_key,
       )
       this.take(result, result.parameters, tag)
       // The factory's values move the bounds of others. The change is in the unit, whatever becomes

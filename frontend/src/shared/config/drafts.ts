@@ -3,7 +3,7 @@ import { createContext } from 'svelte'
 import type { Server } from '../api/server'
 import { ConfigDraft, type UnitThere } from './config_draft.svelte'
 
-/** Each page edits and writes its own draft, which belongs to the unit and not to its connection. */
+/** Each page edits and writes its own draft; it belongs to the unit and not to its connection. */
 export class Drafts {
   private readonly byKey = new Map<string, ConfigDraft>()
 

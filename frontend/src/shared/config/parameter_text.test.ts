@@ -2,7 +2,8 @@
 import { Locale } from '../i18n/locale.svelte'
 import { Units } from '../units/units.svelte'
 import { expect, it } from 'vitest'
-import { shownTyped } from './parameter_text'
+import type { Parameter } from '../api/types'
+import { shownTyped, valueText } from './parameter_text'
 
 const metric = new Units(new Locale(), 'metric')
 const imperial = new Units(new Locale(), 'imperial')
@@ -22,4 +23,15 @@ it('shows a converted value to four digits, so that it fits its field', () => {
 
 it('shows nothing for what is missing', () => {
   expect(shownTyped(NaN, 'km/h', imperial)).toBe('')
+})
+
+it('shows a moment as a moment and a certificate as the paper has it', () => {
+  const locale = new Locale()
+  const shown = (name: string, value: number | number[]) =>
+    valueText(locale, metric, { name, unit: 's' } as Parameter, value)
+
+  expect(shown('calibrated_at_utc_s', 1795650000)).toBe(locale.instant('2026-11-25T23:40:00.000Z'))
+  expect(shown('calibrated_at_utc_s', 0)).toBe('—')
+  expect(shown('calibration_certificate', [1, 2, 171])).toBe('0102ab')
+  expect(shown('calibration_certificate', [0, 0, 0])).toBe('—')
 })

@@ -6,6 +6,8 @@ import type { DraftChange, ConfigDraft } from './config_draft.svelte'
 import { faultsOf, walk, type Element, type Fault } from './limits'
 import { isFactorys, needsToken, ratchetMove } from './ratchet'
 
+const MS_PER_S = 1000
+
 export const LABELS = ['NB', 'NS', 'ZO', 'PS', 'PB'] as const
 
 export interface ElementChange {
@@ -126,6 +128,21 @@ export function elementChanges(
   change: DraftChange,
 ): ElementChange[] {
   const { parameter } = change
+  const whole = wholeText(locale, parameter.name, change.value)
+  if (whole !== null) {
+    return [
+      {
+        key: parameter.name,
+        label: parameterLabel(locale, parameter.name),
+        old: wholeText(locale, parameter.name, change.old) ?? '—',
+        value: whole,
+        range: '',
+        fault: null,
+        token: null,
+        locked: false,
+      },
+    ]
+  }
   const faults = faultsOf(parameter, change.value)
   const found: ElementChange[] = []
   walk(change.value, [], (element, path) => {
@@ -146,6 +163,24 @@ export function elementChanges(
   return found
 }
 
+/** A moment, and the bytes of a certificate, as people read them, a dash for none yet; null for any
+    other parameter, whose elements stand for themselves. */
+export function wholeText(
+  locale: Locale,
+  name: string,
+  value: ParameterValue | null,
+): string | null {
+  if (name.endsWith('_utc_s')) {
+    const known = typeof value === 'number' && value > 0
+    return known ? locale.instant(new Date(value * MS_PER_S).toISOString()) : '—'
+  }
+  if (name !== 'calibration_certificate') return null
+  const bytes = Array.isArray(value) ? (value as number[]) : []
+  return bytes.some((byte) => byte !== 0)
+    ? bytes.map((byte) => byte.toString(16).padStart(2, '0')).join('')
+    : '—'
+}
+
 /** A whole value in one line, for lists of what changed. */
 export function valueText(
   locale: Locale,
@@ -154,6 +189,8 @@ export function valueText(
   value: ParameterValue | null,
 ): string {
   if (value === null) return '—'
+  const whole = parameter && wholeText(locale, parameter.name, value)
+  if (whole) return whole
   const parts: string[] = []
   walk(value, [], (element) => parts.push(elementText(locale, units, parameter, element)))
   return parts.join(' ')

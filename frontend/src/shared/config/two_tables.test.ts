@@ -59,6 +59,7 @@ function parameter(name: string): Parameter {
     type: 'f32',
     shape: [],
     may_be_none: false,
+    of_the_unit: false,
     unit: '',
     min,
     max,

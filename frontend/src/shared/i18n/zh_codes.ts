@@ -28,6 +28,7 @@ const lint = {
 }
 
 const violation = {
+  of_another_unit: '只属于测得它的那台驱动单元：请去掉它。',
   not_finite: '不是有效数字',
   below_min: '低于允许的最小值',
   above_max: '高于允许的最大值',
@@ -121,6 +122,7 @@ const refusal = {
   no_pedalling: '此骑行无法再骑一次：没有蹬踏。',
   too_short: '此骑行无法再骑一次：路程过短。',
   missing_channel: '此骑行缺少重放所需的通道。',
+  of_another_unit: '这些数值只属于测得它们的那台驱动单元，不能写入另一台：没有任何改动。',
   shared_points: '速度和扭矩变化率的峰点由两个规则表共用，请在第一规则表中修改。',
   invalid_assist_modes: '助力模式的数值相互矛盾。',
   no_setup: '标定尚未设置：请给出曲柄长度、重力和砝码。',

@@ -1,4 +1,5 @@
 // A value of the unit's calibration record, in words.
+import { wholeText } from '$shared/config/parameter_text'
 import type { Locale } from '$shared/i18n/locale.svelte'
 import type { RecordLine } from '../job/types'
 
@@ -9,17 +10,10 @@ const DIGITS: Readonly<Record<string, number>> = {
   sensor_gain_share_per_k: 6,
   sensor_reference_degc: 1,
 }
-const MS_PER_S = 1000
 
 export function recordText(locale: Locale, name: string, value: RecordLine['found']): string {
-  if (value === null || (name === 'calibrated_at_utc_s' && value === 0)) return '—'
-  if (name === 'calibrated_at_utc_s' && typeof value === 'number') {
-    return locale.instant(new Date(value * MS_PER_S).toISOString())
-  }
-  if (typeof value === 'number') return locale.number(value, DIGITS[name] ?? 0)
-  // Bytes, such as those of the certificate.
-  if (Array.isArray(value)) {
-    return value.map((byte) => Number(byte).toString(16).padStart(2, '0')).join('')
-  }
-  return value
+  if (value === null) return '—'
+  const whole = wholeText(locale, name, value)
+  if (whole !== null) return whole
+  return typeof value === 'number' ? locale.number(value, DIGITS[name] ?? 0) : String(value)
 }
