@@ -51,7 +51,13 @@ def test_a_latched_fault_whose_cause_is_gone_is_cleared_by_a_click(
     desk: Desk, server: SpindleServer, standing: str
 ) -> None:
     break_torque_sensor(server, standing)
+    page = desk.open("/")
+    lamp = page.locator("[data-lamp=torque]")
+    expect(lamp).to_contain_text("no reading")
     page = desk.open("/service")
+    checks = page.get_by_test_id("checks")
+    expect(checks.get_by_role("row", name="Torque sensor, no foot")).to_contain_text("failed")
+    expect(checks.get_by_role("row", name="Torque sensor, no foot")).to_contain_text("no reading")
     clear(page)
     told = page.get_by_test_id("clear-result")
     expect(told).to_contain_text("Not cleared")

@@ -1,5 +1,6 @@
 // What can be checked of a unit without touching it: found, allowed, and whether it passed.
 import type { SensorDrift, WearCounters } from '$shared/api/types'
+import { faultOf, type Part } from '$shared/device/fault_parts'
 import { healthOf } from '$shared/device/link_health'
 import { standstillOf } from '$shared/device/standstill'
 import type { Units } from '$shared/units/units.svelte'
@@ -13,6 +14,7 @@ export interface Reading {
   drift: SensorDrift | null
   /** Of battery_voltage_v_min; null where it is not known. */
   battery_v_min: number | null
+  faults_active: readonly string[]
 }
 
 export interface Check {
@@ -36,31 +38,39 @@ export function checksOf(
   units: Units,
   instant: (iso: string) => string,
 ): Check[] {
-  const { channels, wear, counters, battery_v_min } = reading
+  const { channels, wear, counters, battery_v_min, faults_active } = reading
   const at = (name: string) => channels[name] ?? null
+  // A channel that the unit sends and has no value of now is missing; any other is not sent.
+  const none = (name: string) => say(name in channels ? 'no_reading' : 'why_unsent')
 
   const bounded = (word: ServiceKey, name: string, unit: string, most: number): Check => {
     const value = at(name)
     const allowed = say('up_to', { most: units.text(most, unit, 0) })
-    if (value === null) return { word, found: say('why_unsent'), allowed, passed: null }
+    if (value === null) return { word, found: none(name), allowed, passed: null }
     return { word, found: units.text(value, unit), allowed, passed: Math.abs(value) <= most }
+  }
+  /** What the unit itself calls faulty has failed, whatever its reading; without one even more so. */
+  const judged = (check: Check, name: string, ...parts: Part[]): Check => {
+    if (!parts.some((part) => faultOf(part, faults_active))) return check
+    return { ...check, found: at(name) === null ? say('no_reading') : check.found, passed: false }
   }
 
   const zero = bounded('check_zero', 'rider_torque_nm', 'Nm', ZERO_NM_MAX)
   const moves = standstillOf(channels).stands === false
+  const resting = moves ? { ...zero, found: say('why_moving'), passed: null } : zero
   const volts = at('battery_voltage_v')
   const battery: Check = {
     word: 'check_battery',
-    found: volts === null ? say('why_unsent') : units.text(volts, 'V'),
+    found: volts === null ? none('battery_voltage_v') : units.text(volts, 'V'),
     allowed:
       battery_v_min === null ? '—' : say('at_least', { least: units.text(battery_v_min, 'V') }),
     passed: volts === null || battery_v_min === null ? null : volts >= battery_v_min,
   }
   return [
-    moves ? { ...zero, found: say('why_moving'), passed: null } : zero,
+    judged(resting, 'rider_torque_nm', 'torque', 'link'),
     drifted(reading.drift, say, units, instant),
-    bounded('check_rotor', 'torque_age_ms', 'ms', ROTOR_MS_MAX),
-    battery,
+    judged(bounded('check_rotor', 'torque_age_ms', 'ms', ROTOR_MS_MAX), 'torque_age_ms', 'link'),
+    judged(battery, 'battery_voltage_v', 'battery'),
     bounded('check_motor', 'motor_temperature_degc', 'degC', MOTOR_DEGC_MAX),
     bounded('check_controller', 'controller_temperature_degc', 'degC', CONTROLLER_DEGC_MAX),
     flash(wear, say),

@@ -4,7 +4,7 @@
 import type { Revision, Ride, SensorDrift } from '$shared/api/types'
 import type { Units } from '$shared/units/units.svelte'
 import { expect, it } from 'vitest'
-import { checksOf } from './checks'
+import { checksOf, type Reading } from './checks'
 import { newJob, type Job } from './job'
 import { lastChange, rideAfter } from './on_sheet'
 import { en } from './words.svelte'
@@ -68,8 +68,16 @@ const told = (level: SensorDrift['level'], zero_nm: number): SensorDrift =>
     rides: [{ zero_nm }, { zero_nm: null }, { zero_nm }],
     trend: null,
   }) as unknown as SensorDrift
+const NOTHING: Reading = {
+  channels: {},
+  wear: null,
+  counters: {},
+  drift: null,
+  battery_v_min: null,
+  faults_active: [],
+}
 const checked = (drift: SensorDrift | null) => {
-  const reading = { channels: {}, wear: null, counters: {}, battery_v_min: null, drift }
+  const reading = { ...NOTHING, drift }
   const all = checksOf(reading, say, units, (iso) => iso)
   return all.find(({ word }) => word === 'check_drift')
 }
@@ -97,4 +105,25 @@ it('tells the trend where the rides show one', () => {
 it('is not done where no ride told the zero', () => {
   expect(checked(told(null, 0))).toMatchObject({ found: en.drift_none, passed: null })
   expect(checked(null)).toMatchObject({ passed: null })
+})
+
+const zeroCheck = (reading: Partial<Reading>) =>
+  checksOf({ ...NOTHING, ...reading }, say, units, (iso) => iso)[0]
+
+it('fails a sensor that the unit calls faulty, with a reading and without', () => {
+  const dead = { channels: { rider_torque_nm: null }, faults_active: ['torque_sensor'] }
+  const stuck = { channels: { rider_torque_nm: 0 }, faults_active: ['torque_stuck'] }
+
+  expect(zeroCheck(dead)).toMatchObject({ found: en.no_reading, passed: false })
+  expect(zeroCheck(stuck)).toMatchObject({ found: '0.0 Nm', passed: false })
+  expect(zeroCheck({ channels: {}, faults_active: ['torque_link'] })?.passed).toBe(false)
+})
+
+it('tells a value that is missing now from one that the unit never sends', () => {
+  expect(zeroCheck({ channels: { rider_torque_nm: null } })).toMatchObject({
+    found: en.no_reading,
+    passed: null,
+  })
+  expect(zeroCheck({})).toMatchObject({ found: en.why_unsent, passed: null })
+  expect(zeroCheck({ channels: { rider_torque_nm: 0.5 } })).toMatchObject({ passed: true })
 })

@@ -45,6 +45,7 @@ export const en = {
   none_lost: 'none lost',
   lost_of: '{lost} of {built} lost',
   why_moving: 'the bike moves',
+  no_reading: 'no reading',
   why_unsent: 'not sent by this unit',
   why_away: 'the unit does not answer',
   compare: 'Compare',

@@ -44,6 +44,7 @@ export const zh: Record<ServiceKey, string> = {
   none_lost: '无丢失',
   lost_of: '{built} 帧中丢失 {lost} 帧',
   why_moving: '车在移动',
+  no_reading: '无读数',
   why_unsent: '此驱动单元不提供',
   why_away: '驱动单元没有应答',
   compare: '比较',

@@ -19,6 +19,7 @@ export const enBike = {
   'bike.set_unread': 'Not read from the unit since this page was opened.',
   'bike.changes': 'Latest changes',
   'bike.found': 'found when the unit was connected',
+  'reading.none': 'no reading',
   'lamp.title': 'How the parts of the unit are',
   'lamp.torque': 'Torque sensor',
   'lamp.speed': 'Speed sensor',

@@ -20,6 +20,7 @@ export const zhBike: Record<keyof typeof enBike, string> = {
   'bike.set_unread': '打开本页后尚未从单元读取。',
   'bike.changes': '最近的更改',
   'bike.found': '连接单元时发现',
+  'reading.none': '无读数',
   'lamp.title': '单元各部分的状态',
   'lamp.torque': '扭矩传感器',
   'lamp.speed': '速度传感器',
