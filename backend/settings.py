@@ -132,9 +132,11 @@ def read_file(*candidates: Path) -> dict[str, Any]:
     for path in candidates:
         try:
             if path.is_file():
-                return tomllib.loads(path.read_text(encoding="utf-8"))
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise InvalidRequest(f"{path}: {error}") from None
+                return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        except tomllib.TOMLDecodeError as error:
+            raise InvalidRequest(f"{path} is not TOML: {error}.") from None
+        except UnicodeDecodeError as error:
+            raise InvalidRequest(f"{path} is not UTF-8 text, at byte {error.start}.") from None
         except (OSError, ValueError) as error:
             reason = error.strerror if isinstance(error, OSError) else error
             raise InvalidRequest(f"{path} cannot be read: {reason}.") from None

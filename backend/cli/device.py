@@ -304,10 +304,12 @@ def assignment(word: str) -> tuple[str, Any]:
 
 
 def read_json(file: Path) -> Any:
-    """A JSON file. Raises InvalidRequest with the reason if it cannot be read."""
+    """A JSON file, with a byte order mark or without. Raises InvalidRequest with the reason."""
     try:
-        return json.loads(file.read_text(encoding="utf-8"))
+        return json.loads(file.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise InvalidRequest(f"{file} cannot be read: {error.strerror}.") from None
+    except UnicodeDecodeError as error:
+        raise InvalidRequest(f"{file} is not UTF-8 text, at byte {error.start}.") from None
     except ValueError as error:
         raise InvalidRequest(f"{file} is not JSON: {error}.") from None

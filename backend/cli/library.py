@@ -196,6 +196,6 @@ def side(server: Server, word: str) -> dict[str, Any]:
 def text_in(file: Path) -> str:
     """A text file. Raises InvalidRequest with the reason if it cannot be read."""
     try:
-        return file.read_bytes().decode("utf-8", errors="replace")
+        return file.read_bytes().decode("utf-8-sig", errors="replace")
     except OSError as error:
         raise InvalidRequest(f"{file} cannot be read: {error.strerror}.") from None

@@ -7,6 +7,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from math import ceil
 
 from backend.domain.people.password import LENGTH_MAX
 from backend.domain.people.person import Caller, Person, folded
@@ -109,7 +110,7 @@ class SignIn:
             now_s = self._now_s()
             wait_s = max(self._by_name.wait_s(name, now_s), self._by_address.wait_s(address, now_s))
             if wait_s > 0.0:
-                message = f"Too many wrong passwords: wait {wait_s:.0f} s, then try again."
+                message = f"Too many wrong passwords: wait {ceil(wait_s)} s, then try again."
                 raise TooManyTries(message, wait_s)
             self._by_name.count(name, now_s)
             self._by_address.count(address, now_s)

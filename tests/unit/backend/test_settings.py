@@ -80,7 +80,7 @@ def test_the_file_of_the_data_folder_is_read(
     monkeypatch.chdir(tmp_path)
     folder = tmp_path / "kept"
     folder.mkdir()
-    (folder / "spindle.toml").write_text("port = 9000\n")
+    (folder / "spindle.toml").write_text("\ufeffport = 9000\n", encoding="utf-8")
 
     assert load({"data": folder}, {}).port == 9000
 
