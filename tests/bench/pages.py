@@ -1,5 +1,6 @@
 """How long whoever works on a page waits, in a real browser: from the key that edits a rule to the
-map and to the surface in three dimensions, from the end of a drag to a ride's finer curve.
+map and to the surface in three dimensions, from the end of a drag to a ride's finer curve; and how
+smoothly the live strips run.
 
 Each waits for what is drawn and for the frame after it, so that what the eye sees is counted. The
 browser paints by software, as on a machine without a graphics card.
@@ -23,6 +24,20 @@ EDITS_3D = 20
 ZOOMS = 20
 OPENINGS = 10
 WITHIN_MS = 20_000
+WATCHED_S = 10.0
+FRAMES_A_SECOND_MIN = 25.0
+# Frames a second that the browser has shown while so many seconds passed.
+FRAME_RATE = """(watched_s) => new Promise((told) => {
+    const begun_ms = performance.now()
+    let frames = 0
+    const next = () => {
+        frames += 1
+        const passed_s = (performance.now() - begun_ms) / 1000
+        if (passed_s < watched_s) requestAnimationFrame(next)
+        else told(frames / passed_s)
+    }
+    requestAnimationFrame(next)
+})"""
 # Counts from the event to the frame after the next drawing of other data: pixels of ours, or a
 # Plotly curve that is not the old one moved.
 STOPWATCH = """([kind, where]) => {
@@ -70,6 +85,9 @@ def run() -> list[Figure]:
 
 
 def measure(page: Page, site: str, ride: int) -> list[Figure]:
+    page.goto(f"{site}/live")
+    page.wait_for_selector("[data-channel=speed_kmh]")
+    frames_a_second = float(page.evaluate(FRAME_RATE, WATCHED_S))
     page.goto(f"{site}/tune")
     surface = "[data-testid=surface]"
     page.wait_for_selector(f"{surface}[data-draws]")
@@ -86,6 +104,13 @@ def measure(page: Page, site: str, ride: int) -> list[Figure]:
         figure("a rule is edited: until the surface in three dimensions shows it", solid_ms, 300),
         figure("a two-hour ride is opened: until its traces are there", open_ms, 1500),
         figure("a two-hour ride is zoomed: until the finer curve is there", zoom_ms, 150),
+        Figure(
+            "live strips, while the unit streams",
+            f"{frames_a_second:.0f} frames/s",
+            f">= {FRAMES_A_SECOND_MIN:.0f} frames/s",
+            frames_a_second >= FRAMES_A_SECOND_MIN,
+            f"over {WATCHED_S:.0f} s, painted by software",
+        ),
     ]
 
 
