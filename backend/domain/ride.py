@@ -214,6 +214,17 @@ class Ride:
         }
 
 
+# Letters to Unicode, and nothing to the eye: the fillers of Hangul and the empty cell of Braille.
+BLANK_LETTERS = frozenset("\u115f\u1160\u2800\u3164\uffa0")
+
+
+def readable_name(name: str) -> str:
+    """A name as it was given; empty where nothing of it can be seen, so that the ride is called by
+    its time of day."""
+    seen = any(c.isprintable() and not c.isspace() and c not in BLANK_LETTERS for c in name)
+    return name if seen else ""
+
+
 def iso_utc(time_us: int) -> str:
     """Microseconds since 1970 UTC -> ISO 8601 with `Z`."""
     moment = datetime.fromtimestamp(time_us / 1e6, UTC)

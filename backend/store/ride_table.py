@@ -15,7 +15,7 @@ from backend.domain.filled import Filled
 from backend.domain.intake import Intake
 from backend.domain.logbook.card import line_kmh
 from backend.domain.noted import noted_from_json, noted_to_json
-from backend.domain.ride import Gap, Ride, RideContext, RidePlace, RideSummary
+from backend.domain.ride import Gap, Ride, RideContext, RidePlace, RideSummary, readable_name
 from backend.domain.ride_events import RideEvent
 from backend.errors import FieldError, InvalidRequest
 from backend.store.discard import take_back, with_sidecar
@@ -76,7 +76,7 @@ def ride_from_row(row: Row[Any], tags: tuple[str, ...]) -> Ride:
         id=body["id"],
         state=body["state"],
         origin=body["origin"],
-        name=body["name"],
+        name=readable_name(body["name"]),
         notes=body["notes"],
         started_us=body["started_us"],
         row_count=body["row_count"],

@@ -49,7 +49,7 @@ export function checksOf(
     if (value === null) return { word, found: none(name), allowed, passed: null }
     return { word, found: units.text(value, unit), allowed, passed: Math.abs(value) <= most }
   }
-  /** What the unit itself calls faulty has failed, whatever its reading; without one even more so. */
+  /** What the unit itself calls faulty has failed, whatever its reading. */
   const judged = (check: Check, name: string, ...parts: Part[]): Check => {
     if (!parts.some((part) => faultOf(part, faults_active))) return check
     return { ...check, found: at(name) === null ? say('no_reading') : check.found, passed: false }
