@@ -114,9 +114,14 @@ class Erased:
 class _Source:
     """The unit that logs are fetched from, and no other that takes its place on the connection."""
 
+    devices: Devices
     device_id: str
     key: str
-    unit: Unit
+
+    @property
+    def unit(self) -> Unit:
+        """To be asked now; raises NotFound once the connection is removed."""
+        return self.devices.unit(self.device_id).only(serial_of(self.key))
 
 
 class Stopping(SpindleError):
@@ -402,8 +407,7 @@ class Collect:
     def _source(self, device_id: str) -> _Source:
         """The unit that is on a connection now. Raises NotFound, NoAnswer."""
         key = self._devices.unit_key(device_id)
-        unit = self._devices.unit(device_id).only(serial_of(key))
-        return _Source(self._devices.get(device_id).id, key, unit)
+        return _Source(self._devices, self._devices.get(device_id).id, key)
 
     def _again(self, source: _Source, work: Callable[[Unit], None]) -> None:
         """Ask the unit something; once more when it was away."""
