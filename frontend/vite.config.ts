@@ -15,7 +15,7 @@ const MOST = [
   'config/(config_draft|drafts|limits|page_draft|parameter_text|ratchet|trial|two_tables)',
   'i18n/(?!zh)',
 ]
-const REVIEW = ['ReviewDialog', 'TokenSteps', 'UnlockPanel', 'WriteRefused', 'write_']
+const REVIEW = ['ReviewDialog', 'review_rows', 'TokenSteps', 'UnlockPanel', 'Write', 'write_']
 // Words of another language come apart from their page: only who reads them fetches them.
 const chunk = (name: string, pattern: string) => ({
   name,
@@ -31,7 +31,7 @@ const GROUPS = [
   chunk('ride', 'features/rides/ride/(?!from_file/)'),
   chunk('compare', 'features/rides/compare/'),
   chunk('insight', 'features/rides/insight'),
-  chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet)'),
+  chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet|Restore|restored)'),
   chunk('settings', 'features/settings/(?!people)'),
   chunk('review', `shared/(certificate|config/(${REVIEW.join('|')}))`),
   chunk('config', 'shared/(config|lint)'),

@@ -10,15 +10,16 @@ export interface RestoredPart {
   names: string[]
 }
 
-/** The parts of a difference in the order of the parameters, without what only the factory may
-    change. The record of a calibration is one part with what it measured. */
+/** The parts of what the unit has beside the older one, in the order of the parameters, without
+    what only the factory may change. The record of a calibration is one part with what it
+    measured. */
 export function restoredParts(
   differences: Comparison['parameters'],
   parameters: readonly Parameter[],
 ): RestoredPart[] {
   const parts = new Map<string, RestoredPart>()
   for (const { name, access, of_the_unit, group } of parameters) {
-    const differs = differences.some((one) => one.name === name && one.old !== null)
+    const differs = differences.some((one) => one.name === name && one.new !== null)
     if (!differs || access === 'factory') continue
     const shown = of_the_unit && group === 'sensor' ? 'calibration' : group
     const key = `${of_the_unit ? 'unit' : 'tuning'}/${shown}`

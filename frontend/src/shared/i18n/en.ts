@@ -1,7 +1,6 @@
 // English: the words of the pages. What the unit speaks of (parameters, channels) is in en_unit.ts,
 // rides are in en_rides.ts, how things stand (faults) in en_state.ts.
 import { enBike } from './en_bike'
-import { enModes } from './en_modes'
 import { enRides } from './en_rides'
 import { enState } from './en_state'
 import { enTune } from './en_tune'
@@ -12,7 +11,6 @@ export const en = {
   ...enRides,
   ...enState,
   ...enTune,
-  ...enModes,
   ...enBike,
   'app.choose_unit': 'Choose a unit',
   'app.dismiss': 'Dismiss',
@@ -60,6 +58,11 @@ export const en = {
   'state.closed': 'Closed',
   'state.unreachable': 'Offline',
   'state.none': 'No unit',
+  'modes.title': 'Five modes',
+  'modes.keys':
+    'Arrows move · Enter edits · Esc leaves · Ctrl+D copies to the right · Ctrl+Z undoes · a ' +
+    'dash: this law has no such setting',
+  'modes.share': '{share} % of the allowed range',
   'banner.unreachable':
     "Spindle's server does not answer. Values on this page are old. Trying again every " +
     'second.',
@@ -68,9 +71,6 @@ export const en = {
   'banner.lost':
     'The link to the unit is lost; it comes back by itself when the unit does. {reason}',
   'banner.closed': 'The link to the unit is closed. {reason}',
-  'banner.replaced': 'This is another bike: {name} is where {before} was.',
-  'banner.edits_kept':
-    'What was edited for {before} ({count}) is kept, and is there when it comes back.',
   'no_unit.title': 'No drive unit is connected',
   'no_unit.text':
     'This page shows a connected unit. Connect one, or add a simulated one to look ' + 'around.',

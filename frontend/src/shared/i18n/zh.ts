@@ -1,7 +1,6 @@
 // 中文：页面用语。缺少任何一个词，类型检查都会失败。
 import type { Key } from './en'
 import { zhBike } from './zh_bike'
-import { zhModes } from './zh_modes'
 import { zhRides } from './zh_rides'
 import { zhState } from './zh_state'
 import { zhTune } from './zh_tune'
@@ -12,7 +11,6 @@ export const zh: Record<Key, string> = {
   ...zhRides,
   ...zhState,
   ...zhTune,
-  ...zhModes,
   ...zhBike,
   'app.choose_unit': '选择驱动单元',
   'app.dismiss': '关闭',
@@ -60,13 +58,15 @@ export const zh: Record<Key, string> = {
   'state.closed': '已关闭',
   'state.unreachable': '离线',
   'state.none': '无单元',
+  'modes.title': '五个模式',
+  'modes.keys':
+    '方向键移动 · Enter 编辑 · Esc 离开 · Ctrl+D 向右复制 · Ctrl+Z 撤销 · 横线：该控制律没有此项设置',
+  'modes.share': '允许范围的 {share} %',
   'banner.unreachable': 'Spindle 服务器没有应答，页面上的数值已过时。每秒重试一次。',
   'banner.connecting': '正在连接驱动单元。{reason}',
   'banner.read_only': '驱动单元只能读取，不能修改。{reason}',
   'banner.lost': '与驱动单元的连接已断开；单元恢复后会自动重连。{reason}',
   'banner.closed': '与驱动单元的连接已关闭。{reason}',
-  'banner.replaced': '这是另一辆车：原来接着 {before} 的地方，现在是 {name}。',
-  'banner.edits_kept': '为 {before} 所做的修改（{count} 处）已保留，它重新连上时仍在。',
   'no_unit.title': '没有连接驱动单元',
   'no_unit.text': '本页显示已连接的单元。请连接一个，或添加一个模拟单元先看看。',
 

@@ -1,0 +1,51 @@
+// The words of the page of modes and limits. They come with it.
+import { pageWords } from '$shared/i18n/page_words.svelte'
+
+export const en = {
+  which: 'Which mode is shown',
+  start: 'Start-up mode',
+  setting: 'Setting',
+  allowed: 'Unit, allowed',
+  slot: 'mode {slot}',
+  ridden: 'ridden now',
+  cell: '{setting}, mode {mode}',
+  no_such: 'This law has no such setting',
+  push: 'Motor for {torque} of yours',
+  push_how: 'at the crank, up to {to}, at {cadence}, held steady; top {top}',
+  curve: 'Mode {mode}: {torque} at {speed}, at most {most}',
+  worked_out: 'worked out',
+  group_asks: 'What the mode asks',
+  group_answers: 'How fast it answers',
+  group_uses: 'What it may use',
+  mode_names: 'Name',
+  mode_laws: 'Law',
+  mode_laws_note: 'how the motor follows you',
+  mode_ratios: 'Assist ratio',
+  mode_ratios_note: 'motor Nm for each Nm of yours',
+  mode_tables: 'Table',
+  mode_tables_note: 'fuzzy law only',
+  first: 'first',
+  second: 'second',
+  mode_tapers: 'Taper',
+  mode_tapers_note: 'fixed law only',
+  taper: '{from} to {to} {unit}',
+  mode_ramp_up_nm_per_s: 'Fastest rise',
+  mode_ramp_up_nm_per_s_note: 'at the crank',
+  mode_ramp_down_nm_per_s: 'Fastest gentle fall',
+  mode_ramp_down_nm_per_s_note: 'cuts may be instant',
+  mode_torque_pct: 'Torque share',
+  mode_torque_pct_note: 'of the largest motor torque',
+  most_torque: 'Most torque',
+  most_how: 'at the crank, for {torque} of yours, after every limit',
+  most_power: 'Most power',
+  most_power_how: 'that torque at {cadence}',
+  limits: 'Limits of the unit',
+  limits_note: 'for every mode; they decide last',
+  every: 'For every mode',
+  checks: 'Checks of modes and limits',
+  checks_clean: 'Nothing to look at.',
+}
+
+export type ModesKey = keyof typeof en
+
+export const words = await pageWords(en, async () => (await import('./words_zh')).zh)
