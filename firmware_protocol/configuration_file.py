@@ -4,8 +4,9 @@
      "family": "ebl", "parameters": {"assist_cutoff_kmh": {"value": 25.0, "unit": "km/h"}}}
 
 `spindle-table` is the same with the parameters of one fuzzy table, all of them and no other, under
-the names of a unit's first. A backup adds `identity`, `generation` and `crc32` of the unit it was
-made of. Only the form is looked at here: whether a unit takes the values, the unit's own rows say.
+the names of a unit's first. A backup adds `identity`, `unit_key`, `generation` and `crc32` of the
+unit it was made of. Only the form is looked at here: whether a unit takes the values, the unit's
+own rows say.
 """
 
 from dataclasses import dataclass

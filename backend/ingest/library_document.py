@@ -29,7 +29,7 @@ from firmware_protocol.retired import brought_forward
 NAME_MAX = 80
 COMMENT_MAX = 2000
 KNOWN = {"format", "version", "name", "comment", "family", "parameters"}
-OF_A_UNIT = {"identity", "generation", "crc32"}
+OF_A_UNIT = {"identity", "unit_key", "generation", "crc32"}
 
 
 def library_document(saved: object) -> dict[str, Any]:

@@ -82,6 +82,12 @@ def asker(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Asker]:
             return None
         return not_a_server_error(context, response, case)
 
+    def refused_if_wrong(context: Any, response: Any, case: Any) -> bool | None:
+        """What names another unit is refused before anything else is looked at."""
+        if response.status_code == 412 and response.json().get("code") == "other_unit":
+            return None
+        return checks.negative_data_rejection(context, response, case)
+
     judged = [
         no_fault_of_the_server,
         checks.status_code_conformance,
@@ -89,7 +95,7 @@ def asker(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Asker]:
         checks.response_headers_conformance,
         checks.response_schema_conformance,
         checks.missing_required_header,
-        checks.negative_data_rejection,
+        refused_if_wrong,
         checks.unsupported_method,
     ]
     described = schemathesis.openapi.from_dict(description())

@@ -68,7 +68,7 @@ class DocumentParameter(Question):
 class LibraryDocument(Question):
     """A document that is to be kept: what `GET /library/{id}` and `spindle device backup` give.
 
-    What it says of a unit, `identity`, `generation` and `crc32`, is not kept.
+    What it says of a unit, `identity`, `unit_key`, `generation` and `crc32`, is not kept.
     """
 
     format: Literal["spindle-table", "spindle-configuration"]
@@ -78,6 +78,7 @@ class LibraryDocument(Question):
     family: str
     parameters: dict[str, DocumentParameter] = Field(max_length=PARAMETERS_MAX)
     identity: dict[str, Any] | None = None
+    unit_key: str | None = None
     generation: int | None = None
     crc32: int | None = None
 

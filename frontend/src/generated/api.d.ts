@@ -5025,7 +5025,7 @@ export interface components {
          * LibraryDocument
          * @description A document that is to be kept: what `GET /library/{id}` and `spindle device backup` give.
          *
-         *     What it says of a unit, `identity`, `generation` and `crc32`, is not kept.
+         *     What it says of a unit, `identity`, `unit_key`, `generation` and `crc32`, is not kept.
          */
         LibraryDocument: {
             /**
@@ -5052,6 +5052,8 @@ export interface components {
             identity?: {
                 [key: string]: unknown;
             } | null;
+            /** Unit Key */
+            unit_key?: string | null;
             /** Generation */
             generation?: number | null;
             /** Crc32 */

@@ -21,6 +21,7 @@ export function backupOf(
     family: device.family,
     parameters: Object.fromEntries(entries),
     identity: device.identity,
+    unit_key: config.unit_key,
     generation: config.generation,
     crc32: config.crc32,
   }
