@@ -155,6 +155,12 @@ class Parameter:
         """Bytes in the image."""
         return self.count * self.length
 
+    @property
+    def of_the_unit(self) -> bool:
+        """Whether it was measured or set for one unit and its bike: no part of a set-up for another
+        one."""
+        return self.record != "TUNABLE"
+
 
 @dataclass(frozen=True, slots=True)
 class Channel:

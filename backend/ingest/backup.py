@@ -60,8 +60,8 @@ def read_backup(saved: object, name: str) -> Backup:
 
 def of_the_unit(names: Iterable[str]) -> list[str]:
     """Those names whose values were measured or set for one unit and its bike alone."""
-    known = (name for name in names if name in PARAMETER_BY_NAME)
-    return [name for name in known if PARAMETER_BY_NAME[name].record != "TUNABLE"]
+    known = PARAMETER_BY_NAME
+    return [name for name in names if name in known and known[name].of_the_unit]
 
 
 def key_of(saved: object) -> str | None:

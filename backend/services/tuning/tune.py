@@ -18,7 +18,6 @@ from backend.device.configuration import NO_TRIAL, ConfigImage, ParameterTable, 
 from backend.device.unit import Unit
 from backend.domain.capability import Capability
 from backend.domain.revision import Revision, RevisionLog
-from backend.domain.unit_key import serial_of
 from backend.errors import (
     Conflict,
     FieldError,
@@ -78,7 +77,7 @@ class Tuning:
 
         Raises NotFound, also where the unit never had a previous one, and NoAnswer.
         """
-        key, unit = self._known(device_id)
+        key, unit = self._devices.pinned(device_id)
         config = unit.read_config() if bank == ACTIVE else unit.read_bank(bank)
         return ConfigView(key, config.generation, config.crc32, config.parameters)
 
@@ -87,7 +86,7 @@ class Tuning:
 
         Raises CapabilityMissing for a unit without it, NotFound, NoAnswer.
         """
-        key, unit = self._known(device_id)
+        key, unit = self._devices.pinned(device_id)
         part = _part(unit, name)
         config = unit.read_config()
         value = part.read(config.parameters)
@@ -282,17 +281,11 @@ class Tuning:
         whose answer never came. Raises NotFound, NoAnswer, StoreError.
         """
         with self._turn(device_id):
-            key, unit = self._known(device_id)
+            key, unit = self._devices.pinned(device_id)
             if self._book.may_have_ended(key):
                 self._book.back_up(key, unit.read_config())
 
     # ------------------------------------------------------------------ inside
-
-    def _known(self, device_id: str) -> tuple[str, Unit]:
-        """As Devices.own, for whoever only reads: of a unit without a name, too."""
-        unit = self._devices.writable(device_id)
-        key = self._devices.unit_key(device_id)
-        return key, unit.only(serial_of(key))
 
     def _turn(self, device_id: str) -> threading.Lock:
         """The lock that makes changes of one device wait for each other."""

@@ -241,31 +241,31 @@ class Devices:
         except NotFound:
             return None
 
-    def own_key(self, device_id: str) -> str:
-        """As `unit_key`, for whoever is about to write to the unit.
+    def pinned(self, device_id: str) -> tuple[str, Unit]:
+        """The key of the unit that is there, and that unit and no other.
 
-        Raises NameFirst for a unit without a serial number and without a name.
+        What is asked of it raises OtherUnit once another unit is on the connection. Raises
+        NotFound, Conflict, NoAnswer.
         """
+        unit = self.writable(device_id)
         key = self.unit_key(device_id)
+        return key, unit.only(serial_of(key))
+
+    def own(self, device_id: str, meant: str | None = None) -> tuple[str, Unit]:
+        """As `pinned`, for whoever is about to write to the unit.
+
+        meant: the key of the unit the change is for, None for the one that is there. Raises
+        OtherUnit, and NameFirst for a unit without a serial number and without a name.
+        """
+        key, unit = self.pinned(device_id)
         if not tells_unit(key):
             raise NameFirst(
                 "This unit has no serial number, so nobody can tell it from the next one on this "
                 "connection. Give it a name first: connect it again with the name you call it by."
             )
-        return key
-
-    def own(self, device_id: str, meant: str | None = None) -> tuple[str, Unit]:
-        """The key of the unit, and the unit for whoever is about to change it, and no other.
-
-        What is asked of it raises OtherUnit once another unit is on the connection. meant: the key
-        of the unit the change is for, None for the one that is there. Raises OtherUnit, NotFound,
-        Conflict, NameFirst, NoAnswer.
-        """
-        unit = self.writable(device_id)
-        key = self.own_key(device_id)
         if meant is not None and key != meant:
             raise other_unit(self.get(device_id).url, meant, key)
-        return key, unit.only(serial_of(key))
+        return key, unit
 
     def check_meant(self, device_id: str, meant: str) -> None:
         """Raise OtherUnit where a connection leads to another unit than the one with this key."""

@@ -35,7 +35,7 @@ def _row(row: Parameter, default: Value) -> ParameterRow:
         length=row.length if row.type == "text" else None,
         description=row.doc,
         may_be_none=row.may_be_none,
-        of_the_unit=row.record != "TUNABLE",
+        of_the_unit=row.of_the_unit,
     )
 
 
