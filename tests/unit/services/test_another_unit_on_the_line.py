@@ -25,6 +25,12 @@ from tests.fakes.unit_link import UnitOpener
 
 CHANGE = {"pedal_stop_ms": 200}
 CHANGES_A_UNIT = {MessageId.CFG_BEGIN, MessageId.CFG_CONFIRM, MessageId.CFG_ROLLBACK}
+# What a connection sends by itself (streams, clocks, signs of life) goes on meanwhile.
+SENT_ON_REQUEST = CHANGES_A_UNIT | {
+    MessageId.CFG_READ,
+    MessageId.EVT_FAULT_CLEAR,
+    MessageId.LIVE_SET,
+}
 
 
 @dataclass
@@ -105,12 +111,11 @@ def test_what_began_with_a_does_not_go_on_with_b(
 ) -> None:
     _, begun_with_a = bench.devices.own(bench.id)
     bench.plug(bench.b)
-    executed = list(bench.b.executed)
 
     with pytest.raises(OtherUnit):
         work(bench, begun_with_a)
 
-    assert bench.b.executed == executed
+    assert not SENT_ON_REQUEST & set(bench.b.executed)
 
 
 def test_b_is_not_asked_what_became_of_a_s_change(bench: Bench) -> None:
