@@ -19,9 +19,12 @@ END = @seconds=$$(($$(date +%s) - $$(cat $(STAMP)/began-$@))); \
 
 define BOARD_READY
 $(BEGIN)
-@.ci/ensure-tools board
+@.ci/ensure-tools $(BOARD_TOOLS)
 @$(MAKE) $(SIDE_BY_SIDE) setup
 endef
+
+BOARD_TOOLS = board
+test-board test-board-all: BOARD_TOOLS = board wireshark
 
 # What runs against the emulated board; `make test-board-all` adds what takes minutes there.
 BOARD_SMOKE := tests/board tests/conformance tests/unit/sim_device_app

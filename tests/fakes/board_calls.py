@@ -19,14 +19,14 @@ from sim_device.firmware.python._native import ffi, lib
 from sim_device.emulator import MEMORY_BYTES, MEMORY_START, Emulator, build, free_port
 
 CALL_AT = 0x10000
-CALL = struct.Struct("<I6I2fI")
+CALL = struct.Struct("<I8I2fI")
 ANSWER_AT = CALL_AT + 4 + CALL.size
 ANSWER = struct.Struct("<IQf")
 SCRATCH_AT = 0x20000
 SCRATCH_END = 0x200000
 
 PATIENCE_S = 120.0
-ARGUMENTS_MAX = 6
+ARGUMENTS_MAX = 8
 
 # What is code of the unit; the rest of `lib` is physics and stays where it is.
 ON_THE_BOARD = ("bench_", "ebl_", "assist_", "fuzzy_", "sha512", "signature_")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -59,6 +60,9 @@ class Guard:
 
 def guarded(config: pytest.Config) -> None:
     """Guards this run; a worker is guarded by who started it, a run within a test by its own."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        # A shell's background job ignores Ctrl-C, and so would what a test ends by it.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     within = os.environ.get(guardian.VARIABLE)
     if not hasattr(config, "workerinput") and within is None:
         config.pluginmanager.register(Guard(config), "guard")

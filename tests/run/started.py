@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sys
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import pytest
 
@@ -22,6 +22,8 @@ OTHER = "other processes"
 
 # The most of each in a run: what it takes, and room for a few tests more.
 MOST = {SERVER_HERE: 90, SERVER: 16, COMMAND: 14, UNIT: 40, BROWSER: 6}
+# An emulated board is a process wherever a unit of the host's build is none.
+UNITS_ON_A_BOARD = 90
 
 # By the first words that are found in a command.
 KINDS: tuple[tuple[str, tuple[str, ...]], ...] = (
@@ -59,10 +61,14 @@ HERE = Started()
 
 
 class Told:
-    """Adds up what the workers started, tells it, and fails a run that started too much."""
+    """Adds up what the workers started, tells it, and fails a run that started too much.
 
-    def __init__(self) -> None:
+    more: how much may be started of some kinds, for `MOST`.
+    """
+
+    def __init__(self, more: Mapping[str, int]) -> None:
         self.total: Counter[str] = Counter()
+        self.most = MOST | dict(more)
 
     @pytest.hookimpl(optionalhook=True)
     def pytest_testnodedown(self, node: object) -> None:
@@ -71,11 +77,11 @@ class Told:
     @pytest.hookimpl(tryfirst=True)
     def pytest_sessionfinish(self, session: pytest.Session) -> None:
         self.total += HERE.counts
-        if too_many(self.total) and session.exitstatus == pytest.ExitCode.OK:
+        if too_many(self.total, self.most) and session.exitstatus == pytest.ExitCode.OK:
             session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
     def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
-        for line in lines(self.total):
+        for line in lines(self.total, self.most):
             terminalreporter.write_line(line)
 
 
@@ -86,25 +92,26 @@ class Counted:
         session.config.workeroutput["started"] = dict(HERE.counts)  # type: ignore[attr-defined]
 
 
-def too_many(counts: Counter[str]) -> list[str]:
+def too_many(counts: Counter[str], most: Mapping[str, int] | None = None) -> list[str]:
     """A line for each kind of which a run started more than it should."""
     return [
-        f"{counts[kind]} {kind} were started, {most} at most should be: let tests share one, or "
+        f"{counts[kind]} {kind} were started, {limit} at most should be: let tests share one, or "
         "say in tests/run/started.py why there are more"
-        for kind, most in MOST.items()
-        if counts[kind] > most
+        for kind, limit in (most or MOST).items()
+        if counts[kind] > limit
     ]
 
 
-def lines(counts: Counter[str]) -> Iterable[str]:
+def lines(counts: Counter[str], most: Mapping[str, int] | None = None) -> Iterable[str]:
     """What was started, the most first."""
     if counts:
         yield "started: " + ", ".join(f"{count} {kind}" for kind, count in counts.most_common())
-    yield from too_many(counts)
+    yield from too_many(counts, most)
 
 
 def counted(config: pytest.Config) -> None:
     """Counts what this process starts, and tells it if this process hands out the tests."""
     sys.addaudithook(HERE.hear)
     worker = hasattr(config, "workerinput")
-    config.pluginmanager.register(Counted() if worker else Told(), "started")
+    more = {UNIT: UNITS_ON_A_BOARD} if config.getoption("--unit", "host") == "qemu" else {}
+    config.pluginmanager.register(Counted() if worker else Told(more), "started")

@@ -11,7 +11,7 @@
 #include "uart.h"        // uart_read
 
 #define BAUD 1000000u
-#define ARGUMENTS 6
+#define ARGUMENTS 8 /* an even number: result lies on eight bytes */
 
 typedef struct {
     uint32_t number; /* of this call, written last */
@@ -31,9 +31,9 @@ typedef struct {
 #define HEAP_END 0x22000000u
 
 typedef uint64_t (*whole_function)(uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, uint32_t,
-                                   float, float);
-typedef float (*float_function)(uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, float,
-                                float);
+                                   uint32_t, uint32_t, float, float);
+typedef float (*float_function)(uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, uint32_t,
+                                uint32_t, uint32_t, float, float);
 
 static uint8_t line[BENCH_LINE_BYTES];
 
@@ -83,9 +83,11 @@ static void call(void)
 
     for (int i = 0; i < ARGUMENTS; i++) a[i] = CALL->arguments[i];
     if (CALL->gives_float) {
-        CALL->float_result = ((float_function)function)(a[0], a[1], a[2], a[3], a[4], a[5], f, g);
+        CALL->float_result =
+            ((float_function)function)(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], f, g);
     } else {
-        CALL->result = ((whole_function)function)(a[0], a[1], a[2], a[3], a[4], a[5], f, g);
+        CALL->result =
+            ((whole_function)function)(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], f, g);
     }
     CALL->done = CALL->number;
 }
