@@ -53,6 +53,7 @@ from backend.services.rides.replay import RideReplay
 from backend.services.rides.review import Rides
 from backend.services.rides.ride_again import RideAgain
 from backend.services.rides.sensor_drift import SensorDrift
+from backend.services.rides.settings_in_force import all_through
 from backend.services.rides.since_change import SinceChange
 from backend.services.rides.use_of_table import UseOfTable
 from backend.services.rides.why_ride import WhyRide
@@ -200,7 +201,7 @@ def make_calibrations(
 
 def make_bike_numbers(store: Store, memory: UnitMemory, tuning: Tuning) -> BikeNumbers:
     """With what a ride's unit was configured as and certified for."""
-    certified = CertifiedTorque(store.calibrations, memory.ride_config)
+    certified = CertifiedTorque(store.calibrations, partial(all_through, memory.ride_config))
     return BikeNumbers(store, memory.ride_config, tuning.parameters, certified)
 
 

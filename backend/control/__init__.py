@@ -10,6 +10,7 @@ from backend.control.recorded_ride import STANDING_MS
 from backend.control.recorded_ride import recorded as recorded_ride
 from backend.control.ride_replay import (
     Replay,
+    joined,
     law_readings,
     limit_shares,
     raw_counts_of,
@@ -51,6 +52,7 @@ __all__ = [
     "curves_of",
     "curves_of_record",
     "cutoff_of",
+    "joined",
     "law_defaults",
     "law_readings",
     "limit_shares",

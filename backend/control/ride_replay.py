@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -41,6 +41,18 @@ class Replay:
     limit_shares: dict[str, float]
 
 
+SAMPLES = (
+    "rider_torque_filtered_nm",
+    "torque_rate",
+    "assist_ratio",
+    "fuzzy_gain",
+    "motor_torque_nm",
+    "motor_torque_demanded_nm",
+    "limit_flags",
+)
+"""The fields of a replay with a value for each step."""
+
+
 def replay(
     config: Mapping[str, Any],
     speed_kmh: npt.ArrayLike,
@@ -59,6 +71,7 @@ def replay(
     controller_temperature_degc: npt.ArrayLike = np.nan,
     sensor_temperature_degc: npt.ArrayLike = np.nan,
     step_s: float = law.STEP_S,
+    first: int = 0,
 ) -> Replay:
     """A ride from rest through the law.
 
@@ -69,7 +82,8 @@ def replay(
     torque_age_ms, controller_temperature_degc: (n,); without them nothing is pressed or faulty, the
     torque is fresh and the controller cool. sensor_temperature_degc: (n,); without it the counts
     are not corrected for temperature.
-    step_s: time between samples. A sample that is not finite gives no assist and is counted under
+    step_s: time between samples. first: where the answer begins; the law remembers the samples
+    before. A sample that is not finite gives no assist and is counted under
     `input_refused`. Raises InvalidRequest for what the law refuses.
     """
     if np.size(speed_kmh) > STEPS_MAX:
@@ -95,9 +109,25 @@ def replay(
         inputs = law_readings(config, given)
         motor_speed = np.asarray(inputs["motor_speed_rpm"], np.float32)
         outputs = law.assist_run(config, inputs, step_s)
+        outputs = {name: values[first:] for name, values in outputs.items()}
     except (law.LawRefused, KeyError, TypeError, ValueError) as refused:
         raise InvalidRequest(f"replay: {refused}", "replay_refused") from refused
-    return _summed(outputs, motor_speed, step_s)
+    return _summed(outputs, np.broadcast_to(motor_speed, np.shape(speed_kmh))[first:], step_s)
+
+
+def joined(parts: Sequence[Replay]) -> Replay:
+    """Replays one after the other as one."""
+    if len(parts) == 1:
+        return parts[0]
+    whole: dict[str, Any] = {
+        name: np.concatenate([getattr(part, name) for part in parts]) for name in SAMPLES
+    }
+    return Replay(
+        **whole,
+        motor_torque_nm_max=max(part.motor_torque_nm_max for part in parts),
+        motor_work_wh=sum(part.motor_work_wh for part in parts),
+        limit_shares=limit_shares(whole["limit_flags"]),
+    )
 
 
 def law_readings(
@@ -141,14 +171,9 @@ def _summed(
     torque_nm = outputs["motor_torque_nm"]
     motor_rad_s = np.nan_to_num(motor_speed_rpm) * RADIANS_PER_S_PER_RPM
     power_w = torque_nm.astype(np.float64) * motor_rad_s
+    samples: dict[str, Any] = {name: outputs[name] for name in SAMPLES}
     return Replay(
-        rider_torque_filtered_nm=outputs["rider_torque_filtered_nm"],
-        torque_rate=outputs["torque_rate"],
-        assist_ratio=outputs["assist_ratio"],
-        fuzzy_gain=outputs["fuzzy_gain"],
-        motor_torque_nm=torque_nm,
-        motor_torque_demanded_nm=outputs["motor_torque_demanded_nm"],
-        limit_flags=flags,
+        **samples,
         motor_torque_nm_max=float(torque_nm.max(initial=0.0)),
         motor_work_wh=float(power_w.sum()) * step_s / SECONDS_PER_HOUR,
         limit_shares=limit_shares(flags),

@@ -9,6 +9,9 @@ import numpy.typing as npt
 
 from backend.domain.channels import ChannelSpec
 
+TIME_MODULUS = 1 << 32
+"""The wire's times are the low 32 bits of the unit's clock."""
+
 
 @dataclass(frozen=True)
 class StreamStarted:
@@ -40,3 +43,11 @@ class StreamBlock:
     epoch: int
     wall_us: int
     channels: tuple[ChannelSpec, ...]
+
+
+def unwrap_us(low_us: int, near_us: int) -> int:
+    """The 64-bit time with the low 32 bits `low_us` that is nearest to `near_us` (36 min away)."""
+    ahead = (low_us - near_us) % TIME_MODULUS
+    if ahead >= TIME_MODULUS // 2:
+        ahead -= TIME_MODULUS
+    return near_us + ahead

@@ -23,7 +23,7 @@ from backend.domain.energy import (
 from backend.domain.filled import Filled
 from backend.domain.intake import Intake
 from backend.domain.noted import Noted, Pause, noted_to_json
-from backend.domain.ride_events import RideEvent
+from backend.domain.ride_events import RideEvent, settings_changes
 from backend.domain.standards.sphere import great_circle_m
 
 TimesUs = npt.NDArray[np.int64]
@@ -171,6 +171,13 @@ class Ride:
     def motor_torque_meaning(self) -> str | None:
         """`demanded` or `delivered`: what its motor torque is. None without one."""
         return motor_torque_meaning([channel.name for channel in self.channels])
+
+    def settings_spans(self) -> list[tuple[float, int | None]]:
+        """When each configuration came into force, s after the start, and its CRC-32: the first at
+        0, None where nobody knows it."""
+        first = self.context.config_crc32
+        later = settings_changes(self.events, first)
+        return [(0.0, first), *((event.t_s, event.value) for event in later)]
 
     @property
     def offered(self) -> tuple[ChannelSpec, ...]:

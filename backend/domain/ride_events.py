@@ -1,8 +1,9 @@
-"""What happened on a ride: faults that came and went, modes the rider chose, moments somebody
-marked.
+"""What happened on a ride: faults that came and went, modes the rider chose, settings that were
+changed, moments somebody marked.
 
 Faults and modes are read from the ride's own rows, so that a ride shows them whichever way it came;
-a unit's log also tells what began and ended between two rows.
+a unit's log also tells what began and ended between two rows. Settings are in no row: the unit
+tells their change.
 """
 
 from __future__ import annotations
@@ -18,6 +19,8 @@ FAULT_SET = "fault_set"
 FAULT_CLEARED = "fault_cleared"
 ASSIST_MODE = "assist_mode"
 MARK = "mark"
+SETTINGS = "settings"
+TOLD_ONLY = (MARK, SETTINGS)
 # A loose plug makes thousands; they are in the rows all the same.
 EVENTS_MAX = 200
 
@@ -32,7 +35,8 @@ class RideEvent:
 
     kind: `fault_set` or `fault_cleared` with the faults' bits as value, `assist_mode` with the
     slot of the rider's switch; the first of these is the mode the ride began in. `mark` with its
-    number in the ride, from 1: somebody watched, and wanted to find this moment again.
+    number in the ride, from 1: somebody watched, and wanted to find this moment again. `settings`
+    with the CRC-32 of the configuration that is in force from then on.
     """
 
     t_s: float
@@ -61,20 +65,41 @@ def events_of_rows(
 def merged(rows: Sequence[RideEvent], told: Sequence[RideEvent], same_s: float) -> list[RideEvent]:
     """What the rows show and what was told besides, in order of time.
 
-    same_s: so far apart they are one and the same.
+    same_s: so far apart they are one and the same. Marks and settings are in no row: of them none
+    is left out, however many there are of the rest.
     """
     seen = _one_a_moment(rows)
     extra = [
         event
         for event in told
-        if not any(
+        if event.kind not in TOLD_ONLY
+        and not any(
             event.kind == other.kind
             and abs(event.t_s - other.t_s) <= same_s
             and _covers(other, event)
             for other in seen
         )
     ]
-    return sorted([*seen, *extra], key=lambda event: event.t_s)[:EVENTS_MAX]
+    shown = sorted([*seen, *extra], key=_time)[:EVENTS_MAX]
+    marks = [event for event in told if event.kind == MARK]
+    return sorted([*shown, *marks, *settings_changes(told)], key=_time)
+
+
+def settings_changes(events: Sequence[RideEvent], crc32: int | None = None) -> list[RideEvent]:
+    """The events at which the settings became others, in order of time.
+
+    crc32: of the configuration before the first of them, None where nobody knows it.
+    """
+    found: list[RideEvent] = []
+    for event in sorted((event for event in events if event.kind == SETTINGS), key=_time):
+        if event.value != crc32:
+            found.append(event)
+        crc32 = event.value
+    return found
+
+
+def _time(event: RideEvent) -> float:
+    return event.t_s
 
 
 def _one_a_moment(events: Sequence[RideEvent]) -> list[RideEvent]:

@@ -23,7 +23,9 @@ from backend.domain.ride_events import (
     EVENTS_MAX,
     FAULT_CLEARED,
     FAULT_SET,
+    SETTINGS,
     RideEvent,
+    settings_changes,
 )
 from backend.domain.standards.fit import EPOCH_S
 from backend.domain.unit_key import ebl_key
@@ -304,7 +306,8 @@ def laid_out(
 
 
 def events_of(blocks: Sequence[Block], t0_us: int, length_us: int) -> list[RideEvent]:
-    """What EVENT blocks tell of the ride that begins at unit time `t0_us`, in order of time."""
+    """What EVENT blocks tell of the ride that begins at unit time `t0_us`, and which settings were
+    in force by its CONFIG blocks; in order of time."""
     found: list[RideEvent] = []
     for block in blocks:
         if block.type != EVENT:
@@ -313,7 +316,20 @@ def events_of(blocks: Sequence[Block], t0_us: int, length_us: int) -> list[RideE
             kind = EVENT_KINDS.get(code)
             if kind is not None and 0 <= t_us - t0_us <= length_us:
                 found.append(RideEvent((t_us - t0_us) / 1e6, kind, value))
-    return sorted(found, key=lambda event: event.t_s)[:EVENTS_MAX]
+    found = sorted(found, key=lambda event: event.t_s)[:EVENTS_MAX]
+    return sorted([*found, *settings_of(blocks, t0_us, length_us)], key=lambda event: event.t_s)
+
+
+def settings_of(blocks: Sequence[Block], t0_us: int, length_us: int) -> list[RideEvent]:
+    """The changes of settings by the CONFIG blocks, which a unit writes again at each of them. What
+    was changed before the ride was in force at its start."""
+    told = [
+        RideEvent(max(0, block.t0_us - t0_us) / 1e6, SETTINGS, CONFIG_HEAD.unpack_from(config)[3])
+        for block in blocks
+        if block.type == CONFIG and len(config := block.payload) >= CONFIG_HEAD.size
+    ]
+    in_force = told[0].value if told else None
+    return [event for event in settings_changes(told, in_force) if event.t_s <= length_us / 1e6]
 
 
 def events_in(block: Block) -> Iterator[tuple[int, int, int]]:

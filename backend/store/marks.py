@@ -1,7 +1,11 @@
-"""Moments of a ride that somebody marked while it was recorded; the finished one has them too."""
+"""What is told of a ride while it is recorded: moments that somebody marked, settings that changed.
+
+The finished ride has them too.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
 
 from sqlalchemy import Connection, select, update
@@ -31,10 +35,19 @@ class MarkStore:
             events = connection.execute(select(t.ride.c.events).where(row, recorded)).scalar()
             if events is None:
                 raise Conflict("The ride is over: only what is recorded is marked.", "no_ride")
-            if len(events) >= EVENTS_MAX:
+            marks = sum(event["kind"] == MARK for event in events)
+            if marks >= EVENTS_MAX:
                 raise Conflict(f"A ride has at most {EVENTS_MAX} marks.", "marks_full")
-            mark = RideEvent(t_s, MARK, 1 + len(events))
-            connection.execute(update(t.ride).where(row).values(events=[*events, asdict(mark)]))
+            mark = RideEvent(t_s, MARK, 1 + marks)
+            add_events(connection, ride_id, [mark])
             return mark
 
         return self._database.write(work)
+
+
+def add_events(connection: Connection, ride_id: int, events: Sequence[RideEvent]) -> None:
+    """Add to what is known of a ride that is being recorded."""
+    row = t.ride.c.id == ride_id
+    known = connection.execute(select(t.ride.c.events).where(row)).scalar_one()
+    added = [asdict(event) for event in events]
+    connection.execute(update(t.ride).where(row).values(events=[*known, *added]))

@@ -26,6 +26,7 @@ from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.logbook.tags import clean_tags
 from backend.domain.pyramid import Level
 from backend.domain.ride import Ride, RideContext, RideRows
+from backend.domain.ride_events import RideEvent
 from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
 from backend.store.deletion import (
     FILLED,
@@ -42,6 +43,7 @@ from backend.store.finish import RowsInMemory, drafted, write_object
 from backend.store.logbook.book import set_tags
 from backend.store.logbook.cards import note_words
 from backend.store.logbook.find import RidePage, Sought, page_of
+from backend.store.marks import add_events
 from backend.store.objects import Objects
 from backend.store.parquet import RideFile
 from backend.store.reader import LiveRows, ReaderCache, RideReader, RowSource
@@ -125,8 +127,11 @@ class RideStore:
         self._recording.add(ride_id)
         return ride_id
 
-    def append_tail(self, ride_id: int, row_start: int, rows: Rows16) -> Future[None]:
-        """Add rows [row_start, row_start + n) of a live ride, int16 (n, channels).
+    def append_tail(
+        self, ride_id: int, row_start: int, rows: Rows16, events: Sequence[RideEvent] = ()
+    ) -> Future[None]:
+        """Add rows [row_start, row_start + n) of a live ride, int16 (n, channels), with what the
+        unit told meanwhile.
 
         They are safe once the future is done; its exception is a StoreError. Blocks while too
         many writes wait for the disk.
@@ -152,6 +157,8 @@ class RideStore:
             if grown.rowcount != 1:
                 raise StoreError(f"Ride {ride_id} is not being recorded: rows were not saved.")
             connection.execute(insert(t.ride_tail).values(body))
+            if events:
+                add_events(connection, ride_id, events)
 
         return self._database.submit(work)
 

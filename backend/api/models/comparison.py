@@ -83,7 +83,10 @@ class SideSettings(Answer):
         "none, or nobody kept what it told. Null where it is known."
     )
     unit_key: str | None
-    generation: int | None
+    generation: int | None = Field(description="Null where the settings were changed before.")
+    changed_at_s: list[float] = Field(
+        description="When they changed within the window: the rest of it was ridden by others."
+    )
 
 
 class TablesApart(Answer):

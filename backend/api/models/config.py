@@ -193,6 +193,9 @@ class SinceChange(Answer):
         description="`more`, `less`: every ride since took more, or less, than every ride before. "
         "`mixed`: they overlap. `too_few`: fewer than 3 on a side."
     )
+    during_ids: list[int] = Field(
+        description="Rides on which the change was made: they are on neither side."
+    )
     other_changes: int = Field(
         description="How many other configurations the unit got between the first and the last of "
         "these rides: what moved may be theirs."

@@ -145,11 +145,12 @@ class Statement(Answer):
 
 
 class RideEvent(Answer):
-    """A fault that came or went (value: bits of `fault_flags`), the mode chosen (its slot), or a
-    moment that somebody marked (its number)."""
+    """A fault that came or went (value: bits of `fault_flags`), the mode chosen (its slot),
+    settings that came into force (CRC-32 of the configuration), or a moment that somebody marked
+    (its number)."""
 
     t_s: float
-    kind: Literal["fault_set", "fault_cleared", "assist_mode", "mark"]
+    kind: Literal["fault_set", "fault_cleared", "assist_mode", "settings", "mark"]
     value: int
 
 

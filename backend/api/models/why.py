@@ -107,6 +107,12 @@ class WhyRecorded(Answer):
     motor_torque_demanded_nm: float | None
 
 
+class WhyDiffers(Answer):
+    figure: Literal["fuzzy_gain", "assist_ratio"]
+    recorded: float
+    worked_out: float
+
+
 class Why(Answer):
     """A control step in the unit's own order. Torques are at the crank, missing is null.
 
@@ -144,6 +150,11 @@ class Why(Answer):
     readings: dict[str, float | None] = Field(description="The inputs of the law that are known.")
     settings: WhySettings
     recorded: WhyRecorded | None
+    differs: list[WhyDiffers] = Field(
+        description="What the unit told otherwise than it is worked out here, by more than "
+        "rounding: settings that were only tried are in no configuration, and after a change the "
+        "unit still remembers what was before.",
+    )
 
 
 class Cut(Answer):

@@ -21,7 +21,7 @@ ConfigOf = Callable[[Ride], tuple[Mapping[str, Any], str]]
 
 
 class CertifiedTorque:
-    """Reads only. For any thread. config_of: what a ride's unit was configured as."""
+    """Reads only. For any thread. config_of: what a unit was configured as on the whole ride."""
 
     def __init__(self, store: CalibrationStore, config_of: ConfigOf) -> None:
         self._store = store
@@ -40,8 +40,9 @@ class CertifiedTorque:
             if written["at_us"] > ride.started_us:
                 continue
             gain = float(written["record"][GAIN])
-            told = float(config.get(GAIN, gain)) if source == "ride" else gain
-            if not math.isclose(gain, told, rel_tol=FLOAT32_SHARE):
+            # None where the gain was changed on the ride.
+            told = config.get(GAIN) if source == "ride" else gain
+            if told is None or not math.isclose(gain, float(told), rel_tol=FLOAT32_SHARE):
                 return None
             kept = job.body["certificate"]
             budget = from_plain(Budget, kept["worked"]["budget"])

@@ -17,18 +17,19 @@ from backend.domain.channels import Values
 from backend.domain.energy import MOTOR_POWER, SECONDS_PER_HOUR
 from backend.domain.fuzzy_table import PARAMETERS_OF, stored_json
 from backend.errors import InvalidRequest
-from backend.services.rides.replay import ConfigOf
+from backend.services.rides.settings_in_force import ConfigOf, Stretch, source_of, stretches
 from backend.services.rides.use_of_table import (
-    PIECE_ROWS,
     channels_missing,
     names_for_use,
     needs_gain,
+    pieces,
     slots_by,
 )
 from backend.store import Store
 from backend.views.table_use import TableUse, acting, table_use
 
 SLOTS = 5
+RULE_FIELDS = ("table", "row", "column", "label", "speed_point_kmh", "torque_rate_point")
 
 
 class EnergyLedger:
@@ -48,14 +49,13 @@ class EnergyLedger:
                 "known.",
                 code="missing_channel",
             )
-        config, source = self._config_of(reader.ride)
-        known = source == "ride"
-        uses = {table: TableUse.none() for table in PARAMETERS_OF}
+        parts = stretches(self._config_of, reader.ride)
+        known = source_of(parts) == "ride"
+        uses = [{table: TableUse.none() for table in PARAMETERS_OF} for _ in parts]
         seconds, motor_ws, excluded_s = np.zeros(SLOTS), np.zeros(SLOTS), 0.0
         measured = False
         row_s, names = reader.row_seconds(), names_for_use(reader.ride)
-        for start in range(0, reader.row_count, PIECE_ROWS):
-            stop = min(start + PIECE_ROWS, reader.row_count)
+        for start, stop, part in pieces(reader, parts):
             columns, spent_s = reader.values(names, start, stop), row_s[start:stop]
             power_w = columns.get(MOTOR_POWER.name, np.full(stop - start, np.nan))
             there = np.isfinite(power_w)
@@ -63,16 +63,17 @@ class EnergyLedger:
             seconds += by_slot(columns, spent_s)
             motor_ws += by_slot(columns, np.where(there, power_w, 0.0) * spent_s)
             excluded_s += float(np.sum(spent_s[~there]))
-            for table in uses if known else ():
-                uses[table] += use_of(columns, spent_s, config, table)
+            of_part = uses[parts.index(part)]
+            for table in of_part if known else ():
+                of_part[table] += use_of(columns, spent_s, part.config, table)
         total_wh = float(motor_ws.sum()) / SECONDS_PER_HOUR if measured else None
-        rules = told_rules(uses, config, total_wh) if known else None
+        rules = told_rules(parts, uses, total_wh) if known else None
         return {
             "ride_id": ride_id,
-            "config_source": source,
+            "config_source": source_of(parts),
             "motor_wh": total_wh,
             "motor_excluded_s": excluded_s,
-            "modes": told_modes(seconds, motor_ws / SECONDS_PER_HOUR, config, known, total_wh),
+            "modes": told_modes(seconds, motor_ws / SECONDS_PER_HOUR, parts, total_wh),
             "rules": rules,
             "without_rule_wh": None
             if rules is None or total_wh is None
@@ -104,16 +105,21 @@ def use_of(
 def told_modes(
     seconds: Values,
     motor_wh: Values,
-    config: Mapping[str, Any],
-    known: bool,
+    parts: Sequence[Stretch],
     total_wh: float | None,
 ) -> list[dict[str, Any]]:
-    """The modes that were selected, by slot; names and laws only of a known configuration."""
+    """The modes that were selected, by slot; names and laws only of a known configuration, as they
+    were at the end, and no law of a mode that changed its own."""
+    known = source_of(parts) == "ride"
+    names = parts[-1].config["mode_names"]
+    laws = [
+        {str(part.config["mode_laws"][slot]).lower() for part in parts} for slot in range(SLOTS)
+    ]
     return [
         {
             "mode": slot,
-            "name": config["mode_names"][slot] if known else None,
-            "law": str(config["mode_laws"][slot]).lower() if known else None,
+            "name": names[slot] if known else None,
+            "law": laws[slot].pop() if known and len(laws[slot]) == 1 else None,
             "seconds": float(seconds[slot]),
             "motor_wh": None if total_wh is None else float(motor_wh[slot]),
             "share": share(float(motor_wh[slot]), total_wh),
@@ -124,31 +130,37 @@ def told_modes(
 
 
 def told_rules(
-    uses: Mapping[str, TableUse], config: Mapping[str, Any], total_wh: float | None
+    parts: Sequence[Stretch], uses: Sequence[Mapping[str, TableUse]], total_wh: float | None
 ) -> list[dict[str, Any]] | None:
-    """The rules that carried any energy, the most first; None where no energy is known."""
+    """The rules that carried any energy, the most first; None where no energy is known.
+
+    uses: of each table in each part. A cell whose rule was changed on the ride is a rule before and
+    another after.
+    """
     if total_wh is None:
         return None
-    found: list[dict[str, Any]] = []
-    for table, use in uses.items():
-        if use.motor_wh is None:
-            continue
-        labels: Sequence[Sequence[str]] = stored_json(config, table)["rules"]
-        for row, column in np.argwhere(use.motor_wh > 0.0).tolist():
-            carried_wh = float(use.motor_wh[row, column])
-            found.append(
-                {
-                    "table": table,
-                    "row": row,
-                    "column": column,
-                    "label": labels[row][column],
-                    "speed_point_kmh": config["fuzzy_speed_points_kmh"][row],
-                    "torque_rate_point": config["fuzzy_torque_rate_points"][column],
-                    "seconds": float(use.seconds[row, column]),
-                    "motor_wh": carried_wh,
-                    "share": share(carried_wh, total_wh),
-                }
-            )
+    carried: dict[tuple[Any, ...], list[float]] = {}
+    for part, of_part in zip(parts, uses, strict=True):
+        for table, use in of_part.items():
+            if use.motor_wh is None:
+                continue
+            labels: Sequence[Sequence[str]] = stored_json(part.config, table)["rules"]
+            for row, column in np.argwhere(use.motor_wh > 0.0).tolist():
+                speed = part.config["fuzzy_speed_points_kmh"][row]
+                rate = part.config["fuzzy_torque_rate_points"][column]
+                rule = table, row, column, labels[row][column], speed, rate
+                sums = carried.setdefault(rule, [0.0, 0.0])
+                sums[0] += float(use.seconds[row, column])
+                sums[1] += float(use.motor_wh[row, column])
+    found = [
+        {
+            **dict(zip(RULE_FIELDS, rule, strict=True)),
+            "seconds": seconds,
+            "motor_wh": motor_wh,
+            "share": share(motor_wh, total_wh),
+        }
+        for rule, (seconds, motor_wh) in carried.items()
+    ]
     return sorted(found, key=lambda rule: -rule["motor_wh"])
 
 

@@ -29,8 +29,8 @@ from backend.domain.fuzzy_table import FuzzyTable
 from backend.domain.rider_and_bike import RiderAndBike
 from backend.errors import Conflict, InvalidRequest, NotFound, SpindleError
 from backend.ingest.library_document import settings_document
-from backend.services.rides.replay import ConfigOf
 from backend.services.rides.ride_again import twin_of
+from backend.services.rides.settings_in_force import ConfigOf, unchanged
 from backend.services.tuning.certify import KeptCertificates
 from backend.store import Store
 
@@ -150,7 +150,7 @@ class Proposals:
             waiting = sum(work.job.state in RUNNING for work in self._work.values())
         if waiting >= WAITING_MAX:
             raise Conflict(f"{waiting} proposals are being made: wait or cancel one.", "busy")
-        config, source = self._config_of(self._store.rides.get(ride_ids[0]))
+        config, source = unchanged(self._config_of, self._store.rides.get(ride_ids[0]))
         config = {**control.law_defaults(), **config}
         twins = [self._twin(ride_id, told or RiderAndBike()) for ride_id in ride_ids]
         road = proposal.Road(twins, objective, config)
@@ -206,7 +206,7 @@ class Proposals:
 
     def _twin(self, ride_id: int, told: RiderAndBike) -> control.RoadTwin:
         reader = self._store.rides.reader(ride_id)
-        own = {**control.law_defaults(), **self._config_of(reader.ride)[0]}
+        own = {**control.law_defaults(), **unchanged(self._config_of, reader.ride)[0]}
         return twin_of(reader, own, told)
 
     def _tell(self, work: _Work, **news: Any) -> None:

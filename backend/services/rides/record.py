@@ -20,8 +20,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from backend.device.states import DeviceEvent, LinkState, StateChanged
-from backend.device.stream import StreamBlock
+from backend.device.states import DeviceEvent, LinkState, StateChanged, UnitEvent
+from backend.device.stream import StreamBlock, unwrap_us
 from backend.domain._generated import MOVING_KMH, MOVING_RPM, STANDING_S
 from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.ride import Ride, RideContext, RideSummary
@@ -35,6 +35,7 @@ from backend.services.rides.ride_bounds import (
 )
 from backend.services.rides.ride_tail import RideTail, RowCounts
 from backend.services.rides.running import RunningTotals
+from backend.services.rides.settings_in_force import SettingsInForce
 from backend.store import RideStore
 
 LOG = logging.getLogger(__name__)
@@ -94,6 +95,7 @@ class LiveRide:
     rows_missing: int = 0
     still_rows: int = 0
     context: RideContext = field(default_factory=RideContext)
+    settings: SettingsInForce = field(default_factory=SettingsInForce)
     last_wall_us: int = 0
 
 
@@ -136,6 +138,8 @@ class UnitRecorder:
             try:
                 if isinstance(event, StreamBlock):
                     self._take_block(event)
+                elif isinstance(event, UnitEvent):
+                    self._take_unit_event(event)
                 elif isinstance(event, StateChanged) and event.state is LinkState.CLOSED:
                     self._end()
                 self._told_trouble = False
@@ -217,6 +221,23 @@ class UnitRecorder:
         while len(block.values):
             block = self._take_part(block)
 
+    def _take_unit_event(self, event: UnitEvent) -> None:
+        live = self._live
+        if live is None:
+            return
+        if event.name == "BOOT" and event.fields.get("boot_id") != live.context.boot_id:
+            # Its clock begins again: what it tells from now on is not of this ride.
+            self._end()
+        elif event.name.startswith("CONFIG_"):
+            now_us = live.t0_us + live.tail.rows * self._period_us
+            t_s = (unwrap_us(event.t_us, now_us) - live.t0_us) / 1e6
+            self._note_settings(live, t_s, event.fields.get("crc32"))
+
+    def _note_settings(self, live: LiveRide, t_s: float, crc32: object) -> None:
+        """The configuration with this CRC-32 has been in force since then."""
+        if isinstance(crc32, int) and (change := live.settings.change(t_s, crc32)):
+            live.tail.note(change)
+
     def _take_part(self, block: StreamBlock) -> StreamBlock:
         """Takes rows of the block up to where a ride ends; returns the rest of it."""
         moving = moving_rows(block, self._moving_above)
@@ -264,7 +285,8 @@ class UnitRecorder:
 
         tail = RideTail(self._rides, begin, self._count)
         totals = RunningTotals(channels, period_us)
-        self._live = LiveRide(tail, t0_us, totals, last_wall_us=block.wall_us, context=context)
+        settings = SettingsInForce(context.config_crc32)
+        self._live = LiveRide(tail, t0_us, totals, 0, 0, context, settings, block.wall_us)
         self.lost_lately = 0
         if skipped < lead_rows:
             rows = np.concatenate([lead.values for lead in self._lead])
@@ -309,6 +331,9 @@ class UnitRecorder:
         live.totals.add(block.values[:taken])
         live.last_wall_us = block.wall_us
         if live.tail.rows_unsent * self._period_us >= self._settings.tail_s * 1e6:
+            # A change of which the unit's own event was lost, or came while it was away.
+            now_s = (live.tail.rows - taken) * self._period_us / 1e6
+            self._note_settings(live, now_s, self._context().config_crc32)
             live.tail.send()
             self._shed(live)
         if taken in (room, until_still):
@@ -345,7 +370,10 @@ class UnitRecorder:
             return None
         if ride.context.gear_ratio is None:
             # The unit may have told its configuration only after the bike began to move.
-            context = replace(self._context(), unit_t0_us=ride.t0_us)
+            context, began = replace(self._context(), unit_t0_us=ride.t0_us), ride.context
+            if began.config_crc32 is not None:
+                told = began.config_generation, began.config_crc32
+                context = replace(context, config_generation=told[0], config_crc32=told[1])
             if context.gear_ratio is not None:
                 self._tell_context(ride_id, context)
         # Still rows are at the end: without any the bike moved when the recording ended.

@@ -1,16 +1,16 @@
 """Replaying a ride: its inputs through the unit's own law, with another table or other modes.
 
-The configuration the unit had on the ride is the starting point, so that only what was changed
-differs. The loop is open: speed and legs are as recorded, whatever the motor would have changed of
-them. So what is compared first is work for a kilometre: the same kilometres either way, while work
-alone grows with how long the road took. The recorded motor and the replayed one are told side by
-side. How well a replay without any change matches the record says how far the answer can be
+The configuration the unit had at each moment of the ride is the starting point, so that only what
+was changed differs. The loop is open: speed and legs are as recorded, whatever the motor would have
+changed of them. So what is compared first is work for a kilometre: the same kilometres either way,
+while work alone grows with how long the road took. The recorded motor and the replayed one are told
+side by side. How well a replay without any change matches the record says how far the answer can be
 trusted.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,7 @@ from backend.domain.channels import ChannelSpec, Values
 from backend.domain.energy import DELIVERED, KMH_PER_MS, RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
 from backend.domain.ride import Ride, largest
 from backend.errors import InvalidRequest
+from backend.services.rides.settings_in_force import ConfigOf, Stretch, source_of, stretches
 from backend.services.tuning.preview import Preview
 from backend.store import RideReader
 from backend.views.trace import trace
@@ -55,10 +56,7 @@ OPEN_LOOP = (
 )
 DISTANCE_KM_MIN = 0.01
 SERIES_PIXELS = 1200
-
-Config = Mapping[str, Any]
-# A ride's configuration and where it is from: `ride`, or `defaults` where nobody kept it.
-ConfigOf = Callable[[Ride], tuple[Config, str]]
+WARM_UP_S = 600.0
 
 
 class RideReplay:
@@ -82,11 +80,21 @@ class RideReplay:
         """
         ride = reader.ride
         columns = read_columns(reader)
-        config, config_source = self._config_of(ride)
         step_s = (ride.period_us or 0) / 1e6
-        replayed = self._preview.replay(
-            config, law_inputs(columns), fuzzy_table, assist_modes, step_s, second_table, parameters
-        )
+        parts = stretches(self._config_of, ride)
+        inputs = law_inputs(columns)
+
+        def of(part: Stretch) -> control.Replay:
+            start, stop = part.rows(reader)
+            before = warm_up_row(ride, start)
+            rows = {
+                name: values if np.ndim(values) == 0 else np.asarray(values)[before:stop]
+                for name, values in inputs.items()
+            }
+            changes = fuzzy_table, assist_modes, step_s, second_table, parameters
+            return self._preview.replay(part.config, rows, *changes, first=start - before)
+
+        replayed = control.joined([of(part) for part in parts])
         new_nm = np.asarray(replayed.motor_torque_nm, np.float64)
         # What was only asked of a motor is not compared with what it gives.
         delivered = ride.motor_torque_meaning == DELIVERED
@@ -97,7 +105,7 @@ class RideReplay:
             "ride_id": ride.id,
             "mode": "open_loop",
             "meaning": OPEN_LOOP,
-            "config_source": config_source,
+            "config_source": source_of(parts),
             "engine": control.ENGINE,
             "inputs_missing": inputs_missing(columns),
             "rows": len(new_nm),
@@ -168,6 +176,14 @@ def held(values: Values, spans: Sequence[tuple[int, int]], first: int) -> Values
             latest = np.searchsorted(there, np.arange(len(values[start:stop])), side="right") - 1
             values[start:stop] = values[start + there[np.maximum(latest, 0)]]
     return values
+
+
+def warm_up_row(ride: Ride, row: int) -> int:
+    """Where the law starts from rest so that it remembers what it did at this row."""
+    period_s = (ride.period_us or 1) / 1e6
+    begins = [round(gap.to_s / period_s) for gap in ride.gaps]
+    segment = max((begin for begin in begins if begin <= row), default=0)
+    return max(segment, row - round(WARM_UP_S / period_s), 0)
 
 
 def inputs_missing(columns: Mapping[str, Values]) -> list[str]:

@@ -19,7 +19,8 @@ from backend.domain.channels import Values
 from backend.domain.energy import DELIVERED, SECONDS_PER_HOUR
 from backend.domain.rider_and_bike import RiderAndBike
 from backend.errors import InvalidRequest
-from backend.services.rides.replay import FLAGS, ConfigOf, read_columns
+from backend.services.rides.replay import FLAGS, read_columns
+from backend.services.rides.settings_in_force import ConfigOf, unchanged
 from backend.services.tuning.preview import changed_config
 from backend.store import RideReader, Store
 
@@ -72,7 +73,7 @@ class RideAgain:
         reason where the ride cannot be trusted for that, or for settings the law refuses.
         """
         reader = self._store.rides.reader(ride_id)
-        config, _ = self._config_of(reader.ride)
+        config, _ = unchanged(self._config_of, reader.ride)
         changed = changed_config(config, **changes)
         twin = twin_of(reader, config, told)
         still_asked()

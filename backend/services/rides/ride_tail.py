@@ -20,6 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from backend.domain.ride_events import RideEvent
 from backend.errors import StoreError
 from backend.store import RideStore
 
@@ -44,11 +45,12 @@ class RowCounts:
 
 @dataclass(frozen=True)
 class _Tail:
-    """Rows from `row_start` on; `taken` of them came from the unit."""
+    """Rows from `row_start` on; `taken` of them came from the unit. events: told meanwhile."""
 
     row_start: int
     rows: Rows16
     taken: int
+    events: tuple[RideEvent, ...]
 
 
 class RideTail:
@@ -66,6 +68,7 @@ class RideTail:
         self._tell = tell
         self._unsent: list[Rows16] = []
         self._unsent_taken = 0
+        self._unsent_events: tuple[RideEvent, ...] = ()
         # By row_start: what is given up is the oldest, however often it was tried.
         self._waiting: list[_Tail] = []
         self._on_the_way: deque[tuple[Future[None], _Tail]] = deque()
@@ -97,12 +100,17 @@ class RideTail:
             self._unsent_taken += len(rows)
             self._count(0, 0, len(rows))
 
+    def note(self, event: RideEvent) -> None:
+        """Keep an event with the rows that come next; one behind the last row is of no ride."""
+        self._unsent_events += (event,)
+
     def send(self) -> None:
         """Hand what was added to the store, and see what became of what went before."""
         if self._unsent:
             rows = np.concatenate(self._unsent)
-            self._waiting.append(_Tail(self.rows - len(rows), rows, self._unsent_taken))
-            self._unsent = []
+            start, events = self.rows - len(rows), self._unsent_events
+            self._waiting.append(_Tail(start, rows, self._unsent_taken, events))
+            self._unsent, self._unsent_events = [], ()
             self._unsent_taken = self.rows_unsent = 0
         self.push()
 
@@ -147,6 +155,7 @@ class RideTail:
         """Lose the oldest of what waits."""
         for _ in range(min(tails, len(self._waiting))):
             lost = self._waiting.pop(0)
+            self._unsent_events = lost.events + self._unsent_events
             self._count(0, lost.taken, -lost.taken)
 
     def _is_begun(self) -> bool:
@@ -164,7 +173,9 @@ class RideTail:
         for _ in range(tails):
             tail = self._waiting.pop(0)
             try:
-                future = self._rides.append_tail(self.ride_id, tail.row_start, tail.rows)
+                future = self._rides.append_tail(
+                    self.ride_id, tail.row_start, tail.rows, tail.events
+                )
             except StoreError as error:
                 self.trouble = error
                 self._refused = True

@@ -2,7 +2,7 @@
 
 Nobody rode the same road twice, and the wind was another; a handful of rides tells little. So the
 figures are told with how many rides they are of, and whether every ride after lies on one side of
-every ride before.
+every ride before. A ride on which it was changed is on neither side.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from backend.domain._generated import STANDING_S
 from backend.domain.energy import SECONDS_PER_HOUR
 from backend.domain.revision import Revision
 from backend.domain.ride import Ride
@@ -47,12 +48,15 @@ class SinceChange:
             raise NotFound(f"Unit {device_id} has no configuration {seq} in its history.")
         before = self._rides(change.unit_key, to_us=change.created_us)
         after = self._rides(change.unit_key, from_us=change.created_us)
+        during = [ride for ride in before[:1] if rode_on(ride, change.crc32)]
+        before = before[len(during) :]
         return {
             "seq": seq,
             "created_at": change.created_at,
             "meaning": MEANING,
             "before": figures(before),
             "after": figures(after),
+            "during_ids": [ride.id for ride in during],
             "motor_wh_per_km_after": moved(before, after),
             "other_changes": other_changes(revisions, change, [*before, *after]),
         }
@@ -69,6 +73,18 @@ def distance_km(ride: Ride) -> float:
     """Of a ride that is long enough to be counted; 0 for one that is not."""
     km = ride.summary.distance_km if ride.summary else None
     return km if km is not None and km >= DISTANCE_KM_MIN else 0.0
+
+
+def rode_on(ride: Ride, crc32: int) -> bool:
+    """Whether a configuration came into force on the ride and the bike moved after that. A
+    recording goes on until the bike has stood for a while."""
+    lasted_s = ride.summary.duration_s if ride.summary else 0.0
+    stood_s = STANDING_S if ride.origin == "recorded" and not ride.cut_short else 0.0
+    return any(
+        0.0 < from_s < lasted_s - stood_s
+        for from_s, in_force in ride.settings_spans()
+        if in_force == crc32
+    )
 
 
 def figures(rides: Sequence[Ride]) -> dict[str, Any]:

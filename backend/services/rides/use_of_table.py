@@ -6,15 +6,15 @@ a ride keeps its speeds and torque rates, so a table with other points can be as
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from backend.domain.energy import MOTOR_POWER
 from backend.domain.fuzzy_table import PARAMETERS_OF, point_faults
 from backend.domain.ride import Ride, iso_utc
 from backend.errors import InvalidRequest, ObjectDamaged
-from backend.services.rides.replay import ConfigOf
-from backend.store import Sought, Store
+from backend.services.rides.settings_in_force import ConfigOf, Stretch, source_of, stretches
+from backend.store import RideReader, Sought, Store
 from backend.views.table_use import ASKED, FUZZY_GAIN, NEEDED, TableUse, acting, table_use
 
 RIDES_MAX = 20
@@ -102,10 +102,10 @@ class UseOfTable:
         if missing:
             message = f"Ride {ride.id} has no {', '.join(missing)}: where it was is not known."
             return none, "", {"code": "missing_channel", "message": message}
-        config, source = self._config_of(ride)
-        slots = slots_by(config, table)
+        parts = stretches(self._config_of, ride)
+        source = source_of(parts)
         try:
-            use = self._use(ride, slots, config, points) if slots else none
+            use = self._use(ride, parts, table, points)
         except ObjectDamaged as damage:
             return none, source, {"code": damage.code, "message": damage.message}
         if not use.seconds.any():
@@ -113,17 +113,17 @@ class UseOfTable:
             return none, source, {"code": "not_assisted", "message": message}
         return use, source, None
 
-    def _use(
-        self, ride: Ride, slots: Sequence[int], config: Mapping[str, Any], points: Points
-    ) -> TableUse:
+    def _use(self, ride: Ride, parts: Sequence[Stretch], table: str, points: Points) -> TableUse:
         """One ride's use of the table, read piece by piece."""
         reader = self._store.rides.reader(ride.id)
         seconds, names = reader.row_seconds(), names_for_use(reader.ride)
         use = TableUse.none()
-        for start in range(0, reader.row_count, PIECE_ROWS):
-            stop = min(start + PIECE_ROWS, reader.row_count)
+        for start, stop, part in pieces(reader, parts):
+            slots = slots_by(part.config, table)
+            if not slots:
+                continue
             columns = reader.values(names, start, stop)
-            acts = acting(columns, slots, needs_gain(config))
+            acts = acting(columns, slots, needs_gain(part.config))
             use += table_use(
                 {name: values[acts] for name, values in columns.items()},
                 seconds[start:stop][acts],
@@ -131,6 +131,14 @@ class UseOfTable:
                 points["torque_rate_points"],
             )
         return use
+
+
+def pieces(reader: RideReader, parts: Sequence[Stretch]) -> Iterator[tuple[int, int, Stretch]]:
+    """A ride's rows [start, stop), at most `PIECE_ROWS` of one configuration at a time."""
+    for part in parts:
+        first, end = part.rows(reader)
+        for start in range(first, end, PIECE_ROWS):
+            yield start, min(start + PIECE_ROWS, end), part
 
 
 def checked(speed_points_kmh: Sequence[float], torque_rate_points: Sequence[float]) -> Points:

@@ -1,8 +1,9 @@
 """Why the motor gave what it gave at a moment of a ride, and where it was held back.
 
-The configuration is the one the ride was made with; without it nothing is explained, because the
-steps would be another unit's. The law remembers: averages, ramps and what the market's mean allows.
-So its C runs from the start of the ride's segment, ten minutes at most, and the last step is told.
+The configuration is the one that was in force at the moment; without it nothing is explained,
+because the steps would be another unit's. The law remembers: averages, ramps and what the market's
+mean allows. So its C runs from the start of the ride's segment, ten minutes at most, and the last
+step is told.
 """
 
 from __future__ import annotations
@@ -18,11 +19,11 @@ from backend.domain.channels import Values
 from backend.domain.energy import DELIVERED, MOTOR_TORQUE
 from backend.domain.ride import Ride
 from backend.errors import Conflict, InvalidRequest
-from backend.services.rides.replay import LIMITS, ConfigOf, law_inputs, read_columns
+from backend.services.rides.replay import LIMITS, law_inputs, read_columns, warm_up_row
+from backend.services.rides.settings_in_force import ConfigOf
 from backend.services.tuning.why import number, told
 from backend.store import Store
 
-WARM_UP_S = 600.0
 HELD_BY = (
     "speed_cutoff",
     "brake",
@@ -40,6 +41,10 @@ CUT_HOLE_S = 1.0
 CUT_S_MIN = 0.2
 CUTS_MAX = 2000
 RECORDED = ("fuzzy_gain", "motor_torque_demanded_nm", "assist_ratio")
+ROUNDING = {"fuzzy_gain": 0.002, "assist_ratio": 0.004}
+"""How far a figure may be off because it and the readings are rounded: ten times and more what 300
+moments of simulated rides had. What is asked of a motor at its limit turns on readings between two
+samples."""
 
 
 class WhyRide:
@@ -57,7 +62,7 @@ class WhyRide:
         a moment without a sample.
         """
         reader = self._store.rides.reader(ride_id)
-        config = self._known_config(reader.ride)
+        config = self._known_config(reader.ride, t_s)
         period_us = reader.period_us or 0
         row = round(t_s * 1e6 / max(period_us, 1))
         first = min(warm_up_row(reader.ride, row), reader.row_count)
@@ -75,8 +80,10 @@ class WhyRide:
         recorded = {
             name: number(columns[name][-1]) if name in columns else None for name in RECORDED
         }
+        worked_out = {"fuzzy_gain": found.gain, "assist_ratio": found.assist_ratio}
         return told(found, config, readings, moment, "ride", recorded) | {
-            "warmed_up_s": (row - first) * step_s
+            "warmed_up_s": (row - first) * step_s,
+            "differs": differing(recorded, worked_out),
         }
 
     def cuts(self, ride_id: int) -> list[dict[str, Any]]:
@@ -87,8 +94,8 @@ class WhyRide:
             return []
         return cuts_of(np.nan_to_num(told[LIMITS]).astype(np.uint16), reader.period_us / 1e6)
 
-    def _known_config(self, ride: Ride) -> Mapping[str, Any]:
-        config, source = self._config_of(ride)
+    def _known_config(self, ride: Ride, t_s: float) -> Mapping[str, Any]:
+        config, source = self._config_of(ride, t_s)
         if source != "ride":
             raise Conflict(
                 f"Nobody kept the configuration that ride {ride.id} was made with, so why the "
@@ -104,12 +111,17 @@ class WhyRide:
         return number(columns[MOTOR_TORQUE][-1])
 
 
-def warm_up_row(ride: Ride, row: int) -> int:
-    """Where the law starts from rest so that it remembers what it did at this row."""
-    period_s = (ride.period_us or 1) / 1e6
-    begins = [round(gap.to_s / period_s) for gap in ride.gaps]
-    segment = max((begin for begin in begins if begin <= row), default=0)
-    return max(segment, row - round(WARM_UP_S / period_s), 0)
+def differing(
+    recorded: Mapping[str, float | None], worked_out: Mapping[str, float | None]
+) -> list[dict[str, Any]]:
+    """Figures of the law that the unit told otherwise, by more than rounding."""
+    return [
+        {"figure": name, "recorded": sent, "worked_out": here}
+        for name, rounding in ROUNDING.items()
+        if (sent := recorded[name]) is not None
+        and (here := worked_out[name]) is not None
+        and abs(sent - here) > rounding
+    ]
 
 
 def cuts_of(flags: np.ndarray[Any, np.dtype[np.uint16]], step_s: float) -> list[dict[str, Any]]:

@@ -133,12 +133,13 @@ class Preview:
         step_s: float = 0.01,
         second_table: Mapping[str, Any] | None = None,
         parameters: Mapping[str, Any] | None = None,
+        first: int = 0,
     ) -> Replay:
         """What the motor would have done on a recorded ride under other settings.
 
         config: the unit's parameters by registry name. arrays: `speed_kmh`, `cadence_rpm`, `mode`,
         and `torque_raw_counts` or `rider_torque_nm`, (n,) each; what else is known by the names of
-        control.replay. The rest as of `changed_config`. Raises InvalidRequest.
+        control.replay, as `first` is. The rest as of `changed_config`. Raises InvalidRequest.
         """
         changed = changed_config(
             config, fuzzy_table, assist_modes, second_table, parameters=parameters
@@ -151,7 +152,7 @@ class Preview:
         if missing:
             listed = ", ".join(sorted(missing))
             raise InvalidRequest(f"replay: the ride has no {listed}", "missing_channel")
-        return control.replay(changed, step_s=step_s, **readings)
+        return control.replay(changed, step_s=step_s, first=first, **readings)
 
     evaluate_calibration = staticmethod(evaluate_calibration)
 

@@ -83,6 +83,7 @@ def told(
         "readings": last,
         "settings": settings(config, mode),
         "recorded": recorded,
+        "differs": [],
     }
 
 

@@ -94,9 +94,11 @@ class UnitMemory:
             boot_id=identity.boot_id if identity else None,
         )
 
-    def ride_config(self, ride: Ride) -> tuple[Mapping[str, Any], str]:
-        """The configuration a ride was made with and `ride`, or the law's and `defaults`."""
-        key, crc32 = ride.context.unit_key, ride.context.config_crc32
+    def ride_config(self, ride: Ride, t_s: float = 0.0) -> tuple[Mapping[str, Any], str]:
+        """The configuration in force t_s after a ride's start and `ride`, or the law's and
+        `defaults`."""
+        key = ride.context.unit_key
+        crc32 = [crc32 for from_s, crc32 in ride.settings_spans() if from_s <= max(t_s, 0.0)][-1]
         if key is not None and crc32 is not None:
             for revision in self._revisions.list(key):
                 if revision.crc32 == crc32:

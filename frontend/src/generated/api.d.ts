@@ -6636,8 +6636,9 @@ export interface components {
         };
         /**
          * RideEvent
-         * @description A fault that came or went (value: bits of `fault_flags`), the mode chosen (its slot), or a
-         *     moment that somebody marked (its number).
+         * @description A fault that came or went (value: bits of `fault_flags`), the mode chosen (its slot),
+         *     settings that came into force (CRC-32 of the configuration), or a moment that somebody marked
+         *     (its number).
          */
         RideEvent: {
             /** T S */
@@ -6646,7 +6647,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "fault_set" | "fault_cleared" | "assist_mode" | "mark";
+            kind: "fault_set" | "fault_cleared" | "assist_mode" | "settings" | "mark";
             /** Value */
             value: number;
         };
@@ -7453,8 +7454,16 @@ export interface components {
             why: ("imported" | "not_told" | "not_kept") | null;
             /** Unit Key */
             unit_key: string | null;
-            /** Generation */
+            /**
+             * Generation
+             * @description Null where the settings were changed before.
+             */
             generation: number | null;
+            /**
+             * Changed At S
+             * @description When they changed within the window: the rest of it was ridden by others.
+             */
+            changed_at_s: number[];
         };
         /** SignInRequest */
         SignInRequest: {
@@ -7761,6 +7770,11 @@ export interface components {
              * @enum {string}
              */
             motor_wh_per_km_after: "more" | "less" | "mixed" | "too_few";
+            /**
+             * During Ids
+             * @description Rides on which the change was made: they are on neither side.
+             */
+            during_ids: number[];
             /**
              * Other Changes
              * @description How many other configurations the unit got between the first and the last of these rides: what moved may be theirs.
@@ -8651,6 +8665,23 @@ export interface components {
             };
             settings: components["schemas"]["WhySettings"];
             recorded: components["schemas"]["WhyRecorded"] | null;
+            /**
+             * Differs
+             * @description What the unit told otherwise than it is worked out here, by more than rounding: settings that were only tried are in no configuration, and after a change the unit still remembers what was before.
+             */
+            differs: components["schemas"]["WhyDiffers"][];
+        };
+        /** WhyDiffers */
+        WhyDiffers: {
+            /**
+             * Figure
+             * @enum {string}
+             */
+            figure: "fuzzy_gain" | "assist_ratio";
+            /** Recorded */
+            recorded: number;
+            /** Worked Out */
+            worked_out: number;
         };
         /**
          * WhyMoment

@@ -13,10 +13,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from backend.device.ebl.session.stream_receiver import StreamPlan, StreamReceiver, unwrap_us
+from backend.device.ebl.session.stream_receiver import StreamPlan, StreamReceiver
 from backend.device.states import UnitEvent
 from backend.device.statistics import LinkStatistics
-from backend.device.stream import StreamStarted
+from backend.device.stream import StreamStarted, unwrap_us
 from firmware_protocol._generated import (
     CHANNELS,
     FaultClearedEvent,

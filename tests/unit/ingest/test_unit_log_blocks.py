@@ -15,6 +15,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from backend.domain.ride_events import SETTINGS
 from backend.ingest.answer import decode, encode
 from backend.ingest.blocks import HOST_SEQ, find_blocks, scan, sync_block
 from backend.ingest.formats import read_file
@@ -240,6 +241,23 @@ def test_a_configuration_goes_on_in_the_next_block(rest_of: int, gear_ratio: flo
 
     assert ride.context.config_crc32 == crc32
     assert ride.context.gear_ratio == gear_ratio
+
+
+def test_settings_that_changed_on_the_way_are_events_of_the_ride() -> None:
+    """A unit tells its configuration every minute and at each change; the log begins before it."""
+
+    def config(seq: int, at_s: float, crc32: int) -> bytes:
+        payload = UID + SCHEMA_HASH + struct.pack("<II", 4, crc32)
+        return block(CONFIG, seq, payload, t0_us=T0_US + round(at_s * 1e6))
+
+    told = [(-2.0, 1), (-1.0, 2), (1.0, 2), (3.5, 3), (4.0, 3), (5.0, 2), (60.0, 9)]
+    configs = [config(20 + seq, at_s, crc32) for seq, (at_s, crc32) in enumerate(told)]
+
+    (ride,) = read_blocks(b"".join([*configs, *whole_log()[1:]])).rides
+
+    assert ride.context.config_crc32 == 1
+    changes = [(event.t_s, event.value) for event in ride.events if event.kind == SETTINGS]
+    assert changes == [(0.0, 2), (3.5, 3), (5.0, 2)]
 
 
 def test_order_and_repetition_make_no_difference() -> None:

@@ -89,7 +89,7 @@ def again(store: Store, columns: dict[str, Values], **question: Any) -> dict[str
     return RideAgain(store, config_of)(kept(store, columns), **question)
 
 
-def config_of(ride: Ride) -> tuple[dict[str, Any], str]:
+def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
     return law_defaults(), "defaults"
 
 

@@ -121,7 +121,9 @@ def proposals(store: Store, request: pytest.FixtureRequest) -> Iterator[Proposal
     """A search as long as ever where the test is marked so, else one of 60 rides."""
     generations = GENERATIONS if request.node.get_closest_marker("long") else 2
     certificates = KeptCertificates(store.certificates, "1.0.0")
-    made = Proposals(store, lambda ride: (law_defaults(), "defaults"), certificates, generations)
+    made = Proposals(
+        store, lambda ride, t_s=0: (law_defaults(), "defaults"), certificates, generations
+    )
     yield made
     made.close()
 
@@ -168,7 +170,7 @@ def test_a_candidate_s_band_and_filter_are_tried_and_come_to_what_was_proposed(
 ) -> None:
     knobs = ["band", "filter"]
     job = over(proposals, proposals.begin([ride_id], "flatter_at_the_limit", knobs))
-    again = RideAgain(store, lambda ride: (law_defaults(), "defaults"))
+    again = RideAgain(store, lambda ride, t_s=0: (law_defaults(), "defaults"))
 
     assert job.candidates
     for one in job.candidates:

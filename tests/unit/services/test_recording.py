@@ -6,7 +6,7 @@ The store is a real one in a temporary folder; unit time and wall time are numbe
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Future
 from pathlib import Path
 
@@ -346,14 +346,16 @@ def test_a_second_the_disk_refused_is_written_again(
     append = store.rides.append_tail
     calls = 0
 
-    def sometimes(ride_id: int, row_start: int, part: Rows16) -> Future[None]:
+    def sometimes(
+        ride_id: int, row_start: int, part: Rows16, events: Sequence[RideEvent]
+    ) -> Future[None]:
         nonlocal calls
         calls += 1
         if calls % 3 == 0:
             refused: Future[None] = Future()
             refused.set_exception(StoreError("no space left"))
             return refused
-        return append(ride_id, row_start, part)
+        return append(ride_id, row_start, part, events)
 
     monkeypatch.setattr(store.rides, "append_tail", sometimes)
     rows = riding(20)

@@ -48,7 +48,7 @@ DELIVERED_BY = ("motor_torque_nm", "motor_torque_demanded_nm")
 """Channels of a ride whose motor torque is what the motor gave."""
 
 
-def config_of(ride: Ride) -> tuple[dict[str, Any], str]:
+def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
     return law_defaults(), "defaults"
 
 
@@ -197,7 +197,9 @@ def test_heat_is_told_as_what_held_the_motor_back(store: Store) -> None:
 def test_a_market_is_told_as_what_held_the_motor_back(store: Store) -> None:
     modes = AssistModes.from_parameters(law_defaults()).to_json()
     modes["modes"][2] |= {"law": "fixed", "ratio": 3.0, "taper": "none"}
-    japan = RideReplay(Preview(), lambda ride: ({**law_defaults(), "market": "japan"}, "ride"))
+    japan = RideReplay(
+        Preview(), lambda ride, t_s=0: ({**law_defaults(), "market": "japan"}, "ride")
+    )
     cool = replayed(store, pushing())["ride_id"]
     held = japan(store.rides.reader(cool), None, modes)
 

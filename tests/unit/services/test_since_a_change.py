@@ -17,6 +17,7 @@ import pytest
 from backend.domain.channels import ChannelSpec
 from backend.domain.revision import Revision
 from backend.domain.ride import RideContext
+from backend.domain.ride_events import SETTINGS, RideEvent
 from backend.errors import NotFound
 from backend.services.rides.since_change import SinceChange
 from backend.store import Store, open_store
@@ -42,8 +43,15 @@ class Workshop:
         self.now_us = 1_700_000_000_000_000
         self.since = SinceChange(self.store, lambda device_id: self.history)
 
-    def ride(self, motor_w: float | None, seconds: int = 60, unit: str = UNIT) -> int:
-        """motor_w: None for a unit that does not measure what its motor gives."""
+    def ride(
+        self,
+        motor_w: float | None,
+        seconds: int = 60,
+        unit: str = UNIT,
+        changed_s: float | None = None,
+    ) -> int:
+        """motor_w: None for a unit that does not measure what its motor gives. changed_s: when on
+        the ride the next configuration came into force."""
         values = {"speed_kmh": 36.0, "cadence_rpm": 60.0, "rider_torque_nm": 20.0}
         if motor_w is not None:
             given_nm = motor_w / MOTOR_RAD_S
@@ -55,15 +63,20 @@ class Workshop:
         self.now_us += HOUR_US
         context = RideContext(unit_key=unit)
         ride_id = self.store.rides.start_live(specs, PERIOD_US, self.now_us, context, "a ride")
-        self.store.rides.append_tail(
-            ride_id, 0, np.stack(columns, axis=1).astype(np.int16)
-        ).result()
+        events = [] if changed_s is None else [RideEvent(changed_s, SETTINGS, self.next_seq)]
+        rows = np.stack(columns, axis=1).astype(np.int16)
+        self.store.rides.append_tail(ride_id, 0, rows, events).result()
         self.store.rides.finish(ride_id)
         return ride_id
 
+    @property
+    def next_seq(self) -> int:
+        """Number and CRC-32 of the next configuration."""
+        return len(self.history) + 1
+
     def change(self) -> int:
-        """Another configuration, half an hour after the last ride; its number."""
-        seq = len(self.history) + 1
+        """Another configuration, half an hour after the last ride began; its number."""
+        seq = self.next_seq
         when_us = self.now_us + HOUR_US // 2
         made = Revision(seq, when_us, "", "", "verified", seq, seq, (), {}, UNIT)
         self.history.insert(0, made)
@@ -130,6 +143,27 @@ def test_rides_that_overlap_are_told_so(workshop: Workshop) -> None:
         workshop.ride(motor_w)
 
     assert workshop.since("dev1", seq)["motor_wh_per_km_after"] == "mixed"
+
+
+def test_a_ride_on_which_it_was_changed_is_on_neither_side(workshop: Workshop) -> None:
+    whole = workshop.ride(motor_w=100.0)
+    ridden = workshop.ride(motor_w=100.0, changed_s=30.0)
+    seq = workshop.change()
+    after = workshop.ride(motor_w=80.0)
+
+    told = workshop.since("u1", seq)
+
+    assert (told["before"]["ride_ids"], told["during_ids"]) == ([whole], [ridden])
+    assert told["after"]["ride_ids"] == [after]
+
+
+def test_a_change_while_the_bike_stood_at_the_end_is_after_the_ride(workshop: Workshop) -> None:
+    ridden = workshop.ride(motor_w=100.0, seconds=120, changed_s=110.0)
+    seq = workshop.change()
+
+    told = workshop.since("u1", seq)
+
+    assert (told["before"]["ride_ids"], told["during_ids"]) == ([ridden], [])
 
 
 def test_a_configuration_that_never_was_is_not_found(workshop: Workshop) -> None:

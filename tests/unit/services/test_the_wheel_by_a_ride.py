@@ -91,7 +91,7 @@ def track(later_s: float = 0.0) -> dict[str, Values]:
 
 
 def measure(store: Store, source: str = "ride") -> WheelMeasure:
-    def config_of(ride: Ride) -> tuple[dict[str, Any], str]:
+    def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
         return law_defaults(), source
 
     return WheelMeasure(store, config_of, lambda device_id: [])
@@ -172,12 +172,12 @@ def test_pulses_of_a_wheel_turned_by_hand_are_told_beside_the_unit_s(store: Stor
     ride = kept(store, {"speed_kmh": np.full(51, 3.6 * told_ms)})
     has = law_defaults() | {"wheel_pulses_per_turn": 36}
 
-    told = PulseCount(store, lambda ride: (has, "ride"))(Window(ride), 25)
+    told = PulseCount(store, lambda ride, t_s=0: (has, "ride"))(Window(ride), 25)
 
     assert told.told_turns == pytest.approx(12.5, abs=0.05)  # 0.01 km/h
     assert (told.pulses.kept, told.pulses.whole, told.pulses.agrees) == (36, 18, False)
     with pytest.raises(InvalidRequest) as refused:
-        PulseCount(store, lambda ride: (has, "defaults"))(Window(ride), 25)
+        PulseCount(store, lambda ride, t_s=0: (has, "defaults"))(Window(ride), 25)
     assert codes(refused) == [("ride_id", "missing")]
 
 

@@ -118,7 +118,7 @@ def test_settings_differ_by_name_and_by_cell(store: Store) -> None:
     was, rules[1][2] = rules[1][2], "PB"
     changed = law_defaults() | {"fuzzy_rules": rules, "wheel_circumference_m": 2.2}
 
-    def of(ride: Ride) -> tuple[dict[str, Any], str]:
+    def of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
         # As versions up to 0.2 kept their choices: that is no difference.
         spelled = {"fuzzy_inference": law_defaults()["fuzzy_inference"].upper()}
         return (law_defaults() | spelled if ride.id == a else changed), "ride"
@@ -135,7 +135,7 @@ def test_settings_differ_by_name_and_by_cell(store: Store) -> None:
 def test_settings_that_nobody_kept_are_not_compared(store: Store) -> None:
     a, b = kept(store, rider_torque_nm=PUSH), kept(store, rider_torque_nm=1.5 * PUSH)
 
-    def nobody(ride: Ride) -> tuple[dict[str, Any], str]:
+    def nobody(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
         return law_defaults(), "defaults" if ride.id == b else "ride"
 
     told = RideComparison(store, nobody)(Window(a), Window(b))["settings"]

@@ -59,7 +59,9 @@ class Shop:
         self.config: dict[str, Any] = law_defaults()
         self.source = "ride"
         self.started_us = 1_700_000_000_000_000
-        self.use = UseOfTable(self.store, lambda ride: (self.config, self.source), self.unit_at)
+        self.use = UseOfTable(
+            self.store, lambda ride, t_s=0: (self.config, self.source), self.unit_at
+        )
 
     @staticmethod
     def unit_at(device_id: str) -> str | None:

@@ -47,7 +47,7 @@ def test_the_modes_come_to_the_whole_ride(store: Store) -> None:
 
 
 def test_a_mode_has_no_name_that_nobody_kept(store: Store) -> None:
-    def nobody_kept(ride: Ride) -> tuple[dict[str, object], str]:
+    def nobody_kept(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, object], str]:
         return law_defaults(), "defaults"
 
     asked_only = kept(store, motor_torque_demanded_nm=None)
@@ -73,7 +73,7 @@ def test_zones_need_the_riders_threshold(store: Store) -> None:
 
 
 def test_the_diagnosis_uses_the_rides_own_limits(store: Store) -> None:
-    def nobody_kept(ride: Ride) -> tuple[dict[str, object], str]:
+    def nobody_kept(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, object], str]:
         return law_defaults(), "defaults"
 
     sagging = np.where(np.arange(ROWS) < 800, 36.0, 26.0)

@@ -58,7 +58,7 @@ def test_each_mode_and_rule_has_its_own_part(store: Store) -> None:
 
 
 def test_what_is_not_known_is_null(store: Store) -> None:
-    def nobody_kept(ride: Ride) -> tuple[dict[str, object], str]:
+    def nobody_kept(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, object], str]:
         return law_defaults(), "defaults"
 
     ride_id = kept(store, torque_rate=np.zeros(ROWS), motor_torque_demanded_nm=None)

@@ -20,7 +20,8 @@ from backend.domain.ride import Gap, Ride, RideRows
 from backend.errors import Conflict, InvalidRequest
 from backend.ingest import ImportedRide, Outcome
 from backend.services.imports.upload import Uploads
-from backend.services.rides.why_ride import WARM_UP_S, WhyRide, cuts_of, warm_up_row
+from backend.services.rides.replay import WARM_UP_S, warm_up_row
+from backend.services.rides.why_ride import WhyRide, cuts_of
 from backend.services.tuning.why import WhySteady
 from backend.store import Store, open_store
 from firmware_protocol._generated import CHANNELS, InputFlags, LimitFlags
@@ -53,7 +54,7 @@ def store(tmp_path: Path) -> Iterator[Store]:
         yield opened
 
 
-def config_of(ride: Ride) -> tuple[dict[str, Any], str]:
+def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
     return law_defaults(), "ride"
 
 
@@ -120,7 +121,7 @@ def test_a_brake_is_named_with_all_that_it_took(store: Store) -> None:
 @pytest.mark.slow
 def test_what_is_not_known_is_refused_with_its_reason(store: Store) -> None:
     ride_id = kept(store, speed_kmh=np.where(np.arange(ROWS) == 700, np.nan, 12.0))
-    by_defaults = WhyRide(store, lambda ride: (law_defaults(), "defaults"))
+    by_defaults = WhyRide(store, lambda ride, t_s=0: (law_defaults(), "defaults"))
 
     with pytest.raises(Conflict) as unknown:
         by_defaults(ride_id, 5.0)

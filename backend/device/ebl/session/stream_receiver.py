@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from backend.device.ebl.session.frame_counts import FrameCounts
 from backend.device.statistics import LinkStatistics
-from backend.device.stream import StreamBlock, StreamStarted
+from backend.device.stream import StreamBlock, StreamStarted, unwrap_us
 from backend.domain.channels import ChannelSpec
 from firmware_protocol._generated import CHANNELS, StreamCountsEvent, StrSubscribeResponse
 from firmware_protocol.codec import Stream
@@ -26,7 +26,6 @@ LEASE_S = 5
 RENEW_S = 2.0
 
 SEQUENCE_MODULUS = 1 << 16
-TIME_MODULUS = 1 << 32
 WIRE_EPOCH_MASK = 0x07
 
 
@@ -113,11 +112,3 @@ class StreamReceiver:
             return False
         self.frame_counts.counted(counts.built, counts.dropped_tx, counts.missed)
         return True
-
-
-def unwrap_us(low_us: int, near_us: int) -> int:
-    """The 64-bit time with the low 32 bits `low_us` that is nearest to `near_us` (36 min away)."""
-    ahead = (low_us - near_us) % TIME_MODULUS
-    if ahead >= TIME_MODULUS // 2:
-        ahead -= TIME_MODULUS
-    return near_us + ahead

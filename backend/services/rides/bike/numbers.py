@@ -6,7 +6,7 @@ from backend.services.rides.bike.cadence import CadenceCheck
 from backend.services.rides.bike.climb import CertifiedOf, ClimbCheck
 from backend.services.rides.bike.pulses import PulseCount
 from backend.services.rides.bike.wheel import ParametersOf, WheelMeasure
-from backend.services.rides.replay import ConfigOf
+from backend.services.rides.settings_in_force import ConfigOf
 from backend.store import Store
 
 

@@ -14,7 +14,7 @@ from backend.domain.energy import KMH_PER_MS
 from backend.services.rides.bike.wheel import KEPT, SPEED
 from backend.services.rides.bike.window import refusal, rows_of
 from backend.services.rides.insight.rows import Window
-from backend.services.rides.replay import ConfigOf
+from backend.services.rides.settings_in_force import ConfigOf, all_through
 from backend.store import Store
 
 KEPT_PULSES = "wheel_pulses_per_turn"
@@ -41,7 +41,7 @@ class PulseCount:
         """turns: of the wheel by hand, counted. Raises NotFound, ObjectDamaged, and InvalidRequest
         where the ride cannot tell."""
         rows = rows_of(self._store, window, "ride_id", [SPEED])
-        config, source = self._config_of(rows.ride)
+        config, source = all_through(self._config_of, rows.ride)
         circumference_m, kept = config.get(KEPT), config.get(KEPT_PULSES)
         if source != "ride" or circumference_m is None or kept is None:
             message = f"ride {window.ride_id} does not tell what its unit counted with"

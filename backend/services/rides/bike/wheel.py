@@ -23,7 +23,7 @@ from backend.domain.channels import Values
 from backend.domain.energy import KMH_PER_MS
 from backend.services.rides.bike.window import Rows, refusal, rows_of
 from backend.services.rides.insight.rows import Window
-from backend.services.rides.replay import ConfigOf
+from backend.services.rides.settings_in_force import ConfigOf, all_through
 from backend.services.tuning.config_view import ParameterView
 from backend.store import Store
 
@@ -137,7 +137,7 @@ class WheelMeasure:
         return rows
 
     def _told_m(self, wheel: Rows) -> float:
-        config, source = self._config_of(wheel.ride)
+        config, source = all_through(self._config_of, wheel.ride)
         told = config.get(KEPT)
         if source != "ride" or told is None:
             message = "nobody knows what this ride's device counted with"

@@ -27,8 +27,8 @@ from backend.errors import FieldError, InvalidRequest
 from backend.services.rides.insight.energy import ALTITUDE, POWERS
 from backend.services.rides.insight.pedalling import ANGLE, CADENCE, TORQUE, told_crank
 from backend.services.rides.insight.rows import WAY, RideColumns, Window, columns_from
-from backend.services.rides.insight.settings_apart import settings_apart
-from backend.services.rides.replay import ConfigOf
+from backend.services.rides.insight.settings_apart import Part, settings_apart
+from backend.services.rides.settings_in_force import ConfigOf
 from backend.store import RideReader, Store
 from backend.views.beside.figures import Stretch, compared
 from backend.views.beside.grid import Bins, Laid, binned
@@ -67,6 +67,11 @@ class Side:
             message = f"Ride {window.ride_id} has no row in this window."
             field = FieldError(f"{name}_from_s", "empty_window", message)
             raise InvalidRequest(message, fields=[field])
+
+    @property
+    def part(self) -> Part:
+        """What it is of its ride."""
+        return self.ride, self.from_s, self.to_s
 
     def columns(self, names: Sequence[str]) -> RideColumns:
         """The window's rows."""
@@ -136,7 +141,7 @@ class RideComparison:
                 for name in {**one.channels, **other.channels}
             ],
             **ways(*rows),
-            "settings": settings_apart(self._config_of, one.ride, other.ride),
+            "settings": settings_apart(self._config_of, one.part, other.part),
         }
 
     def crank(self, a: Window, b: Window) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import Any
 from backend import control
 from backend.domain.ride import Ride
 from backend.services.rides.insight.rows import RideColumns, columns_of
-from backend.services.rides.replay import ConfigOf
+from backend.services.rides.settings_in_force import ConfigOf, all_through
 from backend.store import Store
 from backend.views.diagnosis.diagnosis import METHOD, NEEDED, diagnose
 from backend.views.diagnosis.finding import SEVERITIES, Evidence, Limits
@@ -25,8 +25,8 @@ class Diagnosis:
     def __call__(self, ride_id: int) -> dict[str, Any]:
         """The answer as the API tells it. Raises NotFound, ObjectDamaged."""
         rows = columns_of(self._store, ride_id, NEEDED)
-        config, source = self._config_of(rows.ride)
-        evidence = evidence_of(rows, limits_of(config if source == "ride" else {}))
+        config, _ = all_through(self._config_of, rows.ride)
+        evidence = evidence_of(rows, limits_of(config))
         checks = [asdict(check) for check in diagnose(evidence)]
         found = [finding for check in checks for finding in check["findings"]]
         worst = max((SEVERITIES.index(one["severity"]) for one in found), default=None)
@@ -52,7 +52,7 @@ def evidence_of(rows: RideColumns, limits: Limits) -> Evidence:
 
 
 def limits_of(config: Mapping[str, Any]) -> Limits:
-    """What the ride's configuration says; nothing of one that nobody kept."""
+    """What a configuration says; nothing of one that nobody kept."""
     return Limits(
         temperature=control.LIMITS["temperature"],
         battery_voltage_v_min=config.get("battery_voltage_v_min"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import asdict
 from itertools import pairwise
 from typing import Any
@@ -11,7 +11,7 @@ import numpy as np
 
 from backend.domain.energy import BATTERY_POWER, MOTOR_POWER, RIDER_POWER
 from backend.services.rides.insight.rows import WAY, RideColumns, columns_of
-from backend.services.rides.replay import ConfigOf
+from backend.services.rides.settings_in_force import ConfigOf, Stretch, source_of, stretches
 from backend.store import Store
 from backend.views.insight.charge import Charge, charge_of
 from backend.views.insight.energy_split import GRADIENT_EDGES_PCT, by_gradient, energy_shares
@@ -48,7 +48,7 @@ class RideEnergy:
             "whole": asdict(whole),
             "lost_km": ride.way.lost_m / 1000.0 if ride.way else None,
             "battery_wh_per_km": whole.battery_wh / km if whole.battery_wh and km else None,
-            "modes": told_modes(ride, *self._config_of(ride.ride)),
+            "modes": told_modes(ride, stretches(self._config_of, ride.ride)),
             "gradients": gradients,
             "gradient_unknown_s": unknown_s,
             "climb": asdict(climb) if climb else None,
@@ -57,8 +57,8 @@ class RideEnergy:
         }
 
 
-def told_modes(ride: RideColumns, config: Mapping[str, Any], source: str) -> list[dict[str, Any]]:
-    """The modes that were selected; names only of a known configuration."""
+def told_modes(ride: RideColumns, parts: Sequence[Stretch]) -> list[dict[str, Any]]:
+    """The modes that were selected; names only where they are known, as they were at the end."""
     mode = ride[MODE]
     if mode is None or not np.isfinite(mode).any():
         return []
@@ -68,7 +68,7 @@ def told_modes(ride: RideColumns, config: Mapping[str, Any], source: str) -> lis
     groups[there] = places
     step_m = ride.way.step_m if ride.way else None
     shares = energy_shares(ride.values, ride.seconds, step_m, groups, len(slots))
-    names = config["mode_names"] if source == "ride" else ()
+    names = parts[-1].config["mode_names"] if source_of(parts) == "ride" else ()
     return [
         {"mode": int(slot), "name": names[slot] if slot < len(names) else None, **asdict(share)}
         for slot, share in zip(slots, shares, strict=True)

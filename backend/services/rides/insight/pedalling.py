@@ -7,7 +7,7 @@ from typing import Any
 
 from backend.domain.energy import DELIVERED, MOTOR_TORQUE_CRANK
 from backend.services.rides.insight.rows import RideColumns, columns_of
-from backend.services.rides.replay import ConfigOf
+from backend.services.rides.settings_in_force import ConfigOf, all_through
 from backend.store import Store
 from backend.views.insight.crank import CrankTorque, crank_torque
 from backend.views.insight.gain_map import gain_map
@@ -32,8 +32,7 @@ class RidePedalling:
         of_gain = None
         if speed is not None and gain is not None:
             of_gain = gain_map(speed, gain, ride.seconds)
-        config, source = self._config_of(ride.ride)
-        points = config if source == "ride" else {}
+        points, _ = all_through(self._config_of, ride.ride)
         return {
             "ride_id": ride_id,
             "crank": asdict(crank) if isinstance(crank, CrankTorque) else None,

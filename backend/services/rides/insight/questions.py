@@ -8,7 +8,7 @@ from backend.services.rides.insight.effort import RideEffort
 from backend.services.rides.insight.energy import RideEnergy
 from backend.services.rides.insight.pedalling import RidePedalling
 from backend.services.rides.insight.report import RideReport
-from backend.services.rides.replay import ConfigOf
+from backend.services.rides.settings_in_force import ConfigOf
 from backend.store import Store
 
 

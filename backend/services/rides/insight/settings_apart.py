@@ -8,21 +8,24 @@ from typing import Any
 from backend.control.comparison import cells_changed
 from backend.domain.fuzzy_table import PARAMETERS_OF, FuzzyTable
 from backend.domain.ride import Ride
-from backend.services.rides.replay import ConfigOf
+from backend.services.rides.settings_in_force import ConfigOf
 from backend.services.tuning.compare import Difference, differences
 
+Part = tuple[Ride, float, float]
+"""A ride, and a window of it from and to, s after its start."""
 
-def settings_apart(config_of: ConfigOf, a: Ride, b: Ride) -> dict[str, Any]:
-    """The configurations of two rides as the API tells them; no difference unless both are known.
+
+def settings_apart(config_of: ConfigOf, a: Part, b: Part) -> dict[str, Any]:
+    """The configurations in force where two windows begin, as the API tells them, and when they
+    changed within; no difference unless both are known.
 
     A table is among `tables` if anything of it differs and both have it whole.
     """
-    sides = [config_of(ride) for ride in (a, b)]
-    told = [
-        side_of(ride, source == "ride") for ride, (_, source) in zip((a, b), sides, strict=True)
-    ]
+    sides = [config_of(ride, from_s) for ride, from_s, _ in (a, b)]
+    known = [source == "ride" for _, source in sides]
+    told = [side_of(a, known[0]), side_of(b, known[1])]
     answer: dict[str, Any] = {"a": told[0], "b": told[1], "differences": None, "tables": []}
-    if all(side["known"] for side in told):
+    if all(known):
         old, new = (
             {name: of_today(name, value) for name, value in config.items()} for config, _ in sides
         )
@@ -35,18 +38,21 @@ def settings_apart(config_of: ConfigOf, a: Ride, b: Ride) -> dict[str, Any]:
     return answer
 
 
-def side_of(ride: Ride, known: bool) -> dict[str, Any]:
+def side_of(part: Part, known: bool) -> dict[str, Any]:
     """Whose configuration it is, or why nobody knows it."""
-    why = None
+    ride, from_s, to_s = part
+    spans, why = ride.settings_spans(), None
+    in_force = [crc32 for since_s, crc32 in spans if since_s <= from_s]
     if not known:
-        why = "not_kept" if ride.context.config_crc32 is not None else "not_told"
+        why = "not_told" if in_force[-1] is None else "not_kept"
         if why == "not_told" and ride.origin == "imported":
             why = "imported"
     return {
         "known": known,
         "why": why,
         "unit_key": ride.context.unit_key,
-        "generation": ride.context.config_generation,
+        "generation": ride.context.config_generation if len(in_force) == 1 else None,
+        "changed_at_s": [since_s for since_s, _ in spans if from_s < since_s <= to_s],
     }
 
 

@@ -20,6 +20,7 @@ export const en = {
   mixed: 'The rides since and those before overlap: they do not tell that the change did anything.',
   too_few: 'Too few rides to tell: three on either side, with measured motor work, are the least.',
   cannot: 'Other roads, another wind, another day: what moved may be theirs.',
+  during: 'Made in the middle of rides that are on neither side: {count}.',
   others: 'Other changes fell within these rides: {count}.',
 }
 

@@ -19,5 +19,6 @@ export const zh: Record<SinceKey, string> = {
   mixed: '之后与之前的骑行相互重叠：看不出此更改有任何作用。',
   too_few: '骑行太少，无法判断：前后至少各需三次测得电机做功的骑行。',
   cannot: '路线、风与日子都不同：变化可能由此而来。',
+  during: '在骑行途中更改、两边都不计入的骑行：{count} 次。',
   others: '这些骑行期间还有其他更改：{count} 次。',
 }

@@ -72,6 +72,7 @@ function why(changes: Partial<Why> = {}): Why {
       motor_speed_rpm_max: 3000,
     },
     recorded: null,
+    differs: [],
     ...changes,
   }
 }

@@ -48,6 +48,12 @@ export const en = {
   mamdani: 'Clipped sets, exact centroid over 0 to 0.5.',
   weighted: 'Mean of the peaks, each with the weight of its rules.',
   sent: 'The unit sent {gain}.',
+  differs:
+    'The unit sent other figures than are worked out here: {figures}. Settings that were only ' +
+    'tried are in no configuration; after a change the unit still remembers what was before.',
+  differs_of: '{name} {sent} for {here}',
+  fuzzy_gain: 'gain',
+  assist_ratio: 'assist ratio',
   worked_out: "Worked out here by the unit's own C: {gain}.",
   waterfall: '3 · From the law to the motor',
   waterfall_axes: 'torque at the crank; what each clamp took in W · in the order of the unit',

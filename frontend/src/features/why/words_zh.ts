@@ -45,6 +45,11 @@ export const zh: Record<WhyKey, string> = {
   mamdani: '截断的集合，在 0 至 0.5 上的精确重心。',
   weighted: '各峰值按规则权重的平均。',
   sent: '单元发送的是 {gain}。',
+  differs:
+    '单元发送的数值与此处算得的不同：{figures}。仅试用的设置不在任何配置中；更改之后，单元仍记得之前的情况。',
+  differs_of: '{name}：发送 {sent}，此处 {here}',
+  fuzzy_gain: '增益',
+  assist_ratio: '助力比',
   worked_out: '此处由单元自己的 C 代码算得：{gain}。',
   waterfall: '3 · 从控制律到电机',
   waterfall_axes: '曲柄处扭矩；每项限制减去的 W · 按单元的顺序',

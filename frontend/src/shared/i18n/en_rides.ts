@@ -59,11 +59,13 @@ export const enRides = {
   'ride.filled':
     "Tinted: stretches from the unit's own log ({count}), at the log's rate. The live link had " +
     'lost them.',
-  'ride.events': 'Faults, modes and marks',
+  'ride.events': 'Faults, modes, settings and marks',
   'ride.mark_fault_set': 'Faults',
   'ride.mark_fault_cleared': 'Faults over',
   'ride.mark_assist_mode': 'Assist modes',
+  'ride.mark_settings': 'Settings',
   'ride.mark_mark': 'Marks',
+  'ride.event_settings': 'Settings changed',
   'ride.event_mark': 'Mark {number}',
   'ride.event_fault_set': 'Fault: {names}',
   'ride.event_fault_cleared': 'Over: {names}',

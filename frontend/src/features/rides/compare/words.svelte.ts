@@ -88,6 +88,8 @@ export const en = {
   imported: 'The settings of {side} are not known: the ride came from a file.',
   not_told: 'The settings of {side} are not known: its unit told none.',
   not_kept: 'The settings of {side} are not known: nobody kept what its unit told.',
+  changed_within:
+    'The settings of {side} were changed at {at}. Told is what its window began with.',
   first_table: 'Fuzzy table, {side}',
   second_table: 'Second table, {side}',
 }

@@ -84,6 +84,7 @@ export const zh: Record<CompareKey, string> = {
   imported: '{side} 的设置未知：该骑行来自文件。',
   not_told: '{side} 的设置未知：其控制器没有告知。',
   not_kept: '{side} 的设置未知：没有人保存其控制器所告知的内容。',
+  changed_within: '{side} 的设置在 {at} 时更改。此处为其区间开始时的设置。',
   first_table: '模糊表，{side}',
   second_table: '第二张表，{side}',
 }

@@ -14,6 +14,7 @@ export function eventText(
   if (event.kind === 'assist_mode') {
     return t('ride.event_assist_mode', { mode: modeName(event.value) })
   }
+  if (event.kind === 'settings') return t('ride.event_settings')
   if (event.kind === 'mark') return t('ride.event_mark', { number: event.value })
   const names = faultList(locale, flagNames('fault_flags', event.value))
   return t(`ride.event_${event.kind}`, { names })

@@ -10,6 +10,7 @@ type Kind = RideEvent['kind']
 const looks: Record<Kind, { symbol: string; token: string }> = {
   fault_set: { symbol: 'triangle-down', token: 'bad' },
   fault_cleared: { symbol: 'circle-open', token: 'ok' },
+  settings: { symbol: 'square', token: 'accent' },
   mark: { symbol: 'star', token: 'accent' },
   assist_mode: { symbol: 'diamond', token: 'ink-2' },
 }
