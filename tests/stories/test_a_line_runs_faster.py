@@ -14,6 +14,7 @@ from backend.device.ebl.session.operation import ask
 from backend.link import Opener
 from firmware_protocol._generated import AliveRequest, AliveResponse
 from tests.fakes.ebl_driver import ebl_driver
+from tests.fakes.server import eventually
 
 PATIENCE_S = 30.0
 
@@ -28,7 +29,11 @@ def driver(url: str) -> Driver:
 def test_at_a_low_speed_the_port_and_the_unit_agree_on_a_megabaud() -> None:
     unit = driver("sim:fast?baud=1000000&speed=0.1")
     try:
-        alive = unit.run(ask(AliveRequest(), AliveResponse), PATIENCE_S)
+        # Of its clock not a step may have passed: it tells the new rate once it has begun.
+        alive = eventually(
+            lambda: unit.run(ask(AliveRequest(), AliveResponse), PATIENCE_S),
+            lambda told: told.uptime_us > 0,
+        )
         assert alive.bits_per_second == 1_000_000
         assert unit.status().statistics.bits_per_second == 1_000_000
     finally:
