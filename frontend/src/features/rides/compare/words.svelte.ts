@@ -89,7 +89,7 @@ export const en = {
   not_told: 'The settings of {side} are not known: its unit told none.',
   not_kept: 'The settings of {side} are not known: nobody kept what its unit told.',
   changed_within:
-    'The settings of {side} were changed at {at}. Told is what its window began with.',
+    'The settings of {side} changed at {at}. Compared are those at the start of its window.',
   first_table: 'Fuzzy table, {side}',
   second_table: 'Second table, {side}',
 }
