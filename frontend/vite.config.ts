@@ -12,10 +12,10 @@ const MOST = [
   'context/(?!KeyList)',
   'device/(?!FaultMoment|fault_moment|moment_)|stream|ui|units',
   'charts/(traces/plotly\\.ts|plot_axis\\.ts|[Ss]park)',
-  'config/(config_draft|drafts|limits|page_draft|parameter_text|ratchet|trial|two_tables)',
+  'config/(config_draft|drafts|elements|kept_drafts|limits|page_draft|parameter_text|ratchet|trial|two_tables)',
   'i18n/(?!zh)',
 ]
-const REVIEW = ['ReviewDialog', 'review_rows', 'TokenSteps', 'UnlockPanel', 'Write', 'write_']
+const REVIEW = ['ReviewDialog', 'review_', 'TokenSteps', 'UnlockPanel', 'Write', 'write_']
 // Words of another language come apart from their page: only who reads them fetches them.
 const chunk = (name: string, pattern: string) => ({
   name,
@@ -34,7 +34,7 @@ const GROUPS = [
   chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet|Restore|restored)'),
   chunk('settings', 'features/settings/(?!people)'),
   chunk('review', `shared/(certificate|config/(${REVIEW.join('|')}))`),
-  chunk('config', 'shared/(config|lint)'),
+  chunk('config', 'shared/(config/(?!DraftNotes|draft_words)|lint)'),
   chunk('tune', 'features/tune/(?![Rr]escale|Scale|surface/(between|box|solid|Slice|Surface[MS]))'),
 ]
 

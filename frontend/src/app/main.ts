@@ -19,6 +19,7 @@ import { Toasts } from '$shared/ui/toasts.svelte'
 import { Units } from '$shared/units/units.svelte'
 import { mount } from 'svelte'
 import App from './App.svelte'
+import { BuildWatch } from './build_watch.svelte'
 import { readPreferences } from './preferences'
 import { Router } from './router.svelte'
 
@@ -56,7 +57,9 @@ if (target && !alone) {
   router.start()
   devices.start()
   health.start()
-  mount(App, { target, props: { context, drafts: new Drafts(server), router } })
+  const build = new BuildWatch(import.meta.url.split(/[/?]/).findLast((part) => part.includes('.')) ?? '')
+  build.start()
+  mount(App, { target, props: { context, build, drafts: new Drafts(server), router } })
 }
 if (alone || isSignedIn()) {
   void import('../features/sign_in/sign_in').then(({ show }) => show(alone, server.http, locale))

@@ -37,6 +37,24 @@ export const en = {
   rows_a_second: '{count} rows a second',
   forget: 'Forget',
   forget_named: 'Forget what was said of {columns}',
+  language: 'Language',
+  language_not_fetched:
+    'The words of that language could not be fetched. Is the server running?',
+  theme: 'Appearance',
+  units: 'Units',
+  author: 'Your name',
+  author_note:
+    'Kept with your changes, as stated: nobody signs in yet. ' +
+    'Empty: the name the server runs under.',
+  units_note: 'Only what is shown changes; the unit and the files keep SI units.',
+  server: 'This Spindle',
+  version: 'Version',
+  keeps: 'Keeping records',
+  keeps_ok: 'everything that is to be kept is kept',
+  keeps_degraded: 'not everything can be saved now: see the message above',
+  keeps_unknown: 'not known: the server does not answer',
+  rows: '{saved} rows saved since it started, {waiting} waiting, {lost} lost',
+  api: 'Description of the API',
 }
 
 export type SettingsKey = keyof typeof en

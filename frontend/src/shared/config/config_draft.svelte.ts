@@ -2,6 +2,8 @@
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
 import type { ConfigChange, Device, Parameter, ParameterValue } from '../api/types'
+import { differing, rebased, same } from './elements'
+import { keep, type Kept } from './kept_drafts'
 import { isFactorys } from './ratchet'
 
 /** A unit and where it is; its key is null until it said who it is. */
@@ -23,7 +25,8 @@ export interface ConfigStamp {
 
 const HISTORY_MAX = 200
 
-/** The draft of one page for one unit; it outlives the page, so that leaving loses nothing. */
+/** The draft of one page for one unit; it outlives the page, so that leaving loses nothing. An edit
+    is of an element: what others change meanwhile beside it stays. */
 export class ConfigDraft {
   parameters = $state.raw<Parameter[]>([])
   tag = $state('')
@@ -34,6 +37,12 @@ export class ConfigDraft {
   private writing = false
   private baseline = $state.raw<Edits>({})
   private edits = $state.raw<Edits>({})
+  /** What the unit had when the first of the edits was made; empty while there is none. */
+  private begun = $state.raw<Edits>({})
+  /** When edits of an earlier visit were kept; null for those of this one. */
+  kept_at_ms = $state<number | null>(null)
+  /** Why, as it is typed for the revision. */
+  private why = $state('')
   private past = $state.raw<Edits[]>([])
   private future = $state.raw<Edits[]>([])
   private gesture: string | null = null
@@ -46,15 +55,26 @@ export class ConfigDraft {
   constructor(
     there: Pick<UnitThere, 'id' | 'unit_key'>,
     private readonly server: Server,
+    /** Under which it is kept in this browser; empty for nowhere. */
+    private key = '',
+    kept: Kept | null = null,
   ) {
     this.device_id = there.id
     this.unit_key = there.unit_key
+    if (!kept) return
+    this.baseline = this.begun = kept.base
+    this.edits = kept.edits
+    this.why = kept.reason
+    this.kept_at_ms = kept.at_ms
   }
 
   /** The unit was given a name: it is the same one, and its tags are new. */
-  rename(unit_key: string): void {
+  rename(unit_key: string, key: string): void {
+    keep(this.key, null)
     this.unit_key = unit_key
+    this.key = key
     this.crc32 = null
+    this.become(this.edits)
   }
 
   /** Reads the unit's configuration; edits stay and are compared with the new values. Throws
@@ -101,7 +121,17 @@ export class ConfigDraft {
       const told = `This is for the unit ${this.unit_key}; another is there.`
       throw new Refusal(412, 'other_unit', told)
     }
+    const was = this.baseline
     this.baseline = parameters
+    const moved = (edits: Edits): Edits =>
+      Object.fromEntries(
+        Object.entries(edits)
+          .map(([name, edit]) => [name, rebased(edit, was[name], parameters[name])] as const)
+          .filter(([name, edit]) => !same(edit, parameters[name])),
+      )
+    this.past = this.past.map(moved)
+    this.future = this.future.map(moved)
+    this.become(moved(this.edits))
     this.generation = stamp.generation
     this.crc32 = stamp.crc32
     this.tag = tag
@@ -118,6 +148,28 @@ export class ConfigDraft {
   /** What the unit has. */
   base(name: string): ParameterValue | undefined {
     return this.baseline[name]
+  }
+
+  /** What it had when the first of the edits was made: where that is something else, somebody
+      changed it meanwhile. */
+  before(name: string): ParameterValue | undefined {
+    return this.begun[name] ?? this.baseline[name]
+  }
+
+  /** How many elements others changed since the first of the edits was made. */
+  get meanwhile(): number {
+    return Object.entries(this.begun).reduce((sum, [name, was]) => {
+      const now = this.baseline[name]
+      return sum + (now === undefined ? 0 : differing(was, now))
+    }, 0)
+  }
+
+  get reason(): string {
+    return this.why
+  }
+  set reason(text: string) {
+    this.why = text
+    this.keep()
   }
 
   /** What it would have: the edit, else what it has. */
@@ -143,7 +195,7 @@ export class ConfigDraft {
     }
     this.gesture = gesture
     this.future = []
-    this.edits = this.without(name, same(value, this.baseline[name]) ? undefined : value)
+    this.become(this.without(name, same(value, this.baseline[name]) ? undefined : value))
   }
 
   get canUndo(): boolean {
@@ -161,7 +213,7 @@ export class ConfigDraft {
     const names = differingNames(this.edits, previous)
     this.future = [...this.future, this.edits]
     this.past = this.past.slice(0, -1)
-    this.edits = previous
+    this.become(previous)
     this.gesture = null
     return names
   }
@@ -173,17 +225,17 @@ export class ConfigDraft {
     const names = differingNames(this.edits, next)
     this.past = [...this.past, this.edits]
     this.future = this.future.slice(0, -1)
-    this.edits = next
+    this.become(next)
     this.gesture = null
     return names
   }
 
   /** Drops every edit; undo brings them back. */
   discard(): void {
-    if (this.changes.length === 0) return
+    if (this.count === 0) return
     this.past = [...this.past, this.edits]
     this.future = []
-    this.edits = {}
+    this.become({})
   }
 
   /** Writes the edits in one transaction and reads back what the unit has. confirm_s: 0 for good,
@@ -192,28 +244,30 @@ export class ConfigDraft {
   async write(reason: string, confirm_s = 0, token: string | null = null): Promise<ConfigChange> {
     const parameters = Object.fromEntries(this.changes.map((c) => [c.parameter.name, c.value]))
     const result = await this.send(parameters, reason, confirm_s, token)
-    // An edit made while the write was on its way is not in the unit yet.
-    const later = ([name, value]: [string, ParameterValue]) => {
-      const written = parameters[name]
-      return written === undefined || !same(value, written)
-    }
-    this.edits = Object.fromEntries(Object.entries(this.edits).filter(later))
+    // What is left was edited while the write was on its way: it begins on what was written.
     this.past = []
     this.future = []
+    this.begun = {}
+    this.why = ''
+    this.become(this.edits)
     return result
   }
 
-  /** Writes the values a change replaced, over what somebody else may have written since. Throws
-      Refusal. */
+  /** Writes the elements a change replaced, whatever somebody else may have made of them since;
+      what they changed beside them stays. Throws Refusal. */
   async takeBack(change: ConfigChange, reason: string): Promise<ConfigChange> {
-    const old = change.changed.flatMap((c) => (c.old === null ? [] : [[c.name, c.old] as const]))
-    const parameters = Object.fromEntries(old)
+    const old = () =>
+      Object.fromEntries(
+        change.changed.flatMap(({ name, old, new: written }) =>
+          old === null ? [] : [[name, rebased(old, written, this.baseline[name])] as const],
+        ),
+      )
     try {
-      return await this.send(parameters, reason)
+      return await this.send(old(), reason)
     } catch (error) {
       if (!(error instanceof Refusal) || error.code !== 'config_changed') throw error
       await this.load()
-      return await this.send(parameters, reason)
+      return await this.send(old(), reason)
     }
   }
 
@@ -235,6 +289,11 @@ export class ConfigDraft {
         this.unit_key,
       )
       this.take(result, result.parameters, tag)
+      // What was written from here nobody else has changed.
+      if (Object.keys(this.begun).length > 0) {
+        const own = Object.keys(parameters).map((name) => [name, this.baseline[name]] as const)
+        this.begun = { ...this.begun, ...(Object.fromEntries(own) as Edits) }
+      }
       // The factory's values move the bounds of others. The change is in the unit, whatever becomes
       // of this look at it.
       const moved = this.parameters.some((row) => row.name in parameters && isFactorys(row))
@@ -247,7 +306,27 @@ export class ConfigDraft {
 
   /** How many values differ, each element of a table counted. */
   get count(): number {
-    return this.changes.reduce((sum, { old, value }) => sum + differing(old, value), 0)
+    return Object.entries(this.edits).reduce((sum, [name, value]) => {
+      const old = this.baseline[name]
+      return sum + (old === undefined ? 0 : differing(old, value))
+    }, 0)
+  }
+
+  /** The one place where the edits become others. */
+  private become(edits: Edits): void {
+    const none = Object.keys(edits).length === 0
+    if (none) this.begun = {}
+    else if (Object.keys(this.begun).length === 0) this.begun = this.baseline
+    if (none) this.kept_at_ms = null
+    this.edits = edits
+    this.keep()
+  }
+
+  private keep(): void {
+    if (!this.key) return
+    const { edits, begun: base, why: reason } = this
+    const at_ms = this.kept_at_ms ?? Date.now()
+    keep(this.key, this.count > 0 ? { edits, base, reason, at_ms } : null)
   }
 
   private without(name: string, value: ParameterValue | undefined): Edits {
@@ -268,17 +347,4 @@ export class ConfigDraft {
 
 function differingNames(a: Edits, b: Edits): string[] {
   return Object.keys({ ...a, ...b }).filter((name) => !same(a[name], b[name]))
-}
-
-function differing(a: ParameterValue, b: ParameterValue): number {
-  if (!Array.isArray(a) || !Array.isArray(b)) return same(a, b) ? 0 : 1
-  const others = b as ParameterValue[]
-  return (a as ParameterValue[]).reduce<number>(
-    (sum, element, i) => sum + differing(element, others[i] as ParameterValue),
-    0,
-  )
-}
-
-function same(a: ParameterValue | undefined, b: ParameterValue | undefined): boolean {
-  return JSON.stringify(a) === JSON.stringify(b)
 }

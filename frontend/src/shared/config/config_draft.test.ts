@@ -1,6 +1,6 @@
 /* Goal: edits live in the draft until they are written, can be undone, and survive a change of the
    unit by somebody else. */
-import { describe, expect, it } from 'vitest'
+import { afterEach, describe, expect, it, vi } from 'vitest'
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
 import type { Parameter, ParameterValue } from '../api/types'
@@ -289,5 +289,210 @@ describe('drafts of the bikes that one cable sees', () => {
 
     expect(named.changes.map((change) => change.value)).toEqual([20])
     expect(server.reads).toBe(2)
+  })
+})
+
+const RULES = 'fuzzy_rules'
+const table = (...changed: [number, number, string][]) => {
+  const rows = Array.from({ length: 5 }, () => Array.from({ length: 5 }, () => 'ZO'))
+  for (const [row, column, label] of changed) (rows[row] ?? [])[column] = label
+  return rows
+}
+
+describe('an edit of a table', () => {
+  const opened = async () => {
+    const { server, draft } = await loadedDraft()
+    server.values[RULES] = table()
+    await draft.load()
+    const changeElsewhere = async (...changed: [number, number, string][]) => {
+      server.values[RULES] = table(...changed)
+      server.generation += 1
+      await draft.load()
+    }
+    return { server, draft, changeElsewhere }
+  }
+
+  it('is of an element: what another tab wrote beside it stays', async () => {
+    const { server, draft, changeElsewhere } = await opened()
+    draft.set(RULES, table([0, 0, 'PB']))
+
+    await changeElsewhere([4, 4, 'NS'])
+
+    expect([draft.count, draft.meanwhile]).toEqual([1, 1])
+    await draft.write('mine')
+    expect(server.values[RULES]).toEqual(table([0, 0, 'PB'], [4, 4, 'NS']))
+    expect(draft.meanwhile).toBe(0)
+  })
+
+  it('replaces what another tab made of the same element, and knows of it', async () => {
+    const { draft, changeElsewhere } = await opened()
+    draft.set(RULES, table([0, 0, 'PB']))
+
+    await changeElsewhere([0, 0, 'NS'])
+
+    expect(draft.value(RULES)).toEqual(table([0, 0, 'PB']))
+    expect([draft.base(RULES), draft.before(RULES)]).toEqual([table([0, 0, 'NS']), table()])
+  })
+
+  it('is taken back, and made again, without what came from elsewhere', async () => {
+    const { draft, changeElsewhere } = await opened()
+    draft.set(RULES, table([0, 0, 'PB']))
+    draft.set(RULES, table([0, 0, 'PB'], [1, 1, 'PB']))
+    await changeElsewhere([4, 4, 'NS'])
+
+    draft.undo()
+    expect(draft.value(RULES)).toEqual(table([0, 0, 'PB'], [4, 4, 'NS']))
+    draft.redo()
+    expect(draft.value(RULES)).toEqual(table([0, 0, 'PB'], [1, 1, 'PB'], [4, 4, 'NS']))
+    draft.undo()
+    draft.undo()
+    expect([draft.count, draft.value(RULES)]).toEqual([0, table([4, 4, 'NS'])])
+  })
+
+  it('that is in the unit is undone alone', async () => {
+    const { server, draft, changeElsewhere } = await opened()
+    draft.set(RULES, table([0, 0, 'PB']))
+    const change = await draft.write('mine')
+    await changeElsewhere([0, 0, 'PB'], [4, 4, 'NS'])
+
+    await draft.takeBack(change, 'undo')
+
+    expect(server.values[RULES]).toEqual(table([4, 4, 'NS']))
+  })
+
+  it('is gone where another tab wrote the same', async () => {
+    const { draft, changeElsewhere } = await opened()
+    draft.set(RULES, table([0, 0, 'PB']))
+
+    await changeElsewhere([0, 0, 'PB'])
+
+    expect([draft.count, draft.meanwhile]).toEqual([0, 0])
+  })
+
+  it('stays whole where the unit has a table of another shape now', async () => {
+    const { server, draft } = await opened()
+    draft.set(RULES, table([0, 0, 'PB']))
+    server.values[RULES] = [['ZO']]
+    server.generation += 1
+
+    await draft.load()
+
+    expect(draft.value(RULES)).toEqual(table([0, 0, 'PB']))
+  })
+})
+
+/** What a browser keeps under names. */
+const storage = (): Storage => {
+  const kept = new Map<string, string>()
+  const told = {
+    getItem: (name: string) => kept.get(name) ?? null,
+    setItem: (name: string, value: string) => kept.set(name, value),
+    removeItem: (name: string) => kept.delete(name),
+  }
+  return new Proxy(told as unknown as Storage, {
+    ownKeys: () => [...kept.keys()],
+    getOwnPropertyDescriptor: () => ({ enumerable: true, configurable: true }),
+  })
+}
+
+describe('a draft that is not written yet', () => {
+  afterEach(() => vi.unstubAllGlobals())
+
+  const browser = () => {
+    const [tab, all] = [storage(), storage()]
+    vi.stubGlobal('sessionStorage', tab)
+    vi.stubGlobal('localStorage', all)
+    return { tab, all }
+  }
+  const visit = (server: FakeServer) => new Drafts(server as unknown as Server)
+
+  it('is there again after a reload, with its reason, on what the unit has by then', async () => {
+    browser()
+    const server = new FakeServer()
+    server.values[RULES] = table()
+    const first = visit(server).of(A, 'tune')
+    await first.load()
+    first.set(RULES, table([0, 0, 'PB']))
+    first.reason = 'quiet street'
+
+    server.values[RULES] = table([4, 4, 'NS'])
+    server.generation += 1
+    const drafts = visit(server)
+    expect(drafts.count('ebl:11')).toBe(1)
+    const again = drafts.of(A, 'tune')
+    await again.load()
+
+    expect(again.value(RULES)).toEqual(table([0, 0, 'PB'], [4, 4, 'NS']))
+    expect([again.reason, again.count, again.meanwhile]).toEqual(['quiet street', 1, 1])
+    expect(again.kept_at_ms).not.toBeNull()
+  })
+
+  it.each(['written', 'discarded', 'set back'])('is kept no longer once it is %s', async (how) => {
+    const { tab, all } = browser()
+    const server = new FakeServer()
+    const draft = visit(server).of(A, 'tune')
+    await draft.load()
+    draft.set('assist_cutoff_kmh', 20)
+    expect(visit(server).count('ebl:11')).toBe(1)
+
+    if (how === 'written') await draft.write('')
+    else if (how === 'discarded') draft.discard()
+    else draft.set('assist_cutoff_kmh', 25)
+
+    expect(visit(server).count('ebl:11')).toBe(0)
+    expect([tab, all].map((place) => Object.keys(place))).toEqual([[], []])
+  })
+
+  it('belongs to its unit, whichever comes back first', async () => {
+    browser()
+    const server = new FakeServer()
+    const draft = visit(server).of(A, 'tune')
+    await draft.load()
+    draft.set('assist_cutoff_kmh', 20)
+
+    const drafts = visit(server)
+    server.unit_key = 'ebl:22'
+    await drafts.of(B, 'tune').load()
+
+    expect([drafts.count('ebl:22'), drafts.count('ebl:11')]).toEqual([0, 1])
+    expect(drafts.of(B, 'tune').value('assist_cutoff_kmh')).toBe(25)
+    expect(drafts.of(A, 'tune').value('assist_cutoff_kmh')).toBe(20)
+  })
+
+  it('of a tab comes before what another tab kept later', async () => {
+    const { tab } = browser()
+    const server = new FakeServer()
+    const mine = visit(server).of(A, 'tune')
+    await mine.load()
+    mine.set('assist_cutoff_kmh', 20)
+    vi.stubGlobal('sessionStorage', storage())
+    const other = visit(server).of(A, 'tune')
+    other.set('assist_cutoff_kmh', 18)
+
+    vi.stubGlobal('sessionStorage', tab)
+    expect(visit(server).of(A, 'tune').value('assist_cutoff_kmh')).toBe(20)
+  })
+
+  it('that cannot be read is forgotten', () => {
+    const { all } = browser()
+    all.setItem('spindle.draft\nebl:11\ntune', '{"edits":')
+    all.setItem('spindle.draft\nebl:11\nmodes', '{}')
+
+    expect(visit(new FakeServer()).count('ebl:11')).toBe(0)
+  })
+
+  it('lives on the page alone where the browser keeps nothing', async () => {
+    vi.stubGlobal('sessionStorage', {
+      setItem: () => {
+        throw new DOMException('full', 'QuotaExceededError')
+      },
+    })
+    vi.stubGlobal('localStorage', { removeItem: () => undefined })
+    const draft = visit(new FakeServer()).of(A, 'tune')
+    await draft.load()
+
+    draft.set('assist_cutoff_kmh', 20)
+
+    expect(draft.value('assist_cutoff_kmh')).toBe(20)
   })
 })

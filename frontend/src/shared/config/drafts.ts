@@ -2,17 +2,26 @@
 import { createContext } from 'svelte'
 import type { Server } from '../api/server'
 import { ConfigDraft, type UnitThere } from './config_draft.svelte'
+import { allKept } from './kept_drafts'
 
-/** Each page edits and writes its own draft; it belongs to the unit and not to its connection. */
+/** Each page edits and writes its own draft; it belongs to the unit and not to its connection, and
+    this browser keeps it until it is written or discarded. */
 export class Drafts {
   private readonly byKey = new Map<string, ConfigDraft>()
 
-  constructor(private readonly server: Server) {}
+  constructor(private readonly server: Server) {
+    for (const [key, kept] of allKept()) {
+      const there = { id: '', unit_key: key.split('\n')[0] ?? '' }
+      this.byKey.set(key, new ConfigDraft(there, server, key, kept))
+    }
+  }
 
   of(there: UnitThere, page: string): ConfigDraft {
     const key = keyOf(there.unit_key ?? there.id, page)
     const draft =
-      this.byKey.get(key) ?? this.beforeItsName(there, page) ?? new ConfigDraft(there, this.server)
+      this.byKey.get(key) ??
+      this.beforeItsName(there, page) ??
+      new ConfigDraft(there, this.server, there.unit_key ? key : '')
     this.byKey.set(key, draft)
     draft.device_id = there.id
     return draft
@@ -32,7 +41,7 @@ export class Drafts {
     const draft = this.byKey.get(key)
     if (!draft) return null
     this.byKey.delete(key)
-    draft.rename(unit_key)
+    draft.rename(unit_key, keyOf(unit_key, page))
     return draft
   }
 }

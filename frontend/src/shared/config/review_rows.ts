@@ -1,8 +1,9 @@
 // What a draft changes, element by element, as the review shows it.
-import type { Parameter, ParameterValue } from '../api/types'
+import type { Parameter } from '../api/types'
 import type { Locale } from '../i18n/locale.svelte'
 import type { Units } from '../units/units.svelte'
 import type { DraftChange, ConfigDraft } from './config_draft.svelte'
+import { elementAt } from './elements'
 import { faultsOf, walk, type Element } from './limits'
 import {
   bandText,
@@ -15,12 +16,16 @@ import {
   wholeText,
 } from './parameter_text'
 import { isFactorys, needsToken, ratchetMove } from './ratchet'
+import type { ReviewSay } from './review_words.svelte'
 
 export interface ElementChange {
   key: string
+  path: number[]
   label: string
   old: string
   value: string
+  /** What the unit had when the edit began, where somebody changed this element meanwhile. */
+  before: string | null
   range: string
   fault: string | null
   /** For what only a token changes, or changes back: what the reader should know. */
@@ -33,6 +38,7 @@ export interface ElementChange {
 export function elementChanges(
   locale: Locale,
   units: Units,
+  say: ReviewSay,
   draft: ConfigDraft,
   change: DraftChange,
 ): ElementChange[] {
@@ -42,9 +48,11 @@ export function elementChanges(
     return [
       {
         key: parameter.name,
+        path: [],
         label: parameterLabel(locale, parameter.name),
         old: wholeText(locale, parameter.name, change.old) ?? '—',
         value: whole,
+        before: null,
         range: '',
         fault: null,
         token: null,
@@ -55,14 +63,18 @@ export function elementChanges(
   const faults = faultsOf(parameter, change.value)
   const found: ElementChange[] = []
   walk(change.value, [], (element, path) => {
-    const old = elementAt(change.old, path)
+    const [old, before] = [change.old, draft.before(parameter.name)].map((value) =>
+      elementAt(value, path),
+    )
     const fault = faults.find((f) => f.path.join() === path.join())?.fault
     if (old === element && !fault) return
     found.push({
       key: `${parameter.name}/${path.join('/')}`,
-      label: elementLabel(locale, units, draft, parameter, path),
+      path,
+      label: elementLabel(locale, units, say, draft, parameter, path),
       old: elementText(locale, units, parameter, old),
       value: elementText(locale, units, parameter, element),
+      before: before === old ? null : elementText(locale, units, parameter, before),
       range: rangeText(parameter, units),
       fault: fault ? faultText(locale, units, fault, parameter.unit) : null,
       token: tokenText(locale, units, parameter, old, element),
@@ -72,10 +84,34 @@ export function elementChanges(
   return found
 }
 
+/** What others changed meanwhile beside the edits, as "what: from → to"; it stays. */
+export function changedBeside(
+  locale: Locale,
+  units: Units,
+  say: ReviewSay,
+  draft: ConfigDraft,
+): string[] {
+  return draft.parameters.flatMap((parameter) => {
+    const { name } = parameter
+    const [was, now, edit] = [draft.before(name), draft.base(name), draft.value(name)]
+    const found: string[] = []
+    if (was === undefined || now === undefined || wholeText(locale, name, now) !== null) return found
+    walk(now, [], (element, path) => {
+      const old = elementAt(was, path)
+      if (old === element || elementAt(edit, path) !== element) return
+      const label = elementLabel(locale, units, say, draft, parameter, path)
+      const [from, to] = [old, element].map((one) => elementText(locale, units, parameter, one))
+      found.push(`${label}: ${from} → ${to}`)
+    })
+    return found
+  })
+}
+
 /** Which element of a parameter is meant: the mode slot, the set or the rule's place. */
 function elementLabel(
   locale: Locale,
   units: Units,
+  say: ReviewSay,
   draft: ConfigDraft,
   parameter: Parameter,
   path: number[],
@@ -90,8 +126,8 @@ function elementLabel(
   const speeds = draft.value('fuzzy_speed_points_kmh') as number[]
   const rates = draft.value('fuzzy_torque_rate_points') as number[]
   const speed = `${shownTyped(speeds[row] ?? NaN, 'km/h', units)} ${units.label('km/h')}`
-  const rule = parameter.name === 'second_rules' ? 'review.second_rule' : 'review.rule'
-  return locale.t(rule, { speed, rate: typed(rates[column] ?? NaN) })
+  const rule = parameter.name === 'second_rules' ? 'second_rule' : 'rule'
+  return say(rule, { speed, rate: typed(rates[column] ?? NaN) })
 }
 
 /** What a token is needed for, in words; null where none is, and for what is lowered a warning. */
@@ -108,10 +144,4 @@ function tokenText(
   if (isFactorys(parameter)) return locale.t('token.factory')
   const move = ratchetMove(parameter.name, old ?? null, value)
   return move && locale.t(`ratchet.${move}`)
-}
-
-function elementAt(value: ParameterValue, path: number[]): Element | undefined {
-  let at: unknown = value
-  for (const index of path) at = (at as unknown[])[index]
-  return at as Element | undefined
 }

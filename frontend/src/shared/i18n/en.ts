@@ -70,6 +70,9 @@ export const en = {
   'banner.read_only': 'The unit can be read but not changed. {reason}',
   'banner.lost':
     'The link to the unit is lost; it comes back by itself when the unit does. {reason}',
+  'banner.new_version': 'Spindle was updated. Load the new pages: your edits are kept.',
+  'banner.lacks_part': 'A part of this page could not be loaded. Your edits are kept.',
+  'banner.load': 'Load',
   'banner.closed': 'The link to the unit is closed. {reason}',
   'no_unit.title': 'No drive unit is connected',
   'no_unit.text':
@@ -182,60 +185,7 @@ export const en = {
   'draft.redo': 'Redo',
   'draft.discard': 'Discard',
   'draft.review': 'Review and write…',
-  'review.title': 'Review before writing to {name}',
-  'review.what': 'What',
-  'review.old': 'In the unit',
-  'review.new': 'New',
-  'review.range': 'Allowed',
-  'review.rule': 'Rule at {speed}, torque rate {rate}',
-  'review.second_rule': 'Second table: rule at {speed}, torque rate {rate}',
-  'review.nothing': 'Nothing differs from the unit.',
-  'review.reason': 'Reason (kept with the revision)',
-  'review.reason_hint': 'for instance: softer start on wet climbs',
-  'review.back': 'Back to editing',
-  'review.write': 'Write to the unit',
-  'review.writing': 'Writing…',
-  'review.verified':
-    'Written and read back, field by field: verified ({count} changed), generation ' +
-    '{generation}.',
-  'review.undo': 'Undo',
-  'review.undo_reason': 'Undo of the last change',
-  'review.undone': 'Undone: the old values are back and verified, generation {generation}.',
-  'review.not_undone': 'Not undone.',
-  'review.stop_undo': 'Stop the simulated rider and undo',
-  'review.stop_write': 'Stop the simulated rider, write, let the rider go on',
-  'review.stopping':
-    'The simulated rider stops; the change is written as soon as the bike stands still.',
-  'review.moving':
-    'Nothing was written: the wheel or the motor turns. A new configuration is taken ' +
-    'only at standstill, so that assist cannot change under the rider. Stop the bike and ' +
-    'write again.',
-  'review.conflict':
-    'Nothing was written: somebody else changed the unit in the meantime. The column "In ' +
-    'the unit" now shows what it has; look again, then write.',
-  'review.refused': 'Nothing was written:',
-  'review.silent': 'Nothing was written, because the unit does not answer:',
-  'review.unknown':
-    'It is not known whether the change was written. Once the unit answers, the column "In the ' +
-    'unit" says what it has:',
-  'review.changed':
-    'It is written: the answer was lost, but the unit was asked again and has the change, as the ' +
-    'column "In the unit" shows.',
-  'review.differs': 'What the unit holds now is not what was meant:',
-  'review.not_connected':
-    'The unit is not connected, so nothing can be written. Your edits are kept.',
 
-  'review.manner': 'How',
-  'review.for_good': 'For good',
-  'review.on_trial': 'On trial: keep it or it goes back by itself',
-  'review.seconds': 'Seconds to decide (5 to 255)',
-  'review.try': 'Try for {seconds} s',
-  'review.trial_explain':
-    'Unless you press Keep in time, the unit returns to what it has now; also after a restart ' +
-    'or when it loses power.',
-  'review.tried': 'Written, read back and verified. On trial now: keep it, or it goes back.',
-  'review.trial_runs':
-    'A change is on trial in this unit. Keep or revert it first (the bar at the top of the page).',
   'trial.title': 'On trial:',
   'trial.unknown': 'a change that was not written from here',
   'trial.left': 'goes back by itself in {time}',
@@ -261,24 +211,6 @@ export const en = {
     "Further from the factory's value than may be set here ({low} to {high}). Measure it again; " +
     "if it is right, it needs the maker's token: the unit will ask for it.",
   'ratchet.raised': "Raising it needs the maker's token.",
-  'unlock.title': 'Token of the maker',
-  'unlock.explain':
-    'Hand the challenge to the maker of the unit, who signs it with “spindle unlock sign”. The ' +
-    'token is for this unit and exactly this change, and for one attempt.',
-  'unlock.nonce': 'Number of this challenge',
-  'unlock.hash': 'SHA-512 of the configuration',
-  'unlock.holds': 'Holds',
-  'unlock.left': 'for {time} more',
-  'unlock.over': 'no longer: ask for a new challenge',
-  'unlock.renew': 'Ask for a new challenge',
-  'unlock.challenge': 'Challenge for the maker',
-  'unlock.copy': 'Copy',
-  'unlock.copied': 'The challenge is in the clipboard.',
-  'unlock.save': 'Save as a file',
-  'unlock.token': 'Token from the maker',
-  'unlock.file': 'Token from a file…',
-  'unlock.not_token': 'This is no token: it has 144 characters from 0 to 9 and a to f.',
-  'unlock.write': 'Write with the token',
 
   'sensor.side_by_side': 'Raw counts and torque side by side',
   'sensor.parameters': 'Calibration in the unit',
@@ -310,24 +242,6 @@ export const en = {
   'service.what': 'What',
   'service.why': 'Why',
 
-  'settings.language': 'Language',
-  'settings.language_not_fetched':
-    'The words of that language could not be fetched. Is the server running?',
-  'settings.theme': 'Appearance',
-  'settings.units': 'Units',
-  'settings.author': 'Your name',
-  'settings.author_note':
-    'Kept with your changes, as stated: nobody signs in yet. ' +
-    'Empty: the name the server runs under.',
-  'settings.units_note': 'Only what is shown changes; the unit and the files keep SI units.',
-  'settings.server': 'This Spindle',
-  'settings.version': 'Version',
-  'settings.keeps': 'Keeping records',
-  'settings.keeps_ok': 'everything that is to be kept is kept',
-  'settings.keeps_degraded': 'not everything can be saved now: see the message above',
-  'settings.keeps_unknown': 'not known: the server does not answer',
-  'settings.rows': '{saved} rows saved since it started, {waiting} waiting, {lost} lost',
-  'settings.api': 'Description of the API',
   'theme.system': 'As the system',
   'theme.light': 'Light',
   'theme.dark': 'Dark',

@@ -58,10 +58,6 @@ export const enState = {
   'cannot.calibrate': 'The torque sensor of this unit cannot be calibrated here.',
   'cannot.logs': 'No rides can be fetched from this unit.',
   'cannot.fuzzy_table': 'The assist of this unit follows no table. These are its settings.',
-  'review.needs_restart':
-    'Written, {count} parameters, generation {generation}. Restart the unit to apply it.',
-  'review.undone_needs_restart':
-    'The old values are written, generation {generation}. Restart the unit to apply them.',
 
   'token.title': "Needs the maker's token",
   'token.factory': "The factory's own: it needs the maker's token.",

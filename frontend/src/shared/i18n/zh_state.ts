@@ -50,8 +50,6 @@ export const zhState: Record<keyof typeof enState, string> = {
   'cannot.calibrate': '此单元的扭矩传感器不能在这里标定。',
   'cannot.logs': '无法从此单元获取骑行记录。',
   'cannot.fuzzy_table': '此单元的助力不使用规则表。以下是它的设置。',
-  'review.needs_restart': '已写入 {count} 个参数，第 {generation} 代。重启单元后生效。',
-  'review.undone_needs_restart': '旧值已写回，第 {generation} 代。重启单元后生效。',
 
   'token.title': '需要制造商的令牌',
   'token.factory': '属于出厂设定：需要制造商的令牌。',
