@@ -12,7 +12,8 @@ const MOST = [
   'context/(?!KeyList)',
   'device/(?!FaultMoment|fault_moment|moment_)|stream|ui|units',
   'charts/(traces/plotly\\.ts|plot_axis\\.ts|[Ss]park)',
-  'config/(config_draft|drafts|elements|kept_drafts|limits|page_draft|parameter_text|ratchet|trial|two_tables)',
+  'config/(config_draft|drafts|elements|kept_drafts|limits|page_draft|parameter_text)',
+  'config/(ratchet|trial|two_tables)',
   'i18n/(?!zh)',
 ]
 const REVIEW = ['ReviewDialog', 'review_', 'TokenSteps', 'UnlockPanel', 'Write', 'write_']

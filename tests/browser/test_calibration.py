@@ -46,6 +46,10 @@ def begin(page: Page, workshop: Workshop) -> None:
     page.get_by_role("button", name="Begin a calibration").click()
     form = page.get_by_test_id("calibration-setup")
     form.get_by_label("Loads hung on in turn").fill(LOADS_KG)
+    page.keyboard.press("Tab")
+    # What is typed and not yet sent survives a reload.
+    page.reload()
+    expect(form.get_by_label("Loads hung on in turn")).to_have_value(LOADS_KG)
     form.get_by_label("left pedal").uncheck()
     page.get_by_role("button", name="Next: zero").click()
     expect(page.get_by_test_id("capture")).to_contain_text("Take everything off")

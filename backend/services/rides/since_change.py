@@ -75,7 +75,7 @@ def distance_km(ride: Ride) -> float:
     return km if km is not None and km >= DISTANCE_KM_MIN else 0.0
 
 
-def rode_on(ride: Ride, crc32: int) -> bool:
+def rode_on(ride: Ride, crc32: int | None) -> bool:
     """Whether a configuration came into force on the ride and the bike moved after that. A
     recording goes on until the bike has stood for a while."""
     lasted_s = ride.summary.duration_s if ride.summary else 0.0
@@ -83,7 +83,7 @@ def rode_on(ride: Ride, crc32: int) -> bool:
     return any(
         0.0 < from_s < lasted_s - stood_s
         for from_s, in_force in ride.settings_spans()
-        if in_force == crc32
+        if crc32 is not None and in_force == crc32
     )
 
 

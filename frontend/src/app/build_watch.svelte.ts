@@ -1,4 +1,5 @@
-// Whether these pages are still the server's: an update leaves an open page with parts that are gone.
+// Whether these pages are still the server's: an update leaves an open page with parts that are
+// gone.
 import { PollWhileVisible } from '$shared/context/poll_while_visible'
 
 const PERIOD_MS = 60_000

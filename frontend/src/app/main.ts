@@ -57,7 +57,8 @@ if (target && !alone) {
   router.start()
   devices.start()
   health.start()
-  const build = new BuildWatch(import.meta.url.split(/[/?]/).findLast((part) => part.includes('.')) ?? '')
+  const file = new URL(import.meta.url).pathname.split('/').at(-1)
+  const build = new BuildWatch(file ?? '')
   build.start()
   mount(App, { target, props: { context, build, drafts: new Drafts(server), router } })
 }

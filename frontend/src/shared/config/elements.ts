@@ -46,5 +46,6 @@ export function withElement(
 ): ParameterValue {
   if (index === undefined) return element
   const rows = value as ParameterValue[]
-  return rows.with(index, withElement(rows[index] as ParameterValue, rest, element)) as ParameterValue
+  const inner = withElement(rows[index] as ParameterValue, rest, element)
+  return rows.with(index, inner) as ParameterValue
 }

@@ -95,7 +95,8 @@ export function changedBeside(
     const { name } = parameter
     const [was, now, edit] = [draft.before(name), draft.base(name), draft.value(name)]
     const found: string[] = []
-    if (was === undefined || now === undefined || wholeText(locale, name, now) !== null) return found
+    if (was === undefined || now === undefined) return found
+    if (wholeText(locale, name, now) !== null) return found
     walk(now, [], (element, path) => {
       const old = elementAt(was, path)
       if (old === element || elementAt(edit, path) !== element) return

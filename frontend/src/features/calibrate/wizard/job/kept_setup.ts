@@ -40,6 +40,40 @@ export function keepSetup(setup: SetupRequest): void {
   }
 }
 
+/** What is typed of a job and not yet sent. plan: the job's own, when it was typed. */
+export interface Typed {
+  setup: SetupRequest
+  reason: string
+  plan: string
+}
+
+/** Kept until it is the job's, or the job is closed. */
+export function keepTyped(job: Job, setup: SetupRequest, reason: string): void {
+  const same = JSON.stringify(setup) === JSON.stringify(setupOf(job))
+  try {
+    if (job.closed_at !== null || (same && reason === '')) localStorage.removeItem(typedKey(job))
+    else {
+      const typed: Typed = { setup, reason, plan: planOf(job) }
+      localStorage.setItem(typedKey(job), JSON.stringify(typed))
+    }
+  } catch {
+    // It lives as long as the page.
+  }
+}
+
+/** Null for none, and for a plan that somebody has made another meanwhile. */
+export function typedOf(job: Job): Typed | null {
+  try {
+    const typed = JSON.parse(localStorage.getItem(typedKey(job)) ?? 'null') as Typed | null
+    return typed?.plan === planOf(job) && typed.setup ? typed : null
+  } catch {
+    return null
+  }
+}
+
+const typedKey = (job: Job) => `spindle.calibration.typed.${job.unit_key}.${job.id}`
+const planOf = (job: Job) => JSON.stringify(job.setup ?? null)
+
 function kept(): SetupRequest | null {
   try {
     const found = JSON.parse(localStorage.getItem(KEY) ?? 'null') as Partial<SetupRequest> | null
