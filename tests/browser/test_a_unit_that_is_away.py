@@ -74,7 +74,9 @@ def test_what_was_known_is_there_without_the_unit(open_desk: OpenDesk, tmp_path:
     expect(page.get_by_test_id("draft-bar")).to_contain_text(SEEN)
     unit = UnitOnPort(*WORDS, port=unit.port)
     expect(page.locator(PILL)).to_contain_text("Connected")
-    expect(page.get_by_test_id("draft-bar")).to_contain_text("Same as in the unit")
+    # What was edited without the unit waited for it.
+    expect(page.get_by_test_id("draft-bar")).to_contain_text("1 changed, not yet in the unit")
+    expect(page.get_by_role("button", name="Review and write")).to_be_enabled()
     page.context.close()
     server.stop()
     unit.unplug()
