@@ -51,7 +51,7 @@ class EnergyLedger:
             )
         parts = stretches(self._config_of, reader.ride)
         known = source_of(parts) == "ride"
-        uses = [{table: TableUse.none() for table in PARAMETERS_OF} for _ in parts]
+        uses = {part.from_s: {table: TableUse.none() for table in PARAMETERS_OF} for part in parts}
         seconds, motor_ws, excluded_s = np.zeros(SLOTS), np.zeros(SLOTS), 0.0
         measured = False
         row_s, names = reader.row_seconds(), names_for_use(reader.ride)
@@ -63,7 +63,7 @@ class EnergyLedger:
             seconds += by_slot(columns, spent_s)
             motor_ws += by_slot(columns, np.where(there, power_w, 0.0) * spent_s)
             excluded_s += float(np.sum(spent_s[~there]))
-            of_part = uses[parts.index(part)]
+            of_part = uses[part.from_s]
             for table in of_part if known else ():
                 of_part[table] += use_of(columns, spent_s, part.config, table)
         total_wh = float(motor_ws.sum()) / SECONDS_PER_HOUR if measured else None
@@ -130,18 +130,20 @@ def told_modes(
 
 
 def told_rules(
-    parts: Sequence[Stretch], uses: Sequence[Mapping[str, TableUse]], total_wh: float | None
+    parts: Sequence[Stretch],
+    uses: Mapping[float, Mapping[str, TableUse]],
+    total_wh: float | None,
 ) -> list[dict[str, Any]] | None:
     """The rules that carried any energy, the most first; None where no energy is known.
 
-    uses: of each table in each part. A cell whose rule was changed on the ride is a rule before and
-    another after.
+    uses: of each table, by the start of each part. A cell whose rule was changed on the ride is a
+    rule before and another after.
     """
     if total_wh is None:
         return None
     carried: dict[tuple[Any, ...], list[float]] = {}
-    for part, of_part in zip(parts, uses, strict=True):
-        for table, use in of_part.items():
+    for part in parts:
+        for table, use in uses[part.from_s].items():
             if use.motor_wh is None:
                 continue
             labels: Sequence[Sequence[str]] = stored_json(part.config, table)["rules"]

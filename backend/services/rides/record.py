@@ -95,8 +95,11 @@ class LiveRide:
     rows_missing: int = 0
     still_rows: int = 0
     context: RideContext = field(default_factory=RideContext)
-    settings: SettingsInForce = field(default_factory=SettingsInForce)
     last_wall_us: int = 0
+    settings: SettingsInForce = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.settings = SettingsInForce(self.context.config_crc32)
 
 
 class UnitRecorder:
@@ -285,8 +288,7 @@ class UnitRecorder:
 
         tail = RideTail(self._rides, begin, self._count)
         totals = RunningTotals(channels, period_us)
-        settings = SettingsInForce(context.config_crc32)
-        self._live = LiveRide(tail, t0_us, totals, 0, 0, context, settings, block.wall_us)
+        self._live = LiveRide(tail, t0_us, totals, last_wall_us=block.wall_us, context=context)
         self.lost_lately = 0
         if skipped < lead_rows:
             rows = np.concatenate([lead.values for lead in self._lead])
@@ -371,9 +373,9 @@ class UnitRecorder:
         if ride.context.gear_ratio is None:
             # The unit may have told its configuration only after the bike began to move.
             context, began = replace(self._context(), unit_t0_us=ride.t0_us), ride.context
-            if began.config_crc32 is not None:
-                told = began.config_generation, began.config_crc32
-                context = replace(context, config_generation=told[0], config_crc32=told[1])
+            if (crc32 := began.config_crc32) is not None:
+                generation = began.config_generation
+                context = replace(context, config_generation=generation, config_crc32=crc32)
             if context.gear_ratio is not None:
                 self._tell_context(ride_id, context)
         # Still rows are at the end: without any the bike moved when the recording ended.

@@ -105,7 +105,8 @@ class UseOfTable:
         parts = stretches(self._config_of, ride)
         source = source_of(parts)
         try:
-            use = self._use(ride, parts, table, points)
+            asked = any(slots_by(part.config, table) for part in parts)
+            use = self._use(ride, parts, table, points) if asked else none
         except ObjectDamaged as damage:
             return none, source, {"code": damage.code, "message": damage.message}
         if not use.seconds.any():

@@ -17,7 +17,6 @@ import pytest
 
 from backend.control import law_defaults
 from backend.device.states import LinkState, StateChanged, UnitEvent
-from backend.domain.channels import ChannelSpec
 from backend.domain.ride import Ride, RideContext
 from backend.domain.ride_events import SETTINGS, RideEvent
 from backend.errors import InvalidRequest, StoreError
@@ -32,15 +31,13 @@ from backend.services.rides.use_of_table import UseOfTable
 from backend.services.rides.why_ride import WhyRide
 from backend.services.tuning.preview import Preview
 from backend.store import Store, open_store
-from firmware_protocol._generated import CHANNELS
 from tests.unit.services.test_recording import SETTINGS as RECORDING
 from tests.unit.services.test_recording import blocks, riding
+from tests.unit.services.test_why_a_moment_was_as_it_was import PERIOD_US, PUSHING, SPECS
 
 # A store for every test: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
 
-SPECS = {row.name: ChannelSpec(row.name, row.unit, float(row.scale)) for row in CHANNELS}
-PERIOD_US = 10_000
 OLD, NEW, OTHER = 0x11, 0xFFFF_FFF0, 0x33
 WRAP_US = 1 << 32
 BEGAN_US = WRAP_US - 20_000_000
@@ -206,23 +203,7 @@ def test_what_a_unit_tells_after_a_restart_is_not_of_the_ride_before(store: Stor
 # What the answers make of it: the second half of a ride by a table that gives more everywhere.
 ROWS = 4000
 HALF_S = ROWS * PERIOD_US / 2e6
-STEADY = {
-    "speed_kmh": 12.0,
-    "cadence_rpm": 60.0,
-    "rider_torque_raw": 2600.0,
-    "motor_speed_rpm": 2420.0,
-    "battery_voltage_v": 36.0,
-    "battery_current_a": 2.0,
-    "motor_temperature_degc": 30.0,
-    "controller_temperature_degc": 30.0,
-    "torque_age_ms": 2.0,
-    "input_flags": 0.0,
-    "assist_mode": 3.0,
-    "motor_torque_nm": 0.5,
-    "motor_torque_demanded_nm": 0.6,
-    "torque_rate": 0.0,
-    "fuzzy_gain": 0.2,
-}
+STEADY = PUSHING | {"torque_rate": 0.0, "fuzzy_gain": 0.2}
 BASE = law_defaults()
 CONFIGS = {
     OLD: {**BASE, "mode_names": ["OFF", "ECO", "TOUR", "SPORT", "BOOST"]},

@@ -14,9 +14,10 @@ const PREFIX = 'spindle.draft\n'
 
 /** Null for none. Where the browser keeps nothing, edits live as long as the page. */
 export function keep(key: string, kept: Kept | null): void {
+  const text = JSON.stringify(kept)
   for (const place of places()) {
     try {
-      if (kept) place.setItem(PREFIX + key, JSON.stringify(kept))
+      if (kept) place.setItem(PREFIX + key, text)
       else place.removeItem(PREFIX + key)
     } catch {
       // Full, or forbidden: the edits are on the page.

@@ -33,11 +33,7 @@ export function setupOf(job: Job): SetupRequest {
 }
 
 export function keepSetup(setup: SetupRequest): void {
-  try {
-    localStorage.setItem(KEY, JSON.stringify(setup))
-  } catch {
-    // Nothing can be kept here: the next calibration suggests it all the same.
-  }
+  write(KEY, setup)
 }
 
 /** What is typed of a job and not yet sent. plan: the job's own, when it was typed. */
@@ -50,36 +46,41 @@ export interface Typed {
 /** Kept until it is the job's, or the job is closed. */
 export function keepTyped(job: Job, setup: SetupRequest, reason: string): void {
   const same = JSON.stringify(setup) === JSON.stringify(setupOf(job))
-  try {
-    if (job.closed_at !== null || (same && reason === '')) localStorage.removeItem(typedKey(job))
-    else {
-      const typed: Typed = { setup, reason, plan: planOf(job) }
-      localStorage.setItem(typedKey(job), JSON.stringify(typed))
-    }
-  } catch {
-    // It lives as long as the page.
-  }
+  const over = job.closed_at !== null || (same && reason === '')
+  const typed: Typed = { setup, reason, plan: planOf(job) }
+  write(typedKey(job), over ? null : typed)
 }
 
 /** Null for none, and for a plan that somebody has made another meanwhile. */
 export function typedOf(job: Job): Typed | null {
-  try {
-    const typed = JSON.parse(localStorage.getItem(typedKey(job)) ?? 'null') as Typed | null
-    return typed?.plan === planOf(job) && typed.setup ? typed : null
-  } catch {
-    return null
-  }
+  const typed = read<Typed>(typedKey(job))
+  return typed?.plan === planOf(job) && typed.setup ? (typed as Typed) : null
 }
 
 const typedKey = (job: Job) => `spindle.calibration.typed.${job.unit_key}.${job.id}`
 const planOf = (job: Job) => JSON.stringify(job.setup ?? null)
 
 function kept(): SetupRequest | null {
+  const found = read<SetupRequest>(KEY)
+  return found && { ...structuredClone(FIRST), ...found }
+}
+
+/** Null for nothing, and for what cannot be read. */
+function read<T>(key: string): Partial<T> | null {
   try {
-    const found = JSON.parse(localStorage.getItem(KEY) ?? 'null') as Partial<SetupRequest> | null
-    return found && { ...structuredClone(FIRST), ...found }
+    return JSON.parse(localStorage.getItem(key) ?? 'null') as Partial<T> | null
   } catch {
     return null
+  }
+}
+
+/** Null forgets it. Where nothing can be kept it lasts as long as the page. */
+function write(key: string, value: object | null): void {
+  try {
+    if (value) localStorage.setItem(key, JSON.stringify(value))
+    else localStorage.removeItem(key)
+  } catch {
+    // The next calibration suggests a plan all the same.
   }
 }
 
