@@ -19,7 +19,8 @@ const SHARED = {
   charts: ['api', 'context', 'i18n', 'stream', 'ui', 'units'],
   device: ['api', 'context', 'i18n', 'stream', 'ui', 'units'],
   certificate: ['api', 'context', 'i18n', 'ui', 'units'],
-  config: ['api', 'certificate', 'context', 'device', 'i18n', 'ui', 'units'],
+  fields: ['context', 'i18n', 'units'],
+  config: ['api', 'certificate', 'context', 'device', 'fields', 'i18n', 'ui', 'units'],
   lint: ['api', 'config', 'context', 'i18n', 'ui', 'units'],
 }
 
@@ -81,6 +82,16 @@ export default ts.config(
   {
     files: ['**/*.svelte', '**/*.svelte.ts'],
     languageOptions: { parserOptions: { parser: ts.parser, svelteConfig } },
+    rules: {
+      'no-restricted-syntax': [
+        'error',
+        {
+          selector: 'SvelteAttribute[key.name="type"] SvelteLiteral[value="number"]',
+          message:
+            'A browser\'s own turns under a mouse wheel and drops a comma: use NumberField of shared/fields.',
+        },
+      ],
+    },
   },
   { files: ['scripts/*.mjs'], rules: { 'no-console': 'off' } },
   { files: ['**/*.test.{ts,mjs}'], rules: { 'max-lines-per-function': 'off' } },

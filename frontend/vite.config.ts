@@ -24,10 +24,11 @@ const chunk = (name: string, pattern: string) => ({
 })
 const GROUPS = [
   chunk('unit', `shared/(${MOST.join('|')})`),
+  chunk('fields', 'shared/(fields/(?!NumbersF)|config/ParameterForm)'),
   chunk('moment', 'shared/device/(FaultMoment|fault_moment|moment_)'),
   chunk('traces', 'shared/charts/traces/(Traces|SeriesT|ZoomB|trace_line|trace_window|ride_view)'),
   chunk('apart', 'shared/config/(SettingsApart|SmallTable)'),
-  chunk('rides', 'features/rides/(?!ride/|insight/|compare/|home/(ManyRides|Standing))'),
+  chunk('rides', 'features/rides/(?!ride/|insight/|compare/|table/|home/(ManyRides|Standing))'),
   chunk('try', 'features/try/(?!proposals)'),
   chunk('ride', 'features/rides/ride/(?!from_file/)'),
   chunk('compare', 'features/rides/compare/'),
@@ -35,8 +36,8 @@ const GROUPS = [
   chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet|Restore|restored)'),
   chunk('settings', 'features/settings/(?!people)'),
   chunk('review', `shared/(certificate|config/(${REVIEW.join('|')}))`),
-  chunk('config', 'shared/(config/(?!DraftNotes|draft_words)|lint)'),
-  chunk('tune', 'features/tune/(?![Rr]escale|Scale|surface/(between|box|solid|Slice|Surface[MS]))'),
+  chunk('config', 'shared/(config/(?!DraftNotes|draft_words|ParameterForm)|lint)'),
+  chunk('tune', 'features/tune/(?![Rr]escale|Scale|surface/(between|box|solid|words|Slice|Surface[MSV]))'),
 ]
 
 export default defineConfig({

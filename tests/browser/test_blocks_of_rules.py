@@ -45,9 +45,9 @@ def test_by_keyboard_a_block_is_levelled_interpolated_scaled_and_smoothed(
     page.keyboard.press("=")
     assert labels(page, 2) == ["ZO"] * 5  # a mean of 0.3
     page.keyboard.press("*")
-    page.get_by_role("spinbutton").fill("110")
+    page.get_by_role("dialog").get_by_role("textbox").fill("110")
     expect(page.get_by_test_id("would-move")).to_have_text("0 of 5 rules would move.")
-    page.get_by_role("spinbutton").fill("134")
+    page.get_by_role("dialog").get_by_role("textbox").fill("134")
     page.keyboard.press("Enter")
     expect(page.get_by_role("dialog")).to_have_count(0)
     assert labels(page, 2) == ["PS"] * 5  # 0.402

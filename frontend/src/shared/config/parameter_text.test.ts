@@ -3,7 +3,8 @@ import { Locale } from '../i18n/locale.svelte'
 import { Units } from '../units/units.svelte'
 import { expect, it } from 'vitest'
 import type { Parameter } from '../api/types'
-import { shownTyped, valueText } from './parameter_text'
+import { valueText } from './parameter_text'
+import { shownTyped } from '../units/typed'
 
 const metric = new Units(new Locale(), 'metric')
 const imperial = new Units(new Locale(), 'imperial')

@@ -1,6 +1,7 @@
 // Words for parameters: labels, choices, values and faults, in the reader's units.
 import type { Parameter, ParameterValue } from '../api/types'
 import type { Locale } from '../i18n/locale.svelte'
+import { shownTyped } from '../units/typed'
 import type { Units } from '../units/units.svelte'
 import { walk, type Element, type Fault } from './limits'
 
@@ -27,17 +28,6 @@ export function groupLabel(locale: Locale, group: string): string {
 /** What a choice of an enumeration is called. */
 export function choiceLabel(locale: Locale, choice: string): string {
   return locale.lookup(`choice.${choice}`, choice)
-}
-
-/** A number as it is typed: enough digits to be exact in float32, none too many. */
-export function typed(value: number): string {
-  return Number.isFinite(value) ? String(Number(value.toPrecision(6))) : ''
-}
-
-/** A value where it can be typed: whole in its own unit, to four digits in another. */
-export function shownTyped(value: number, unit: string, units: Units): string {
-  const shown = units.show(value, unit)
-  return typed(shown === value ? shown : Number(shown.toPrecision(4)))
 }
 
 /** The bounds of a parameter with its unit, such as "0 … 25 km/h". */
