@@ -78,6 +78,7 @@ def test_the_traces_lie_on_one_axis(pair: tuple[SpindleServer, list[int]]) -> No
 def test_torque_round_the_crank_is_told_of_both(pair: tuple[SpindleServer, list[int]]) -> None:
     told = asked(pair, "/crank")
 
+    assert (told["a_refused"], told["b_refused"]) == (None, None)
     apart = [b - a for a, b in zip(told["a"]["rider_nm"], told["b"]["rider_nm"], strict=True)]
     assert told["difference"]["rider_nm"] == pytest.approx(apart)
 
