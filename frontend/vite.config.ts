@@ -16,6 +16,8 @@ const MOST = [
   'config/(ratchet|trial|two_tables)',
   'i18n/(?!zh)',
 ]
+// What Tune shows on request.
+const LATER = ['[Rr]escale', 'Scale', 'surface/(between|box|solid|words|Slice|Surface[MSV])']
 const REVIEW = ['ReviewDialog', 'review_', 'TokenSteps', 'UnlockPanel', 'Write', 'write_']
 // Words of another language come apart from their page: only who reads them fetches them.
 const chunk = (name: string, pattern: string) => ({
@@ -37,7 +39,7 @@ const GROUPS = [
   chunk('settings', 'features/settings/(?!people)'),
   chunk('review', `shared/(certificate|config/(${REVIEW.join('|')}))`),
   chunk('config', 'shared/(config/(?!DraftNotes|draft_words|ParameterForm)|lint)'),
-  chunk('tune', 'features/tune/(?![Rr]escale|Scale|surface/(between|box|solid|words|Slice|Surface[MSV]))'),
+  chunk('tune', `features/tune/(?!${LATER.join('|')})`),
 ]
 
 export default defineConfig({

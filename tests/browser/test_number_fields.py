@@ -20,7 +20,7 @@ from tests.fakes.server import SpindleServer
 
 pytestmark = [pytest.mark.slow, pytest.mark.large_count]
 
-FIELDS = "span.number > input"
+FIELDS = "span.number-field > input"
 # As typed, and the only numbers that may stand for it in the field: rounded as the unit is.
 MEANT = {
     "2,5": "2.5",

@@ -34,8 +34,8 @@ def test_a_ride_tells_its_energy_effort_and_health(
     assert page.evaluate(JUDGE) == []
 
     page.goto(f"{server.url}/settings")
-    page.get_by_label("Threshold power, W").fill("160")
-    page.get_by_label("Threshold power, W").blur()
+    page.get_by_label("Threshold power").fill("160")
+    page.get_by_label("Threshold power").blur()
     page.goto(f"{server.url}/rides/{ride}")
     expect(page.get_by_test_id("effort")).to_contain_text("threshold 160 W")
     page.get_by_test_id("ride-bar").get_by_role("button", name="Export…").click()

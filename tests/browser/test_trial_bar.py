@@ -32,7 +32,7 @@ def try_first_rule(page: Page, seconds: int, reason: str = "softer start") -> No
     page.keyboard.press("1")
     review(page)
     page.click("dialog >> text=On trial")
-    page.get_by_role("dialog").locator("span.number > input").fill(str(seconds))
+    page.get_by_role("dialog").locator("span.number-field > input").fill(str(seconds))
     page.fill("dialog .reason input", reason)
     page.click(f"dialog >> text=Try for {seconds} s")
     expect(page.locator(BAR)).to_be_visible()

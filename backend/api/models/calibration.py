@@ -72,6 +72,9 @@ class SetupRequest(Question):
     thermometer_limit_k: float = Field(default=0.5, ge=0, le=10)
     zero_limit_nm_per_k: float = Field(default=0.02, ge=0)
     span_limit_share_per_k: float = Field(default=2e-4, ge=0)
+    arm_again_m: float | None = Field(
+        default=None, ge=0.05, le=1.0, description="The same length, read once more before the fit."
+    )
 
 
 class CaptureRequest(Question):

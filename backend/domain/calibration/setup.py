@@ -28,6 +28,9 @@ CLASS_SHARE: dict[MassClass, float] = {
 Angle = Annotated[float, Field(gt=-85, lt=85)]
 Limit = Annotated[float, Field(ge=0)]
 
+ARM_SAME_M = 0.001
+"""Two readings of one crank: they are made in steps of 2.5 mm."""
+
 
 @dataclass(frozen=True, slots=True)
 class Mass(Plain):
@@ -50,7 +53,8 @@ class Mass(Plain):
 class Setup(Plain):
     """Instruments and plan.
 
-    arm_m: from the spindle's axis to the pedal's. arm_limit_m, level_limit_deg: half widths of
+    arm_m: from the spindle's axis to the pedal's. arm_again_m: the same, read once more before the
+    fit counts: a wrong arm shows in no residual. arm_limit_m, level_limit_deg: half widths of
     what arm and crank angle may be. loads_kg: what is hung on in turn, without the zero. strokes:
     up and down again, of each side. angles_deg: 0 is the crank level and forward, positive the
     pedal going down. resolution_counts: the reading's step. gain_nm_per_count: what the unit was
@@ -75,6 +79,7 @@ class Setup(Plain):
     thermometer_limit_k: Annotated[float, Field(ge=0, le=10)] = 0.5
     zero_limit_nm_per_k: Limit = 0.02
     span_limit_share_per_k: Limit = 2e-4
+    arm_again_m: Annotated[float, Field(ge=0.05, le=1.0)] | None = None
 
     @property
     def mass_limit_share(self) -> float:
@@ -99,6 +104,13 @@ def faults_of(setup: Setup) -> list[FieldError]:
         values = getattr(setup, name)
         if len(set(values)) < len(values):
             faults.append(FieldError(name, "named_twice", f"{name}: a value is named twice"))
+    again_m = setup.arm_again_m
+    if again_m is not None and abs(again_m - setup.arm_m) > ARM_SAME_M:
+        message = (
+            f"arm_again_m: the crank was read as {1000 * setup.arm_m:g} mm, and now as"
+            f" {1000 * again_m:g} mm: measure it, and correct the one that is wrong"
+        )
+        faults.append(FieldError("arm_again_m", "arm_differs", message))
     heaviest_nm = max(
         torque_nm(kg, setup.gravity.gravity_ms2, setup.arm_m, 0.0) for kg in setup.loads_kg
     )

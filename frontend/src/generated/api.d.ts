@@ -5170,7 +5170,8 @@ export interface components {
          *
          *     source: who says so. expanded_pct: of the whole budget, k = 2. reference_pct: of what arm,
          *     masses, gravity and level leave open, k = 2. gain_change_pct: of the unit's gain, found against
-         *     kept. left_right_pct, bending_pct: of the load.
+         *     kept. left_right_pct, bending_pct: of the load. made_gain_pct: of the gain that the unit was
+         *     made with; None in certificates from before there was this limit.
          */
         Limits: {
             /**
@@ -5232,6 +5233,8 @@ export interface components {
              * @default 1
              */
             gain_change_pct: number;
+            /** Made Gain Pct */
+            made_gain_pct?: number | null;
         };
         /** LineFit */
         LineFit: {
@@ -7237,7 +7240,8 @@ export interface components {
          * Setup
          * @description Instruments and plan.
          *
-         *     arm_m: from the spindle's axis to the pedal's. arm_limit_m, level_limit_deg: half widths of
+         *     arm_m: from the spindle's axis to the pedal's. arm_again_m: the same, read once more before the
+         *     fit counts: a wrong arm shows in no residual. arm_limit_m, level_limit_deg: half widths of
          *     what arm and crank angle may be. loads_kg: what is hung on in turn, without the zero. strokes:
          *     up and down again, of each side. angles_deg: 0 is the crank level and forward, positive the
          *     pedal going down. resolution_counts: the reading's step. gain_nm_per_count: what the unit was
@@ -7303,6 +7307,8 @@ export interface components {
              * @default 0.0002
              */
             span_limit_share_per_k: number;
+            /** Arm Again M */
+            arm_again_m?: number | null;
         };
         /**
          * SetupRequest
@@ -7375,6 +7381,11 @@ export interface components {
              * @default 0.0002
              */
             span_limit_share_per_k: number;
+            /**
+             * Arm Again M
+             * @description The same length, read once more before the fit.
+             */
+            arm_again_m?: number | null;
         };
         /**
          * Side

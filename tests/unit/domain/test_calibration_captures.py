@@ -115,6 +115,13 @@ def test_a_mass_has_a_class_or_a_limit_and_a_plan_stays_within_the_scale() -> No
     }
 
 
+def test_a_crank_that_was_read_as_two_lengths_is_measured() -> None:
+    body = to_plain(SETUP)
+
+    assert faults({**body, "arm_again_m": 0.1725}) == {("arm_again_m", "arm_differs")}
+    assert setup_of({**body, "arm_again_m": 0.1701}).arm_again_m == 0.1701
+
+
 @pytest.mark.parametrize(
     ("body", "field"),
     [

@@ -18,6 +18,7 @@ from backend.domain.calibration.fit import fit
 from backend.domain.calibration.judgement.history import Past, among_model, change, past_of
 from backend.domain.calibration.judgement.limits import Limits, limits_for, limits_table
 from backend.domain.calibration.piecewise import piecewise
+from backend.domain.calibration.setup import Setup
 from backend.domain.calibration.strokes import curve
 from backend.domain.calibration.worked import work_out
 from backend.domain.canonical_json import sha256_of
@@ -106,6 +107,24 @@ def test_the_command_needs_no_server_and_is_one_where_something_differs(
     path.write_text(json.dumps(body), encoding="utf-8")
     assert main(["calibrate", "evaluate", str(path), "--json"]) == 1
     assert not json.loads(capsys.readouterr().out)["reproduced"]
+
+
+def test_a_wrong_arm_common_to_all_captures_is_no_pass_until_it_was_read_twice() -> None:
+    """172.5 mm said of a crank of 165 mm: 4.5 % too much in every capture, so in no residual."""
+    said = replace(SETUP, arm_m=SETUP.arm_m * 172.5 / 165.0)
+    limits = limits_for(None, None)
+
+    def judged(setup: Setup, by: Limits = limits) -> tuple[str, dict[str, str]]:
+        judgement = work_out(setup, CAPTURES, FOUND, by).judgement
+        return judgement.verdict, {cause.code: cause.weight for cause in judgement.causes}
+
+    verdict, weights = judged(said)
+    assert (verdict, weights["unlike_made"]) == ("conditional", "conditional")
+    verdict, weights = judged(replace(said, arm_again_m=said.arm_m))
+    assert (verdict, weights["unlike_made"]) == ("pass", "note")
+    assert "unlike_made" not in judged(SETUP)[1]
+    # A certificate of before keeps the judgement that it was given.
+    assert judged(said, Limits())[0] == "pass"
 
 
 def test_a_gain_error_is_told_from_noise() -> None:

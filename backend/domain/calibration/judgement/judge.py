@@ -86,6 +86,7 @@ def _causes(evidence: Evidence, limits: Limits) -> Iterator[Cause]:
     yield from _asymmetry(evidence, limits)
     yield from _verified(evidence)
     yield from _gain(evidence, limits)
+    yield from _made(evidence, evidence.fit, limits)
 
 
 def _over(
@@ -185,3 +186,19 @@ def _gain(evidence: Evidence, limits: Limits) -> Iterator[Cause]:
                 " recalibrate span"
             )
             yield Cause("gain_not_noise", "note", words, change, limits.gain_change_pct)
+
+
+def _made(evidence: Evidence, fit: Fit, limits: Limits) -> Iterator[Cause]:
+    """What is wrong by the same share in every capture, as an arm is, shows against this alone."""
+    gain = fit.coefficients.gain_nm_per_count
+    change = 100 * (gain / evidence.setup.gain_nm_per_count - 1)
+    allowed = limits.made_gain_pct
+    if allowed is None or abs(change) <= allowed:
+        return
+    confirmed = evidence.setup.arm_again_m is not None
+    words = (
+        f"the gain is {change:+.1f} % off what the unit was made with, {allowed:g} % are usual:"
+        " the sensor has drifted, or a length or mass is not what was said; a climb of known height"
+        " checks it on the road"
+    )
+    yield Cause("unlike_made", "note" if confirmed else "conditional", words, change, allowed)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 from pydantic import Field
@@ -15,6 +15,9 @@ Percent = Annotated[float, Field(gt=0, le=100)]
 
 EXAMPLE = "example limits"
 
+MADE_GAIN_PCT = 2.0
+"""Two steps of cranks are 2.9 % of 170 mm, and sensors hold their span better than this."""
+
 
 @dataclass(frozen=True, slots=True)
 class Limits(Plain):
@@ -22,7 +25,8 @@ class Limits(Plain):
 
     source: who says so. expanded_pct: of the whole budget, k = 2. reference_pct: of what arm,
     masses, gravity and level leave open, k = 2. gain_change_pct: of the unit's gain, found against
-    kept. left_right_pct, bending_pct: of the load.
+    kept. left_right_pct, bending_pct: of the load. made_gain_pct: of the gain that the unit was
+    made with; None in certificates from before there was this limit.
     """
 
     source: str = EXAMPLE
@@ -38,12 +42,13 @@ class Limits(Plain):
     left_right_pct: Percent = 1.0
     bending_pct: Percent = 1.0
     gain_change_pct: Percent = 1.0
+    made_gain_pct: Percent | None = None
 
 
 DEFAULTS: tuple[Limits, ...] = (
-    Limits(),
+    Limits(made_gain_pct=MADE_GAIN_PCT),
     # Up to 45 km/h and 750 W: the same share of the torque is more power than elsewhere.
-    Limits(market="us_class_3", expanded_pct=0.8, total_pct=0.8),
+    Limits(market="us_class_3", expanded_pct=0.8, total_pct=0.8, made_gain_pct=MADE_GAIN_PCT),
 )
 
 
@@ -56,6 +61,8 @@ def limits_table(told: Sequence[Any]) -> tuple[Limits, ...]:
     own: dict[tuple[str | None, str | None], Limits] = {}
     for number, table in enumerate(told, 1):
         limits = from_plain(Limits, table)
+        if "made_gain_pct" not in table:
+            limits = replace(limits, made_gain_pct=MADE_GAIN_PCT)
         whose = (limits.market, limits.model)
         if limits.source == EXAMPLE or whose in own:
             message = f"calibration_limits, table {number}: " + (
@@ -78,4 +85,4 @@ def limits_for(market: str | None, model: str | None, table: Sequence[Limits] = 
         for entry in table:
             if (entry.market, entry.model) == wanted:
                 return entry
-    return Limits()
+    return DEFAULTS[0]

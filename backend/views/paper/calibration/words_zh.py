@@ -187,5 +187,7 @@ CAUSES_ZH = {
     "bending": "弯曲 {figure} %，允许 {allowed} %。",
     "not_verified": "还没有用拟合未见过的砝码验证。",
     "verification": "验证之差是其不确定度所能解释的 {figure} 倍。",
+    "unlike_made": "增益与出厂值相差 {figure} %，通常不超过 {allowed} %：传感器漂移，或"
+    "曲柄长度、砝码与所述不符；可用已知高度的爬坡在路上核对。",
     "gain_not_noise": "是增益，不是噪声：重新标定量程（增益变化 {figure} %）。",
 }

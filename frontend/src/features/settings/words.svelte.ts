@@ -4,8 +4,8 @@ import { pageWords } from '$shared/i18n/page_words.svelte'
 
 export const en = {
   rider: 'Rider',
-  threshold: 'Threshold power, W',
-  heart_rate: 'Greatest heart rate, bpm',
+  threshold: 'Threshold power',
+  heart_rate: 'Greatest heart rate',
   rider_note:
     'What you can hold for an hour, and your pulse at your limit. Zones of a ride are shares of ' +
     'them. Kept in this browser; empty if you do not know.',

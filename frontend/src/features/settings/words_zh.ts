@@ -3,8 +3,8 @@ import type { SettingsKey } from './words.svelte'
 
 export const zh: Record<SettingsKey, string> = {
   rider: '骑手',
-  threshold: '阈值功率 (W)',
-  heart_rate: '最大心率 (bpm)',
+  threshold: '阈值功率',
+  heart_rate: '最大心率',
   rider_note: '您能维持一小时的功率，以及极限时的心率。骑行分区以此为准。保存在此浏览器中；不知道可留空。',
   data: '数据与备份',
   folder: '骑行与文件',

@@ -5,7 +5,14 @@ import type { Units } from '../units/units.svelte'
 import type { DraftChange, ConfigDraft } from './config_draft.svelte'
 import { elementAt } from './elements'
 import { faultsOf, walk, type Element } from './limits'
-import { bandText, elementText, faultText, parameterLabel, rangeText, wholeText } from './parameter_text'
+import {
+  bandText,
+  elementText,
+  faultText,
+  parameterLabel,
+  rangeText,
+  wholeText,
+} from './parameter_text'
 import { shownTyped, typed } from '../units/typed'
 import { isFactorys, needsToken, ratchetMove } from './ratchet'
 import type { ReviewSay } from './review_words.svelte'

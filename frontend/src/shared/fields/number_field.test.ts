@@ -64,7 +64,7 @@ it.each([
   expect([input.value, marked()]).toEqual([String(value), false])
 })
 
-it.each(['', '172,5,0', '6 inches', '-'])('gives no number for %j, and keeps it in sight', (text) => {
+it.each(['', '172,5,0', '6 inches', '-'])('gives no number for %j, and keeps it', (text) => {
   show()
   type(text)
   leave()

@@ -47,6 +47,7 @@ export const TOLD = [
   'not_verified',
   'verification',
   'gain_not_noise',
+  'unlike_made',
 ] as const
 export type ToldCode = (typeof TOLD)[number]
 

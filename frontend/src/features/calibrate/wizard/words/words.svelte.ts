@@ -161,6 +161,10 @@ export const en = {
   next_fit: 'Next: fit',
   next_fit_missing: 'Next: fit · {count} missing',
   hold_fit: 'Take this fit',
+  arm_again: 'Read the crank’s length once more',
+  arm_again_note:
+    'It is stamped on the crank. A wrong length is in every capture alike; no residual shows it.',
+  arm_differs: 'The plan says {mm} mm. Measure the crank, then correct the plan or this.',
   write_it: 'Write to the unit',
   restore: 'Restore the old one',
   close: 'Close with its certificate',
