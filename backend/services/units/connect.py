@@ -53,6 +53,11 @@ class _Device:
         self._listeners: tuple[Listener, ...] = ()
 
     @property
+    def is_here(self) -> bool:
+        """Whether its unit answers now."""
+        return self.unit.status().state in CONNECTED
+
+    @property
     def serial_number(self) -> str | None:
         """The unit's serial number once it has said it."""
         identity = self.unit.status().identity
@@ -131,7 +136,8 @@ class Devices:
         """Open a unit; it connects, and reconnects, in the background.
 
         Waits up to `wait_s` for the unit to say who it is. name: its owner's for the unit. The same
-        url twice is the same device, and another name for it counts from then on. Raises
+        url twice is the same device, and another name for it counts from then on. A lost connection
+        to the same unit gives way: a unit that is plugged in again has another port. Raises
         InvalidRequest for a bad url, Conflict when the unit is here by another way already.
         """
         url = canonical(url)
@@ -142,6 +148,9 @@ class Devices:
                 device = self._open(url, kind, name)
         device.unit.driver.probed.wait(wait_s)
         twin = self._announce(device)
+        if twin is not None and not twin.is_here:
+            self._close(twin)
+            twin = self._announce(device)
         if twin is not None:
             self._close(device)
             raise Conflict(
@@ -359,7 +368,7 @@ class Devices:
             identity = Identity(seen.serial_number, seen.model or "", seen.firmware_version)
             key = seen.unit_key
         seen_at = seen.seen_at if seen else None
-        if status.state in CONNECTED:
+        if device.is_here:
             seen_at = datetime.now(UTC)
         return DeviceView(
             id=device.id or id_of(device.url),

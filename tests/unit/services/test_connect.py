@@ -92,6 +92,22 @@ def test_the_same_url_twice_is_the_same_device(devices: Devices) -> None:
     assert len(devices.list()) == 1
 
 
+def test_a_unit_on_another_port_takes_the_place_of_its_lost_connection(
+    devices: Devices, workshop: Workshop
+) -> None:
+    lost = devices.add(LEFT)
+    heard = Heard()
+    devices.subscribe(lost.id, heard)
+    workshop.openers[LEFT].unplug()
+    heard.wait_for(StateChanged)
+    workshop.units[RIGHT] = FakeUnit(b"LEFT-UNIT-01")
+
+    again = devices.add(RIGHT)
+
+    assert (again.unit_key, again.state) == (lost.unit_key, "ready")
+    assert [one.url for one in devices.list()] == [RIGHT]
+
+
 def test_the_same_unit_over_a_second_way_is_refused_naming_the_first(
     devices: Devices, workshop: Workshop
 ) -> None:

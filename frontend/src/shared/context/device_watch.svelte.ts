@@ -56,6 +56,12 @@ export class DeviceWatch {
     return this.items.find((d) => d.id === device_id)?.unit_key ?? null
   }
 
+  /** A unit that is on another port now stays the one that is looked at. */
+  private followMoved(before: Device | null): void {
+    if (!before?.unit_key || this.items.some((d) => d.id === before.id)) return
+    this.chosen_id = this.items.find((d) => d.unit_key === before.unit_key)?.id ?? this.chosen_id
+  }
+
   private noteReplaced(before: Device | null): void {
     const now = this.current
     if (!before || before.id !== now?.id || !isAnother(before.unit_key, now.unit_key)) return
@@ -69,6 +75,7 @@ export class DeviceWatch {
       const items = await this.server.devices()
       const before = this.current
       this.items = items
+      this.followMoved(before)
       this.noteReplaced(before)
       // A choice that an earlier version kept is a serial number.
       const serial = this.chosen_id

@@ -31,6 +31,19 @@ describe('the chosen unit', () => {
   })
 })
 
+describe('a unit that is plugged into another port', () => {
+  it('stays the one that is looked at', async () => {
+    const at = (id: string, unit_key: string) => ({ ...device(id, null), unit_key })
+    let items = [at('bench', 'ebl:22'), at('usb0', 'ebl:11')]
+    const watch = new DeviceWatch({ devices: async () => items } as unknown as Server, 'usb0')
+    await watch.refresh()
+    items = [at('bench', 'ebl:22'), at('usb1', 'ebl:11')]
+    await watch.refresh()
+
+    expect([watch.current?.id, watch.chosen_id, watch.replacements]).toEqual(['usb1', 'usb1', 0])
+  })
+})
+
 describe('another unit in the place of the one that was there', () => {
   const there = (unit_key: string | null) => [{ ...device('cable', null), unit_key }]
 
