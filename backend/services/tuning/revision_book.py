@@ -55,44 +55,48 @@ class RevisionBook:
         return unit in self._open or (newest is not None and newest.state == TRIED)
 
     def leave_open(self, unit: str, meant: Meant) -> None:
-        """Nobody knows whether this change was made: whoever looks next will find out."""
+        """This change may have been made and is not in the log: whoever looks next finds out."""
         self._open[unit] = meant
 
     def back_up(self, unit: str, found: ConfigImage) -> None:
         """Keep what the unit has if the log does not know it. Raises StoreError."""
-        open_change = self._open.pop(unit, None)
+        open_change = self._open.get(unit)
         newest = self._newest(unit)
-        if newest is not None and newest.crc32 == found.crc32:
-            return
-        if open_change is not None and open_change.crc32 == found.crc32:
-            # The change was made after all: the log has it with its author's own reason.
-            self.note(unit, found, open_change)
-            return
-        given_up = newest is not None and newest.state == TRIED
+        if newest is None or newest.crc32 != found.crc32:
+            if open_change is not None and open_change.crc32 == found.crc32:
+                # The change was made after all: the log has it with its author's own reason.
+                self._append(unit, found, open_change)
+            else:
+                given_up = newest is not None and newest.state == TRIED
+                self._revisions.append(
+                    unit,
+                    found.parameters,
+                    reason=GIVEN_UP_REASON if given_up else FOUND_REASON,
+                    generation=found.generation,
+                    crc32=found.crc32,
+                )
+        self._open.pop(unit, None)
+
+    def note(self, unit: str, found: ConfigImage, meant: Meant) -> None:
+        """Add a change that is proven. Where a full disk does not take it, it stays open, and is
+        added, with its author and reason, before anything else is written to the unit."""
+        try:
+            self._append(unit, found, meant)
+        except StoreError as error:
+            self.leave_open(unit, meant)
+            LOG.error("%s: a proven change could not be noted yet: %s", unit, error.message)
+
+    def _append(self, unit: str, found: ConfigImage, meant: Meant) -> None:
         self._revisions.append(
             unit,
             found.parameters,
-            reason=GIVEN_UP_REASON if given_up else FOUND_REASON,
-            generation=found.generation,
-            crc32=found.crc32,
+            [asdict(change) for change in meant.changed],
+            meant.reason,
+            meant.author,
+            found.generation,
+            found.crc32,
+            meant.state,
         )
-
-    def note(self, unit: str, found: ConfigImage, meant: Meant) -> None:
-        """Add a change that is proven. What cannot be noted is told in the log: the unit has it,
-        and the next write will keep it as found."""
-        try:
-            self._revisions.append(
-                unit,
-                found.parameters,
-                [asdict(change) for change in meant.changed],
-                meant.reason,
-                meant.author,
-                found.generation,
-                found.crc32,
-                meant.state,
-            )
-        except StoreError as error:
-            LOG.error("%s: a proven change could not be noted: %s", unit, error.message)
 
     def _newest(self, unit: str) -> Revision | None:
         newest = self._revisions.list(unit, 1)

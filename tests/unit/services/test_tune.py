@@ -108,6 +108,23 @@ def test_a_backup_that_cannot_be_kept_stops_the_write(bench: Bench) -> None:
     assert bench.held == default_config()
 
 
+def test_a_proven_write_that_a_full_disk_did_not_take_keeps_its_author_and_reason(
+    bench: Bench,
+) -> None:
+    bench.tuning.write_config(bench.id, {"pedal_stop_ms": 200})
+    bench.revisions.full = True
+    written = bench.tuning.write_config(bench.id, {"pedal_stop_ms": 250}, "the hill", author="Ann")
+    with pytest.raises(StoreError):
+        bench.tuning.write_config(bench.id, {"pedal_stop_ms": 300}, "more of it", author="Bob")
+    assert bench.held["pedal_stop_ms"] == 250
+
+    bench.revisions.full = False
+    bench.tuning.note_trial_end(bench.id)
+
+    newest = bench.revisions.kept[KEY][-1]
+    assert (newest.crc32, newest.reason, newest.author) == (written.crc32, "the hill", "Ann")
+
+
 def test_a_write_of_what_is_there_already_changes_nothing(bench: Bench) -> None:
     change = bench.tuning.write_config(bench.id, {"pedal_stop_ms": 150, "gear_ratio": 40.34})
 
