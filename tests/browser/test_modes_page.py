@@ -56,8 +56,12 @@ def test_a_setting_is_edited_copied_to_the_right_and_undone_from_the_keyboard(
         page.keyboard.press("ArrowDown")
 
     page.keyboard.press("Enter")
-    page.keyboard.type("60")
+    page.keyboard.type("70")
     page.keyboard.press("Escape")
+    expect(share[0]).to_have_value("100")
+    page.keyboard.press("Enter")
+    page.keyboard.type("60")
+    page.keyboard.press("Enter")
     page.keyboard.press("Control+d")
     page.keyboard.press("Control+d")
 

@@ -60,8 +60,8 @@ export const en = {
   'state.none': 'No unit',
   'modes.title': 'Five modes',
   'modes.keys':
-    'Arrows move · Enter edits · Esc leaves · Ctrl+D copies to the right · Ctrl+Z undoes · a ' +
-    'dash: this law has no such setting',
+    'Arrows move · Enter edits · Esc takes back · Ctrl+D copies to the right · Ctrl+Z undoes · ' +
+    'a dash: this law has no such setting',
   'modes.share': '{share} % of the allowed range',
   'banner.unreachable':
     "Spindle's server does not answer. Values on this page are old. Trying again every " +

@@ -60,7 +60,7 @@ export const zh: Record<Key, string> = {
   'state.none': '无单元',
   'modes.title': '五个模式',
   'modes.keys':
-    '方向键移动 · Enter 编辑 · Esc 离开 · Ctrl+D 向右复制 · Ctrl+Z 撤销 · 横线：该控制律没有此项设置',
+    '方向键移动 · Enter 编辑 · Esc 取消 · Ctrl+D 向右复制 · Ctrl+Z 撤销 · 横线：该控制律没有此项设置',
   'modes.share': '允许范围的 {share} %',
   'banner.unreachable': 'Spindle 服务器没有应答，页面上的数值已过时。每秒重试一次。',
   'banner.connecting': '正在连接驱动单元。{reason}',
