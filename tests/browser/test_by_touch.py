@@ -67,6 +67,21 @@ def test_a_rule_is_set_by_touch_and_undone(open_desk: OpenDesk, standing: str, t
     expect(page.locator(BAR)).to_contain_text("Same as in the unit")
 
 
+def test_a_phone_on_its_side_leaves_most_of_itself_to_the_page(
+    open_desk: OpenDesk, standing: str
+) -> None:
+    page = open_tune(open_desk(width=667, height=375, touch=True))
+    cell, bar = page.locator("[data-cell='4,4']"), page.locator(BAR)
+    top = page.locator("header.top")
+
+    cell.scroll_into_view_if_needed()
+    cell.tap()
+
+    assert box(top)["y"] + box(top)["height"] <= 0, "scrolled away with the page"
+    assert box(bar)["y"] > 0.7 * 375
+    expect(cell).to_be_focused()
+
+
 def test_a_rule_is_set_by_mouse_and_goes_back_to_what_the_unit_has(
     desk: Desk, standing: str
 ) -> None:

@@ -69,7 +69,9 @@ export class Router {
   readonly go = (path: string): void => {
     history.pushState(null, '', path)
     this.read()
-    document.getElementById('main')?.scrollTo(0, 0)
+    const main = document.getElementById('main')
+    main?.scrollTo(0, 0)
+    main?.parentElement?.scrollTo(0, 0) // which scrolls in a low window
   }
 
   private read(): void {
