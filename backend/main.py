@@ -162,7 +162,15 @@ def open_services(
 
 def make_health(devices: Devices, recorder: Recorder, store: Store) -> Health:
     """What is told of units, recordings and the store."""
-    return Health(__version__, devices, recorder, store.watch, store.database.ask, store.soundness)
+    return Health(
+        __version__,
+        devices,
+        recorder,
+        store.watch,
+        store.database.ask,
+        store.soundness,
+        store.entries,
+    )
 
 
 def make_devices(

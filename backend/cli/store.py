@@ -48,6 +48,8 @@ def print_check(found: dict[str, Any]) -> None:
         print(f"{name:20} {text_of(value)}")
     for ride in database["live"]:
         print(f"ride {ride['ride_id']}: {ride['state']}, {ride['row_count']} rows so far")
+    for ride_id in database["rides_damaged"]:
+        print(f"Ride {ride_id}: its row in the database is damaged; a server mends it.")
     print_keys("missing", objects["missing"])
     print_keys("damaged", [f"{each['key']}: {each['reason']}" for each in objects["damaged"]])
     print_keys("not known to the database", objects["unknown"])

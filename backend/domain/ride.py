@@ -28,6 +28,9 @@ from backend.domain.standards.sphere import great_circle_m
 
 TimesUs = npt.NDArray[np.int64]
 
+LIVE, DONE, BAD = STATES = ("live", "done", "bad")
+ORIGINS = ("recorded", "imported")
+
 # A break in irregular rows longer than this many usual spacings, and than this time, is a pause.
 PAUSE_SPACINGS = 5
 PAUSE_MIN_US = 10_000_000
@@ -125,16 +128,17 @@ class RidePlace:
 class Ride:
     """One ride as the store knows it.
 
-    state: `live` while it is recorded, `done` when its object is written. origin: `recorded` or
-    `imported`. period_us: spacing of the rows, None when they are irregular. completeness: share
-    of the rows that should be there (0..1), None when nobody can say; a stretch filled from a log
-    counts as there. filled: those stretches. events: what happened. cut_short: the recording ended
-    while the bike moved, or with its server, so that nobody knows what came after. bike_id: the
-    bike its unit was on; None where nobody knows the unit. sport: as the file calls it, None for
-    none. intake: what became of the file's rows and fields, None for what came from no file. noted:
-    what the device that made the file told beside its rows. same_ride_as: another device's
-    recording of the same ride. tags: words its rider gave it. place, speed_line_kmh: of its card,
-    once that is made.
+    state: `live` while it is recorded, `done` when its object is written, `bad` where the store
+    cannot read its own entry of it: then only id, start, name and notes mean something. origin:
+    `recorded` or `imported`. period_us: spacing of the rows, None when they are irregular.
+    completeness: share of the rows that should be there (0..1), None when nobody can say; a stretch
+    filled from a log counts as there. filled: those stretches. events: what happened. cut_short:
+    the recording ended while the bike moved, or with its server, so that nobody knows what came
+    after. bike_id: the bike its unit was on; None where nobody knows the unit. sport: as the file
+    calls it, None for none. intake: what became of the file's rows and fields, None for what came
+    from no file. noted: what the device that made the file told beside its rows. same_ride_as:
+    another device's recording of the same ride. tags: words its rider gave it. place,
+    speed_line_kmh: of its card, once that is made.
     """
 
     id: int

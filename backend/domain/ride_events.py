@@ -21,6 +21,7 @@ ASSIST_MODE = "assist_mode"
 MARK = "mark"
 SETTINGS = "settings"
 TOLD_ONLY = (MARK, SETTINGS)
+KINDS = frozenset({FAULT_SET, FAULT_CLEARED, ASSIST_MODE, *TOLD_ONLY})
 # A loose plug makes thousands; they are in the rows all the same.
 EVENTS_MAX = 200
 

@@ -36,6 +36,7 @@ CLOCKS = ("real", "virtual")
 SEED_MAX = 2**63 - 1
 # What the child says last is quoted when it fails; more than this helps nobody.
 COMPLAINT_CHARACTERS_MAX = 600
+COMPLAINT_BYTES_MAX = 4 * COMPLAINT_CHARACTERS_MAX
 
 
 @dataclass(frozen=True)
@@ -154,8 +155,11 @@ class SimulatedLink:
         self._url = url
         self._given_up = given_up or threading.Event()
         self._folder = Path(tempfile.mkdtemp(prefix="spindle-sim-"))
-        self._complaints = (self._folder / "stderr").open("w+b")
         self._child = self._start(address.command(self._folder / "port"))
+        # In memory: a full disk would take none of the words that say so.
+        self._complaints = bytearray()
+        self._listener = threading.Thread(target=self._listen, name=f"{url} stderr", daemon=True)
+        self._listener.start()
         try:
             self._port = SerialPort(
                 self._ready_path(ready_timeout_s), url, address.baud is not None, address.baud
@@ -211,11 +215,13 @@ class SimulatedLink:
         except LinkError as error:
             with contextlib.suppress(subprocess.TimeoutExpired):
                 self._child.wait(LOOK_EVERY_S)
-            said = self._said() if self._child.returncode else ""
-            if not said:
+            code = self._child.returncode
+            if not code:
                 raise
             raise LinkError(
-                f"{self._url}: the simulated unit ended: {said}", code="simulator_failed"
+                f"{self._url}: the simulated unit ended with code {code}: "
+                f"{self._said() or 'it said nothing'}",
+                code="simulator_failed",
             ) from error
 
     def _start(self, command: list[str]) -> subprocess.Popen[bytes]:
@@ -225,7 +231,7 @@ class SimulatedLink:
             command,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
-            stderr=self._complaints,
+            stderr=subprocess.PIPE,
             env={**os.environ, "PYTHONPATH": python_path},
             # Ctrl-C in the terminal goes to the server, which then ends its children in order.
             start_new_session=True,
@@ -265,9 +271,17 @@ class SimulatedLink:
 
     def _said(self) -> str:
         """The last that the child complained of."""
-        self._complaints.seek(0)
-        said = self._complaints.read().decode("utf-8", "replace").strip()
-        return said[-COMPLAINT_CHARACTERS_MAX:]
+        if self._child.poll() is not None:
+            self._listener.join(STOP_TIMEOUT_S)
+        return self._complaints.decode("utf-8", "replace").strip()[-COMPLAINT_CHARACTERS_MAX:]
+
+    def _listen(self) -> None:
+        stream = self._child.stderr
+        assert stream is not None
+        with stream:
+            for line in stream:
+                self._complaints += line
+                del self._complaints[:-COMPLAINT_BYTES_MAX]
 
     def _stop(self) -> None:
         self._child.terminate()
@@ -278,5 +292,5 @@ class SimulatedLink:
             self._child.wait()
         if self._child.stdout is not None:
             self._child.stdout.close()
-        self._complaints.close()
+        self._listener.join(STOP_TIMEOUT_S)
         shutil.rmtree(self._folder, ignore_errors=True)

@@ -15,12 +15,15 @@ from backend.services.rides.record import Recorder
 from backend.services.rides.ride_tail import RowCounts
 from backend.services.units.connect import Devices
 from backend.store import WriteWatch
+from backend.store.entries import Entries
 from backend.store.soundness import Soundness
 
 OK = "ok"
 DEGRADED = "degraded"
 ROWS_LOST = "rows_lost"
 RIDES_DAMAGED = "rides_damaged"
+# So many damaged rows are named.
+ROWS_NAMED_MAX = 5
 
 
 class Reason(Protocol):
@@ -45,7 +48,7 @@ class RowsLost:
 
 @dataclass(frozen=True)
 class RidesDamaged:
-    """Rides whose files are not what was written."""
+    """Rides whose files, or rows in the database, are not what was written."""
 
     message: str
     part: str = "objects"
@@ -75,7 +78,7 @@ class Health:
     """Looks at everything that may be wrong; `look` never waits. For any thread.
 
     answers: asks the database for nothing in particular. Raises StoreError. soundness: knows which
-    rides' files are damaged.
+    rides' files are damaged, entries which rows.
     """
 
     def __init__(
@@ -86,6 +89,7 @@ class Health:
         watch: WriteWatch,
         answers: Callable[[], None],
         soundness: Soundness,
+        entries: Entries,
     ) -> None:
         self._version = version
         self._devices = devices
@@ -93,6 +97,7 @@ class Health:
         self._watch = watch
         self._answers = answers
         self._soundness = soundness
+        self._entries = entries
 
     def ready(self) -> None:
         """Whether requests can be answered: raises StoreError while the database does not."""
@@ -110,6 +115,8 @@ class Health:
             for unit, rows in self._recorder.rows_lost_lately()
         ]
         damaged = [RidesDamaged(told_of_damage(keys))] if (keys := self._soundness.damaged) else []
+        if rows := self._entries.damaged:
+            damaged.append(RidesDamaged(told_of_rows(rows), "database"))
         reasons = (*troubles, *lost, *damaged)
         return HealthView(DEGRADED if troubles else OK, self._version, reasons, devices)
 
@@ -120,4 +127,14 @@ def told_of_damage(keys: Collection[str]) -> str:
         f"Files of rides or calibrations that are damaged or missing: {len(keys)}, one of them "
         f"{min(keys)}. "
         "Restore them from a backup; the list of rides and `spindle store check` name each."
+    )
+
+
+def told_of_rows(rides: Collection[int]) -> str:
+    """Which rides' rows are damaged and could not be mended from their files, and what to do."""
+    some = ", ".join(str(ride_id) for ride_id in sorted(rides)[:ROWS_NAMED_MAX])
+    more = f" and {len(rides) - ROWS_NAMED_MAX} more" if len(rides) > ROWS_NAMED_MAX else ""
+    return (
+        f"Rows of rides in the database that are damaged, and no whole file is named there to mend "
+        f"them from: {some}{more}. Restore the files from a backup, or delete the rides."
     )

@@ -10,7 +10,7 @@ from backend.store.logbook.totals import Totals
 from backend.store.marks import MarkStore
 from backend.store.reader import RideReader
 from backend.store.rides import RideStore
-from backend.store.soundness import expected_of
+from backend.store.soundness import ROW_DAMAGED, expected_of
 from backend.store.store import Store, open_store
 from backend.store.trouble import Trouble, WriteWatch
 from backend.store.units import SeenUnit, UnitStore
@@ -18,6 +18,7 @@ from backend.store.upkeep.backup import StorePlace, backup_of, place_of
 from backend.store.uploads import Upload, UploadStore, Verdict
 
 __all__ = [
+    "ROW_DAMAGED",
     "CalibrationStore",
     "CardStore",
     "Home",

@@ -17,7 +17,7 @@ from backend.domain.filled import Filled
 from backend.domain.intake import Intake
 from backend.domain.logbook.tags import clean_tags
 from backend.domain.noted import noted_from_json, noted_to_json
-from backend.domain.ride import Gap, Ride, RideContext
+from backend.domain.ride import ORIGINS, Gap, Ride, RideContext
 from backend.domain.ride_events import RideEvent
 from backend.domain.unit_key import ebl_key
 
@@ -27,7 +27,6 @@ Item = TypeVar("Item", Filled, Gap, Intake, RideContext, RideEvent)
 # here came from no file and has no words but those of its sidecar.
 SAID = ("origin", "context", "gaps", "events", "completeness", "cut_short")
 WORDS = ("name", "notes")
-ORIGINS = ("recorded", "imported")
 
 
 @dataclass(frozen=True)

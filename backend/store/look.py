@@ -8,18 +8,25 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 from urllib.parse import quote
 
-from sqlalchemy import Connection, Engine, create_engine, inspect, text
+from sqlalchemy import Connection, Engine, create_engine, event, inspect, text
 from sqlalchemy.engine import make_url
 from sqlalchemy.exc import DatabaseError, OperationalError, SQLAlchemyError
 
 from backend.errors import StoreError
-from backend.store.objects import content_key, sidecar_key
+from backend.store.objects import RIDE_SUFFIX, content_key, sidecar_key
 from backend.store.sql.database import shown, sqlite_path
-from backend.store.trouble import reason_of
+from backend.store.sql.sound_rows import decoded, parsed
+from backend.store.trouble import DAMAGED as FILE_DAMAGED
+from backend.store.trouble import code_of, reason_of
 
 MISSING, EMPTY, DAMAGED, FOREIGN, OK = "missing", "empty", "damaged", "foreign", "ok"
+# The end of the year 9999, the last that ISO 8601 tells with four digits.
+TIME_MAX_US = 253_402_300_800_000_000
+# What the database raises whose schema or rows hold something else than was written.
+NOT_AS_WRITTEN = (UnicodeDecodeError, TypeError, ValueError, KeyError)
 # Every schema has these.
 OURS = frozenset({"ride", "upload"})
 # Tables whose rows somebody would miss, of every schema.
@@ -57,8 +64,11 @@ class DatabaseView:
     live: tuple[LiveRecording, ...] = ()
 
 
-def look_at(url: str) -> DatabaseView:
-    """The contents of a database. Raises StoreError when it cannot be reached or used at all."""
+def look_at(url: str, whole: bool = False) -> DatabaseView:
+    """The contents of a database. Raises StoreError when it cannot be reached or used at all.
+
+    whole: reads every page of an SQLite file, so that a destroyed one is known as such.
+    """
     path = sqlite_path(url)
     if path is not None and (not path.exists() or (path.is_file() and path.stat().st_size == 0)):
         return rest_of(path)
@@ -66,13 +76,22 @@ def look_at(url: str) -> DatabaseView:
     try:
         with engine.connect() as connection:
             view = view_of(connection)
+            if path is not None and whole and view.state == OK:
+                found = connection.execute(text("PRAGMA quick_check(1)")).scalar_one()
+                return view if found == "ok" else DatabaseView(DAMAGED, str(found))
             if path is None and view.state != OK:
                 require_unicode(connection, shown(url))
             return view
     except OperationalError as error:
+        if path is not None and code_of(error) in (FILE_DAMAGED, None):
+            # Not locked, not refused by the disk: its own schema does not hold together.
+            return DatabaseView(DAMAGED, str(error.orig))
         raise StoreError(f"The database {shown(url)} cannot be read: {error.orig}") from error
     except DatabaseError as error:
         return DatabaseView(DAMAGED, str(error.orig))
+    except NOT_AS_WRITTEN as error:
+        # The driver has no words for a fault whose own words are damaged.
+        return DatabaseView(DAMAGED, str(error))
     except SQLAlchemyError as error:
         raise StoreError(f"The database {shown(url)} cannot be read: {reason_of(error)}") from error
     finally:
@@ -100,9 +119,17 @@ def reading_engine(url: str, path: Path | None) -> Engine:
         unicode = (
             {"client_encoding": "utf8"} if "psycopg" in make_url(url).get_driver_name() else {}
         )
-        return create_engine(url, connect_args=unicode)
+        return create_engine(url, connect_args=unicode, json_deserializer=parsed)
     mode = "mode=ro" if journal_of(path).exists() else "mode=ro&immutable=1"
-    return create_engine(f"sqlite:///file:{quote(path.as_posix())}?{mode}&uri=true")
+    address = f"sqlite:///file:{quote(path.as_posix())}?{mode}&uri=true"
+    engine = create_engine(address, json_deserializer=parsed)
+    event.listen(engine, "connect", lambda connection, _: read_all_text(connection))
+    return engine
+
+
+def read_all_text(connection: Any) -> None:
+    """Let a connection of SQLite read text whose bytes are damaged."""
+    connection.text_factory = decoded
 
 
 def require_unicode(connection: Connection, shown_url: str) -> None:
@@ -128,6 +155,7 @@ def view_of(connection: Connection) -> DatabaseView:
     def values(query: str) -> list[str]:
         return [str(value) for value in connection.execute(text(query)).scalars()]
 
+    names = {column["name"] for column in inspector.get_columns("ride")}
     rides = values("SELECT object_key FROM ride WHERE object_key IS NOT NULL")
     originals = values("SELECT object_key FROM upload WHERE object_key IS NOT NULL")
     objects = frozenset(rides) | frozenset(originals)
@@ -136,13 +164,17 @@ def view_of(connection: Connection) -> DatabaseView:
         objects |= {content_key("calibrations", sha256, ".json") for sha256 in closed}
     arrived = values("SELECT sha256 FROM upload WHERE sha256 IS NOT NULL")
     known = objects | {content_key("originals", sha256) for sha256 in arrived}
+    if "object_sha256" in names:
+        # Named twice: a row whose key is damaged still has its object.
+        hashes = values("SELECT object_sha256 FROM ride WHERE object_sha256 IS NOT NULL")
+        rides += [content_key("rides", sha256, RIDE_SUFFIX) for sha256 in hashes]
+        known |= frozenset(rides)
     discarded: list[str] = []
     identity, rebuilding = None, False
     if "store_identity" in tables:
         row = connection.execute(text("SELECT store_id, rebuilding FROM store_identity")).first()
         identity, rebuilding = (row.store_id, bool(row.rebuilding)) if row else (None, False)
         discarded = values("SELECT key FROM discarded_object")
-    names = {column["name"] for column in inspector.get_columns("ride")}
     holds = any(
         connection.execute(text(f"SELECT 1 FROM {name} LIMIT 1")).first()
         for name in sorted(tables & MISSED)
@@ -159,8 +191,16 @@ def view_of(connection: Connection) -> DatabaseView:
 
 
 def live_recordings(connection: Connection, with_servers: bool) -> tuple[LiveRecording, ...]:
-    """The rides that have no object yet."""
+    """The rides that have no object yet; of a damaged row what is a number."""
     extra = "server_id, heartbeat_us" if with_servers else "NULL AS server_id, NULL AS heartbeat_us"
     query = f"SELECT id, row_count, {extra} FROM ride WHERE state = 'live' ORDER BY id"
     rows = connection.execute(text(query)).all()
-    return tuple(LiveRecording(r.id, r.row_count, r.server_id, r.heartbeat_us) for r in rows)
+    return tuple(
+        LiveRecording(row.id, number(row.row_count) or 0, row.server_id, number(row.heartbeat_us))
+        for row in rows
+    )
+
+
+def number(value: object) -> int | None:
+    """A count or a time of a row, None where the row has none."""
+    return value if isinstance(value, int) and 0 <= value < TIME_MAX_US else None

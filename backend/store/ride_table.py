@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import asdict, fields
 from typing import Any
 
@@ -15,13 +16,26 @@ from backend.domain.filled import Filled
 from backend.domain.intake import Intake
 from backend.domain.logbook.card import line_kmh
 from backend.domain.noted import noted_from_json, noted_to_json
-from backend.domain.ride import Gap, Ride, RideContext, RidePlace, RideSummary, readable_name
-from backend.domain.ride_events import RideEvent
+from backend.domain.ride import (
+    BAD,
+    ORIGINS,
+    STATES,
+    Gap,
+    Ride,
+    RideContext,
+    RidePlace,
+    RideSummary,
+    iso_utc,
+    readable_name,
+)
+from backend.domain.ride_events import KINDS, RideEvent
 from backend.errors import FieldError, InvalidRequest
 from backend.store.discard import take_back, with_sidecar
 from backend.store.finish import WrittenObject
+from backend.store.objects import RIDE_SUFFIX, content_key
 from backend.store.sql import tables as t
 from backend.store.sql.blobs import channel_list, encode_level
+from backend.store.sql.sound_rows import is_sound
 from backend.store.units import bike_of_ride
 
 NAME_LENGTH_MAX = 200
@@ -30,6 +44,8 @@ STAYS = frozenset({"state", "origin", "name", "notes", "created_us", "row_count"
 # The largest whole number SQL holds.
 INTEGER_MAX = 2**63 - 1
 CARD = ("place", "country", "zone", "is_loop", "speed_line")
+# What a row raises that holds something else than was written.
+NONSENSE = (KeyError, TypeError, ValueError, AttributeError, OverflowError, OSError)
 
 
 def whole_ride() -> Select[Any]:
@@ -49,8 +65,15 @@ def whole_ride() -> Select[Any]:
 
 
 def rides_whole(connection: Connection, ride_ids: Sequence[int]) -> tuple[Ride, ...]:
-    """Rides by their ids, in that order; those that are not there are left out."""
-    found = connection.execute(whole_ride().where(t.ride.c.id.in_(ride_ids))).all()
+    """Rides by their ids, in that order; those that are not there are left out.
+
+    One whose row is damaged has the state `bad`, and of it what can still be read.
+    """
+    wanted = whole_ride().where(t.ride.c.id.in_(ride_ids))
+    try:
+        found: Sequence[Row[Any]] = connection.execute(wanted).all()
+    except NONSENSE:
+        found = [row for ride_id in ride_ids if (row := lone_row(connection, ride_id)) is not None]
     tags = tags_of(connection, ride_ids)
     rides = {row.id: ride_from_row(row, tags.get(row.id, ())) for row in found}
     return tuple(rides[ride_id] for ride_id in ride_ids if ride_id in rides)
@@ -65,8 +88,54 @@ def tags_of(connection: Connection, ride_ids: Sequence[int]) -> dict[int, tuple[
     return found
 
 
+def lone_row(connection: Connection, ride_id: int) -> Row[Any] | None:
+    """One ride's row; of a damaged one its own columns, where the rest cannot be read either."""
+    mine = t.ride.c.id == ride_id
+    for query in (whole_ride().where(mine), select(t.ride).where(mine)):
+        with suppress(*NONSENSE):
+            return connection.execute(query).first()
+    return None
+
+
 def ride_from_row(row: Row[Any], tags: tuple[str, ...]) -> Ride:
-    """A row of `whole_ride` -> ride."""
+    """A row of `whole_ride` -> ride; a damaged row -> a ride in the state `bad`."""
+    with suppress(*NONSENSE):
+        named = named_objects(row.object_key, row.object_sha256)
+        if is_sound(row, t.ride.c) and len(named) < 2:
+            ride = sound_ride(row, tags)
+            known = all(event.kind in KINDS for event in ride.events)
+            # A number that is no time, or a value that JSON cannot have, shows here.
+            if known and ride.state in STATES and ride.origin in ORIGINS and ride.as_json():
+                return ride
+    return damaged_ride(row, tags)
+
+
+def damaged_ride(row: Row[Any], tags: tuple[str, ...]) -> Ride:
+    """What can still be read of a ride's damaged row: which one, when, and how it is called."""
+    body = row._mapping
+    started_us = body["started_us"]
+    try:
+        iso_utc(started_us)
+    except NONSENSE:
+        started_us = 0
+    return Ride(
+        id=body["id"],
+        state=BAD,
+        origin=body["origin"] if body["origin"] in ORIGINS else ORIGINS[0],
+        name=readable_name(body["name"]) if isinstance(body["name"], str) else "",
+        notes=body["notes"] if isinstance(body["notes"], str) else "",
+        started_us=started_us,
+        row_count=body["row_count"] if isinstance(body["row_count"], int) else 0,
+        period_us=None,
+        channels=(),
+        derived=(),
+        context=RideContext(),
+        tags=tags,
+    )
+
+
+def sound_ride(row: Row[Any], tags: tuple[str, ...]) -> Ride:
+    """A row of `whole_ride` -> ride. Raises one of `NONSENSE` where it makes no ride."""
     body = row._mapping
     place = RidePlace(body["place"], body["country"], body["zone"], body["is_loop"])
     channels = channel_list(body["channels"])
@@ -103,6 +172,14 @@ def ride_from_row(row: Row[Any], tags: tuple[str, ...]) -> Ride:
         place=None if place == RidePlace() else place,
         speed_line_kmh=line_kmh(body["speed_line"] or b""),
     )
+
+
+def named_objects(key: object, sha256: object) -> tuple[str, ...]:
+    """A finished ride's object by its key and by its hash: the same, unless one is damaged."""
+    named = [key] if isinstance(key, str) else []
+    if isinstance(sha256, str):
+        named.append(content_key("rides", sha256, RIDE_SUFFIX))
+    return tuple(dict.fromkeys(named))
 
 
 def cursor_parts(cursor: str) -> tuple[int, int]:

@@ -25,7 +25,7 @@ from sqlalchemy import Connection, Select, case, delete, insert, select, update
 from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.logbook.tags import clean_tags
 from backend.domain.pyramid import Level
-from backend.domain.ride import Ride, RideContext, RideRows
+from backend.domain.ride import BAD, DONE, LIVE, Ride, RideContext, RideRows
 from backend.domain.ride_events import RideEvent
 from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
 from backend.store.deletion import (
@@ -51,6 +51,7 @@ from backend.store.ride_table import (
     NAME_LENGTH_MAX,
     finish_row,
     inserted,
+    named_objects,
     refill_row,
     remove_ride,
     ride_row,
@@ -182,8 +183,10 @@ class RideStore:
         the ride is still live and whole.
         """
         ride = self.get(ride_id)
-        if ride.state == "done":
+        if ride.state == DONE:
             return ride
+        if ride.state == BAD:
+            raise StoreError(f"Ride {ride_id} cannot be finished: its row is damaged.")
         if ride.row_count == 0:
             self._database.write(lambda c: remove_ride(c, ride_id))
             return None
@@ -389,14 +392,14 @@ class RideStore:
         def work(connection: Connection) -> str | None:
             state = select(t.ride.c.state).where(t.ride.c.id == ride_id)
             found: str | None = connection.execute(state).scalar()
-            if found == "done":
+            if found not in (None, LIVE):
                 forget_ride(connection, ride_id, now_us)
             return found
 
         found = self._database.write(work)
         if found is None:
             raise NotFound(f"There is no ride {ride_id}.")
-        if found != "done":
+        if found == LIVE:
             raise Conflict(f"Ride {ride_id} is being recorded: it can be deleted when it is over.")
         self._readers.forget(ride_id)
         self._deletions.sweep(now_us)
@@ -409,10 +412,9 @@ class RideStore:
 
     def expected_objects(self) -> Iterator[Expected]:
         """Every finished ride's object, as it was written."""
-        columns = (t.ride.c.object_key, t.ride.c.object_bytes)
-        query = select(*columns).where(t.ride.c.object_key.is_not(None))
-        rows = self._database.read(lambda c: c.execute(query).all())
-        return (Expected(key, size_bytes) for key, size_bytes in rows)
+        written = select(t.ride.c.object_key, t.ride.c.object_bytes)
+        query = written.where(t.ride.c.object_key.is_not(None))
+        return (Expected(*row) for row in self._database.read(lambda c: c.execute(query).all()))
 
     def tell_for_old_files(self) -> None:
         """Write beside every object of an older version what only the database knows of its ride.
@@ -422,19 +424,19 @@ class RideStore:
         query = select(t.ride.c.id).where(t.ride.c.object_key.is_not(None)).order_by(t.ride.c.id)
         for ride_id in self._database.read(lambda c: c.execute(query).scalars().all()):
             ride = self.get(ride_id)
-            token = ride.upload_id
-            original = self._database.read(partial(upload_file, token=token))
+            original = self._database.read(partial(upload_file, token=ride.upload_id))
             tell_for_old_file(self._objects, ride, original)
 
     def object_keys(self) -> set[str]:
         """Keys of every object a ride needs, sidecars too."""
-        query = select(t.ride.c.object_key).where(t.ride.c.object_key.is_not(None))
-        keys = self._database.read(lambda c: c.execute(query).scalars().all())
-        return {part for key in keys for part in with_sidecar(key)}
+        named = select(t.ride.c.object_key, t.ride.c.object_sha256)
+        query = named.where(t.ride.c.object_key.is_not(None))
+        rows = self._database.read(lambda c: c.execute(query).all())
+        return {part for row in rows for key in named_objects(*row) for part in with_sidecar(key)}
 
     def _open_reader(self, ride: Ride) -> RideReader:
+        self._soundness.require(ride)
         if ride.object_key is not None:
-            self._soundness.require(ride)
             path = self._objects.local_path(ride.object_key)
             return RideReader(ride, RideFile(path, ride.channels), self._level)
         blocks = [np.empty((0, len(ride.channels)), np.int16), *self._tail_blocks(ride)]

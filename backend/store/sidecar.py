@@ -73,9 +73,11 @@ def write_sidecar(
 def tell_for_old_file(objects: Objects, ride: Ride, original: dict[str, object] | None) -> None:
     """Write what the database knows of a finished ride and its object, of version 1, does not tell.
 
-    An object that is newer, gone or damaged is left alone. Raises StoreError.
+    A damaged row, and an object that is newer, gone or damaged, are left alone. Raises StoreError.
     """
-    key = str(ride.object_key)
+    key = ride.object_key
+    if key is None:
+        return
     try:
         version = int(read_facts(objects.local_path(key))[0].get("schema_version", 1))
         is_told = "facts" in read_sidecar(objects, key)

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
-from backend.domain.ride import Ride
+from backend.domain.ride import BAD, Ride
 from backend.errors import Conflict, ObjectDamaged
 
 LOG = logging.getLogger(__name__)
@@ -27,6 +27,8 @@ MISSING = "missing"
 WRONG_SIZE = "wrong_size"
 CHANGED = "changed"
 UNREADABLE = "unreadable"
+# Not the object, but the ride's row in the database.
+ROW_DAMAGED = "row"
 WORDS = {
     MISSING: "the file is missing",
     WRONG_SIZE: "the file has not the size it was written with",
@@ -89,12 +91,14 @@ class Soundness:
         return None, found
 
     def require(self, ride: Ride) -> None:
-        """Raises ObjectDamaged unless a ride's samples are what was written."""
+        """Raises ObjectDamaged unless a ride's row and samples are what was written."""
+        require_row(ride)
         if ride.object_key is not None and (found := self.damage(expected_of(ride))):
             raise damaged_samples(ride.id, ride.object_key, found)
 
     def open_ride(self, ride: Ride) -> BinaryIO:
         """A finished ride's file, every byte of it verified. Raises ObjectDamaged, Conflict."""
+        require_row(ride)
         if ride.object_key is None:
             raise Conflict(f"Ride {ride.id} is being recorded: export it when it ended.")
         file, found = self.opened(expected_of(ride))
@@ -188,6 +192,15 @@ def signature_of(found: os.stat_result) -> Signature:
 def expected_of(ride: Ride) -> Expected:
     """A finished ride's object as it was written."""
     return Expected(ride.object_key or "", ride.object_bytes)
+
+
+def require_row(ride: Ride) -> None:
+    """Raises ObjectDamaged for a ride whose row in the database cannot be read."""
+    if ride.state == BAD:
+        raise ObjectDamaged(
+            f"The row of ride {ride.id} in the database is damaged. It is mended by itself while "
+            "its file is whole; if this stays, restore the file from a backup."
+        )
 
 
 def damaged_samples(ride_id: int, key: str, found: str) -> ObjectDamaged:

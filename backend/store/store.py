@@ -18,6 +18,7 @@ from backend.store.calibrations import CalibrationStore
 from backend.store.configurations import CertificateStore, LibraryStore, RevisionLog
 from backend.store.deletion import SPOOL, Deletions
 from backend.store.discard import discarded_keys
+from backend.store.entries import Entries
 from backend.store.identity import belonging, new_id, require, write_identity
 from backend.store.locks import hold
 from backend.store.logbook.book import Logbook
@@ -60,6 +61,7 @@ class Store:
         self.deletions = Deletions(database, objects)
         self.soundness = Soundness(objects.root)
         self.rides = RideStore(database, objects, self.deletions, self.soundness, server_id)
+        self.entries = Entries(database, objects)
         self.marks = MarkStore(database)
         self.revisions = RevisionLog(database)
         self.library = LibraryStore(database)
@@ -124,7 +126,11 @@ class Store:
             self._shrinks = self.database.give_back()
 
     def scrub(self, now_us: int) -> None:
-        """Verify a few of the objects, all of them within a day."""
+        """Verify a few of the rides' rows and objects, all of them within a day."""
+        mended = self.entries.mended
+        self.entries.look(now_us)
+        # What is worked out of their objects is due again.
+        self.rides.finishes += self.entries.mended - mended
         self.soundness.scrub(now_us, self._expected_objects)
 
     def close(self) -> None:

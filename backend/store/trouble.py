@@ -36,11 +36,14 @@ READ_ONLY = "store_read_only"
 IO_ERROR = "io_error"
 QUEUE_FULL = "queue_full"
 UNREACHABLE = "database_unreachable"
+DAMAGED = "database_damaged"
 WORDS = {
     DISK_FULL: "no space is left on its disk. Free some",
     READ_ONLY: "it may only be read. Give this user the right to write there",
     IO_ERROR: "its disk reports a fault. Look at the system's log, and make a copy of the data",
     QUEUE_FULL: "its disk is slower than the rows that come. Look for what else uses it",
+    DAMAGED: "its file is damaged. Stop the server; `spindle store check` tells how much, and "
+    "`spindle store rebuild` brings every ride back",
     UNREACHABLE: "it does not answer. Look whether its server runs",
 }
 
@@ -64,8 +67,8 @@ OF_SQLITE = {
     sqlite3.SQLITE_PERM: READ_ONLY,
     sqlite3.SQLITE_IOERR: IO_ERROR,
     sqlite3.SQLITE_CANTOPEN: IO_ERROR,
-    sqlite3.SQLITE_CORRUPT: IO_ERROR,
-    sqlite3.SQLITE_NOTADB: IO_ERROR,
+    sqlite3.SQLITE_CORRUPT: DAMAGED,
+    sqlite3.SQLITE_NOTADB: DAMAGED,
     sqlite3.SQLITE_BUSY: QUEUE_FULL,
     sqlite3.SQLITE_LOCKED: QUEUE_FULL,
 }
@@ -123,7 +126,8 @@ class WriteWatch:
 
     def note(self, part: str, code: str) -> None:
         """Note that `part` cannot be written because of `code`; in the log once a spell."""
-        trouble = Trouble(part, code, f"The {part} cannot be written: {WORDS[code]}.")
+        done = "be trusted" if code == DAMAGED else "be written"
+        trouble = Trouble(part, code, f"The {part} cannot {done}: {WORDS[code]}.")
         now_s = self._now_s()
         with self._lock:
             is_new = part not in self._troubles
@@ -141,6 +145,9 @@ class WriteWatch:
         now_s = self._now_s()
         with self._lock:
             if part not in self._troubles or now_s - self._refused_s[part] < CALM_S:
+                return
+            if self._troubles[part].code == DAMAGED:
+                # Other pages of the file can be written all the same.
                 return
             del self._troubles[part]
             spell_s = now_s - self._since_s[part]

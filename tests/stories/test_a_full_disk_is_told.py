@@ -7,6 +7,7 @@ another file while a simulated bike rides, or before a start; then that file is 
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,7 +15,8 @@ from typing import Any
 
 import pytest
 
-from backend.errors import StoreError
+from backend.errors import LinkError, StoreError
+from backend.link.simulated import SimulatedLink
 from backend.store import open_store
 from tests.fakes.ride_in_time import ride_on
 from tests.fakes.server import ServerProcess, eventually
@@ -102,3 +104,26 @@ def test_a_start_on_a_full_disk_says_what_to_do_and_works_once_there_is_room(
     assert refusal.value.code == "disk_full"
     (small_disk / "filler").unlink()
     open_store(*urls).close()
+
+
+def test_a_simulated_unit_on_a_full_disk_is_no_unplugged_one(
+    small_disk: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its memory, and the folder for temporary files too, are on the disk that is full."""
+    temporary = small_disk / "tmp"
+    temporary.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(temporary))
+    first = SimulatedLink("sim:a?seed=3&scenario=none", small_disk / "flash")
+    fill(small_disk / "other")
+    with pytest.raises(LinkError, match=r"unit-4\.flash cannot be written \(No space"):
+        SimulatedLink("sim:b?seed=4&scenario=none", small_disk / "flash")
+    os.kill(first.process_id, signal.SIGKILL)
+    with pytest.raises(LinkError, match="simulated unit ended with code -9: it said nothing"):
+        read_on(first)
+    first.close()
+
+
+def read_on(link: SimulatedLink) -> None:
+    """Read until the link ends."""
+    while True:
+        link.read()

@@ -18,6 +18,7 @@ HealthCode = Literal[
     "io_error",
     "queue_full",
     "database_unreachable",
+    "database_damaged",
     "rows_lost",
     "rides_damaged",
 ]

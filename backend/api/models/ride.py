@@ -236,9 +236,11 @@ class Ride(Answer):
     )
     upload_id: str | None
     object_bytes: int | None
-    damage: Literal["missing", "wrong_size", "changed", "unreadable"] | None = Field(
+    damage: Literal["missing", "wrong_size", "changed", "unreadable", "row"] | None = Field(
         description="What is wrong with the file of its samples, as far as it was looked at; then "
-        "series, figure, replay and exports answer 500 `object_damaged`. The figures here stay."
+        "series, figure, replay and exports answer 500 `object_damaged`. The figures here stay. "
+        "`row`, with the state `bad`: its row in the database is damaged, so nothing but number, "
+        "start, name and notes is known until it is mended from that file, by itself."
     )
     summary: RideSummary | None = Field(
         description="Of a ride that is being recorded: so far, where this server records it."

@@ -8,12 +8,12 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from typing import Any
 
-from backend.domain.ride import Ride, RideSummary
+from backend.domain.ride import BAD, Ride, RideSummary
 from backend.errors import InvalidRequest, NotFound
 from backend.services.rides.archive import archive
 from backend.services.rides.export import Export, export
 from backend.services.rides.share import share
-from backend.store import Sought, Store, expected_of
+from backend.store import ROW_DAMAGED, Sought, Store, expected_of
 from backend.views.along import Axis
 from backend.views.figure import figure
 from backend.views.trace import Trace, trace
@@ -164,7 +164,9 @@ class Rides:
         damage = None
         if ride.state == "live":
             ride = replace(ride, summary=self._running(ride.id))
-        if ride.object_key is not None:
+        if ride.state == BAD:
+            damage = ROW_DAMAGED
+        elif ride.object_key is not None:
             damage = self._store.soundness.known_damage(expected_of(ride))
         return {**ride.as_json(), "damage": damage}
 

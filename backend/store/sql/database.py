@@ -21,7 +21,16 @@ from sqlalchemy.engine import make_url
 from sqlalchemy.exc import SQLAlchemyError
 
 from backend.errors import StoreError
-from backend.store.trouble import QUEUE_FULL, WORDS, WriteWatch, code_of, reason_of, write_a_little
+from backend.store.sql.sound_rows import decoded, parsed
+from backend.store.trouble import (
+    DAMAGED,
+    QUEUE_FULL,
+    WORDS,
+    WriteWatch,
+    code_of,
+    reason_of,
+    write_a_little,
+)
 
 LOG = logging.getLogger(__name__)
 Result = TypeVar("Result")
@@ -96,6 +105,8 @@ class Database:
             with self.engine.connect() as connection:
                 return work(connection)
         except SQLAlchemyError as error:
+            if code_of(error) == DAMAGED:
+                self.watch.note(PART, DAMAGED)
             raise StoreError(f"The database could not be read: {reason_of(error)}") from error
 
     def give_back(self) -> bool:
@@ -192,11 +203,11 @@ def open_engine(url: str) -> Engine:
     """An engine with SQLite's durable settings, or PostgreSQL's own."""
     if not url.startswith("sqlite"):
         # A connection that a restart of the database broke is found out before it is used.
-        return create_engine(url, pool_pre_ping=True)
+        return create_engine(url, pool_pre_ping=True, json_deserializer=parsed)
     path = sqlite_path(url)
     if path is not None:
         path.parent.mkdir(parents=True, exist_ok=True)
-    engine = create_engine(url, pool_size=8, max_overflow=32)
+    engine = create_engine(url, pool_size=8, max_overflow=32, json_deserializer=parsed)
     event.listen(engine, "connect", prepare_sqlite)
     event.listen(engine, "begin", begin_sqlite)
     return engine
@@ -210,6 +221,7 @@ def prepare_sqlite(connection: Any, _record: object) -> None:
     Deleted rows are written over: what a person deletes is not to be read off the file.
     """
     connection.isolation_level = None
+    connection.text_factory = decoded
     for pragma in (
         "auto_vacuum=INCREMENTAL",
         "journal_mode=WAL",

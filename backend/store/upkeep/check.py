@@ -6,29 +6,27 @@ database that is damaged or gone.
 
 from __future__ import annotations
 
-import re
 import time
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from pathlib import PurePosixPath
 
-from backend.domain.ride import iso_utc
+from sqlalchemy import select
+
+from backend.domain.ride import BAD, iso_utc
 from backend.errors import StoreError
-from backend.store.calibrations.restored import is_calibration
+from backend.store.entries import ROWS_AT_ONCE
+from backend.store.from_object import damage_of
 from backend.store.identity import belonging
-from backend.store.look import DatabaseView, LiveRecording, look_at
-from backend.store.objects import SIDECAR_SUFFIX, FileObjects, file_sha256, open_objects
-from backend.store.sql.database import shown
+from backend.store.look import OK, DatabaseView, LiveRecording, look_at, reading_engine
+from backend.store.objects import FileObjects, open_objects
+from backend.store.ride_table import rides_whole
+from backend.store.sql import tables as t
+from backend.store.sql.database import HEAD_REVISION, current_revision, shown, sqlite_path
 from backend.store.sql.database_url import check_url
 from backend.store.store import saying_where
 
 # A recording commits once a second; one that has not for so long has no server any more.
 HEARTBEAT_LATE_US = 30_000_000
-OBJECT_NAME = re.compile(
-    r"(rides/([0-9a-f]{2})/(\2[0-9a-f]{62})\.(parquet|json))|"
-    r"(originals/([0-9a-f]{2})/(\6[0-9a-f]{62}))|"
-    r"(calibrations/([0-9a-f]{2})/(\9[0-9a-f]{62})\.json)"
-)
 
 
 @dataclass(frozen=True)
@@ -44,7 +42,8 @@ class StoreCheck:
     """What `check_store` found.
 
     reason: why database and folder are not one store, None when they are. whole: objects that are
-    what their name says, known or not. missing: the database names them and they are not there.
+    what their name says, known or not. rides_damaged: rides whose rows in the database cannot be
+    read. missing: the database names them and they are not there.
     """
 
     database_url: str
@@ -56,13 +55,16 @@ class StoreCheck:
     bytes: int
     missing: tuple[str, ...]
     damaged: tuple[Damage, ...]
+    rides_damaged: tuple[int, ...]
     unknown: tuple[str, ...]
     lost_found: tuple[str, ...]
 
     @property
     def is_fine(self) -> bool:
         """Whether a server would start and find everything."""
-        return not (self.reason or self.missing or self.damaged or self.unknown)
+        return not (
+            self.reason or self.missing or self.damaged or self.rides_damaged or self.unknown
+        )
 
     def as_json(self) -> dict[str, object]:
         """The check as plain JSON."""
@@ -77,6 +79,7 @@ class StoreCheck:
                 "detail": view.detail,
                 "identity": view.identity,
                 "rides": view.rides,
+                "rides_damaged": list(self.rides_damaged),
                 "live": [live_json(recording) for recording in view.live],
             },
             "folder": {"path": self.folder, "identity": self.folder_id},
@@ -104,7 +107,7 @@ def check_store(db_url: str, objects_url: str) -> StoreCheck:
 
 def checked(db_url: str, objects: FileObjects) -> StoreCheck:
     """As `check_store`. Raises OSError where the system refuses a path."""
-    view = look_at(db_url)
+    view = look_at(db_url, whole=True)
     try:
         folder_id = objects.identity()
     except StoreError:
@@ -128,23 +131,27 @@ def checked(db_url: str, objects: FileObjects) -> StoreCheck:
         bytes=size,
         missing=tuple(sorted(view.object_keys - keys)),
         damaged=tuple(damaged),
+        rides_damaged=damaged_rows(db_url) if view.state == OK else (),
         unknown=tuple(sorted(keys - view.known_keys)),
         lost_found=tuple(objects.lost_keys()),
     )
 
 
-def damage_of(objects: FileObjects, key: str) -> str | None:
-    """Why a file is not what its name says, None when it is."""
-    if OBJECT_NAME.fullmatch(key) is None:
-        return "it has no name that Spindle gives"
+def damaged_rows(db_url: str) -> tuple[int, ...]:
+    """Rides whose rows cannot be read; of a database of today's schema only."""
+    engine = reading_engine(db_url, sqlite_path(db_url))
     try:
-        if key.endswith(SIDECAR_SUFFIX) and not is_calibration(key):
-            objects.read_json(key)
-        elif file_sha256(objects.local_path(key)) != PurePosixPath(key).name.split(".")[0]:
-            return "its bytes do not hash to its name"
-    except (OSError, StoreError) as error:
-        return error.message if isinstance(error, StoreError) else str(error)
-    return None
+        if current_revision(engine) != HEAD_REVISION:
+            return ()
+        with engine.connect() as connection:
+            ids = connection.execute(select(t.ride.c.id).order_by(t.ride.c.id)).scalars().all()
+            found: list[int] = []
+            for start in range(0, len(ids), ROWS_AT_ONCE):
+                rides = rides_whole(connection, ids[start : start + ROWS_AT_ONCE])
+                found += [ride.id for ride in rides if ride.state == BAD]
+            return tuple(found)
+    finally:
+        engine.dispose()
 
 
 def live_json(recording: LiveRecording) -> Mapping[str, object]:

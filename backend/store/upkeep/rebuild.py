@@ -3,31 +3,24 @@
     look -> lock -> set a destroyed database aside -> a new one, marked as being rebuilt
          -> ride by ride, each in one transaction -> the mark taken away
 
-Overviews and figures are computed anew; everything else comes from file and sidecar. A rebuild that
-was interrupted goes on where it stood. Nothing in the folder is changed but its identity, which is
-written when it has none.
+A rebuild that was interrupted goes on where it stood, and mends rows of rides that are damaged.
+Nothing in the folder is changed but its identity, which is written when it has none.
 """
 
 from __future__ import annotations
 
-import secrets
-import time
 from collections.abc import Iterable
-from contextlib import ExitStack, suppress
-from dataclasses import asdict, dataclass, field, replace
-from pathlib import Path, PurePosixPath
+from contextlib import ExitStack
+from dataclasses import asdict, dataclass, field
+from pathlib import PurePosixPath
 
-from sqlalchemy import Connection, insert, select
-
-from backend.errors import InvalidRequest, StoreError
+from backend.errors import StoreError
 from backend.store.calibrations.restored import bring_back_calibration, is_calibration
-from backend.store.deletion import FILLED, MADE, join_source
-from backend.store.digest import digest
-from backend.store.facts import KeptRide, Original, kept_ride
-from backend.store.finish import WrittenObject
+from backend.store.entries import Entries
+from backend.store.facts import KeptRide
+from backend.store.from_object import NONSENSE, add_kept, damage_of, files_of, read_kept
 from backend.store.identity import new_id, write_identity
 from backend.store.locks import hold
-from backend.store.logbook.book import set_tags
 from backend.store.look import DAMAGED, EMPTY, MISSING, OK, DatabaseView, look_at
 from backend.store.objects import (
     RIDE_SUFFIX,
@@ -36,28 +29,21 @@ from backend.store.objects import (
     content_key,
     free_name,
     open_objects,
-    sidecar_key,
 )
-from backend.store.parquet import RideFile, read_facts
-from backend.store.ride_table import finish_row, inserted, row_of
-from backend.store.sidecar import read_sidecar
-from backend.store.sql import tables as t
 from backend.store.sql.database import Database, shown, sqlite_path
 from backend.store.sql.database_url import check_url
 from backend.store.store import saying_where
-from backend.store.upkeep.check import damage_of
 
 # Where a destroyed SQLite file may have left something.
 JOURNALS = ("-wal", "-shm", "-journal")
-# What facts raise that make no sense, and words that are none a ride can have.
-NONSENSE = (KeyError, TypeError, ValueError, AttributeError, InvalidRequest)
 
 
 @dataclass
 class Rebuilt:
     """What a rebuild did.
 
-    rides, calibrations, calibrations_open: added now. rides_before: there already. lacking: what
+    rides, calibrations, calibrations_open: added now. rides_before: there already. rides_mended:
+    those of them whose rows were damaged; rides_damaged: whose rows still are. lacking: what
     older files do not tell, by key. not_taken: files that are not whole, with the reason; stay:
     those of them that no start moves away. superseded: rides of
     which there is a fuller version. set_aside: files of the destroyed database, under their new
@@ -67,6 +53,8 @@ class Rebuilt:
     store_id: str
     rides: int = 0
     rides_before: int = 0
+    rides_mended: int = 0
+    rides_damaged: tuple[int, ...] = ()
     calibrations: int = 0
     calibrations_open: int = 0
     lacking: dict[str, tuple[str, ...]] = field(default_factory=dict)
@@ -99,10 +87,10 @@ def rebuild_store(db_url: str, objects_url: str) -> Rebuilt:
 
 def rebuilt_store(db_url: str, objects: FileObjects) -> Rebuilt:
     """As `rebuild_store`, over a folder that is there. Raises OSError as the system does."""
-    may_be_rebuilt(look_at(db_url), db_url, objects)
+    may_be_rebuilt(look_at(db_url, whole=True), db_url, objects)
     with ExitStack() as closing:
         hold(closing, db_url, objects)
-        view = look_at(db_url)
+        view = look_at(db_url, whole=True)
         store_id = may_be_rebuilt(view, db_url, objects) or new_id()
         report = Rebuilt(store_id, set_aside=set_aside(view, db_url))
         objects.set_identity(store_id)
@@ -110,6 +98,7 @@ def rebuilt_store(db_url: str, objects: FileObjects) -> Rebuilt:
         closing.callback(database.close)
         server_id = new_id()
         database.write(lambda c: write_identity(c, store_id, server_id, rebuilding=True))
+        mend_rows(database, objects, report)
         bring_back(database, objects, view, report)
         database.write(lambda c: write_identity(c, store_id, server_id, rebuilding=False))
     return report
@@ -148,6 +137,13 @@ def set_aside(view: DatabaseView, db_url: str) -> list[str]:
             old.rename(new)
             moved.append(str(new))
     return moved
+
+
+def mend_rows(database: Database, objects: FileObjects, report: Rebuilt) -> None:
+    """Mend every ride's row that is damaged, where its object is whole."""
+    entries = Entries(database, objects)
+    entries.look_at_all()
+    report.rides_mended, report.rides_damaged = entries.mended, tuple(sorted(entries.damaged))
 
 
 def bring_back(
@@ -207,110 +203,13 @@ def bring_back_calibrations(
             report.stay[key] = error.message
 
 
-def files_of(kept: KeptRide) -> Iterable[Original]:
-    """Every file a ride lives on, also those that held others."""
-    for one in (kept.original, *kept.earlier, *kept.filled_from):
-        while one is not None:
-            yield one
-            one = one.container
-
-
-def read_kept(objects: FileObjects, key: str) -> KeptRide:
-    """A ride as its whole file and sidecar tell it. Raises StoreError when it is not whole."""
-    if (reason := damage_of(objects, key)) is not None:
-        raise StoreError(f"{key} is no whole ride: {reason}.")
-    facts, channels, row_count = read_facts(objects.local_path(key))
-    with suppress(StoreError, *NONSENSE):
-        return kept_ride(facts, read_sidecar(objects, key), channels, row_count, key)
-    try:
-        kept = kept_ride(facts, {}, channels, row_count, key)
-    except NONSENSE as error:
-        raise StoreError(f"{key} tells no ride: {error!r}.") from error
-    lost = f"what {sidecar_key(key)} said, which is damaged"
-    return replace(kept, lacks=(*kept.lacks, lost))
-
-
-def add_kept(database: Database, objects: FileObjects, kept: KeptRide) -> tuple[str, ...]:
-    """Add one ride with its overview, figures and uploads; returns what it lacks."""
-    ride, key = kept.ride, str(kept.ride.object_key)
-    path = objects.local_path(key)
-    found = digest(RideFile(path, ride.channels), ride)
-    if kept.gaps is not None and kept.events is not None:
-        found = replace(found, gaps=kept.gaps, events=kept.events)
-    completeness = ride.completeness
-    if "completeness" in kept.lacks and ride.period_us is not None and ride.row_count:
-        completeness = 1.0 - found.rows_empty / ride.row_count
-    written = WrittenObject(
-        key, path.stem, path.stat().st_size, ride.row_count, found, completeness
-    )
-    state = "complete" if completeness in (None, 1.0) else "partial"
-
-    def work(connection: Connection) -> None:
-        upload_id = None
-        if kept.original is not None:
-            upload_id = upload_of(connection, objects, kept.original, state, completeness)
-        ride_id = inserted(connection, row_of(ride) | {"upload_id": upload_id}, ride.context)
-        finish_row(connection, ride_id, written)
-        set_tags(connection, ride_id, ride.tags)
-        for file in files_of(replace(kept, filled_from=())):
-            held = upload_of(connection, objects, file, state, completeness)
-            join_source(connection, ride_id, held, MADE)
-        for file in kept.filled_from:
-            log_id = upload_of(connection, objects, file, "complete", None, filled=ride_id)
-            join_source(connection, ride_id, log_id, FILLED)
-
-    database.write(work)
-    return kept.lacks
-
-
-def upload_of(
-    connection: Connection,
-    objects: FileObjects,
-    file: Original,
-    state: str,
-    completeness: float | None,
-    filled: int | None = None,
-) -> int:
-    """The row id of the upload that brought a file, made anew; filled: the ride it filled."""
-    query = select(t.upload.c.id).where(t.upload.c.sha256 == file.sha256)
-    known = connection.execute(query.order_by(t.upload.c.id).limit(1)).scalar()
-    if known is not None:
-        return int(known)
-    key = content_key("originals", file.sha256)
-    path = objects.root / key
-    size, created_us = arrived(path)
-    values = {
-        "token": secrets.token_hex(16),
-        "name": file.name,
-        "length": size,
-        "received": size,
-        "sha256": file.sha256,
-        "state": state,
-        "code": None if filled is None else "filled",
-        "completeness": completeness,
-        "duplicate_of": filled,
-        "object_key": key if path.is_file() else None,
-        "created_us": created_us,
-        "part_of": None
-        if file.container is None
-        else upload_of(connection, objects, file.container, "complete", None),
-    }
-    added = insert(t.upload).values(values).returning(t.upload.c.id)
-    return int(connection.execute(added).scalar_one())
-
-
-def arrived(path: Path) -> tuple[int, int]:
-    """Size of an original and when it was written; nothing and now when it is gone."""
-    try:
-        status = path.stat()
-    except OSError:
-        return 0, time.time_ns() // 1000
-    return status.st_size, status.st_mtime_ns // 1000
-
-
 def told(report: Rebuilt) -> Iterable[str]:
     """The report in lines for people."""
     yield f"{report.rides} rides brought back, {report.rides_before} were there already."
+    if report.rides_mended:
+        yield f"{report.rides_mended} damaged rows of rides mended from their files."
+    for ride_id in report.rides_damaged:
+        yield f"Ride {ride_id}: its row is damaged, and no whole file is named there."
     if report.calibrations:
         yield f"{report.calibrations} calibrations brought back."
     if report.calibrations_open:

@@ -4591,7 +4591,7 @@ export interface components {
              * Code
              * @enum {string}
              */
-            code: "disk_full" | "store_read_only" | "io_error" | "queue_full" | "database_unreachable" | "rows_lost" | "rides_damaged";
+            code: "disk_full" | "store_read_only" | "io_error" | "queue_full" | "database_unreachable" | "database_damaged" | "rows_lost" | "rides_damaged";
             /** Message */
             message: string;
             /**
@@ -6457,9 +6457,9 @@ export interface components {
             object_bytes: number | null;
             /**
              * Damage
-             * @description What is wrong with the file of its samples, as far as it was looked at; then series, figure, replay and exports answer 500 `object_damaged`. The figures here stay.
+             * @description What is wrong with the file of its samples, as far as it was looked at; then series, figure, replay and exports answer 500 `object_damaged`. The figures here stay. `row`, with the state `bad`: its row in the database is damaged, so nothing but number, start, name and notes is known until it is mended from that file, by itself.
              */
-            damage: ("missing" | "wrong_size" | "changed" | "unreadable") | null;
+            damage: ("missing" | "wrong_size" | "changed" | "unreadable" | "row") | null;
             /** @description Of a ride that is being recorded: so far, where this server records it. */
             summary: components["schemas"]["RideSummary"] | null;
             /**

@@ -251,7 +251,9 @@ def test_a_simulator_that_ends_later_is_quoted_too(monkeypatch: pytest.MonkeyPat
 
     try:
         link.write(b"x")
-        with pytest.raises(LinkError, match="ended: the flash cannot be written") as caught:
+        with pytest.raises(
+            LinkError, match="ended with code 1: the flash cannot be written"
+        ) as caught:
             read_on()
     finally:
         link.close()

@@ -266,6 +266,29 @@ def test_the_server_s_health_names_a_damaged_ride_without_being_asked_for_it(
     assert item.name in health.reasons[0].message
 
 
+def test_the_server_s_health_names_a_ride_whose_row_cannot_be_mended(tmp_path: Path) -> None:
+    """Its file is gone as well; the list is answered all the same."""
+    settings = load({"data": str(tmp_path), "device": "none"}, {})
+    with open_store(settings.db, settings.objects) as store:
+        (ride_id,) = Uploads(store, reader=read).receive_file("a.fit", ORIGINAL).ride_ids
+        body = {"context": "{"}
+        store.database.write(
+            lambda c: c.exec_driver_sql("UPDATE ride SET context = :context", body)
+        )
+    (item,) = (tmp_path / "objects").rglob("*.parquet")
+    item.unlink()
+
+    with open_services(settings) as services:
+        (ride,) = services.rides.list()["items"]
+        health = eventually(services.health.look, lambda health: len(health.reasons) == 2)
+
+    assert (ride["id"], ride["state"], ride["damage"]) == (ride_id, "bad", "row")
+    of_file, of_row = health.reasons
+    assert item.name in of_file.message
+    assert (of_row.code, of_row.part) == ("rides_damaged", "database")
+    assert f"mend them from: {ride_id}. Restore the files" in of_row.message
+
+
 def test_a_store_of_sound_files_says_so(shop: Shop) -> None:
     shop.store.scrub(1_700_000_000_000_000)
 

@@ -328,8 +328,9 @@ def make_old(folder: Path, keys: list[str]) -> None:
             (folder / "objects" / new).parent.mkdir(parents=True, exist_ok=True)
             (folder / "objects" / new).write_bytes(data)
             database.execute(
-                "UPDATE ride SET object_key = ?, object_bytes = ? WHERE object_key = ?",
-                (new, len(data), key),
+                "UPDATE ride SET object_key = ?, object_sha256 = ?, object_bytes = ? "
+                "WHERE object_key = ?",
+                (new, sha256, len(data), key),
             )
         database.execute("DELETE FROM store_identity")
     database.close()

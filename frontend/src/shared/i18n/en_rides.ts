@@ -77,14 +77,7 @@ export const enRides = {
   'ride.rename': 'Rename',
   'ride.keep': 'Keep',
   'ride.damaged_word': 'damaged',
-  'ride.damaged_short': 'The file of its samples is not what was written.',
-  'ride.damage_missing': 'The file of this ride’s samples is missing.',
-  'ride.damage_wrong_size': 'The file of this ride’s samples has not the size it was written with.',
-  'ride.damage_changed': 'The file of this ride’s samples is damaged.',
-  'ride.damage_unreadable': 'The disk does not let the file of this ride’s samples be read.',
-  'ride.damage_what_to_do':
-    'The figures below were computed before and are right; samples are not shown nor exported. ' +
-    'Restore the file from a backup, or delete the ride and import its file again.',
+  'ride.damaged_short': 'What was written of it is damaged.',
   'ride.delete_sure':
     'Delete this ride with all its samples, and its file if no other ride came from it? ' +
     'This cannot be undone.',

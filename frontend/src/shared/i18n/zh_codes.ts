@@ -78,6 +78,9 @@ const refusal = {
   store_read_only: '数据存储只读，没有保存。请给予写入权限。',
   io_error: '磁盘报告故障，没有保存。请查看系统日志并备份数据。',
   queue_full: '磁盘比到来的数据慢。请查看还有什么在使用它。',
+  database_damaged:
+    '数据库文件已损坏。请停止服务器；`spindle store check` 说明损坏程度，' +
+    '`spindle store rebuild` 从文件恢复所有骑行。',
   database_unreachable: '数据库没有应答。请检查其服务器是否运行。',
   rows_lost: '上次骑行有数据行未能保存。',
   rides_damaged: '有骑行或标定的文件已损坏或丢失：请从备份恢复；骑行列表会标出有关的骑行。',

@@ -66,6 +66,17 @@ export const en = {
   delete: 'Delete',
   export: 'Export…',
   export_title: 'Take this ride away',
+  damage_missing: 'The file of this ride’s samples is missing.',
+  damage_wrong_size: 'The file of this ride’s samples has not the size it was written with.',
+  damage_changed: 'The file of this ride’s samples is damaged.',
+  damage_unreadable: 'The disk does not let the file of this ride’s samples be read.',
+  damage_row: 'The row of this ride in the database is damaged.',
+  row_what_to_do:
+    'It is mended by itself while its file is whole. If this stays, restore the file from a ' +
+    'backup.',
+  damage_what_to_do:
+    'The figures below were computed before and are right; samples are not shown nor exported. ' +
+    'Restore the file from a backup, or delete the ride and import its file again.',
   close: 'Close',
   report: 'Report (HTML)',
   share_title: 'to share',
