@@ -1,8 +1,8 @@
 """Is everything kept that is to be kept, and is each unit there?
 
-Told now, not then: `degraded` while something cannot be written. Rows that were lost for good stay
-among the reasons until the unit's next ride begins, so that nobody misses it; damaged rides until
-they are restored or deleted.
+Told now, not then: `degraded` while something cannot be written. Rows that were lost for good, or
+never came, stay among the reasons until the unit's next ride begins, so that nobody misses it;
+damaged rides until they are restored or deleted.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from backend.services.rides.missing_rows import LOST_BY_WORDS
 from backend.services.rides.record import Recorder
 from backend.services.rides.ride_tail import RowCounts
 from backend.services.units.connect import Devices
@@ -21,6 +22,7 @@ from backend.store.soundness import Soundness
 OK = "ok"
 DEGRADED = "degraded"
 ROWS_LOST = "rows_lost"
+ROWS_MISSING = "rows_missing"
 RIDES_DAMAGED = "rides_damaged"
 # So many damaged rows are named.
 ROWS_NAMED_MAX = 5
@@ -44,6 +46,15 @@ class RowsLost:
     part: str
     message: str
     code: str = ROWS_LOST
+
+
+@dataclass(frozen=True)
+class RowsMissing:
+    """Rows of a unit's latest ride that never came, with where most of them were lost."""
+
+    part: str
+    message: str
+    code: str
 
 
 @dataclass(frozen=True)
@@ -114,10 +125,18 @@ class Health:
             RowsLost(unit, f"{rows} rows of the latest ride of {unit} could not be saved.")
             for unit, rows in self._recorder.rows_lost_lately()
         ]
+        missing = [
+            RowsMissing(
+                unit,
+                f"{rows} rows of the latest ride of {unit} never came: {LOST_BY_WORDS[lost_by]}.",
+                f"{ROWS_MISSING}_{lost_by}",
+            )
+            for unit, lost_by, rows in self._recorder.rows_missing_lately()
+        ]
         damaged = [RidesDamaged(told_of_damage(keys))] if (keys := self._soundness.damaged) else []
         if rows := self._entries.damaged:
             damaged.append(RidesDamaged(told_of_rows(rows), "database"))
-        reasons = (*troubles, *lost, *damaged)
+        reasons = (*troubles, *lost, *missing, *damaged)
         return HealthView(DEGRADED if troubles else OK, self._version, reasons, devices)
 
 

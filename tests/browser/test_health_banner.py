@@ -23,7 +23,7 @@ def degraded(server: SpindleServer, rows_lost: int = 0) -> dict[str, Any]:
     """The health of a server whose disk is full."""
     health: dict[str, Any] = server.get("/health")
     reason = {"code": "disk_full", "message": FULL, "part": "database"}
-    recorder = {"rows_saved": 1200, "rows_lost": rows_lost, "rows_waiting": 50}
+    recorder = {"rows_saved": 1200, "rows_lost": rows_lost, "rows_waiting": 50, "rows_missing": 0}
     devices = [one | {"recorder": recorder} for one in health["devices"]]
     return health | {"status": "degraded", "reasons": [reason], "devices": devices}
 

@@ -20,6 +20,9 @@ HealthCode = Literal[
     "database_unreachable",
     "database_damaged",
     "rows_lost",
+    "rows_missing_machine",
+    "rows_missing_line",
+    "rows_missing_unit",
     "rides_damaged",
 ]
 RiderKind = Literal["off", "constant", "legs"]
@@ -32,11 +35,14 @@ class Alive(Answer):
 
 
 class RecorderHealth(Answer):
-    """Rows of rides since the server started; those that never came from the unit are no rows."""
+    """Rows of rides since the server started."""
 
     rows_saved: int = Field(description="Committed in the store.")
     rows_lost: int = Field(description="Given up, because the store refused them too long.")
     rows_waiting: int = Field(description="On the way to the store, or waiting for it.")
+    rows_missing: int = Field(
+        description="Never came while the bike was ridden: gaps of its rides. None of the others."
+    )
 
 
 class DeviceHealth(Answer):
@@ -57,7 +63,8 @@ class Health(Answer):
     )
     version: str
     reasons: list[HealthReason] = Field(
-        description="Why. With status ok too: `rows_lost` until the unit's next ride, "
+        description="Why. With status ok too: `rows_lost` and `rows_missing_*` until the unit's "
+        "next ride, the latter with where most of them were lost; "
         "`rides_damaged` until the files are restored or the rides deleted."
     )
     devices: list[DeviceHealth]

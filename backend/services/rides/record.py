@@ -21,11 +21,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from backend.device.states import DeviceEvent, LinkState, StateChanged, UnitEvent
-from backend.device.stream import StreamBlock, unwrap_us
+from backend.device.stream import LostBy, StreamBlock, unwrap_us
 from backend.domain._generated import MOVING_KMH, MOVING_RPM, STANDING_S
 from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.ride import Ride, RideContext, RideSummary
 from backend.errors import SpindleError, StoreError
+from backend.services.rides.missing_rows import MissingRows
 from backend.services.rides.ride_bounds import (
     Indices,
     moving_rows,
@@ -96,6 +97,7 @@ class LiveRide:
     still_rows: int = 0
     context: RideContext = field(default_factory=RideContext)
     last_wall_us: int = 0
+    epoch: int | None = None
     settings: SettingsInForce = field(init=False)
 
     def __post_init__(self) -> None:
@@ -130,6 +132,7 @@ class UnitRecorder:
         # Read by those who must not wait for the lock.
         self.counts = RowCounts()
         self.lost_lately = 0
+        self.missing = MissingRows(device_id)
         self._finish = finish
         # Rides that are over and whose last rows the store has refused so far.
         self._ending: list[LiveRide] = []
@@ -290,6 +293,7 @@ class UnitRecorder:
         totals = RunningTotals(channels, period_us)
         self._live = LiveRide(tail, t0_us, totals, last_wall_us=block.wall_us, context=context)
         self.lost_lately = 0
+        self.missing.begin()
         if skipped < lead_rows:
             rows = np.concatenate([lead.values for lead in self._lead])
             tail.add(rows[skipped:])
@@ -323,6 +327,11 @@ class UnitRecorder:
             live.tail.add(missing, taken=False)
             live.totals.skip(lost)
             live.rows_missing += lost
+            self.counts.rows_missing += lost
+            was_away = live.epoch not in (None, block.epoch)
+            lost_by = block.lost_by or (LostBy.LINE if was_away else LostBy.UNIT)
+            self.missing.add(lost_by, lost, self._period_us)
+        live.epoch = block.epoch
         row_count = len(block.values)
         still_max = max(1, round(self._settings.idle_s * 1e6 / self._period_us))
         until_still = rows_until_still(moving, row_count, live.still_rows, still_max)
@@ -447,6 +456,12 @@ class Recorder:
         """Units whose latest ride lost rows to the store, and how many; never waits."""
         units = list(self._units.items())
         return [(name, unit.lost_lately) for name, unit in units if unit.lost_lately]
+
+    def rows_missing_lately(self) -> Sequence[tuple[str, LostBy, int]]:
+        """Units whose latest ride lacks rows that never came, where most of them were lost, and how
+        many there are in all; never waits."""
+        found = [(name, unit.missing.most) for name, unit in list(self._units.items())]
+        return [(name, *most) for name, most in found if most]
 
     def tick(self, now_us: int) -> None:
         """End rides of silent units, and try again what the store refused; now_us: Unix time."""

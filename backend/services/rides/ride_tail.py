@@ -35,12 +35,14 @@ class RowCounts:
     """What became of the rows that were taken.
 
     rows_saved: committed. rows_lost: given up, because the store refused them too long.
-    rows_waiting: on the way to the store, or waiting for it.
+    rows_waiting: on the way to the store, or waiting for it. rows_missing: never came while the
+    bike was ridden, and so are none of the others.
     """
 
     rows_saved: int = 0
     rows_lost: int = 0
     rows_waiting: int = 0
+    rows_missing: int = 0
 
 
 @dataclass(frozen=True)

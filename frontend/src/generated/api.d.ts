@@ -4579,7 +4579,7 @@ export interface components {
             version: string;
             /**
              * Reasons
-             * @description Why. With status ok too: `rows_lost` until the unit's next ride, `rides_damaged` until the files are restored or the rides deleted.
+             * @description Why. With status ok too: `rows_lost` and `rows_missing_*` until the unit's next ride, the latter with where most of them were lost; `rides_damaged` until the files are restored or the rides deleted.
              */
             reasons: components["schemas"]["HealthReason"][];
             /** Devices */
@@ -4591,7 +4591,7 @@ export interface components {
              * Code
              * @enum {string}
              */
-            code: "disk_full" | "store_read_only" | "io_error" | "queue_full" | "database_unreachable" | "database_damaged" | "rows_lost" | "rides_damaged";
+            code: "disk_full" | "store_read_only" | "io_error" | "queue_full" | "database_unreachable" | "database_damaged" | "rows_lost" | "rows_missing_machine" | "rows_missing_line" | "rows_missing_unit" | "rides_damaged";
             /** Message */
             message: string;
             /**
@@ -6105,7 +6105,7 @@ export interface components {
         };
         /**
          * RecorderHealth
-         * @description Rows of rides since the server started; those that never came from the unit are no rows.
+         * @description Rows of rides since the server started.
          */
         RecorderHealth: {
             /**
@@ -6123,6 +6123,11 @@ export interface components {
              * @description On the way to the store, or waiting for it.
              */
             rows_waiting: number;
+            /**
+             * Rows Missing
+             * @description Never came while the bike was ridden: gaps of its rides. None of the others.
+             */
+            rows_missing: number;
         };
         /**
          * Refusal

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from backend.device.ebl.session.stream_receiver import StreamPlan, StreamReceiver
 from backend.device.states import UnitEvent
 from backend.device.statistics import LinkStatistics
-from backend.device.stream import StreamStarted, unwrap_us
+from backend.device.stream import LostBy, StreamStarted, unwrap_us
 from firmware_protocol._generated import (
     CHANNELS,
     FaultClearedEvent,
@@ -70,6 +70,31 @@ def test_lost_frames_are_counted_to_the_row() -> None:
     assert first.lost_rows_before == 15
     assert first.first_index == 5 * seen + 15
     assert bench.session.link_statistics().stream_rows_lost == 15
+
+
+@pytest.mark.parametrize("lost_by", LostBy)
+def test_lost_rows_say_where_they_were_lost(lost_by: LostBy) -> None:
+    """By what this end sees: that it read late, that frames came damaged, or neither."""
+    unit = FakeUnit()
+    bench = Bench(unit, StreamPlan(batch=5)).connect()
+    bench.run(1.0)
+    seen = len(bench.blocks())
+
+    if lost_by is LostBy.MACHINE:
+        bench.now_s += 0.5
+    if lost_by is LostBy.LINE:
+        bench.session.receive(b"\x05half\x00", bench.now_s)
+    unit.skip_stream_frames(3)
+    bench.run(1.0)
+    unit.skip_stream_frames(1)
+    bench.run(2.0)
+    unit.skip_stream_frames(1)
+    bench.run(0.5)
+
+    told = [block.lost_by for block in bench.blocks()[seen:] if block.lost_rows_before]
+    assert told[0] is lost_by
+    assert told[-1] is LostBy.UNIT
+    assert {block.lost_by for block in bench.blocks() if not block.lost_rows_before} == {None}
 
 
 def test_what_was_built_is_what_was_received_and_what_was_lost() -> None:

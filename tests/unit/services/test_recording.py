@@ -8,21 +8,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Future
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import numpy.typing as npt
 import pytest
 
 from backend.device.states import LinkState, StateChanged
-from backend.device.stream import StreamBlock
+from backend.device.stream import LostBy, StreamBlock
 from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.ride import Ride, RideContext
 from backend.domain.ride_events import RideEvent
 from backend.errors import Conflict, NotFound, StoreError
+from backend.services.health import Health
 from backend.services.rides.mark import MarkMoment
+from backend.services.rides.missing_rows import LOST_BY_WORDS
 from backend.services.rides.record import Recorder, RecordSettings
 from backend.services.rides.running import RunningTotals
+from backend.services.units.connect import Devices
 from backend.store import Store, open_store
 
 # A store for every test, or rides of minutes: left out of `make test-fast`.
@@ -381,3 +387,55 @@ def test_a_ride_that_the_store_refused_to_begin_has_its_first_rows_all_the_same(
 
     (ride,) = rides(store, recorder)
     assert np.array_equal(rows_of(store, ride), rows)
+
+
+@pytest.mark.parametrize("lost_by", [LostBy.MACHINE, LostBy.LINE])
+def test_rows_that_never_came_are_told_while_they_are_missing_and_by_where_they_were_lost(
+    recorder: Recorder, caplog: pytest.LogCaptureFixture, lost_by: LostBy
+) -> None:
+    rows = blocks(riding(30))
+    feed(recorder, *rows[:100])
+    feed(recorder, replace(rows[110], lost_by=LostBy.UNIT))
+    assert recorder.rows_missing_lately() == []
+
+    feed(recorder, replace(rows[160], lost_by=lost_by), *rows[161:170])
+
+    lost = 59 * BLOCK_ROWS
+    assert recorder.rows_missing_lately() == [("u1", lost_by, lost)]
+    assert recorder.counts("u1").rows_missing == lost
+    assert recorder.counts("u1").rows_lost == 0
+    (said,) = [record.getMessage() for record in caplog.records if "missing" in record.message]
+    assert LOST_BY_WORDS[lost_by] in said
+
+    feed(recorder, *blocks(standing(20), t0_us=30_000_000))
+    assert recorder.rows_missing_lately() == [("u1", lost_by, lost)]
+    feed(recorder, *blocks(riding(5), t0_us=50_000_000))
+    assert recorder.rows_missing_lately() == []
+
+
+def test_health_names_unit_and_cause_of_rows_that_never_came(
+    store: Store, recorder: Recorder
+) -> None:
+    none = cast(Devices, SimpleNamespace(list=list))
+    parts = store.watch, store.database.ask, store.soundness, store.entries
+    health = Health("1.0", none, recorder, *parts)
+    rows = blocks(riding(30))
+    feed(recorder, *rows[:100], replace(rows[150], lost_by=LostBy.MACHINE))
+
+    view = health.look()
+
+    (reason,) = view.reasons
+    assert (view.status, reason.code, reason.part) == ("ok", "rows_missing_machine", "u1")
+    assert "250 rows of the latest ride of u1 never came" in reason.message
+    assert "too busy" in reason.message
+
+
+def test_a_cable_that_was_out_is_the_line_s_and_steps_left_out_are_the_unit_s(
+    recorder: Recorder,
+) -> None:
+    rows = blocks(riding(30))
+    feed(recorder, *rows[:100])
+    feed(recorder, *[replace(block, epoch=2) for block in rows[200:300]])
+    assert recorder.rows_missing_lately() == [("u1", LostBy.LINE, 100 * BLOCK_ROWS)]
+    feed(recorder, *[replace(block, epoch=2) for block in rows[450:]])
+    assert recorder.rows_missing_lately() == [("u1", LostBy.UNIT, 250 * BLOCK_ROWS)]

@@ -160,22 +160,25 @@ class Session:
     def receive(self, data: bytes, now_s: float) -> None:
         """Take what arrived, in any split. Never raises."""
         self._now_s = now_s
+        self._subscription.read_at(now_s)
         self._statistics.bytes_received += len(data)
         if self._phase in (_Phase.OPENING, _Phase.FLUSHING, _Phase.ENDED):
             return
-        for frame in self._decoder.feed(data):
-            self._heard_s = now_s
-            self._statistics.frames_received += 1
-            self._frame(frame)
+        frames = list(self._decoder.feed(data))
         stats = self._decoder.stats
         bad = stats.crc_errors + stats.cobs_errors + stats.overflows
         self._statistics.frames_bad = self._bad_before + bad
+        for frame in frames:
+            self._heard_s = now_s
+            self._statistics.frames_received += 1
+            self._frame(frame)
         self._acknowledge_log()
         self._out += self._requests.frames_due(now_s)
 
     def tick(self, now_s: float) -> None:
         """Let time pass: repetitions, pings, leases, silence."""
         self._now_s = now_s
+        self._subscription.read_at(now_s)
         if self._phase in (_Phase.FLUSHING, _Phase.PAUSING) and now_s >= self._until_s:
             self.line.start_over(heard=False)
             self._start_handshake()

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from backend.device.ebl.session.frame_counts import FrameCounts
 from backend.device.statistics import LinkStatistics
-from backend.device.stream import StreamBlock, StreamStarted, unwrap_us
+from backend.device.stream import LostBy, StreamBlock, StreamStarted, unwrap_us
 from backend.domain.channels import ChannelSpec
 from firmware_protocol._generated import CHANNELS, StreamCountsEvent, StrSubscribeResponse
 from firmware_protocol.codec import Stream
@@ -68,14 +68,18 @@ class StreamReceiver:
         self.time_us = unit_time_us
         self.frame_counts = FrameCounts()
         self._statistics = statistics
+        self._frames_bad = statistics.frames_bad
 
     @property
     def started(self) -> StreamStarted:
         """What the blocks of this subscription hold."""
         return StreamStarted(self.epoch, self.period_us, self.channels)
 
-    def take(self, frame: Stream, wall_us: int) -> StreamBlock | None:
-        """The frame's rows, or None for a frame that is not of this subscription or not new."""
+    def take(self, frame: Stream, wall_us: int, late: bool = False) -> StreamBlock | None:
+        """The frame's rows, or None for a frame that is not of this subscription or not new.
+
+        late: the port was not read for a while, just now.
+        """
         ours = frame.stream_id == STREAM_ID and frame.epoch == self._wire_epoch
         if not ours or frame.values.shape[1] != len(self.channels):
             self._statistics.stream_frames_foreign += 1
@@ -104,7 +108,17 @@ class StreamReceiver:
             epoch=self.epoch,
             wall_us=wall_us,
             channels=self.channels,
+            lost_by=self._lost_by(lost_rows, late),
         )
+
+    def _lost_by(self, lost_rows: int, late: bool) -> LostBy | None:
+        came_damaged = self._statistics.frames_bad != self._frames_bad
+        self._frames_bad = self._statistics.frames_bad
+        if lost_rows == 0:
+            return None
+        if late:
+            return LostBy.MACHINE
+        return LostBy.LINE if came_damaged else LostBy.UNIT
 
     def counted(self, counts: StreamCountsEvent) -> bool:
         """The unit told its counts; False when they are of another subscription."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from backend.device.ebl.session.frame_counts import Balance
 from backend.device.ebl.session.operation import Operation, ask, attempt, expect
 from backend.device.ebl.session.stream_receiver import (
@@ -38,6 +40,12 @@ ROW_AGE_US_MAX = 100_000
 RENEW_PART = 0.4
 
 
+# A port is read every 20 ms. Its buffer and the unit's queue hold some tenths of a second.
+READ_LATE_S = 0.1
+# What is in these buffers comes before the first frame that shows the loss.
+LATE_SHOWS_S = 1.0
+
+
 class UnitRestarted(NoAnswer):
     """The unit's clock went back: it rebooted after the handshake."""
 
@@ -55,6 +63,8 @@ class Subscription:
         self._renewed_s: float | None = None
         self._renewed_unit_us = 0
         self._closed = Balance()
+        self._read_s = math.inf
+        self._late_until_s = -math.inf
 
     @property
     def started(self) -> StreamStarted | None:
@@ -106,12 +116,18 @@ class Subscription:
         response = yield from attempt(StrRenewRequest(STREAM_ID, self._lease_s))
         return response.status == Status.OK
 
+    def read_at(self, now_s: float) -> None:
+        """The port was looked at; now_s: never goes back."""
+        if now_s - self._read_s > READ_LATE_S:
+            self._late_until_s = now_s + LATE_SHOWS_S
+        self._read_s = now_s
+
     def take(self, frame: Stream, wall_us: int) -> StreamBlock | None:
         """The frame's rows; None for a frame of another subscription, which is counted."""
         if self._receiver is None:
             self._statistics.stream_frames_foreign += 1
             return None
-        block = self._receiver.take(frame, wall_us)
+        block = self._receiver.take(frame, wall_us, self._read_s < self._late_until_s)
         self._publish()
         return block
 

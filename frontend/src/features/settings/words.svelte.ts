@@ -53,7 +53,7 @@ export const en = {
   keeps_ok: 'everything that is to be kept is kept',
   keeps_degraded: 'not everything can be saved now: see the message above',
   keeps_unknown: 'not known: the server does not answer',
-  rows: '{saved} rows saved since it started, {waiting} waiting, {lost} lost',
+  rows: '{saved} rows saved since it started, {waiting} waiting, {lost} lost, {missing} never came',
   api: 'Description of the API',
 }
 

@@ -45,6 +45,6 @@ export const zh: Record<SettingsKey, string> = {
   keeps_ok: '需要保存的内容均已保存',
   keeps_degraded: '目前无法保存全部内容：见上方提示',
   keeps_unknown: '未知：服务器没有应答',
-  rows: '启动以来已保存 {saved} 行，等待 {waiting} 行，丢失 {lost} 行',
+  rows: '启动以来已保存 {saved} 行，等待 {waiting} 行，丢失 {lost} 行，未到 {missing} 行',
   api: 'API 说明',
 }
