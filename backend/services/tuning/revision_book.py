@@ -63,18 +63,13 @@ class RevisionBook:
         open_change = self._open.get(unit)
         newest = self._newest(unit)
         if newest is None or newest.crc32 != found.crc32:
+            given_up = newest is not None and newest.state == TRIED
+            reason = GIVEN_UP_REASON if given_up else FOUND_REASON
+            meant = Meant(found.crc32, (), reason, author="", state=KEPT)
             if open_change is not None and open_change.crc32 == found.crc32:
                 # The change was made after all: the log has it with its author's own reason.
-                self._append(unit, found, open_change)
-            else:
-                given_up = newest is not None and newest.state == TRIED
-                self._revisions.append(
-                    unit,
-                    found.parameters,
-                    reason=GIVEN_UP_REASON if given_up else FOUND_REASON,
-                    generation=found.generation,
-                    crc32=found.crc32,
-                )
+                meant = open_change
+            self._append(unit, found, meant)
         self._open.pop(unit, None)
 
     def note(self, unit: str, found: ConfigImage, meant: Meant) -> None:
