@@ -1,9 +1,9 @@
 """What happened on a ride: faults that came and went, modes the rider chose, settings that were
-changed, moments somebody marked.
+changed, moments somebody marked, the clock of who recorded it set.
 
 Faults and modes are read from the ride's own rows, so that a ride shows them whichever way it came;
 a unit's log also tells what began and ended between two rows. Settings are in no row: the unit
-tells their change.
+tells their change. Nor is the clock: who recorded the ride tells that.
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ FAULT_CLEARED = "fault_cleared"
 ASSIST_MODE = "assist_mode"
 MARK = "mark"
 SETTINGS = "settings"
-TOLD_ONLY = (MARK, SETTINGS)
+CLOCK_SET = "clock_set"
+TOLD_ONLY = (MARK, SETTINGS, CLOCK_SET)
 KINDS = frozenset({FAULT_SET, FAULT_CLEARED, ASSIST_MODE, *TOLD_ONLY})
 # A loose plug makes thousands; they are in the rows all the same.
 EVENTS_MAX = 200
@@ -37,7 +38,8 @@ class RideEvent:
     kind: `fault_set` or `fault_cleared` with the faults' bits as value, `assist_mode` with the
     slot of the rider's switch; the first of these is the mode the ride began in. `mark` with its
     number in the ride, from 1: somebody watched, and wanted to find this moment again. `settings`
-    with the CRC-32 of the configuration that is in force from then on.
+    with the CRC-32 of the configuration that is in force from then on. `clock_set` with how many
+    milliseconds the clock was set forward by, negative for back: it dates the ride from its start.
     """
 
     t_s: float
@@ -66,7 +68,7 @@ def events_of_rows(
 def merged(rows: Sequence[RideEvent], told: Sequence[RideEvent], same_s: float) -> list[RideEvent]:
     """What the rows show and what was told besides, in order of time.
 
-    same_s: so far apart they are one and the same. Marks and settings are in no row: of them none
+    same_s: so far apart they are one and the same. What is in no row is only told: of that none
     is left out, however many there are of the rest.
     """
     seen = _one_a_moment(rows)
@@ -82,8 +84,8 @@ def merged(rows: Sequence[RideEvent], told: Sequence[RideEvent], same_s: float) 
         )
     ]
     shown = sorted([*seen, *extra], key=_time)[:EVENTS_MAX]
-    marks = [event for event in told if event.kind == MARK]
-    return sorted([*shown, *marks, *settings_changes(told)], key=_time)
+    kept = [event for event in told if event.kind in (MARK, CLOCK_SET)]
+    return sorted([*shown, *kept, *settings_changes(told)], key=_time)
 
 
 def settings_changes(events: Sequence[RideEvent], crc32: int | None = None) -> list[RideEvent]:

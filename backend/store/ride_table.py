@@ -257,6 +257,23 @@ def inserted(connection: Connection, body: dict[str, object], context: RideConte
     return ride_id
 
 
+def correct(
+    connection: Connection, ride_id: int, context: RideContext | None = None, by_us: int = 0
+) -> None:
+    """Say of a ride that has begun what is known only now: what was true of its bike, and by how
+    much its start is off. Its bike is the one of then."""
+    mine = t.ride.c.id == ride_id
+    began = select(t.ride.c.started_us, t.ride.c.context, t.ride.c.unit_key).where(mine)
+    row = connection.execute(began).first()
+    if row is None:
+        return
+    context = context or RideContext(**row.context | {"unit_key": row.unit_key})
+    started_us = row.started_us + by_us
+    bike_id = bike_of_ride(connection, context, started_us)
+    values = whose(context) | {"bike_id": bike_id, "started_us": started_us}
+    connection.execute(update(t.ride).where(mine).values(values))
+
+
 def upload_key(connection: Connection, token: str | None) -> int | None:
     """The row id of an upload by its public token."""
     if token is None:

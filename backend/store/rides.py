@@ -49,6 +49,7 @@ from backend.store.parquet import RideFile
 from backend.store.reader import LiveRows, ReaderCache, RideReader, RowSource
 from backend.store.ride_table import (
     NAME_LENGTH_MAX,
+    correct,
     finish_row,
     inserted,
     named_objects,
@@ -59,14 +60,12 @@ from backend.store.ride_table import (
     row_of,
     upload_file,
     upload_key,
-    whose,
 )
 from backend.store.sidecar import keep_words, tell_for_old_file
 from backend.store.soundness import Expected, Soundness
 from backend.store.sql import tables as t
 from backend.store.sql.blobs import Rows16, decode_level, decode_tail, encode_tail
 from backend.store.sql.database import Database
-from backend.store.units import bike_of_ride
 
 LOG = logging.getLogger(__name__)
 
@@ -165,14 +164,14 @@ class RideStore:
 
     def set_context(self, ride_id: int, context: RideContext) -> None:
         """Say what was true of the bike, when it is known only after the start."""
-        mine = t.ride.c.id == ride_id
+        self._database.write(lambda c: correct(c, ride_id, context=context))
+
+    def redate(self, ride_id: int, by_us: int, told: RideEvent) -> None:
+        """Move the start of a live ride, and say so among its events. Raises StoreError."""
 
         def work(connection: Connection) -> None:
-            began = select(t.ride.c.started_us).where(mine)
-            started_us = int(connection.execute(began).scalar() or 0)
-            bike_id = bike_of_ride(connection, context, started_us)
-            values = whose(context) | {"bike_id": bike_id}
-            connection.execute(update(t.ride).where(mine).values(values))
+            correct(connection, ride_id, by_us=by_us)
+            add_events(connection, ride_id, [told])
 
         self._database.write(work)
 
@@ -219,7 +218,7 @@ class RideStore:
 
         A store that refuses it has told so elsewhere.
         """
-        if not self._recording or now_us - self._beaten_us < HEARTBEAT_US:
+        if not self._recording or abs(now_us - self._beaten_us) < HEARTBEAT_US:
             return
         self._beaten_us = now_us
         mine = t.ride.c.id.in_(sorted(self._recording))

@@ -146,11 +146,12 @@ class Statement(Answer):
 
 class RideEvent(Answer):
     """A fault that came or went (value: bits of `fault_flags`), the mode chosen (its slot),
-    settings that came into force (CRC-32 of the configuration), or a moment that somebody marked
-    (its number)."""
+    settings that came into force (CRC-32 of the configuration), a moment that somebody marked (its
+    number), or the host's clock set in mid-ride (by how many milliseconds, negative for back; the
+    ride is dated by the clock as it was set)."""
 
     t_s: float
-    kind: Literal["fault_set", "fault_cleared", "assist_mode", "settings", "mark"]
+    kind: Literal["fault_set", "fault_cleared", "assist_mode", "settings", "mark", "clock_set"]
     value: int
 
 

@@ -26,6 +26,8 @@ from backend.domain._generated import MOVING_KMH, MOVING_RPM, STANDING_S
 from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.ride import Ride, RideContext, RideSummary
 from backend.errors import SpindleError, StoreError
+from backend.services.host_clock import wall_offset_us
+from backend.services.rides.finishing import Finishing
 from backend.services.rides.missing_rows import MissingRows
 from backend.services.rides.ride_bounds import (
     Indices,
@@ -37,6 +39,7 @@ from backend.services.rides.ride_bounds import (
 from backend.services.rides.ride_tail import RideTail, RowCounts
 from backend.services.rides.running import RunningTotals
 from backend.services.rides.settings_in_force import SettingsInForce
+from backend.services.rides.told_late import RideClock, tell_clock, tell_context
 from backend.store import RideStore
 
 LOG = logging.getLogger(__name__)
@@ -48,8 +51,6 @@ RIDE_ROWS_MAX = 24 * 3600 * 100
 # Seconds of a unit that wait for a disk that refuses them: some 3 MB, and the time in which a
 # person who reads that the disk is full can make room. More are lost, and counted as lost rows.
 TAILS_WAITING_MAX = 600
-# How often a ride that could not be finished is tried again.
-FINISH_AGAIN_S = 10.0
 
 
 @dataclass(frozen=True)
@@ -93,10 +94,10 @@ class LiveRide:
     tail: RideTail
     t0_us: int
     totals: RunningTotals
+    clock: RideClock
     rows_missing: int = 0
     still_rows: int = 0
     context: RideContext = field(default_factory=RideContext)
-    last_wall_us: int = 0
     epoch: int | None = None
     settings: SettingsInForce = field(init=False)
 
@@ -114,6 +115,7 @@ class UnitRecorder:
         settings: RecordSettings,
         context_of: ContextOf,
         finish: Callable[[int, bool], Future[Ride | None]],
+        offset_us: Callable[[], int],
     ) -> None:
         self._device_id = device_id
         self._rides = rides
@@ -123,6 +125,7 @@ class UnitRecorder:
             "cadence_rpm": settings.moving_rpm,
         }
         self._context_of = context_of
+        self._offset_us = offset_us
         self._lock = threading.Lock()
         self._channels: tuple[ChannelSpec, ...] = ()
         self._period_us = 0
@@ -158,14 +161,17 @@ class UnitRecorder:
     def end_if_lost(self, now_us: int) -> None:
         """End the ride of a unit that has been silent for `lost_s`; now_us: Unix time."""
         with self._lock:
-            silent_us = now_us - self._live.last_wall_us if self._live else 0
-            if silent_us > self._settings.lost_s * 1e6:
+            heard_us = self._live.clock.heard_us if self._live else now_us
+            silent_us = now_us - self._offset_us() - heard_us
+            if self._live and silent_us > self._settings.lost_s * 1e6:
                 self._end()
 
     def look_again(self) -> None:
-        """Give a store that refused rows another chance; never waits for it."""
+        """Give a store that refused rows another chance, without waiting for it; and look whether
+        the host's clock was set."""
         with self._lock:
             if self._live is not None:
+                self._is_dated(self._live)
                 self._live.tail.push()
             for ride in list(self._ending):
                 ride.tail.push()
@@ -291,7 +297,9 @@ class UnitRecorder:
 
         tail = RideTail(self._rides, begin, self._count)
         totals = RunningTotals(channels, period_us)
-        self._live = LiveRide(tail, t0_us, totals, last_wall_us=block.wall_us, context=context)
+        offset_us = self._offset_us()
+        clock = RideClock(offset_us, block.wall_us - offset_us)
+        self._live = LiveRide(tail, t0_us, totals, clock, context=context)
         self.lost_lately = 0
         self.missing.begin()
         if skipped < lead_rows:
@@ -340,7 +348,7 @@ class UnitRecorder:
         live.still_rows = still_rows(moving[moving < taken], taken, live.still_rows)
         live.tail.add(block.values[:taken])
         live.totals.add(block.values[:taken])
-        live.last_wall_us = block.wall_us
+        live.clock.heard_us = block.wall_us - self._offset_us()
         if live.tail.rows_unsent * self._period_us >= self._settings.tail_s * 1e6:
             # A change of which the unit's own event was lost, or came while it was away.
             now_s = (live.tail.rows - taken) * self._period_us / 1e6
@@ -374,34 +382,33 @@ class UnitRecorder:
         return self._over(live)
 
     def _over(self, ride: LiveRide) -> Future[Ride | None] | None:
-        """Everything of a ride is saved or lost: finish it. None for one that never began."""
+        """Everything of a ride is saved or lost: finish it. None for one that never began, or that
+        the store does not let be dated."""
+        if not self._is_dated(ride):
+            return None
         self._ending.remove(ride)
         ride_id = ride.tail.ride_id
         if ride_id is None:
             return None
-        if ride.context.gear_ratio is None:
-            # The unit may have told its configuration only after the bike began to move.
-            context, began = replace(self._context(), unit_t0_us=ride.t0_us), ride.context
-            if (crc32 := began.config_crc32) is not None:
-                generation = began.config_generation
-                context = replace(context, config_generation=generation, config_crc32=crc32)
-            if context.gear_ratio is not None:
-                self._tell_context(ride_id, context)
+        now = replace(self._context(), unit_t0_us=ride.t0_us)
+        tell_context(self._rides, ride_id, ride.context, now)
         # Still rows are at the end: without any the bike moved when the recording ended.
         self._finishing = self._finish(ride_id, ride.still_rows == 0)
         return self._finishing
 
-    def _tell_context(self, ride_id: int, context: RideContext) -> None:
-        try:
-            self._rides.set_context(ride_id, context)
-        except StoreError as error:
-            LOG.warning("Ride %d does not know its gear ratio: %s", ride_id, error.message)
+    def _is_dated(self, ride: LiveRide) -> bool:
+        """Date it anew where the host's clock was set; False while the store refuses that."""
+        if (ride_id := ride.tail.ride_id) is None:
+            return True
+        t_s = ride.tail.rows * self._period_us / 1e6
+        return tell_clock(self._rides, ride_id, ride.clock, self._offset_us(), t_s)
 
 
 class Recorder:
     """Records every unit that is followed.
 
     unfinished: rides of a server that died; they are finished as soon as the store lets us.
+    offset_us: Unix time minus a clock that nobody sets.
     """
 
     def __init__(
@@ -410,21 +417,27 @@ class Recorder:
         context_of: ContextOf = lambda device_id: RideContext(device_id=device_id),
         settings: RecordSettings | None = None,
         unfinished: Sequence[int] = (),
+        offset_us: Callable[[], int] = wall_offset_us,
     ) -> None:
         self._rides = rides
         self._context_of = context_of
         self._settings = settings or RecordSettings()
+        self._offset_us = offset_us
         self._units: dict[str, UnitRecorder] = {}
         self._lock = threading.Lock()
-        # Rides that could not be finished: when to try again (Unix time), and how they ended.
-        self._unfinished = dict.fromkeys(unfinished, (0, True))
+        self._finisher = Finishing(rides, unfinished)
 
     def listener(self, device_id: str) -> Callable[[DeviceEvent], None]:
         """What to subscribe to a unit's events; the same for the same unit."""
         with self._lock:
             if device_id not in self._units:
                 self._units[device_id] = UnitRecorder(
-                    device_id, self._rides, self._settings, self._context_of, self.finish
+                    device_id,
+                    self._rides,
+                    self._settings,
+                    self._context_of,
+                    self._finisher.finish,
+                    self._offset_us,
                 )
             return self._units[device_id].take
 
@@ -469,27 +482,7 @@ class Recorder:
             unit.end_if_lost(now_us)
             unit.look_again()
         self._rides.beat(now_us)
-        for ride_id, (due_us, cut_short) in list(self._unfinished.items()):
-            if due_us <= now_us:
-                self._unfinished[ride_id] = now_us + round(FINISH_AGAIN_S * 1e6), cut_short
-                self.finish(ride_id, cut_short)
-
-    def finish(self, ride_id: int, cut_short: bool) -> Future[Ride | None]:
-        """Finish a ride on the store's thread; tried again, by `tick`, as long as that fails.
-
-        cut_short: the bike moved when the recording ended.
-        """
-
-        def told(future: Future[Ride | None]) -> None:
-            if future.exception() is None:
-                self._unfinished.pop(ride_id, None)
-            elif ride_id not in self._unfinished:
-                self._unfinished[ride_id] = 0, cut_short
-                tell_trouble(ride_id, future)
-
-        finished: Future[Ride | None] = self._rides.finish_later(ride_id, cut_short)
-        finished.add_done_callback(told)
-        return finished
+        self._finisher.tick(now_us)
 
     def close(self) -> None:
         """End and finish every ride; what cannot be finished now is finished at the next start."""
@@ -500,12 +493,3 @@ class Recorder:
     def _all(self) -> Sequence[UnitRecorder]:
         with self._lock:
             return list(self._units.values())
-
-
-def tell_trouble(ride_id: int, future: Future[Ride | None]) -> None:
-    """Say in the log when a ride could not be finished."""
-    error = future.exception()
-    if isinstance(error, StoreError):
-        LOG.warning("Ride %d is kept but not finished: %s", ride_id, error.message)
-    elif error is not None:
-        LOG.error("Ride %d was not finished.", ride_id, exc_info=error)

@@ -6645,8 +6645,9 @@ export interface components {
         /**
          * RideEvent
          * @description A fault that came or went (value: bits of `fault_flags`), the mode chosen (its slot),
-         *     settings that came into force (CRC-32 of the configuration), or a moment that somebody marked
-         *     (its number).
+         *     settings that came into force (CRC-32 of the configuration), a moment that somebody marked (its
+         *     number), or the host's clock set in mid-ride (by how many milliseconds, negative for back; the
+         *     ride is dated by the clock as it was set).
          */
         RideEvent: {
             /** T S */
@@ -6655,7 +6656,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "fault_set" | "fault_cleared" | "assist_mode" | "settings" | "mark";
+            kind: "fault_set" | "fault_cleared" | "assist_mode" | "settings" | "mark" | "clock_set";
             /** Value */
             value: number;
         };

@@ -65,6 +65,7 @@ export const enRides = {
   'ride.mark_assist_mode': 'Assist modes',
   'ride.mark_settings': 'Settings',
   'ride.mark_mark': 'Marks',
+  'ride.mark_clock_set': 'Clock',
   'ride.event_settings': 'Settings changed',
   'ride.event_mark': 'Mark {number}',
   'ride.event_fault_set': 'Fault: {names}',

@@ -62,6 +62,7 @@ export const zhRides: Record<keyof typeof enRides, string> = {
   'ride.mark_assist_mode': '助力模式',
   'ride.mark_settings': '设置',
   'ride.mark_mark': '标记',
+  'ride.mark_clock_set': '时钟',
   'ride.event_settings': '设置已更改',
   'ride.event_mark': '标记 {number}',
   'ride.event_fault_set': '故障：{names}',

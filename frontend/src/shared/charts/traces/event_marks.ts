@@ -12,6 +12,7 @@ const looks: Record<Kind, { symbol: string; token: string }> = {
   fault_cleared: { symbol: 'circle-open', token: 'ok' },
   settings: { symbol: 'square', token: 'accent' },
   mark: { symbol: 'star', token: 'accent' },
+  clock_set: { symbol: 'hourglass', token: 'ink-2' },
   assist_mode: { symbol: 'diamond', token: 'ink-2' },
 }
 const kinds = Object.keys(looks) as Kind[] // the worst first

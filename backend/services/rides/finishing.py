@@ -1,0 +1,60 @@
+"""Rides that are over become objects on the store's own thread, again and again until one does."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+from concurrent.futures import Future
+
+from backend.domain.ride import Ride
+from backend.errors import StoreError
+from backend.store import RideStore
+
+LOG = logging.getLogger(__name__)
+
+# How often a ride that could not be finished is tried again.
+FINISH_AGAIN_S = 10.0
+
+
+class Finishing:
+    """For any thread. unfinished: rides of a server that died, to be finished from now on."""
+
+    def __init__(self, rides: RideStore, unfinished: Sequence[int] = ()) -> None:
+        self._rides = rides
+        # Rides that could not be finished: when to try again (Unix time), and how they ended.
+        self._unfinished = dict.fromkeys(unfinished, (0, True))
+
+    def finish(self, ride_id: int, cut_short: bool) -> Future[Ride | None]:
+        """Finish a ride; tried again, by `tick`, as long as that fails.
+
+        cut_short: the bike moved when the recording ended.
+        """
+
+        def told(future: Future[Ride | None]) -> None:
+            if future.exception() is None:
+                self._unfinished.pop(ride_id, None)
+            elif ride_id not in self._unfinished:
+                self._unfinished[ride_id] = 0, cut_short
+                tell_trouble(ride_id, future)
+
+        finished: Future[Ride | None] = self._rides.finish_later(ride_id, cut_short)
+        finished.add_done_callback(told)
+        return finished
+
+    def tick(self, now_us: int) -> None:
+        """Try again what is due; now_us: Unix time."""
+        later_us = now_us + round(FINISH_AGAIN_S * 1e6)
+        for ride_id, (due_us, cut_short) in list(self._unfinished.items()):
+            # What is due later than that was noted before the clock was set back.
+            if not now_us < due_us <= later_us:
+                self._unfinished[ride_id] = later_us, cut_short
+                self.finish(ride_id, cut_short)
+
+
+def tell_trouble(ride_id: int, future: Future[Ride | None]) -> None:
+    """Say in the log when a ride could not be finished."""
+    error = future.exception()
+    if isinstance(error, StoreError):
+        LOG.warning("Ride %d is kept but not finished: %s", ride_id, error.message)
+    elif error is not None:
+        LOG.error("Ride %d was not finished.", ride_id, exc_info=error)
