@@ -13,18 +13,18 @@ export function eventText(
   locale: Locale,
   modeName: (mode: number) => string,
 ): string {
-  const { t } = locale
+  const say = words(locale)
   if (event.kind === 'assist_mode') {
-    return t('ride.event_assist_mode', { mode: modeName(event.value) })
+    return say('event_assist_mode', { mode: modeName(event.value) })
   }
-  if (event.kind === 'settings') return t('ride.event_settings')
-  if (event.kind === 'mark') return t('ride.event_mark', { number: event.value })
+  if (event.kind === 'settings') return say('event_settings')
+  if (event.kind === 'mark') return say('event_mark', { number: event.value })
   if (event.kind === 'clock_set') {
     const key = event.value < 0 ? 'clock_set_back' : 'clock_set_forward'
-    return words(locale)(key, { by: spanText(event.value, locale) })
+    return say(key, { by: spanText(event.value, locale) })
   }
   const names = faultList(locale, flagNames('fault_flags', event.value))
-  return t(`ride.event_${event.kind}`, { names })
+  return say(`event_${event.kind}`, { names })
 }
 
 /** Days and h:mm:ss of a time in ms, whichever way it goes. */
