@@ -33,6 +33,7 @@ from backend.ingest import Readers
 from backend.link import kind_of
 from backend.services.calibration.calibrations import Calibrations, open_calibrations
 from backend.services.calibration.certified import CertifiedTorque
+from backend.services.calibration.job_dates import JobDates
 from backend.services.health import Health
 from backend.services.imports.collect import Collect
 from backend.services.imports.mapping import TableMapping
@@ -247,6 +248,7 @@ def upkeep(
         housekeeping=partial(tidy, recorder, uploads, store, last_seen, devices),
         cards=RideCards(store).tick,
         zeros=RideZeros(store).tick,
+        calibrations=JobDates(store.calibrations).tick,
     )
 
 

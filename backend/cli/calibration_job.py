@@ -217,6 +217,9 @@ def print_job(job: Job) -> None:
             )
     if job["unsure"] is not None:
         print(f"Nobody knows whether the unit has it: repeat `{job['unsure']}`.")
+    for one in job["clock_set"]:
+        dates = "were moved with it" if one["dated"] else "are of the wrong clock"
+        print(f"The server's clock was set right at {one['at']}; the dates before {dates}.")
     if job["next_step"] is not None and "capture" in job["may"]:
         print(f"Next: {words(job['steps'][job['next_step']])}")
     print(f"Can be done now: {', '.join(job['may']) or 'nothing'}")

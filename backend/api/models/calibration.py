@@ -183,6 +183,17 @@ class JobList(BaseModel):
     items: list[JobSummary]
 
 
+class ClockSet(Answer):
+    """The host's clock was set while the calibration was open."""
+
+    at: datetime
+    by_s: float = Field(description="Negative for back.")
+    dated: bool = Field(
+        description="Dates of before were moved; else they stand: the unit has a certificate of "
+        "them."
+    )
+
+
 class Job(JobSummary):
     """All of a calibration, so that a page has nothing to work out."""
 
@@ -209,6 +220,7 @@ class Job(JobSummary):
     unsure: Literal["write", "restore"] | None = Field(
         description="Begun, and nobody knows whether the unit has it; repeating it finds out."
     )
+    clock_set: list[ClockSet]
     earlier_of_bike: list[JobSummary]
     earlier_of_model: list[JobSummary]
     change: Change | None = Field(description="Since the last one of this unit.")

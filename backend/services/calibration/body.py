@@ -11,6 +11,7 @@ changes   of the unit's record that were read back, oldest first
 pending   a change that was begun and of which nobody knows yet whether the unit has it
 certificate  of what was written: about, worked, sha256
 result    of a closed job
+clock_set  at_us, by_us, dated of each time the host's clock was set meanwhile; absent if never
 """
 
 from __future__ import annotations

@@ -36,9 +36,11 @@ def open_calibrations(
     version: str,
     limits: Sequence[Any] = (),
     now_s: Callable[[], float] = time.monotonic,
+    unix_s: Callable[[], float] = time.time,
 ) -> Calibrations:
     """Over units whose streams are followed from now on. version: of this Spindle, for
     certificates. limits: plain tables of the house's own. now_s: any steady clock.
+    unix_s: Unix time.
 
     Raises InvalidRequest for limits that are none.
     """
@@ -46,7 +48,7 @@ def open_calibrations(
     recent = RecentReadings(now_s)
     devices.watch(recent.follow)
     readings = Readings(recent)
-    jobs = CalibrationJobs(devices, store, readings, limits_table(limits))
-    record = CalibrationRecord(jobs, store, tuning, software)
+    jobs = CalibrationJobs(devices, store, readings, limits_table(limits), unix_s)
+    record = CalibrationRecord(jobs, store, tuning, software, unix_s)
     show = CalibrationShow(jobs, record, store, readings, software)
     return Calibrations(readings, jobs, record, show)

@@ -29,7 +29,7 @@ def certificate_paper(
     Raises InvalidRequest for a file that is no certificate, a zone that is none.
     """
     from backend.views.paper.calibration.certificate import certificate_pdf
-    from backend.views.paper.calibration.told import Certified, Change, Manner, Struck
+    from backend.views.paper.calibration.told import Certified, Change, ClockSet, Manner, Struck
 
     at = zone_of(zone)
     if at is None:
@@ -50,6 +50,9 @@ def certificate_paper(
             Struck(from_plain(Capture, one["body"]), struck["author"], struck["reason"])
             for one in job["captures"]
             if (struck := one["struck"]) is not None
+        ],
+        clock_set=[
+            ClockSet(one["at_us"], one["dated"]) for one in job["body"].get("clock_set", ())
         ],
     )
     return certificate_pdf(told, Manner(language, at, paper))

@@ -23,6 +23,7 @@ from backend.services.calibration.plan import Step, steps
 from backend.services.calibration.reading import Readings
 from backend.services.calibration.telling import (
     capture_views,
+    clock_changes,
     record_changes,
     record_lines,
     result_in,
@@ -97,6 +98,7 @@ class CalibrationShow:
             changes=record_changes(body),
             expanded=expanded_of(worked),
             unsure=None if body["pending"] is None else body["pending"]["kind"],
+            clock_set=clock_changes(body),
             earlier_of_bike=self._earlier(job, [o for o in others if is_of_bike(o, job)]),
             earlier_of_model=self._earlier(
                 job, [o for o in others if o.model == job.model and not is_of_bike(o, job)]

@@ -21,6 +21,7 @@ from backend.services.calibration.certificates import limits_in
 from backend.services.calibration.record import coefficients_of
 from backend.services.calibration.views import (
     CaptureView,
+    ClockSet,
     JobSummary,
     RecordChange,
     RecordLine,
@@ -169,6 +170,14 @@ def record_changes(body: Body) -> tuple[RecordChange, ...]:
             certificate_sha256=one["certificate_sha256"],
         )
         for one in body["changes"]
+    )
+
+
+def clock_changes(body: Body) -> tuple[ClockSet, ...]:
+    """When the host's clock was set while the job was open, oldest first."""
+    return tuple(
+        ClockSet(at=moment(one["at_us"]), by_s=one["by_us"] / 1e6, dated=one["dated"])
+        for one in body.get("clock_set", ())
     )
 
 

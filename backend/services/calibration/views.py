@@ -78,6 +78,16 @@ class RecordChange:
 
 
 @dataclass(frozen=True)
+class ClockSet:
+    """The host's clock was set by by_s, negative for back, while the job was open. dated: its dates
+    of before were moved; else they stand, since the unit has a certificate made with them."""
+
+    at: datetime
+    by_s: float
+    dated: bool
+
+
+@dataclass(frozen=True)
 class Result:
     """What a job came to. past: its coefficients with their uncertainty. expanded_nm: the largest
     of the budget. linearity_pct: to the line, the worse side. All None of a job without a fit. That
@@ -143,6 +153,7 @@ class JobView(JobSummary):
     changes: tuple[RecordChange, ...]
     expanded: Mapping[str, float]
     unsure: str | None
+    clock_set: tuple[ClockSet, ...]
     earlier_of_bike: tuple[JobSummary, ...]
     earlier_of_model: tuple[JobSummary, ...]
     change: Change | None

@@ -7,7 +7,7 @@ out and stays.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -110,6 +110,28 @@ class CalibrationStore:
             return replace(job, body=body)
 
         return self._database.write(changed)
+
+    def redate(
+        self,
+        work: Callable[
+            [KeptCalibration, Sequence[KeptCapture]],
+            tuple[KeptCalibration, Sequence[KeptCapture]] | None,
+        ],
+    ) -> None:
+        """Give open jobs and their captures other dates: all of them or none.
+
+        work: a job and its captures as they shall be, None for one that stays. Raises StoreError.
+        """
+
+        def done(connection: Connection) -> None:
+            is_open = select(t.calibration.c.id).where(t.calibration.c.closed_us.is_(None))
+            for job_id in connection.execute(is_open.order_by(t.calibration.c.id)).scalars().all():
+                made = work(job_of(connection, job_id), captures_of(connection, job_id))
+                if made is not None:
+                    set_dates(connection, *made)
+                    self._keep(connection, job_id)
+
+        self._database.write(done)
 
     # ------------------------------------------------------------------ captures
 
@@ -286,6 +308,19 @@ def captures_of(connection: Connection, job_id: int) -> tuple[KeptCapture, ...]:
 def set_body(connection: Connection, job_id: int, body: Body) -> None:
     mine = t.calibration.c.id == job_id
     connection.execute(update(t.calibration).where(mine).values(body=dict(body)))
+
+
+def set_dates(
+    connection: Connection, job: KeptCalibration, captures: Sequence[KeptCapture]
+) -> None:
+    mine = t.calibration.c.id == job.id
+    connection.execute(update(t.calibration).where(mine).values(opened_us=job.opened_us))
+    set_body(connection, job.id, job.body)
+    row = t.calibration_capture.c
+    for one in captures:
+        which = (row.calibration_id == job.id) & (row.number == one.number)
+        values = {"body": dict(one.body), "struck": one.struck}
+        connection.execute(update(t.calibration_capture).where(which).values(values))
 
 
 def now_us() -> int:

@@ -3327,6 +3327,27 @@ export interface components {
             calibrated: components["schemas"]["CalibratedTorque"];
         };
         /**
+         * ClockSet
+         * @description The host's clock was set while the calibration was open.
+         */
+        ClockSet: {
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+            /**
+             * By S
+             * @description Negative for back.
+             */
+            by_s: number;
+            /**
+             * Dated
+             * @description Dates of before were moved; else they stand: the unit has a certificate of them.
+             */
+            dated: boolean;
+        };
+        /**
          * ClosedLoop
          * @description The same road again with other settings: an estimate with its band.
          *
@@ -4804,6 +4825,8 @@ export interface components {
              * @description Begun, and nobody knows whether the unit has it; repeating it finds out.
              */
             unsure: ("write" | "restore") | null;
+            /** Clock Set */
+            clock_set: components["schemas"]["ClockSet"][];
             /** Earlier Of Bike */
             earlier_of_bike: components["schemas"]["JobSummary"][];
             /** Earlier Of Model */

@@ -5,6 +5,7 @@ The readings are made here: counts of a straight sensor with noise, its truth to
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -53,6 +54,7 @@ class Workshop:
         self.limits = limits
         self.unit = FakeUnit()
         self.now_s = 100.0
+        self.clock_set_by_s = 0.0
         self.t_us = 0
         self.random = np.random.default_rng(7)
         self.start()
@@ -68,7 +70,13 @@ class Workshop:
         self.device = self.devices.add(URL).id
         tuning = Tuning(self.devices, self.store.revisions)
         self.use = open_calibrations(
-            self.devices, self.store.calibrations, tuning, "9.9", self.limits, lambda: self.now_s
+            self.devices,
+            self.store.calibrations,
+            tuning,
+            "9.9",
+            self.limits,
+            lambda: self.now_s,
+            self.unix_s,
         )
 
     def stop(self) -> None:
@@ -79,6 +87,10 @@ class Workshop:
         """The server dies and another one starts: nothing is left but the folder."""
         self.stop()
         self.start()
+
+    def unix_s(self) -> float:
+        """What the host's clock shows."""
+        return time.time() + self.clock_set_by_s
 
     @property
     def held(self) -> dict[str, Any]:

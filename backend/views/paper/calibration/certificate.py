@@ -63,6 +63,9 @@ def _parts(told: Certified, manner: Manner) -> Iterator[Any]:
         yield text(say("changed", count=count), 10, BAD, bold=True, below=4)
     if told.closed_us is None:
         yield text(say("open"), colour=WARN, bold=True, below=4)
+    for one in told.clock_set:
+        words = "clock_set_dated" if one.dated else "clock_set"
+        yield text(say(words, when=manner.moment(one.at_us)), colour=WARN, below=4)
     yield facts(list(_whose(told, manner)), manner.width)
     yield from section(say("judgement"), *_judgement(worked, manner))
     yield from section(say("instruments"), facts(list(_instruments(told, manner)), manner.width))

@@ -32,6 +32,14 @@ class Change:
 
 
 @dataclass(frozen=True)
+class ClockSet:
+    """The host's clock was set then. dated: dates of before were moved, else they are wrong."""
+
+    at_us: int
+    dated: bool
+
+
+@dataclass(frozen=True)
 class Certified:
     """A certificate, worked out again, and what the job around it tells.
 
@@ -45,6 +53,7 @@ class Certified:
     closed_us: int | None
     change: Change | None
     struck: Sequence[Struck]
+    clock_set: Sequence[ClockSet] = ()
 
 
 @dataclass(frozen=True)

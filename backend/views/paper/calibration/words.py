@@ -10,6 +10,10 @@ EN = {
     "title": "Calibration certificate of a torque sensor",
     "number": "Certificate {number} of this unit",
     "open": "This calibration is not closed: it may change.",
+    "clock_set_dated": "The clock of the computer was set right at {when}, in the middle of this "
+    "calibration; the dates before were moved with it.",
+    "clock_set": "The clock of the computer was set right at {when}, after this calibration was "
+    "written into the unit; the dates before, the unit's too, are of the wrong clock.",
     "changed": "THIS FILE WAS CHANGED: {count} of its values do not follow from its raw captures, "
     "or its hash is another. What stands here was worked out again from the raw captures.",
     "page": "Page {page} of {pages}",

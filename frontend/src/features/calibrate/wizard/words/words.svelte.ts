@@ -136,6 +136,11 @@ export const en = {
   write_note: 'One transaction, read back and compared; the old calibration can be restored.',
   reason: 'Reason, kept with the change',
   reason_hint: 'such as: spring service',
+  clock_set_dated:
+    "The server's clock was set right at {when}; the dates before were moved with it.",
+  clock_set:
+    "The server's clock was set right at {when}, when the unit was written already: the dates " +
+    "before, the unit's too, are of the wrong clock.",
   unsure: 'Nobody answered: it is not known whether the unit has it. Repeat it to find out.',
   verify_hang: 'Hang a mass that the fit has not seen',
   verify_note: 'crank level and forward',

@@ -130,6 +130,8 @@ export const zh: Record<keyof typeof en, string> = {
   write_note: '一次事务，读回并比较；可以恢复旧的标定。',
   reason: '原因，随更改保存',
   reason_hint: '例如：春季保养',
+  clock_set_dated: '服务器时钟于 {when} 校正；此前的日期已随之更正。',
+  clock_set: '服务器时钟于 {when} 校正，当时已写入单元：此前的日期（包括单元中的日期）来自错误的时钟。',
   unsure: '没有应答：不知单元是否已有所写内容。请重复以查明。',
   verify_hang: '挂上拟合未用过的砝码',
   verify_note: '曲柄水平朝前',
