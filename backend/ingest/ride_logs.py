@@ -12,14 +12,17 @@ import struct
 import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
 
 from backend.domain.channels import MISSING_INT16, ChannelSpec
+from backend.domain.clock_set import set_by_us
 from backend.domain.ride import RideContext, RideRows
 from backend.domain.ride_events import (
     ASSIST_MODE,
+    CLOCK_SET,
     EVENTS_MAX,
     FAULT_CLEARED,
     FAULT_SET,
@@ -306,8 +309,8 @@ def laid_out(
 
 
 def events_of(blocks: Sequence[Block], t0_us: int, length_us: int) -> list[RideEvent]:
-    """What EVENT blocks tell of the ride that begins at unit time `t0_us`, and which settings were
-    in force by its CONFIG blocks; in order of time."""
+    """What EVENT blocks tell of the ride that begins at unit time `t0_us`, which settings were in
+    force by its CONFIG blocks, and when its clock was set; in order of time."""
     found: list[RideEvent] = []
     for block in blocks:
         if block.type != EVENT:
@@ -317,7 +320,8 @@ def events_of(blocks: Sequence[Block], t0_us: int, length_us: int) -> list[RideE
             if kind is not None and 0 <= t_us - t0_us <= length_us:
                 found.append(RideEvent((t_us - t0_us) / 1e6, kind, value))
     found = sorted(found, key=lambda event: event.t_s)[:EVENTS_MAX]
-    return sorted([*found, *settings_of(blocks, t0_us, length_us)], key=lambda event: event.t_s)
+    told = [*settings_of(blocks, t0_us, length_us), *clock_of(blocks, t0_us, length_us)]
+    return sorted([*found, *told], key=lambda event: event.t_s)
 
 
 def settings_of(blocks: Sequence[Block], t0_us: int, length_us: int) -> list[RideEvent]:
@@ -343,12 +347,33 @@ def events_in(block: Block) -> Iterator[tuple[int, int, int]]:
         yield t_us, code, value | high << HALF_BITS
 
 
-def start_of(blocks: Sequence[Block], t0_us: int) -> int | None:
-    """Unix time of unit time `t0_us` from the first believable SYNC, None without one."""
+def starts_of(blocks: Sequence[Block], t0_us: int) -> list[tuple[int, int]]:
+    """By each believable SYNC, in their order: its unit time, and the Unix time of `t0_us`."""
+    found = []
     for block in blocks:
         if block.type == SYNC and len(block.payload) >= SYNC_FIELDS.size:
             unix_us, _ = SYNC_FIELDS.unpack_from(block.payload)
             started_us = int(unix_us) - (block.t0_us - t0_us)
             if EPOCH_S * 1e6 < started_us < LATEST_S * 1e6:
-                return started_us
-    return None
+                found.append((block.t0_us, started_us))
+    return found
+
+
+def start_of(blocks: Sequence[Block], t0_us: int) -> int | None:
+    """Unix time of unit time `t0_us`, None where no SYNC tells it.
+
+    The unit's own last word: it was told the time again where the clock of its host was set. What
+    the host appended later counts only without one.
+    """
+    own = starts_of([block for block in blocks if block.seq != HOST_SEQ], t0_us)
+    told = own or starts_of(blocks, t0_us)[:1]
+    return told[-1][1] if told else None
+
+
+def clock_of(blocks: Sequence[Block], t0_us: int, length_us: int) -> list[RideEvent]:
+    """When the unit was told another time than before, by its SYNC blocks."""
+    return [
+        RideEvent(min(max(0, t_us - t0_us), length_us) / 1e6, CLOCK_SET, round(by_us / 1000))
+        for (_, before_us), (t_us, after_us) in pairwise(starts_of(blocks, t0_us))
+        if (by_us := set_by_us(before_us, after_us))
+    ]

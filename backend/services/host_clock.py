@@ -10,10 +10,6 @@ from __future__ import annotations
 
 import time
 
-# Whoever keeps the time by a network stays within a second, by hand within this; a date that is
-# wrong by less misleads nobody.
-CLOCK_SET_US = 60_000_000
-
 # Counts sleep, as Unix time does: a laptop that slept was not told another time. Linux keeps one
 # that counts it and one that does not; the monotonic clocks of macOS and Windows do.
 _STEADY = getattr(time, "CLOCK_BOOTTIME", getattr(time, "CLOCK_MONOTONIC", None))
@@ -23,9 +19,3 @@ def wall_offset_us() -> int:
     """Unix time minus the time since the host was switched on, in microseconds."""
     steady_ns = time.monotonic_ns() if _STEADY is None else time.clock_gettime_ns(_STEADY)
     return (time.time_ns() - steady_ns) // 1000
-
-
-def set_by_us(before_us: int, now_us: int) -> int:
-    """By how much the clock was set between two offsets of `wall_offset_us`; 0 where it was not."""
-    by_us = now_us - before_us
-    return by_us if abs(by_us) > CLOCK_SET_US else 0

@@ -375,6 +375,18 @@ def test_the_host_learns_the_unit_s_clock_and_the_unit_the_world_s() -> None:
     assert told.unix_us == pytest.approx(1_790_000_000_000_000 + bench.now_s * 1e6, abs=50_000)
 
 
+@pytest.mark.parametrize("before_us", [0, 1_577_836_830_000_000])
+def test_a_unit_is_told_the_time_again_when_its_host_s_clock_was_set(before_us: int) -> None:
+    bench, _ = connected()
+    bench.session.wall_offset_us = before_us
+    bench.run(60.0)
+    bench.session.wall_offset_us = 1_795_770_000_000_000
+    bench.run(30.0)
+
+    told = bench.ask(ask(TimSyncRequest(1), TimSyncResponse))
+    assert told.unix_us == pytest.approx(1_795_770_000_000_000 + bench.now_s * 1e6, abs=50_000)
+
+
 def test_a_fault_comes_with_what_the_bike_did_and_can_be_forgotten() -> None:
     unit = LockstepUnit(seed=1, bike={"battery.soc_pct_start": 20.0})
     bench = bench_with(unit).connect()

@@ -15,8 +15,9 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
+from backend.domain.clock_set import set_by_us
 from backend.services.calibration.body import is_written
-from backend.services.host_clock import set_by_us, wall_offset_us
+from backend.services.host_clock import wall_offset_us
 from backend.store import CalibrationStore, KeptCalibration, KeptCapture
 
 Kept = tuple[KeptCalibration, Sequence[KeptCapture]]

@@ -20,7 +20,7 @@ import numpy.typing as npt
 from backend.domain.channels import Counts
 from backend.domain.filled import Filled, filled_mask
 from backend.domain.ride import Ride
-from backend.domain.ride_events import RideEvent
+from backend.domain.ride_events import CLOCK_SET, RideEvent
 from backend.ingest import ImportedRide
 from backend.services.imports.same_ride import ride_span_us
 from backend.store import RideStore
@@ -101,7 +101,7 @@ def plan(ride: Ride, imported: ImportedRide, room: Room) -> Filling | None:
         places=places,
         counts=counts_for(ride, imported, there[fits][first]),
         filled=tuple(sorted([*kept, *spans], key=lambda span: span.from_s)),
-        events=moved(ride.events, shift_s) + moved(imported.events, told_s),
+        events=moved(ride.events, shift_s) + moved(told_of(imported), told_s),
     )
 
 
@@ -178,6 +178,11 @@ def counts_for(ride: Ride, imported: ImportedRide, rows: Places) -> dict[str, Co
         same = (theirs.scale, theirs.wide) == (channel.scale, channel.wide)
         found[channel.name] = counts if same else channel.to_counts(theirs.to_values(counts))
     return found
+
+
+def told_of(imported: ImportedRide) -> tuple[RideEvent, ...]:
+    """The events of a log but those of its clock: the ride is dated by its own."""
+    return tuple(event for event in imported.events if event.kind != CLOCK_SET)
 
 
 def moved(events: Sequence[RideEvent], by_s: float) -> tuple[RideEvent, ...]:

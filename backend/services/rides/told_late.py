@@ -6,10 +6,10 @@ import logging
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
+from backend.domain.clock_set import set_by_us
 from backend.domain.ride import RideContext
 from backend.domain.ride_events import CLOCK_SET, RideEvent
 from backend.errors import StoreError
-from backend.services.host_clock import set_by_us
 from backend.store import RideStore
 
 LOG = logging.getLogger(__name__)

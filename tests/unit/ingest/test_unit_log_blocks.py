@@ -15,9 +15,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from backend.domain.ride_events import SETTINGS
+from backend.domain.ride_events import CLOCK_SET, SETTINGS, RideEvent
 from backend.ingest.answer import decode, encode
-from backend.ingest.blocks import HOST_SEQ, find_blocks, scan, sync_block
+from backend.ingest.blocks import HOST_SEQ, SYNC_FIELDS, find_blocks, scan, sync_block
 from backend.ingest.formats import read_file
 from backend.ingest.ride_logs import read_blocks
 from firmware_protocol._generated import SCHEMA_HASH
@@ -189,6 +189,25 @@ def test_without_a_clock_the_start_is_unknown_and_a_sync_of_unit_or_host_tells_i
     assert from_host.completeness == 1.0
     assert not nonsense.start_known
     assert HOST_SEQ == 0xFFFFFFFF
+
+
+def test_a_unit_that_was_told_the_time_again_dates_its_log_by_that_and_says_so() -> None:
+    wrong_us, right_us = 1_577_836_830_000_000, 1_795_770_000_000_000
+    # Eight blocks of ten rows, a tenth of a second each; the clock was set after the fifth.
+    set_us = T0_US + 5_000_000
+    syncs = [
+        block(SYNC, 11, SYNC_FIELDS.pack(wrong_us, 1000)),
+        block(SYNC, 12, SYNC_FIELDS.pack(right_us, 1000), t0_us=set_us),
+    ]
+    host = sync_block(3, 9, T0_US, right_us)
+
+    (ride,) = read_blocks(b"".join([*whole_log(), *syncs, host])).rides
+    (kept,) = read_blocks(b"".join([*whole_log(), syncs[0]])).rides
+
+    assert ride.started_us == right_us - 5_000_000
+    by_ms = (right_us - 5_000_000 - wrong_us) // 1000
+    assert ride.events == (RideEvent(5.0, CLOCK_SET, by_ms),)
+    assert (kept.started_us, kept.events) == (wrong_us, ())
 
 
 @pytest.mark.parametrize("cut", [512 * 6, 512 * 6 + 1, 512 * 6 + 31, 512 * 6 + 75, 512 * 7 - 1])

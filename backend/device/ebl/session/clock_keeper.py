@@ -1,4 +1,5 @@
-"""When to ask a unit for its time, and telling it ours: a burst at first, then now and then."""
+"""When to ask a unit for its time, and telling it ours: a burst at first, then now and then; once
+more when ours was set."""
 
 from __future__ import annotations
 
@@ -8,6 +9,7 @@ from backend.device.ebl.session.clock_sync import ClockEstimate, ClockEstimator,
 from backend.device.ebl.session.operation import Operation, attempt
 from backend.device.ebl.session.runner import OperationRunner
 from backend.device.statistics import LinkStatistics
+from backend.domain.clock_set import set_by_us
 from firmware_protocol._generated import TimSetRequest, TimSyncRequest, TimSyncResponse
 
 # The first few tell the offset; the later ones, over minutes, the skew.
@@ -27,6 +29,8 @@ class ClockKeeper:
         self._estimator = ClockEstimator()
         self._due_s: float | None = None
         self._asked = 0
+        # Unix time minus the host's steady time, as the unit may have been told it.
+        self._offset_us: int | None = None
 
     @property
     def estimate(self) -> ClockEstimate | None:
@@ -37,6 +41,7 @@ class ClockKeeper:
         """A unit was met: its clock is one nobody knows."""
         self._estimator = ClockEstimator()
         self._asked = 0
+        self._offset_us = None
         self._due_s = now_s + BURST_EVERY_S
         self._statistics.clock_skew_ppm = self._statistics.clock_uncertainty_ms = None
 
@@ -58,7 +63,9 @@ class ClockKeeper:
         """Ask for the time, and tell ours after the first burst. now: s. wall_us: Unix time."""
 
         def answered(answer: TimSyncResponse | None) -> None:
-            if self._answered(answer, now()):
+            offset_us = wall_us() - round(now() * 1e6)
+            if self._answered(answer, now()) or self._was_set(offset_us):
+                self._offset_us = offset_us
                 runner.start(self._tell(wall_us()), lambda told: None, lambda error: None)
 
         runner.start(self._sync(now()), answered, lambda error: None)
@@ -82,6 +89,12 @@ class ClockKeeper:
             self._statistics.clock_skew_ppm = round(estimate.skew_ppm, 3)
             self._statistics.clock_uncertainty_ms = round(estimate.uncertainty_us / 1000.0, 3)
         return self._asked == BURST and answer.unix_us == 0
+
+    def _was_set(self, offset_us: int) -> bool:
+        """Whether our clock was set since the unit was met or told the time last."""
+        if self._offset_us is None:
+            self._offset_us = offset_us
+        return self._due_s is not None and set_by_us(self._offset_us, offset_us) != 0
 
     def _tell(self, unix_us: int) -> Operation[None]:
         """Tell the unit the time of the world, if we know it."""
