@@ -15,6 +15,8 @@ from starlette.exceptions import HTTPException
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
+from backend.api.safety import asks_for_a_page
+
 NOT_BUILT = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Spindle</title>
 <meta name="viewport" content="width=device-width">
 <body style="font-family: system-ui; max-width: 40rem; margin: 4rem auto; padding: 0 1rem">
@@ -26,11 +28,6 @@ is missing. Run <code>make setup</code> in the checkout, then load this page aga
 
 # First parts of paths that are no page, even to a browser.
 NO_PAGES = frozenset({"api", "healthz", "readyz", "metrics"})
-
-
-def asks_for_a_page(scope: Scope) -> bool:
-    """Whether the request is a browser's for something to show."""
-    return "text/html" in Headers(scope=scope).get("accept", "").lower()
 
 
 class Pages(StaticFiles):
@@ -46,7 +43,9 @@ class Pages(StaticFiles):
     async def get_response(self, path: str, scope: Scope) -> Response:
         """The file at `path`, or the entry page with no caching."""
         first, last = path.split("/", 1)[0], path.rsplit("/", 1)[-1]
-        is_page = first not in NO_PAGES and "." not in last and asks_for_a_page(scope)
+        is_page = (
+            first not in NO_PAGES and "." not in last and asks_for_a_page(Headers(scope=scope))
+        )
         try:
             response = await super().get_response(path, scope)
         except HTTPException as error:

@@ -8,6 +8,11 @@ rebound, so numeric hosts pass as long as the server may be reached by them.
 
 A proxy on this machine calls from loopback too, with whatever the network sends it. What it adds to
 a request gives it away; such a request is refused unless somebody said that the way is guarded.
+
+The scripts of the pages are no exception, though they hold nothing of anybody. A proxy that puts a
+Host of its own into requests hides that it is one; were they let past, a server that asks nobody
+would be open, in a page that reads well, to whomever it serves. The entry page says why it is
+empty.
 """
 
 from __future__ import annotations
@@ -22,6 +27,7 @@ from starlette.responses import Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from backend.api.problem import problem_response, refuse
+from backend.api.refused_page import refused_page
 
 CONTENT_SECURITY_POLICY = (
     "default-src 'self'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
@@ -90,8 +96,15 @@ def passed_on_by(headers: Headers) -> str | None:
     )
 
 
+def asks_for_a_page(headers: Headers) -> bool:
+    """Whether a request is a browser's for something to show."""
+    return "text/html" in headers.get("accept", "").lower()
+
+
 class SameOriginOnly:
     """Refuses foreign Host and Origin headers with 403, on HTTP and on WebSocket handshakes.
+
+    A browser that opens a page is answered with one in words.
 
     guarded: whether proxies may pass requests on, because they or somebody else let in only whom
     they know.
@@ -106,25 +119,30 @@ class SameOriginOnly:
         if scope["type"] not in ("http", "websocket"):
             await self.app(scope, receive, send)
             return
-        refusal = self._refusal(Headers(scope=scope))
-        if refusal is None:
+        headers = Headers(scope=scope)
+        why = self._why_refused(headers)
+        if why is None:
             await self.app(scope, receive, send)
+            return
+        refusal: Response
+        if scope["type"] == "http" and asks_for_a_page(headers):
+            refusal = refused_page(403, *why)
         else:
-            await refuse(refusal, scope, receive, send)
+            refusal = problem_response(403, *why)
+        await refuse(refusal, scope, receive, send)
 
-    def _refusal(self, headers: Headers) -> Response | None:
+    def _why_refused(self, headers: Headers) -> tuple[str, str] | None:
+        """Code and words of the refusal; None for what may go further in."""
         host = headers.get("host", "")
         if not self.hosts.allows(host):
-            return problem_response(
-                403,
+            return (
                 "foreign_host",
                 f"This server is not called {host!r}. Open it as localhost, by its address, or "
                 "name it in SPINDLE_ALLOWED_HOSTS.",
             )
         proxy = None if self.guarded else passed_on_by(headers)
         if proxy is not None:
-            return problem_response(
-                403,
+            return (
                 "passed_on",
                 f"A proxy passed this request on ({proxy}), and this server lets in whoever "
                 "reaches it. Set SPINDLE_AUTH=required to have people sign in, or SPINDLE_AUTH=off "
@@ -132,10 +150,10 @@ class SameOriginOnly:
             )
         origin = headers.get("origin")
         if origin is not None and origin_host(origin) != host.lower():
-            return problem_response(
-                403,
+            return (
                 "foreign_origin",
-                f"A page of {origin!r} may not use this server; only its own pages may.",
+                f"A page of {origin!r} may not use this server, which was called as {host!r}; only "
+                "its own pages may. A proxy must pass on the Host that the browser sent.",
             )
         return None
 

@@ -53,6 +53,7 @@ const context: AppContext = {
 // A page of its own: who is not signed in may ask for nothing that the others show.
 const alone = location.pathname === SIGN_IN
 const target = document.getElementById('app')
+target?.replaceChildren() // what it says while nothing was loaded
 if (target && !alone) {
   router.start()
   devices.start()

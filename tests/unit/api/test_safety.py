@@ -88,6 +88,29 @@ def test_a_page_of_another_origin_is_refused(client: TestClient, origin: str) ->
     assert response.json()["code"] == "foreign_origin"
 
 
+@pytest.mark.parametrize(
+    ("code", "header"),
+    [
+        ("foreign_host", {"host": "<b>evil.example"}),
+        ("passed_on", {"x-forwarded-for": "203.0.113.7"}),
+        ("foreign_origin", {"origin": "https://bikes.example"}),
+    ],
+)
+def test_who_opens_a_page_that_is_refused_reads_why(
+    client: TestClient, code: str, header: dict[str, str]
+) -> None:
+    """RFC 9110 section 12.5.1: Accept tells a browser that shows a page from a script."""
+    page = client.get("/value", headers={"accept": "text/html,*/*;q=0.8", **header})
+
+    assert page.status_code == 403
+    assert page.headers["content-type"].startswith("text/html")
+    assert code in page.text
+    assert 'lang="zh-CN"' in page.text
+    assert "<b>" not in page.text
+    assert "docs/behind-a-proxy.md" in page.text
+    assert client.get("/value", headers=header).json()["code"] == code
+
+
 def test_our_own_page_and_programs_without_an_origin_are_let_in(client: TestClient) -> None:
     assert client.post("/value", headers={"origin": "http://127.0.0.1:8750"}).status_code == 200
     assert client.post("/value").status_code == 200
