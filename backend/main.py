@@ -325,6 +325,7 @@ def build_app(settings: Settings, services: Services) -> FastAPI:
         frontend=next((folder for folder in FRONTENDS if folder.is_dir()), None),
         upload_bytes_max=settings.upload_bytes_max,
         author=settings.author,
+        root_path=settings.root_path,
     )
     return create_app(api, services, services.people)
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import getpass
 import os
+import re
 import sys
 import tomllib
 from collections.abc import Mapping
@@ -25,6 +26,26 @@ CHECKOUT = Path(__file__).resolve().parent.parent
 BUSES = ("memory",)
 JOBS = ("inline",)
 AUTHS = ("auto", "off", "required")
+# Unreserved characters of RFC 3986, section 2.3: whoever writes them writes them in one way.
+ROOT_PATH = re.compile(r"(/[A-Za-z0-9_~-][A-Za-z0-9._~-]*)*")
+# First parts of paths of Spindle's own: below one of them, nobody could tell the two apart.
+OWN_PATHS = frozenset(
+    {
+        "api",
+        "assets",
+        "connect",
+        "healthz",
+        "live",
+        "metrics",
+        "readyz",
+        "rides",
+        "sensor",
+        "service",
+        "settings",
+        "sign-in",
+        "tune",
+    }
+)
 
 
 @dataclass(frozen=True)
@@ -35,7 +56,8 @@ class Settings:
     device: units opened at the start. db, objects: URLs of the database and the object store.
     bus, jobs: how events and work travel. auth: `required` asks everybody to sign in, `auto` does
     so beyond loopback, `off` says somebody else guards the door. allowed_hosts: names by which
-    browsers may call the server besides localhost. upload_bytes_max: largest file taken.
+    browsers may call the server besides localhost. root_path: of the site, below which a proxy has
+    the server (`/spindle`), else empty. upload_bytes_max: largest file taken.
     author: whose changes those are whose request names nobody; the system's user unless set.
     calibration_limits: tables of the file alone, as of domain.calibration.judgement.limits.
     """
@@ -50,6 +72,7 @@ class Settings:
     jobs: str
     auth: str
     allowed_hosts: tuple[str, ...]
+    root_path: str
     upload_bytes_max: int
     author: str
     calibration_limits: tuple[Any, ...]
@@ -112,6 +135,7 @@ def combine(
         "jobs": _one_of(chosen.get("jobs", "inline"), "jobs", JOBS, errors),
         "auth": _one_of(chosen.get("auth", "auto"), "auth", AUTHS, errors),
         "allowed_hosts": _names(chosen.get("allowed_hosts", "")),
+        "root_path": _root_path(str(chosen.get("root_path", "")), errors),
         "upload_bytes_max": _whole(
             chosen.get("upload_bytes_max", 256 * 1024 * 1024),
             "upload_bytes_max",
@@ -182,6 +206,17 @@ def _units(value: Any, errors: list[FieldError]) -> tuple[str, ...]:
 def _names(value: Any) -> tuple[str, ...]:
     parts = value.split(",") if isinstance(value, str) else value
     return tuple(str(part).strip() for part in parts if str(part).strip())
+
+
+def _root_path(value: str, errors: list[FieldError]) -> str:
+    path = value.rstrip("/")
+    if not ROOT_PATH.fullmatch(path):
+        message = f"root_path is {value!r}: it must be a path like /spindle."
+        errors.append(FieldError("root_path", "not_a_path", message))
+    elif path[1:].split("/")[0] in OWN_PATHS:
+        message = f"root_path is {value!r}: Spindle has such paths of its own; choose another."
+        errors.append(FieldError("root_path", "own_path", message))
+    return path
 
 
 def _whole(value: Any, name: str, low: int, high: int, errors: list[FieldError]) -> int:

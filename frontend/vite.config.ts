@@ -8,9 +8,9 @@ const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
 // What most pages need in one file, and pages of a kind in another: dozens of tiny ones compress
 // worse than they save.
 const MOST = [
-  'api/(?!pair_of_rides|people_server|upload)',
-  'context/(?!KeyList)',
-  'device/(?!FaultMoment|fault_moment|moment_)|stream|ui|units',
+  'api/(?!origin_refused|pair_of_rides|people_server|upload)',
+  'context/(?!KeyList|key_words)',
+  'device/(?!FaultMoment|fault_moment|moment_)|stream/(?!polled)|ui|units',
   'charts/(traces/plotly\\.ts|plot_axis\\.ts|[Ss]park)',
   'config/(config_draft|drafts|elements|kept_drafts|limits|page_draft|parameter_text)',
   'config/(ratchet|trial|two_tables)',
@@ -44,6 +44,8 @@ const GROUPS = [
 
 export default defineConfig({
   plugins: [svelte()],
+  // Files are found from the page's <base>, wherever a proxy has put the server.
+  base: './',
   define: { global: 'globalThis' },
   resolve: {
     alias: {

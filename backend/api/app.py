@@ -14,6 +14,7 @@ from backend.api import docs, errors, live, pages
 from backend.api.door import Door
 from backend.api.permissions import NEEDED, Anyone, require_permission
 from backend.api.problem import Problem, refusals, refusals_only
+from backend.api.root_path import RootPath
 from backend.api.routes import (
     bike_numbers,
     calibrations,
@@ -54,7 +55,8 @@ class ApiSettings:
     """What the API needs to know about its surroundings.
 
     guarded: proxies may pass requests on. frontend: folder of the built pages, None where there is
-    none. author: of changes whose request names nobody.
+    none. author: of changes whose request names nobody. root_path: of the site, below which a proxy
+    has the server; `/spindle`, or empty.
     """
 
     version: str
@@ -63,6 +65,7 @@ class ApiSettings:
     frontend: Path | None = None
     upload_bytes_max: int = 256 * 1024 * 1024
     author: str = ""
+    root_path: str = ""
 
 
 def create_app(
@@ -97,8 +100,8 @@ def create_app(
     app.include_router(health.probes)
     errors.install(app)
     docs.install(app, f"{PREFIX}/openapi.json")
-    pages.install(app, settings.frontend)
-    app.openapi = lambda: openapi_of(app)  # type: ignore[method-assign]
+    pages.install(app, settings.frontend, settings.root_path)
+    app.openapi = lambda: openapi_of(app, settings.root_path)  # type: ignore[method-assign]
     _protect(app, settings, accounts)
     return app
 
@@ -118,6 +121,8 @@ def _protect(app: FastAPI, settings: ApiSettings, accounts: People | None) -> No
         app.add_middleware(Door, people=accounts)
     app.add_middleware(SameOriginOnly, hosts=settings.hosts, guarded=settings.guarded)
     app.add_middleware(SecurityHeaders)
+    if settings.root_path:
+        app.add_middleware(RootPath, root_path=settings.root_path)
 
 
 def describe_unreadable_bodies(schema: dict[str, Any]) -> None:
@@ -140,14 +145,18 @@ def describe_the_door(schema: dict[str, Any]) -> None:
                 operation["x-permission"] = needed
 
 
-def openapi_of(app: FastAPI) -> dict[str, Any]:
-    """The OpenAPI description, computed once; every refusal in it is the one Problem model."""
+def openapi_of(app: FastAPI, root_path: str = "") -> dict[str, Any]:
+    """The OpenAPI description, computed once; every refusal in it is the one Problem model.
+
+    root_path: before all its paths.
+    """
     if app.openapi_schema is None:
         schema = get_openapi(
             title=app.title,
             version=app.version,
             summary=app.summary,
             routes=app.routes,
+            servers=[{"url": root_path}] if root_path else None,
             openapi_version=app.openapi_version,
         )
         problem = Problem.model_json_schema(ref_template="#/components/schemas/{model}")

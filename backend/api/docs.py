@@ -49,7 +49,8 @@ def page(description: dict[str, Any], source: str) -> str:
         f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>'
         f'<meta name="viewport" content="width=device-width"><style>{STYLE}</style>'
         f"<h1>{title}</h1><p>{escape(info.get('summary', ''))} For programs: "
-        f'<a href="{escape(source)}">{escape(source)}</a>. Refusals are '
+        # From /api/docs, wherever that is.
+        f'<a href="{escape(source.removeprefix("/api/"))}">{escape(source)}</a>. Refusals are '
         '<a href="#Problem">Problem</a> objects as application/problem+json.</p>'
         f"<h2>Routes</h2>{''.join(operations)}<h2>Shapes</h2>{''.join(schemas)}</html>"
     )

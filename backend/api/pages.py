@@ -9,6 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from fastapi import FastAPI
+from fastapi.concurrency import run_in_threadpool
 from fastapi.responses import HTMLResponse, Response
 from starlette.datastructures import Headers
 from starlette.exceptions import HTTPException
@@ -21,7 +22,7 @@ NOT_BUILT = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Spind
 <meta name="viewport" content="width=device-width">
 <body style="font-family: system-ui; max-width: 40rem; margin: 4rem auto; padding: 0 1rem">
 <h1>The pages are not built</h1>
-<p>The server runs and its API answers at <a href="/api/docs">/api/docs</a>, but the browser part
+<p>The server runs and its API answers at <a href="api/docs">/api/docs</a>, but the browser part
 is missing. Run <code>make setup</code> in the checkout, then load this page again.</p>
 """
 
@@ -30,15 +31,21 @@ is missing. Run <code>make setup</code> in the checkout, then load this page aga
 NO_PAGES = frozenset({"api", "healthz", "readyz", "metrics"})
 
 
+# Of the built entry page: what all its addresses are relative to.
+BASE = '<base href="/" />'
+
+
 class Pages(StaticFiles):
     """Files of the built frontend; a page that is no file gets the entry page.
 
     Paths below `api/`, those that machines ask for and those that look like files stay 404: a
-    script that is asked for and missing must not arrive as HTML.
+    script that is asked for and missing must not arrive as HTML. root_path: told to the entry page.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, root_path: str = "") -> None:
         super().__init__(directory=folder, html=True)
+        self.entry = folder / "index.html"
+        self.root_path = root_path
 
     async def get_response(self, path: str, scope: Scope) -> Response:
         """The file at `path`, or the entry page with no caching."""
@@ -47,11 +54,11 @@ class Pages(StaticFiles):
             first not in NO_PAGES and "." not in last and asks_for_a_page(Headers(scope=scope))
         )
         try:
-            response = await super().get_response(path, scope)
+            response = await self._file(path, scope)
         except HTTPException as error:
             if error.status_code != 404 or not is_page:
                 raise
-            response = await super().get_response("index.html", scope)
+            response = await self._file("index.html", scope)
             is_page = True
         # Names under assets/ carry a hash of their content; everything else may change any time.
         is_hashed = path.startswith("assets/")
@@ -59,11 +66,22 @@ class Pages(StaticFiles):
         response.headers["cache-control"] = cache
         return response
 
+    async def _file(self, path: str, scope: Scope) -> Response:
+        """A file as it is, but for an entry page that has to know the root path."""
+        if self.root_path == "" or path not in (".", "index.html"):
+            return await super().get_response(path, scope)
+        base = BASE.replace('"/"', f'"{self.root_path}/"')
+        page = await run_in_threadpool(self.entry.read_text, encoding="utf-8")
+        return HTMLResponse(page.replace(BASE, base))
 
-def install(app: FastAPI, folder: Path | None) -> None:
-    """Serves the frontend at `/`, or a page that says how to build it."""
+
+def install(app: FastAPI, folder: Path | None, root_path: str = "") -> None:
+    """Serves the frontend at `/`, or a page that says how to build it.
+
+    root_path: below which a proxy has it.
+    """
     if folder is not None and (folder / "index.html").is_file():
-        app.mount("/", Pages(folder), name="pages")
+        app.mount("/", Pages(folder, root_path), name="pages")
         return
 
     @app.get("/", operation_id="get_not_built", include_in_schema=False)

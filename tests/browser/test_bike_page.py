@@ -190,7 +190,7 @@ def test_the_first_sentence_says_how_the_bike_is_and_each_part_has_a_lamp(
     expect(headline).to_contain_text("was last seen at")
     expect(page.locator(PILL)).to_contain_text("read-only")
     ways = page.get_by_role("link", name="Other ways to connect")
-    expect(ways).to_have_attribute("href", "/connect")
+    expect(ways).to_have_attribute("href", "connect")
     expect(lamps.locator("[data-lamp=motor]")).to_contain_text("only while connected")
     expect(lamps.locator("[data-lamp=firmware]")).to_contain_text(
         unit["identity"]["firmware_version"]
@@ -229,4 +229,4 @@ def test_while_a_ride_is_recorded_the_one_before_it_is_the_last(
 
     expect(page.locator(".headline")).to_contain_text("sport")
     last = page.get_by_role("region", name="Last ride")
-    expect(last.get_by_role("link", name="Morning commute")).to_have_attribute("href", "/rides/7")
+    expect(last.get_by_role("link", name="Morning commute")).to_have_attribute("href", "rides/7")

@@ -174,7 +174,7 @@ def test_a_sensor_is_calibrated_though_cable_server_and_a_mass_go_wrong(
     expect(sheet.get_by_test_id("captures-table").locator("tbody tr")).to_have_count(captured)
     told = sheet.get_by_test_id("certificate-hash").inner_text()
     paper = sheet.get_by_role("link", name="PDF").get_attribute("href")
-    answer = page.request.get(f"{desk.address}{paper}")
+    answer = page.request.get(f"{desk.address}/{paper}")
     assert answer.headers["content-type"] == "application/pdf"
     assert answer.body().startswith(b"%PDF")
     with page.expect_download() as waiting:

@@ -20,7 +20,7 @@ from tests.fakes.server import SpindleServer, eventually
 
 PILL = "[data-testid=device-pill]"
 BOX = "[data-testid=fault-box]"
-SERVICE = "nav [href='/service']"
+SERVICE = "nav [href='service']"
 SOUND = {"torque_sensor": "sound", "speed_sensor": "sound", "link_lost": False}
 
 
@@ -111,7 +111,7 @@ def test_live_says_why_nothing_helps_and_what_ends_it(
     expect(box).to_contain_text("Torque sensor")
     expect(box).to_contain_text("No assist: the pedal sensor is faulty.")
     expect(box).to_contain_text("until it is cleared at standstill")
-    expect(box.get_by_role("link", name="What to check")).to_have_attribute("href", "/service")
+    expect(box.get_by_role("link", name="What to check")).to_have_attribute("href", "service")
     expect(page.get_by_test_id("stream-status")).to_contain_text("no assist")
     desk.picture("live-fault")
     page.evaluate(axe)

@@ -51,7 +51,7 @@ def test_a_ride_in_the_unit_is_fetched_freed_there_and_opened(
     expect(phone.open("/rides").locator(LOGS)).to_contain_text("单元中的骑行")
     phone.picture("unit-logs-phone-zh")
     assert sideways(phone.page) == 0
-    ride = str(log.locator("a").get_attribute("href"))
+    ride = f"/{log.locator('a').get_attribute('href')}"
     page.once("dialog", lambda question: question.accept())
     log.get_by_role("button", name="Delete from the unit").click()
     expect(log).to_have_count(0)

@@ -15,7 +15,7 @@ function pressed(...keys: [string, number, Element?][]): string[] {
 }
 
 it('goes where the letter says', () => {
-  expect(pressed(['g', 0], ['t', 300], ['g', 1000], ['b', 1200])).toEqual(['/tune', '/'])
+  expect(pressed(['g', 0], ['t', 300], ['g', 1000], ['b', 1200])).toEqual(['tune', '.'])
 })
 
 it('forgets a g after a while, and a letter alone does nothing', () => {

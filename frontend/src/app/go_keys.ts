@@ -1,12 +1,12 @@
 // Keys that work on every page: `?` lists the keys, `g` and a letter goes to a page.
 
 const PLACES: Readonly<Record<string, string>> = {
-  b: '/',
-  l: '/live',
-  t: '/tune',
-  c: '/sensor',
-  s: '/service',
-  r: '/rides',
+  b: '.',
+  l: 'live',
+  t: 'tune',
+  c: 'sensor',
+  s: 'service',
+  r: 'rides',
 }
 const WAIT_MS = 1500
 

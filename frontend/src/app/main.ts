@@ -1,6 +1,7 @@
 // Composition root: builds everything once and mounts the application.
 import { Author } from '$shared/api/author.svelte'
 import { openHttp } from '$shared/api/client'
+import { here } from '$shared/api/place'
 import { Server } from '$shared/api/server'
 import { SIGN_IN, isSignedIn } from '$shared/api/signed_in'
 import { Drafts } from '$shared/config/drafts'
@@ -51,7 +52,7 @@ const context: AppContext = {
   go: router.go,
 }
 // A page of its own: who is not signed in may ask for nothing that the others show.
-const alone = location.pathname === SIGN_IN
+const alone = here() === SIGN_IN
 const target = document.getElementById('app')
 target?.replaceChildren() // what it says while nothing was loaded
 if (target && !alone) {

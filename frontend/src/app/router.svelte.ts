@@ -1,6 +1,7 @@
 // The address bar is the state: which page, which ride.
+import { here, placeOf } from '$shared/api/place'
 
-/** The pages of Tune in the order of their tabs. The first is at /tune, another at /tune/NAME. */
+/** The pages of Tune in the order of their tabs. The first is at tune, another at tune/NAME. */
 export const TUNE_PAGES = ['tune', 'modes', 'try', 'why', 'library'] as const
 export type TunePage = (typeof TUNE_PAGES)[number]
 
@@ -44,22 +45,22 @@ export function isOfUnit(page: PageName): boolean {
 }
 
 export function tunePath(page: TunePage): string {
-  return page === TUNE_PAGES[0] ? `/${page}` : `/${TUNE_PAGES[0]}/${page}`
+  return page === TUNE_PAGES[0] ? page : `${TUNE_PAGES[0]}/${page}`
 }
 
-export function readRoute(path: string): Route {
-  const [first = '', second = '', ...rest] = path.split('/').slice(1)
-  if (path.replace(/\/$/, '') === '/rides/compare') return { page: 'compare', id: '' }
+export function readRoute(place: string): Route {
+  const [first = '', second = '', ...rest] = place.split('/')
+  if (place.replace(/\/$/, '') === 'rides/compare') return { page: 'compare', id: '' }
   if (first === 'rides' && second && rest.length === 0) {
     return { page: 'ride', id: decodeURIComponent(second) }
   }
-  const tune = TUNE_PAGES.find((page) => tunePath(page) === path.replace(/\/$/, ''))
+  const tune = TUNE_PAGES.find((page) => tunePath(page) === place.replace(/\/$/, ''))
   if (tune) return { page: tune, id: '' }
   return { page: second ? 'unknown' : (pages[first] ?? 'unknown'), id: '' }
 }
 
 export class Router {
-  route = $state.raw<Route>(readRoute(location.pathname))
+  route = $state.raw<Route>(readRoute(here()))
 
   start(): void {
     window.addEventListener('popstate', () => this.read())
@@ -75,7 +76,7 @@ export class Router {
   }
 
   private read(): void {
-    this.route = readRoute(location.pathname)
+    this.route = readRoute(here())
   }
 
   // Links stay plain links: new tab, copy address and middle click work as everywhere.
@@ -85,8 +86,7 @@ export class Router {
     if (!link || !plain || event.defaultPrevented || link.target || link.hasAttribute('download')) {
       return
     }
-    if (link.hash && link.pathname === location.pathname) return
-    if (link.origin !== location.origin || link.pathname.startsWith('/api/')) return
+    if (link.origin !== location.origin || placeOf(link.pathname).startsWith('api/')) return
     event.preventDefault()
     this.go(link.pathname + link.search)
   }

@@ -3,21 +3,21 @@ import { expect, it } from 'vitest'
 import { readRoute } from './router.svelte'
 
 it.each([
-  ['/', { page: 'bike', id: '' }],
-  ['/connect', { page: 'connect', id: '' }],
-  ['/live', { page: 'live', id: '' }],
-  ['/rides', { page: 'rides', id: '' }],
-  ['/rides/12', { page: 'ride', id: '12' }],
-  ['/rides/compare', { page: 'compare', id: '' }],
-  ['/rides/12/more', { page: 'unknown', id: '' }],
-  ['/tune', { page: 'tune', id: '' }],
-  ['/tune/modes', { page: 'modes', id: '' }],
-  ['/tune/try', { page: 'try', id: '' }],
-  ['/tune/why', { page: 'why', id: '' }],
-  ['/tune/library', { page: 'library', id: '' }],
-  ['/tune/tune', { page: 'unknown', id: '' }],
-  ['/tune/other', { page: 'unknown', id: '' }],
-  ['/nonsense', { page: 'unknown', id: '' }],
+  ['', { page: 'bike', id: '' }],
+  ['connect', { page: 'connect', id: '' }],
+  ['live', { page: 'live', id: '' }],
+  ['rides', { page: 'rides', id: '' }],
+  ['rides/12', { page: 'ride', id: '12' }],
+  ['rides/compare', { page: 'compare', id: '' }],
+  ['rides/12/more', { page: 'unknown', id: '' }],
+  ['tune', { page: 'tune', id: '' }],
+  ['tune/modes', { page: 'modes', id: '' }],
+  ['tune/try', { page: 'try', id: '' }],
+  ['tune/why', { page: 'why', id: '' }],
+  ['tune/library', { page: 'library', id: '' }],
+  ['tune/tune', { page: 'unknown', id: '' }],
+  ['tune/other', { page: 'unknown', id: '' }],
+  ['nonsense', { page: 'unknown', id: '' }],
 ])('%s', (path, route) => {
   expect(readRoute(path)).toEqual(route)
 })

@@ -48,6 +48,15 @@ def test_limits_of_calibrations_are_tables_of_the_file() -> None:
         combine({}, {"SPINDLE_CALIBRATION_LIMITS": "0.8"}, {})
 
 
+def test_the_root_path_is_one_that_spindle_does_not_have_itself() -> None:
+    assert combine({}, {}, {}).root_path == ""
+    assert combine({}, {"SPINDLE_ROOT_PATH": "/"}, {}).root_path == ""
+    assert combine({}, {"SPINDLE_ROOT_PATH": "/bikes/spindle/"}, {}).root_path == "/bikes/spindle"
+    for wrong in ("spindle", "/a b", "/../x", "//evil.example", "/<b>", "/rides", "/api/x"):
+        with pytest.raises(InvalidRequest, match="root_path"):
+            combine({}, {"SPINDLE_ROOT_PATH": wrong}, {})
+
+
 def test_every_wrong_setting_is_named() -> None:
     with pytest.raises(InvalidRequest) as refusal:
         combine({"port": "99999"}, {"SPINDLE_BUS": "pigeon"}, {"colour": "red"})

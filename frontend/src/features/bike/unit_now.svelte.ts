@@ -2,7 +2,7 @@
 import type { Server } from '$shared/api/server'
 import type { Dashboard } from '$shared/api/types'
 import { DashboardWatch } from '$shared/context/dashboard_watch.svelte'
-import { LiveStream } from '$shared/stream/live.svelte'
+import { LiveStream, type Instead } from '$shared/stream/live.svelte'
 
 const KEPT = 61 // a minute
 const CHANNELS = [
@@ -22,9 +22,10 @@ export class UnitNow {
   private readonly stream: LiveStream
   private readonly summed: DashboardWatch
 
-  constructor(server: Server, device_id: string) {
+  constructor(server: Server, instead: Instead, device_id: string) {
     this.summed = new DashboardWatch(server, device_id, (values) => this.note(values))
-    this.stream = new LiveStream({ device_id, channels: CHANNELS, rate_hz: 2, window_s: 1 })
+    const asked = { device_id, channels: CHANNELS, rate_hz: 2, window_s: 1 }
+    this.stream = new LiveStream(asked, instead)
   }
 
   get dashboard(): Dashboard | null {

@@ -1,14 +1,17 @@
 // Where to go after signing in. Only to a page of this server: the address is anybody's to write.
+import { placeOf } from '$shared/api/place'
 import { SIGN_IN } from '$shared/api/signed_in'
 
-export function wayBack(search: string, origin: string): string {
-  const asked = new URLSearchParams(search).get('back') ?? '/'
+/** base: where the server is, as `http://shop:8750/`. */
+export function wayBack(search: string, base: string): string {
+  const root = new URL(base).pathname
+  const asked = new URLSearchParams(search).get('back') ?? root
   let to: URL
   try {
-    to = new URL(asked, origin)
+    to = new URL(asked, base)
   } catch {
-    return '/'
+    return root
   }
-  const ours = to.origin === origin && to.pathname !== SIGN_IN && !to.pathname.startsWith('//')
-  return ours ? to.pathname + to.search : '/'
+  const ours = to.href.startsWith(base) && placeOf(to.pathname, root) !== SIGN_IN
+  return ours && !to.pathname.startsWith('//') ? to.pathname + to.search : root
 }

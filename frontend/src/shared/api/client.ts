@@ -2,6 +2,7 @@
 import type { paths } from '$generated/api'
 import createClient, { type Client } from 'openapi-fetch'
 import type { Author } from './author.svelte'
+import { here } from './place'
 import { SIGN_IN } from './signed_in'
 import type { FieldProblem, Problem, TokenChallenge } from './types'
 
@@ -30,7 +31,7 @@ export type KeyOf = (device_id: string) => string | null
 
 /** A client of the server this page came from, whose changes carry the author's name and which unit
     they are for: another one may have come onto its connection. */
-export function openHttp(author: Author, keyOf: KeyOf, base = location.origin): Http {
+export function openHttp(author: Author, keyOf: KeyOf, base = document.baseURI): Http {
   const client = createClient<paths>({ baseUrl: base })
   client.use({
     onRequest({ request }) {
@@ -45,7 +46,7 @@ export function openHttp(author: Author, keyOf: KeyOf, base = location.origin): 
     onResponse({ response }) {
       const { pathname, search } = location
       // The sign-in page says by itself what is wrong.
-      if (response.status === 401 && pathname !== SIGN_IN) {
+      if (response.status === 401 && here() !== SIGN_IN) {
         location.assign(`${SIGN_IN}?back=${encodeURIComponent(pathname + search)}`)
       }
     },

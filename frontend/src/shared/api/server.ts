@@ -52,6 +52,7 @@ import type {
   SimulationChange,
   SensorDrift,
   SinceChange,
+  Snapshot,
   StorePlace,
   Surface,
   TableUse,
@@ -183,8 +184,12 @@ export class Server {
   }
 
   async channels(id: string): Promise<Record<string, number | null>> {
-    return (await body(this.http.GET('/api/v1/devices/{device_id}/snapshot', this.unit(id))))
-      .channels
+    return (await this.snapshot(id)).channels
+  }
+
+  /** The newest value of every channel, and when it was. */
+  snapshot(id: string): Promise<Snapshot> {
+    return body(this.http.GET('/api/v1/devices/{device_id}/snapshot', this.unit(id)))
   }
 
   async faults(id: string): Promise<Fault[]> {

@@ -2,4 +2,4 @@
 // nothing. The cookie holds no secret; the one that does is out of reach of scripts.
 export const isSignedIn = (): boolean => document.cookie.includes('spindle_signed_in=')
 
-export const SIGN_IN = '/sign-in'
+export const SIGN_IN = 'sign-in'

@@ -70,7 +70,7 @@ export async function uploadFile(
 
 // What the same bytes became before, with no word of that being an upload of its own.
 async function knownRides(hash: string, steps: UploadSteps): Promise<Upload | null> {
-  const response = await ask(steps, `/api/v1/uploads?sha256=${hash}`, {})
+  const response = await ask(steps, `api/v1/uploads?sha256=${hash}`, {})
   const { items } = (await response.json()) as UploadList
   const first = items.find((upload) => upload.ride_ids.length > 0 && !upload.parts)
   if (!first) return null
@@ -103,7 +103,7 @@ async function begun(
 
 async function create(file: File, hash: string | null, steps: UploadSteps): Promise<string> {
   const declared = hash ? `,sha256 ${base64(hash)}` : ''
-  const response = await ask(steps, '/api/v1/uploads', {
+  const response = await ask(steps, 'api/v1/uploads', {
     method: 'POST',
     headers: {
       'Tus-Resumable': '1.0.0',

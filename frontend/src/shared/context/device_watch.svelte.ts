@@ -1,7 +1,7 @@
 // Which units there are and how their links stand, asked once a second while the page is visible.
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
-import type { Device } from '../api/types'
+import type { Device, Snapshot } from '../api/types'
 import { PollWhileVisible } from './poll_while_visible'
 
 const PERIOD_MS = 1000
@@ -16,6 +16,8 @@ export class DeviceWatch {
   replaced = $state.raw<Device | null>(null)
   /** How often another unit came into the place of the current one. */
   replacements = $state(0)
+  /** Values come one by one, because no socket passes; told on every page. */
+  polled = $state(false)
   current = $derived(this.items.find((d) => d.id === this.chosen_id) ?? this.items[0] ?? null)
   private readonly polling = new PollWhileVisible(() => this.refresh(), PERIOD_MS)
 
@@ -50,6 +52,10 @@ export class DeviceWatch {
   get away(): boolean {
     const state = this.current?.state
     return this.seen_at_ms !== null && state !== 'ready' && state !== 'read_only'
+  }
+
+  newest(device_id: string): Promise<Snapshot> {
+    return this.server.snapshot(device_id)
   }
 
   keyOf(device_id: string): string | null {

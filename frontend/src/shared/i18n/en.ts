@@ -250,24 +250,6 @@ export const en = {
   'help.title': 'Help',
   'help.what': 'What is this?',
   'keys.title': 'Keyboard',
-  'keys.go':
-    '? lists these keys. g, then b Bike, l Live, t Tune, c Calibrate, s Service, r Rides.',
-  'keys.bike': 'Enter opens the first thing to do.',
-  'keys.live':
-    'M marks the moment in the ride. Space pauses the strips; then ← → move the cursor, ' +
-    'Shift by 1 s.',
-  'keys.rules':
-    'Arrows move, Shift with arrows selects, 1 to 5 set NB to PB, + and − nudge, = levels, ' +
-    '* scales, / interpolates, S smooths, Ctrl+C and Ctrl+V copy and paste as text, Delete ' +
-    'restores, Ctrl+Z and Ctrl+Y undo and redo.',
-  'keys.try':
-    'O and C switch the lines of open and closed loop. On the road’s lines ← → move the cursor, ' +
-    'Shift further; K shows km or time.',
-  'keys.why': '← → move the moment, Shift by 1 s, N and P go to the next and last cut.',
-  'keys.sensor': 'Space captures a reading, Backspace takes the last one back.',
-  'keys.numbers': 'Numbers',
-  'keys.numbers_text': 'Arrow up and down nudge; with Shift five times as far.',
-
   'fault.not_a_number': 'is not a number',
   'fault.not_increasing': 'must be at least {bound} above the one before',
   'fault.not_text': 'is too long',

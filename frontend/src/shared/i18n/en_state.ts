@@ -39,8 +39,6 @@ export const enState = {
   'faults.stop_clear': 'Stop the simulated rider and clear',
   'faults.stopping': 'The simulated rider stops; the fault is cleared when the bike stands still.',
 
-  'health.degraded': 'Not everything that is recorded can be saved now.',
-  'health.was_degraded': 'Not everything that was recorded is whole.',
   'live.recorder': 'Recorder: {saved} rows saved, {lost} lost',
   'live.recorder_waiting': ', {waiting} waiting',
 

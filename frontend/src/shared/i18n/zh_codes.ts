@@ -44,6 +44,9 @@ const violation = {
 }
 
 const refusal = {
+  foreign_origin: '服务器不接受此页面的更改和实时连接：代理没有原样传递浏览器所用的名称（Host）。',
+  foreign_host: '服务器不叫这个名称（Host）；须写入 SPINDLE_ALLOWED_HOSTS。',
+  passed_on: '此请求由代理转发：须设置 SPINDLE_AUTH。',
   unreachable: 'Spindle 服务器没有应答。',
   link: '端口不存在、被占用或已断开。请检查数据线，并确认没有其他程序占用该端口。',
   no_answer: '单元没有应答。请检查电池和数据线，然后重试。',

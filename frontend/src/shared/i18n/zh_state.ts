@@ -33,8 +33,6 @@ export const zhState: Record<keyof typeof enState, string> = {
   'faults.stop_clear': '让模拟骑手停下并清除',
   'faults.stopping': '模拟骑手正在停下；停稳后清除故障。',
 
-  'health.degraded': '现在记录的数据不能全部保存。',
-  'health.was_degraded': '已记录的数据不完整。',
   'live.recorder': '记录：已保存 {saved} 行，丢失 {lost} 行',
   'live.recorder_waiting': '，等待 {waiting} 行',
 

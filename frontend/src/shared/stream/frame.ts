@@ -34,11 +34,11 @@ export interface StreamFrame {
   t0_s: number
   rows: number
   channels: number
-  counts: Int16Array
+  counts: Int16Array | number[]
 }
 
 const HEADER_BYTES = 20
-const MISSING = -32768
+export const MISSING = -32768
 
 /** One binary frame, or null when its length contradicts its header. */
 export function readFrame(bytes: ArrayBuffer): StreamFrame | null {

@@ -9,6 +9,7 @@ import {
   type StreamState,
 } from './frame'
 import { hangUp } from './hang_up'
+import type { Newest } from './polled'
 import { TraceBuffer } from './trace_buffer'
 
 const STALE_AFTER_MS = 1500 // a rider's glance: older than this must not look alive
@@ -16,6 +17,17 @@ const GONE = ['lost', 'closed'] // a unit known to be away has no live values, h
 const SILENT_AFTER_MS = 5000 // an open socket without frames is dead (Wi-Fi change, sleep)
 const RETRY_MS_MAX = 3000
 const TICK_MS = 100
+const FAILURES_MIN = 4 // two seconds without one that opened: by then a server that is away is known
+const RETRY_POLLED_MS = 10_000
+
+/** How values come where no socket passes. */
+export interface Instead {
+  /** Whether the server does not answer at all. */
+  readonly unreachable: boolean
+  /** Whether values are asked for one by one. */
+  polled: boolean
+  newest(device_id: string): Promise<Newest>
+}
 
 export type Latest = Record<string, number | null>
 
@@ -44,8 +56,13 @@ export class LiveStream {
   private timers: ReturnType<typeof setTimeout>[] = []
   private ticker: ReturnType<typeof setInterval> | null = null
   private closed = false
+  private failures = 0 // since a socket was last heard
+  private stopPolling: (() => void) | null = null
 
-  constructor(private readonly options: LiveOptions) {
+  constructor(
+    private readonly options: LiveOptions,
+    private readonly instead: Instead,
+  ) {
     this.buffer = new TraceBuffer(options.window_s ?? 30)
   }
 
@@ -70,6 +87,7 @@ export class LiveStream {
     document.removeEventListener('visibilitychange', this.wake)
     window.removeEventListener('online', this.wake)
     if (this.socket) hangUp(this.socket)
+    this.stopPolling?.()
   }
 
   /** Index of a channel in the buffer's columns, or -1. */
@@ -79,9 +97,9 @@ export class LiveStream {
 
   private url(): string {
     const { device_id, channels, rate_hz } = this.options
-    const scheme = location.protocol === 'https:' ? 'wss' : 'ws'
-    const path = `/api/v1/devices/${encodeURIComponent(device_id)}/live`
-    return `${scheme}://${location.host}${path}?channels=${channels.join(',')}&rate_hz=${rate_hz}`
+    const server = document.baseURI.replace(/^http/, 'ws')
+    const path = `api/v1/devices/${encodeURIComponent(device_id)}/live`
+    return `${server}${path}?channels=${channels.join(',')}&rate_hz=${rate_hz}`
   }
 
   private connect(): void {
@@ -97,8 +115,29 @@ export class LiveStream {
   private lost(socket: WebSocket): void {
     if (socket !== this.socket || this.closed) return
     this.socket = null
+    this.failed()
     this.timers = [setTimeout(() => this.connect(), this.retry_ms)]
     this.retry_ms = Math.min(RETRY_MS_MAX, this.retry_ms * 2)
+    if (this.instead.polled) this.retry_ms = RETRY_POLLED_MS
+  }
+
+  private failed(): void {
+    const { instead, options } = this
+    if (++this.failures < FAILURES_MIN && !instead.polled) return
+    if (instead.unreachable || this.stopPolling) return
+    void import('./polled').then(({ poll }) => {
+      if (this.closed || this.failures === 0) return
+      this.stopPolling ??= poll(this, options.channels, () => instead.newest(options.device_id))
+      instead.polled = true
+      this.link_state = null // told by sockets
+    })
+  }
+
+  private heard(): void {
+    this.failures = 0
+    this.stopPolling?.()
+    this.stopPolling = null
+    this.instead.polled = false
   }
 
   // After sleep or a network change the old socket may look open for minutes: do not believe it.
@@ -123,10 +162,9 @@ export class LiveStream {
 
   private receiveText(text: string): void {
     const message = JSON.parse(text) as StreamHeader | StreamState | StreamError
+    this.heard()
     if (message.type === 'stream') {
-      this.buffer.reset(message)
-      this.newest = null
-      this.header = message
+      this.begin(message)
     } else if (message.type === 'state') {
       this.link_state = message.state
       this.reason = message.reason
@@ -140,6 +178,17 @@ export class LiveStream {
     const frame = readFrame(bytes)
     if (!frame || frame.rows === 0) return
     this.retry_ms = 250
+    this.take(frame)
+  }
+
+  /** Rows of these channels follow. */
+  begin(header: StreamHeader): void {
+    this.buffer.reset(header)
+    this.newest = null
+    this.header = header
+  }
+
+  take(frame: StreamFrame): void {
     this.arrived_ms = performance.now()
     if (frame.lost_rows > 0) {
       this.gaps += 1
@@ -153,7 +202,11 @@ export class LiveStream {
     const now_ms = performance.now()
     this.age_ms = now_ms - this.arrived_ms
     const silent_ms = now_ms - Math.max(this.arrived_ms, this.opened_ms)
-    if (this.socket && silent_ms > SILENT_AFTER_MS && this.link_state === 'ready') this.reconnect()
+    const opened = this.link_state !== null
+    if (this.socket && silent_ms > SILENT_AFTER_MS && (this.link_state === 'ready' || !opened)) {
+      if (!opened) this.failed()
+      this.reconnect()
+    }
     if (this.newest && this.header) this.latest = lastRow(this.newest, this.header)
   }
 }

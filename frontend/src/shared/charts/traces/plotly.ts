@@ -13,6 +13,9 @@ export function plotConfig(language: Language): object {
     responsive: false,
     scrollZoom: false,
     doubleClick: false,
+    // Clips stay references within the page. Otherwise they are absolute where a page has a <base>,
+    // and lost once its address changes.
+    _exportedPlot: true,
     locale: language === 'zh' ? 'zh-CN' : 'en',
   }
 }

@@ -78,12 +78,12 @@ export class CalibrationServer {
 
 /** Where the certificate's file is. */
 export function certificateAddress(id: number): string {
-  return `/api/v1/calibrations/${id}/certificate`
+  return `api/v1/calibrations/${id}/certificate`
 }
 
 /** Its PDF, with moments of where the reader is. */
 export function paperAddress(id: number, language: string): string {
   const zone = Intl.DateTimeFormat().resolvedOptions().timeZone || 'UTC'
   const asked = new URLSearchParams({ language, zone })
-  return `/api/v1/calibrations/${id}/certificate.pdf?${asked}`
+  return `api/v1/calibrations/${id}/certificate.pdf?${asked}`
 }
