@@ -17,7 +17,8 @@ const GONE = ['lost', 'closed'] // a unit known to be away has no live values, h
 const SILENT_AFTER_MS = 5000 // an open socket without frames is dead (Wi-Fi change, sleep)
 const RETRY_MS_MAX = 3000
 const TICK_MS = 100
-const FAILURES_MIN = 4 // two seconds without one that opened: by then a server that is away is known
+// Two seconds without one that opened: by then a server that is away is known to be.
+const FAILURES_MIN = 4
 const RETRY_POLLED_MS = 10_000
 
 /** How values come where no socket passes. */
