@@ -138,9 +138,9 @@ def test_a_host_that_calls_a_lost_commit_undone_without_a_look_is_found(
 def test_a_host_that_counts_no_gap_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     take = StreamReceiver.take
 
-    def blind(self: StreamReceiver, frame: object, wall_us: int) -> object:
+    def blind(self: StreamReceiver, frame: object, wall_us: int, late: bool) -> object:
         self._next_sequence = frame.seq  # type: ignore[attr-defined]
-        return take(self, frame, wall_us)  # type: ignore[arg-type]
+        return take(self, frame, wall_us, late)  # type: ignore[arg-type]
 
     monkeypatch.setattr(StreamReceiver, "take", blind)
 
