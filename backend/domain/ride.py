@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 
 import numpy as np
 import numpy.typing as npt
@@ -237,8 +237,8 @@ def readable_name(name: str) -> str:
 
 
 def iso_utc(time_us: int) -> str:
-    """Microseconds since 1970 UTC -> ISO 8601 with `Z`."""
-    moment = datetime.fromtimestamp(time_us / 1e6, UTC)
+    """Microseconds since 1970 UTC -> ISO 8601 with `Z`. Raises OverflowError past the year 9999."""
+    moment = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=time_us)
     return moment.isoformat(timespec="milliseconds").replace("+00:00", "Z")
 
 

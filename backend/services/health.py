@@ -40,30 +40,12 @@ class Reason(Protocol):
 
 
 @dataclass(frozen=True)
-class RowsLost:
-    """Rows of a unit's latest ride that the store refused until they were given up."""
+class Fault:
+    """A reason beside the store's own: rows that are not there, rides that are damaged."""
 
     part: str
-    message: str
-    code: str = ROWS_LOST
-
-
-@dataclass(frozen=True)
-class RowsMissing:
-    """Rows of a unit's latest ride that never came, with where most of them were lost."""
-
-    part: str
-    message: str
     code: str
-
-
-@dataclass(frozen=True)
-class RidesDamaged:
-    """Rides whose files, or rows in the database, are not what was written."""
-
     message: str
-    part: str = "objects"
-    code: str = RIDES_DAMAGED
 
 
 @dataclass(frozen=True)
@@ -122,20 +104,22 @@ class Health:
             for view in self._devices.list()
         )
         lost = [
-            RowsLost(unit, f"{rows} rows of the latest ride of {unit} could not be saved.")
+            Fault(unit, ROWS_LOST, f"{rows} rows of the latest ride of {unit} could not be saved.")
             for unit, rows in self._recorder.rows_lost_lately()
         ]
         missing = [
-            RowsMissing(
+            Fault(
                 unit,
-                f"{rows} rows of the latest ride of {unit} never came: {LOST_BY_WORDS[lost_by]}.",
                 f"{ROWS_MISSING}_{lost_by}",
+                f"{rows} rows of the latest ride of {unit} never came: {LOST_BY_WORDS[lost_by]}.",
             )
             for unit, lost_by, rows in self._recorder.rows_missing_lately()
         ]
-        damaged = [RidesDamaged(told_of_damage(keys))] if (keys := self._soundness.damaged) else []
+        damaged = []
+        if keys := self._soundness.damaged:
+            damaged.append(Fault("objects", RIDES_DAMAGED, told_of_damage(keys)))
         if rows := self._entries.damaged:
-            damaged.append(RidesDamaged(told_of_rows(rows), "database"))
+            damaged.append(Fault("database", RIDES_DAMAGED, told_of_rows(rows)))
         reasons = (*troubles, *lost, *missing, *damaged)
         return HealthView(DEGRADED if troubles else OK, self._version, reasons, devices)
 
@@ -155,5 +139,5 @@ def told_of_rows(rides: Collection[int]) -> str:
     more = f" and {len(rides) - ROWS_NAMED_MAX} more" if len(rides) > ROWS_NAMED_MAX else ""
     return (
         f"Rows of rides in the database that are damaged, and no whole file is named there to mend "
-        f"them from: {some}{more}. Restore the files from a backup, or delete the rides."
+        f"them from: {some}{more}. Restore files or database from a backup, or delete the rides."
     )

@@ -15,7 +15,7 @@ from pathlib import Path, PurePosixPath
 
 from sqlalchemy import Connection, delete, insert, select, update
 
-from backend.errors import InvalidRequest, StoreError
+from backend.errors import StoreError
 from backend.store.deletion import FILLED, MADE, join_source
 from backend.store.digest import digest
 from backend.store.facts import KeptRide, Original, kept_ride
@@ -31,14 +31,14 @@ from backend.store.objects import (
 from backend.store.parquet import RideFile, read_facts
 from backend.store.ride_table import finish_row, inserted, named_objects, row_of
 from backend.store.sidecar import read_sidecar
+from backend.store.soundness import Expected, Soundness
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
+from backend.store.sql.sound_rows import NOT_AS_WRITTEN
 from backend.store.units import bike_of_ride
 
 LOG = logging.getLogger(__name__)
 
-# What facts raise that make no sense, and words that are none a ride can have.
-NONSENSE = (KeyError, TypeError, ValueError, AttributeError, InvalidRequest)
 # What no object knows of its ride's row.
 STAY = (t.ride.c.upload_id, t.ride.c.bike_id, t.ride.c.same_ride_as, t.ride.c.created_us)
 OBJECT_NAME = re.compile(
@@ -75,11 +75,11 @@ def read_kept(objects: FileObjects, key: str) -> KeptRide:
     if (reason := damage_of(objects, key)) is not None:
         raise StoreError(f"{key} is no whole ride: {reason}.")
     facts, channels, row_count = read_facts(objects.local_path(key))
-    with suppress(StoreError, *NONSENSE):
+    with suppress(StoreError, *NOT_AS_WRITTEN):
         return kept_ride(facts, read_sidecar(objects, key), channels, row_count, key)
     try:
         kept = kept_ride(facts, {}, channels, row_count, key)
-    except NONSENSE as error:
+    except NOT_AS_WRITTEN as error:
         raise StoreError(f"{key} tells no ride: {error!r}.") from error
     lost = f"what {sidecar_key(key)} said, which is damaged"
     return replace(kept, lacks=(*kept.lacks, lost))
@@ -109,14 +109,15 @@ def add_kept(database: Database, objects: FileObjects, kept: KeptRide) -> tuple[
     return kept.lacks
 
 
-def mend_row(database: Database, objects: FileObjects, ride_id: int) -> bool:
+def mend_row(database: Database, objects: FileObjects, soundness: Soundness, ride_id: int) -> bool:
     """Write a finished ride's damaged row anew from its object and sidecar; its number, its bike
     and the upload it came with stay. False where none of the objects it names is whole."""
     mine = t.ride.c.id == ride_id
     names = (t.ride.c.object_key, t.ride.c.object_sha256)
     row = database.read(lambda c: c.execute(select(*names, *STAY).where(mine)).first())
     named = () if row is None else named_objects(row.object_key, row.object_sha256)
-    key = next((key for key in named if damage_of(objects, key) is None), None)
+    ours = (Expected(key, None) for key in named if OBJECT_NAME.fullmatch(key))
+    key = next((one.key for one in ours if soundness.damage(one) is None), None)
     if row is None or key is None:
         return False
     kept = read_kept(objects, key)

@@ -18,15 +18,13 @@ from sqlalchemy.exc import DatabaseError, OperationalError, SQLAlchemyError
 from backend.errors import StoreError
 from backend.store.objects import RIDE_SUFFIX, content_key, sidecar_key
 from backend.store.sql.database import shown, sqlite_path
-from backend.store.sql.sound_rows import decoded, parsed
+from backend.store.sql.sound_rows import NOT_AS_WRITTEN, decoded, parsed
 from backend.store.trouble import DAMAGED as FILE_DAMAGED
 from backend.store.trouble import code_of, reason_of
 
 MISSING, EMPTY, DAMAGED, FOREIGN, OK = "missing", "empty", "damaged", "foreign", "ok"
 # The end of the year 9999, the last that ISO 8601 tells with four digits.
 TIME_MAX_US = 253_402_300_800_000_000
-# What the database raises whose schema or rows hold something else than was written.
-NOT_AS_WRITTEN = (UnicodeDecodeError, TypeError, ValueError, KeyError)
 # Every schema has these.
 OURS = frozenset({"ride", "upload"})
 # Tables whose rows somebody would miss, of every schema.

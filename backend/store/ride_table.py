@@ -35,7 +35,7 @@ from backend.store.finish import WrittenObject
 from backend.store.objects import RIDE_SUFFIX, content_key
 from backend.store.sql import tables as t
 from backend.store.sql.blobs import channel_list, encode_level
-from backend.store.sql.sound_rows import is_sound
+from backend.store.sql.sound_rows import NOT_AS_WRITTEN, is_sound
 from backend.store.units import bike_of_ride
 
 NAME_LENGTH_MAX = 200
@@ -44,8 +44,6 @@ STAYS = frozenset({"state", "origin", "name", "notes", "created_us", "row_count"
 # The largest whole number SQL holds.
 INTEGER_MAX = 2**63 - 1
 CARD = ("place", "country", "zone", "is_loop", "speed_line")
-# What a row raises that holds something else than was written.
-NONSENSE = (KeyError, TypeError, ValueError, AttributeError, OverflowError, OSError)
 
 
 def whole_ride() -> Select[Any]:
@@ -72,11 +70,16 @@ def rides_whole(connection: Connection, ride_ids: Sequence[int]) -> tuple[Ride, 
     wanted = whole_ride().where(t.ride.c.id.in_(ride_ids))
     try:
         found: Sequence[Row[Any]] = connection.execute(wanted).all()
-    except NONSENSE:
+    except NOT_AS_WRITTEN:
         found = [row for ride_id in ride_ids if (row := lone_row(connection, ride_id)) is not None]
     tags = tags_of(connection, ride_ids)
     rides = {row.id: ride_from_row(row, tags.get(row.id, ())) for row in found}
     return tuple(rides[ride_id] for ride_id in ride_ids if ride_id in rides)
+
+
+def damaged_rows(connection: Connection, ride_ids: Sequence[int]) -> list[int]:
+    """Those of some rides whose rows are damaged."""
+    return [ride.id for ride in rides_whole(connection, ride_ids) if ride.state == BAD]
 
 
 def tags_of(connection: Connection, ride_ids: Sequence[int]) -> dict[int, tuple[str, ...]]:
@@ -92,14 +95,14 @@ def lone_row(connection: Connection, ride_id: int) -> Row[Any] | None:
     """One ride's row; of a damaged one its own columns, where the rest cannot be read either."""
     mine = t.ride.c.id == ride_id
     for query in (whole_ride().where(mine), select(t.ride).where(mine)):
-        with suppress(*NONSENSE):
+        with suppress(*NOT_AS_WRITTEN):
             return connection.execute(query).first()
     return None
 
 
 def ride_from_row(row: Row[Any], tags: tuple[str, ...]) -> Ride:
     """A row of `whole_ride` -> ride; a damaged row -> a ride in the state `bad`."""
-    with suppress(*NONSENSE):
+    with suppress(*NOT_AS_WRITTEN):
         named = named_objects(row.object_key, row.object_sha256)
         if is_sound(row, t.ride.c) and len(named) < 2:
             ride = sound_ride(row, tags)
@@ -116,7 +119,7 @@ def damaged_ride(row: Row[Any], tags: tuple[str, ...]) -> Ride:
     started_us = body["started_us"]
     try:
         iso_utc(started_us)
-    except NONSENSE:
+    except NOT_AS_WRITTEN:
         started_us = 0
     return Ride(
         id=body["id"],
@@ -135,7 +138,7 @@ def damaged_ride(row: Row[Any], tags: tuple[str, ...]) -> Ride:
 
 
 def sound_ride(row: Row[Any], tags: tuple[str, ...]) -> Ride:
-    """A row of `whole_ride` -> ride. Raises one of `NONSENSE` where it makes no ride."""
+    """A row of `whole_ride` -> ride. Raises one of `NOT_AS_WRITTEN` where it makes no ride."""
     body = row._mapping
     place = RidePlace(body["place"], body["country"], body["zone"], body["is_loop"])
     channels = channel_list(body["channels"])

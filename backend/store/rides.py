@@ -12,17 +12,16 @@ from __future__ import annotations
 
 import logging
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
 
 import numpy as np
-from sqlalchemy import Connection, Select, case, delete, insert, select, update
+from sqlalchemy import Connection, case, delete, insert, select, update
 
-from backend.domain.channels import MISSING_INT16, ChannelSpec
+from backend.domain.channels import ChannelSpec
 from backend.domain.logbook.tags import clean_tags
 from backend.domain.pyramid import Level
 from backend.domain.ride import BAD, DONE, LIVE, Ride, RideContext, RideRows
@@ -38,6 +37,7 @@ from backend.store.deletion import (
     join_source,
 )
 from backend.store.discard import note_discarded, with_sidecar
+from backend.store.entries import Entries
 from backend.store.filling import Filling, filled_chunks, grown, told_before
 from backend.store.finish import RowsInMemory, drafted, write_object
 from backend.store.logbook.book import set_tags
@@ -64,13 +64,13 @@ from backend.store.ride_table import (
 from backend.store.sidecar import keep_words, tell_for_old_file
 from backend.store.soundness import Expected, Soundness
 from backend.store.sql import tables as t
-from backend.store.sql.blobs import Rows16, decode_level, decode_tail, encode_tail
+from backend.store.sql.blobs import Rows16, decode_level, encode_tail
 from backend.store.sql.database import Database
+from backend.store.tail import tail_blocks, tail_chunks
 
 LOG = logging.getLogger(__name__)
 
 NOTES_LENGTH_MAX = 20_000
-TAILS_AT_ONCE = 64
 # How often a server says of a recording that it lives, when no rows come that say it.
 HEARTBEAT_US = 10_000_000
 
@@ -93,6 +93,7 @@ class RideStore:
         objects: Objects,
         deletions: Deletions,
         soundness: Soundness,
+        entries: Entries,
         server_id: str,
     ) -> None:
         self._server_id = server_id
@@ -104,6 +105,7 @@ class RideStore:
         self._objects = objects
         self._deletions = deletions
         self._soundness = soundness
+        self._entries = entries
         self._readers = ReaderCache()
         self._finisher = ThreadPoolExecutor(1, thread_name_prefix="store-finisher")
 
@@ -190,7 +192,7 @@ class RideStore:
             self._database.write(lambda c: remove_ride(c, ride_id))
             return None
         with (
-            drafted(self._objects, ride.channels, self._tail_chunks(ride)) as rows,
+            drafted(self._objects, ride.channels, tail_chunks(self._database, ride)) as rows,
             self._objects.holding(),
         ):
             written = write_object(self._objects, ride, rows, counted=True, more={})
@@ -201,6 +203,7 @@ class RideStore:
                 keep_words(connection, self._objects, ride.id)
 
             self._database.write(work)
+        self._recording.discard(ride.id)
         self.finishes += 1
         return self.get(ride.id)
 
@@ -337,16 +340,20 @@ class RideStore:
 
     def get(self, ride_id: int) -> Ride:
         """One ride. Raises NotFound."""
-        for ride in self._database.read(lambda c: rides_whole(c, [ride_id])):
-            return ride
-        raise NotFound(f"There is no ride {ride_id}.")
+        found = self._database.read(lambda c: rides_whole(c, [ride_id]))
+        if not found:
+            raise NotFound(f"There is no ride {ride_id}.")
+        self._entries.suspect(found)
+        return found[0]
 
     def list(
         self, sought: Sought | None = None, limit: int = 50, cursor: str | None = None
     ) -> RidePage:
         """Rides by start, newest first; `cursor` is the `next` of the page before."""
         what = sought or Sought()
-        return self._database.read(lambda c: page_of(c, what, limit, cursor))
+        page = self._database.read(lambda c: page_of(c, what, limit, cursor))
+        self._entries.suspect(page.items)
+        return page
 
     def patch(
         self,
@@ -389,8 +396,10 @@ class RideStore:
         now_us = time.time_ns() // 1000
 
         def work(connection: Connection) -> str | None:
+            # A damaged state may hide that rows are still coming.
             state = select(t.ride.c.state).where(t.ride.c.id == ride_id)
-            found: str | None = connection.execute(state).scalar()
+            recorded = ride_id in self._recording
+            found: str | None = LIVE if recorded else connection.execute(state).scalar()
             if found not in (None, LIVE):
                 forget_ride(connection, ride_id, now_us)
             return found
@@ -438,7 +447,7 @@ class RideStore:
         if ride.object_key is not None:
             path = self._objects.local_path(ride.object_key)
             return RideReader(ride, RideFile(path, ride.channels), self._level)
-        blocks = [np.empty((0, len(ride.channels)), np.int16), *self._tail_blocks(ride)]
+        blocks = [np.empty((0, len(ride.channels)), np.int16), *tail_blocks(self._database, ride)]
         return RideReader(ride, LiveRows(ride, np.concatenate(blocks)), self._level)
 
     def _level(self, ride_id: int, step: int) -> Level | None:
@@ -452,48 +461,3 @@ class RideStore:
             # The rows tell the same, only slower.
             LOG.warning("Ride %d, overview of %d rows: %s", ride_id, step, error.message)
             return None
-
-    def _tail_blocks(self, ride: Ride, start: int = 0) -> Iterator[Rows16]:
-        """Rows from `start` on, in order, without holes: what is lost or damaged is missing."""
-        missing = np.int16(MISSING_INT16)
-        width = len(ride.channels)
-        at = start
-        for row_start, row_count, payload in self._tails(ride.id, start):
-            if row_start > at:
-                yield np.full((row_start - at, width), missing)
-            try:
-                block = decode_tail(payload, width)
-            except StoreError:
-                block = np.full((row_count, width), missing)
-            yield block[max(0, at - row_start) :]
-            at = max(at, row_start + len(block))
-
-    def _tails(self, ride_id: int, next_start: int) -> Iterator[tuple[int, int, bytes]]:
-        """Start, rows and payload of the tails from a row on, a minute or so at once from SQL."""
-        columns = (t.ride_tail.c.row_start, t.ride_tail.c.row_count, t.ride_tail.c.payload)
-        mine = select(*columns).where(t.ride_tail.c.ride_id == ride_id)
-        ordered = mine.order_by(t.ride_tail.c.row_start).limit(TAILS_AT_ONCE)
-        while True:
-            query = ordered.where(t.ride_tail.c.row_start >= next_start)
-            found = self._database.read(partial(fetched, query))
-            yield from found
-            if len(found) < TAILS_AT_ONCE:
-                return
-            next_start = found[-1][0] + 1
-
-    def _tail_chunks(self, ride: Ride) -> Iterable[RideRows]:
-        """The tail's blocks, in order."""
-        start = 0
-        for block in self._tail_blocks(ride):
-            times_us = np.arange(start, start + len(block), dtype=np.int64) * (ride.period_us or 1)
-            counts = {
-                channel.name: np.ascontiguousarray(block[:, index])
-                for index, channel in enumerate(ride.channels)
-            }
-            yield RideRows(ride.channels, times_us, counts)
-            start += len(block)
-
-
-def fetched(query: Select[Any], connection: Connection) -> list[tuple[int, int, bytes]]:
-    """Rows of a query as plain tuples."""
-    return [(row[0], row[1], row[2]) for row in connection.execute(query)]

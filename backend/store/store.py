@@ -60,8 +60,10 @@ class Store:
         self.server_id = server_id
         self.deletions = Deletions(database, objects)
         self.soundness = Soundness(objects.root)
-        self.rides = RideStore(database, objects, self.deletions, self.soundness, server_id)
-        self.entries = Entries(database, objects)
+        self.entries = Entries(database, objects, self.soundness)
+        self.rides = RideStore(
+            database, objects, self.deletions, self.soundness, self.entries, server_id
+        )
         self.marks = MarkStore(database)
         self.revisions = RevisionLog(database)
         self.library = LibraryStore(database)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 from collections import Counter
-from collections.abc import Mapping
 
 from backend.device.stream import LostBy
 
@@ -22,30 +21,31 @@ LOST_BY_WORDS = {
 
 
 class MissingRows:
-    """Of the latest ride of one unit. told: the rows once they are worth telling, else empty."""
+    """Of the latest ride of one unit. Read by those that must not wait for its recorder.
+
+    rows: how many there are. most: where most of them were lost and how many there are, once they
+    are worth telling, else None.
+    """
 
     def __init__(self, device_id: str) -> None:
         self._device_id = device_id
-        self._rows: Counter[LostBy] = Counter()
-        self.told: Mapping[LostBy, int] = {}
+        self._by_place: Counter[LostBy] = Counter()
+        self.rows = 0
+        self.most: tuple[LostBy, int] | None = None
 
     def begin(self) -> None:
         """Another ride begins."""
-        self._rows.clear()
-        self.told = {}
+        self._by_place.clear()
+        self.rows, self.most = 0, None
 
     def add(self, lost_by: LostBy, rows: int, period_us: int) -> None:
         """Count rows; in the log once a ride."""
-        self._rows[lost_by] += rows
-        if self._rows.total() * period_us < TOLD_S * 1e6:
+        self._by_place[lost_by] += rows
+        self.rows += rows
+        if self.rows * period_us < TOLD_S * 1e6:
             return
-        if not self.told:
-            words = LOST_BY_WORDS[self._rows.most_common(1)[0][0]]
+        place = self._by_place.most_common(1)[0][0]
+        if self.most is None:
+            words = LOST_BY_WORDS[place]
             LOG.warning("Unit %s: rows of its ride are missing: %s.", self._device_id, words)
-        self.told = dict(self._rows)
-
-    @property
-    def most(self) -> tuple[LostBy, int] | None:
-        """Where most of them were lost, and how many there are in all; None while none is told."""
-        told = self.told
-        return (max(told, key=told.__getitem__), sum(told.values())) if told else None
+        self.most = (place, self.rows)

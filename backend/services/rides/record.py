@@ -95,7 +95,6 @@ class LiveRide:
     t0_us: int
     totals: RunningTotals
     clock: RideClock
-    rows_missing: int = 0
     still_rows: int = 0
     context: RideContext = field(default_factory=RideContext)
     epoch: int | None = None
@@ -204,7 +203,7 @@ class UnitRecorder:
             found = live.tail.counts
             rows = found.rows_saved + found.rows_lost + found.rows_waiting
             return RecordingStatus(
-                live.tail.ride_id, rows, found.rows_saved, found.rows_lost, live.rows_missing
+                live.tail.ride_id, rows, found.rows_saved, found.rows_lost, self.missing.rows
             )
 
     @property
@@ -334,7 +333,6 @@ class UnitRecorder:
             missing = np.full((lost, block.values.shape[1]), MISSING_INT16, np.int16)
             live.tail.add(missing, taken=False)
             live.totals.skip(lost)
-            live.rows_missing += lost
             self.counts.rows_missing += lost
             was_away = live.epoch not in (None, block.epoch)
             lost_by = block.lost_by or (LostBy.LINE if was_away else LostBy.UNIT)

@@ -14,6 +14,18 @@ from collections.abc import Iterable
 from sqlalchemy import JSON, Column, Row
 from sqlalchemy.sql.type_api import TypeEngine
 
+from backend.errors import InvalidRequest
+
+# What is raised where a schema, a row or an object's facts hold something else than was written.
+NOT_AS_WRITTEN = (
+    KeyError,
+    TypeError,
+    ValueError,
+    AttributeError,
+    OverflowError,
+    InvalidRequest,
+)
+
 
 class DamagedText(str):
     """Text whose bytes are no UTF-8; what cannot be decoded is U+FFFD."""

@@ -12,14 +12,14 @@ from dataclasses import asdict, dataclass
 
 from sqlalchemy import select
 
-from backend.domain.ride import BAD, iso_utc
+from backend.domain.ride import iso_utc
 from backend.errors import StoreError
 from backend.store.entries import ROWS_AT_ONCE
 from backend.store.from_object import damage_of
 from backend.store.identity import belonging
 from backend.store.look import OK, DatabaseView, LiveRecording, look_at, reading_engine
 from backend.store.objects import FileObjects, open_objects
-from backend.store.ride_table import rides_whole
+from backend.store.ride_table import damaged_rows
 from backend.store.sql import tables as t
 from backend.store.sql.database import HEAD_REVISION, current_revision, shown, sqlite_path
 from backend.store.sql.database_url import check_url
@@ -131,13 +131,13 @@ def checked(db_url: str, objects: FileObjects) -> StoreCheck:
         bytes=size,
         missing=tuple(sorted(view.object_keys - keys)),
         damaged=tuple(damaged),
-        rides_damaged=damaged_rows(db_url) if view.state == OK else (),
+        rides_damaged=damaged_rides(db_url) if view.state == OK else (),
         unknown=tuple(sorted(keys - view.known_keys)),
         lost_found=tuple(objects.lost_keys()),
     )
 
 
-def damaged_rows(db_url: str) -> tuple[int, ...]:
+def damaged_rides(db_url: str) -> tuple[int, ...]:
     """Rides whose rows cannot be read; of a database of today's schema only."""
     engine = reading_engine(db_url, sqlite_path(db_url))
     try:
@@ -147,8 +147,7 @@ def damaged_rows(db_url: str) -> tuple[int, ...]:
             ids = connection.execute(select(t.ride.c.id).order_by(t.ride.c.id)).scalars().all()
             found: list[int] = []
             for start in range(0, len(ids), ROWS_AT_ONCE):
-                rides = rides_whole(connection, ids[start : start + ROWS_AT_ONCE])
-                found += [ride.id for ride in rides if ride.state == BAD]
+                found += damaged_rows(connection, ids[start : start + ROWS_AT_ONCE])
             return tuple(found)
     finally:
         engine.dispose()

@@ -18,7 +18,7 @@ from backend.errors import StoreError
 from backend.store.calibrations.restored import bring_back_calibration, is_calibration
 from backend.store.entries import Entries
 from backend.store.facts import KeptRide
-from backend.store.from_object import NONSENSE, add_kept, damage_of, files_of, read_kept
+from backend.store.from_object import add_kept, damage_of, files_of, read_kept
 from backend.store.identity import new_id, write_identity
 from backend.store.locks import hold
 from backend.store.look import DAMAGED, EMPTY, MISSING, OK, DatabaseView, look_at
@@ -30,8 +30,10 @@ from backend.store.objects import (
     free_name,
     open_objects,
 )
+from backend.store.soundness import Soundness
 from backend.store.sql.database import Database, shown, sqlite_path
 from backend.store.sql.database_url import check_url
+from backend.store.sql.sound_rows import NOT_AS_WRITTEN
 from backend.store.store import saying_where
 
 # Where a destroyed SQLite file may have left something.
@@ -141,7 +143,7 @@ def set_aside(view: DatabaseView, db_url: str) -> list[str]:
 
 def mend_rows(database: Database, objects: FileObjects, report: Rebuilt) -> None:
     """Mend every ride's row that is damaged, where its object is whole."""
-    entries = Entries(database, objects)
+    entries = Entries(database, objects, Soundness(objects.root))
     entries.look_at_all()
     report.rides_mended, report.rides_damaged = entries.mended, tuple(sorted(entries.damaged))
 
@@ -169,7 +171,7 @@ def bring_back(
         else:
             try:
                 lacks = add_kept(database, objects, one)
-            except NONSENSE as error:
+            except NOT_AS_WRITTEN as error:
                 report.not_taken[key] = f"{key} tells no ride: {error!r}."
                 continue
             report.rides += 1

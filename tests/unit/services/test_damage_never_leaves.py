@@ -286,7 +286,7 @@ def test_the_server_s_health_names_a_ride_whose_row_cannot_be_mended(tmp_path: P
     of_file, of_row = health.reasons
     assert item.name in of_file.message
     assert (of_row.code, of_row.part) == ("rides_damaged", "database")
-    assert f"mend them from: {ride_id}. Restore the files" in of_row.message
+    assert f"mend them from: {ride_id}. Restore files or" in of_row.message
 
 
 def test_a_store_of_sound_files_says_so(shop: Shop) -> None:

@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 
 from backend.cli import main
-from backend.errors import ObjectDamaged, StoreError
+from backend.errors import Conflict, ObjectDamaged, StoreError
 from backend.store import Store, open_store
 from backend.store.upkeep.check import check_store
 from backend.store.upkeep.rebuild import rebuild_store
@@ -90,6 +90,31 @@ def test_a_damaged_row_is_one_damaged_row_and_is_mended_from_the_rides_file(
         store.rides.reader(HURT)
         assert store.entries.damaged == frozenset()
     assert list((folder / "objects").glob("lost+found/*")) == []
+
+
+@pytest.mark.parametrize("meet", ["the list", "the ride"])
+def test_a_row_damaged_after_the_days_round_is_mended_once_somebody_met_it(
+    folder: Path, meet: str
+) -> None:
+    with open_store(*urls(folder)) as store:
+        before = told(store)
+        store.scrub(1)
+        hurt(folder, "channels", "'no'")
+        store.scrub(2)
+        met = store.rides.list().items if meet == "the list" else [store.rides.get(HURT)]
+        assert [ride.id for ride in met if ride.state == "bad"] == [HURT]
+        store.scrub(3)
+        assert told(store) == before
+
+
+def test_a_ride_whose_state_is_damaged_is_not_deleted_while_it_is_recorded(folder: Path) -> None:
+    with open_store(*urls(folder)) as store:
+        ride = store.rides.get(1)
+        ride_id = store.rides.start_live(ride.channels, 10_000, ride.started_us, ride.context)
+        with sqlite3.connect(folder / "spindle.db") as connection:
+            connection.execute("UPDATE ride SET state = 'lave' WHERE state = 'live'")
+        with pytest.raises(Conflict, match="is being recorded"):
+            store.rides.delete(ride_id)
 
 
 def test_a_row_whose_file_is_gone_too_stays_and_is_named(folder: Path) -> None:
