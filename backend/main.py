@@ -22,15 +22,14 @@ import uvicorn
 from fastapi import FastAPI
 
 from backend import __version__
-from backend.api.app import ApiSettings, create_app
-from backend.api.connections import PatientProtocol
-from backend.api.safety import AllowedHosts
 from backend.api.services import Services
+from backend.app import build_api
 from backend.device.driver import LinkOpener
 from backend.device.families import FAMILIES, Families
 from backend.errors import LinkError, SpindleError, StoreError
 from backend.ingest import Readers
 from backend.link import kind_of
+from backend.people.service import PeopleService
 from backend.services.calibration.calibrations import Calibrations, open_calibrations
 from backend.services.calibration.certified import CertifiedTorque
 from backend.services.calibration.job_dates import JobDates
@@ -40,7 +39,6 @@ from backend.services.imports.mapping import TableMapping
 from backend.services.imports.sample import sample_ride
 from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
 from backend.services.keeping import Keeping
-from backend.services.people.people import people_of
 from backend.services.rides.bike.numbers import BikeNumbers
 from backend.services.rides.cards import RideCards
 from backend.services.rides.fault_moment import FaultMoments, RecentRows
@@ -75,6 +73,9 @@ from backend.services.units.watch import Watch
 from backend.settings import CHECKOUT, Settings
 from backend.store import Store, open_store
 from backend.store.schemas import SchemaFiles
+from backend.web.app import WebSettings
+from backend.web.connections import PatientProtocol
+from backend.web.safety import AllowedHosts
 
 LOG = logging.getLogger(__name__)
 OpenerOf = Callable[[str], LinkOpener]
@@ -157,7 +158,7 @@ def open_services(
             tables=TableMapping(store, uploads),
             sample_ride=partial(sample_ride, store, uploads),
             collect=collect,
-            people=people_of(store) if settings.needs_sign_in else None,
+            people=PeopleService(store.database) if settings.needs_sign_in else None,
         )
 
 
@@ -318,7 +319,7 @@ def every_second(**works: Callable[[], object]) -> Iterator[None]:
 def build_app(settings: Settings, services: Services) -> FastAPI:
     """The application over open services."""
     hosts = AllowedHosts(frozenset(settings.allowed_hosts), any_address=not settings.is_loopback)
-    api = ApiSettings(
+    web = WebSettings(
         version=__version__,
         hosts=hosts,
         guarded=settings.auth == "off" or settings.needs_sign_in,
@@ -327,7 +328,7 @@ def build_app(settings: Settings, services: Services) -> FastAPI:
         author=settings.author,
         root_path=settings.root_path,
     )
-    return create_app(api, services, services.people)
+    return build_api(web, services, services.people)
 
 
 def listening_socket(host: str, port: int) -> socket.socket:
@@ -411,7 +412,7 @@ def serve_on(listening: socket.socket, settings: Settings) -> int:
             config = server_config(build_app(settings, services))
             # Files that are being read are read at the next start.
             people = services.people
-            first_token = None if people is None else people.managed.first_token()
+            first_token = None if people is None else people.accounts.first_token()
             server = AnnouncingServer(config, services.uploads.close, first_token)
             server.run(sockets=[listening])
             return 0 if server.started else 1

@@ -17,7 +17,7 @@ from ipaddress import ip_address
 from pathlib import Path
 from typing import Any
 
-from backend.domain.author import tidy_author
+from backend.core.author import tidy_author
 from backend.errors import FieldError, InvalidRequest
 
 PREFIX = "SPINDLE_"

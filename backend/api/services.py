@@ -10,13 +10,13 @@ from fastapi import Depends
 from starlette.requests import HTTPConnection
 
 if TYPE_CHECKING:
+    from backend.people.service import PeopleService
     from backend.services.calibration.calibrations import Calibrations
     from backend.services.health import Health
     from backend.services.imports.collect import Collect
     from backend.services.imports.mapping import TableMapping
     from backend.services.imports.upload import Uploads
     from backend.services.keeping import Keeping
-    from backend.services.people.people import People
     from backend.services.rides.bike.numbers import BikeNumbers
     from backend.services.rides.fault_moment import FaultMoments
     from backend.services.rides.home import RiderHome
@@ -79,7 +79,7 @@ class Services:
     sample_ride: Callable[[], int]
     collect: Collect
     # None where nobody is asked to sign in.
-    people: People | None
+    people: PeopleService | None
 
 
 def services_of(connection: HTTPConnection) -> Services:

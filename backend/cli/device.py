@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from backend.cli.client import Server, default_key, default_server, print_json, print_table, text_of
-from backend.domain.author import tidy_author
+from backend.core.author import tidy_author
 from backend.errors import InvalidRequest, RequestRefused
 
 if TYPE_CHECKING:

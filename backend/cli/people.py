@@ -15,12 +15,11 @@ from typing import TYPE_CHECKING, Any
 
 from backend.cli.client import print_json, print_table
 from backend.cli.store import urls
-from backend.domain.people.permission import ROLES
-from backend.domain.people.person import Person, folded
+from backend.core.person import ROLES, Person, folded
 from backend.errors import InvalidRequest, NotFound
 
 if TYPE_CHECKING:
-    from backend.services.people.manage import Managed
+    from backend.people.service import Accounts
 
 WORDS = "accounts: list, add, role, disable, enable, reset (while no server runs)"
 
@@ -51,12 +50,15 @@ def add_arguments(group: Any) -> None:
 
 def list_people(options: Namespace) -> int:
     """Everybody with an account."""
-    with opened(options) as managed:
-        people = managed.list()
+    with opened(options) as accounts:
+        people = accounts.list()
     if options.json:
         print_json({"items": [as_json(one) for one in people]})
     else:
-        rows = [[one.name, one.role, "yes" if one.enabled else "no", seen(one)] for one in people]
+        rows = [
+            [one.name, one.role, "yes" if one.enabled else "no", as_json(one)["signed_in_at"]]
+            for one in people
+        ]
         print_table(rows, ["name", "role", "enabled", "signed in"])
     return 0
 
@@ -64,8 +66,8 @@ def list_people(options: Namespace) -> int:
 def add(options: Namespace) -> int:
     """A new account."""
     password = asked_password(options)
-    with opened(options) as managed:
-        return told(options, managed.add(options.name, options.role, password))
+    with opened(options) as accounts:
+        return told(options, accounts.add(options.name, options.role, password))
 
 
 def role(options: Namespace) -> int:
@@ -90,24 +92,24 @@ def reset(options: Namespace) -> int:
 
 def changed(options: Namespace, **change: Any) -> int:
     """Changes the account of the name on the command line. Raises NotFound."""
-    from backend.services.people.manage import PersonChange
+    from backend.people.types import PersonChange
 
-    with opened(options) as managed:
+    with opened(options) as accounts:
         wanted = folded(options.name)
-        found = next((one for one in managed.list() if folded(one.name) == wanted), None)
+        found = next((one for one in accounts.list() if folded(one.name) == wanted), None)
         if found is None:
             raise NotFound(f"Nobody is called {options.name!r}; `spindle people list` names all.")
-        return told(options, managed.change(found.id, PersonChange(**change)))
+        return told(options, accounts.change(found.id, PersonChange(**change)))
 
 
 @contextmanager
-def opened(options: Namespace) -> Iterator[Managed]:
+def opened(options: Namespace) -> Iterator[Accounts]:
     """The accounts of a data folder. Raises StoreError while a server has it."""
-    from backend.services.people.people import people_of
+    from backend.people.service import PeopleService
     from backend.store import open_store
 
     with open_store(*urls(options)) as store:
-        yield people_of(store).managed
+        yield PeopleService(store.database).accounts
 
 
 def asked_password(options: Namespace) -> str:
@@ -130,21 +132,8 @@ def told(options: Namespace, person: Person) -> int:
 
 
 def as_json(person: Person) -> dict[str, Any]:
-    """An account as plain JSON."""
-    from backend.domain.ride import iso_utc
+    """An account as the API says it."""
+    from pydantic import TypeAdapter
 
-    return {
-        "id": person.id,
-        "name": person.name,
-        "role": person.role,
-        "enabled": person.enabled,
-        "created_at": iso_utc(person.created_us),
-        "signed_in_at": seen(person),
-    }
-
-
-def seen(person: Person) -> str | None:
-    """When somebody signed in last."""
-    from backend.domain.ride import iso_utc
-
-    return None if person.signed_in_us is None else iso_utc(person.signed_in_us)
+    plain: dict[str, Any] = TypeAdapter(Person).dump_python(person, mode="json")
+    return plain

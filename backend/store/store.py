@@ -27,7 +27,6 @@ from backend.store.logbook.zeros import ZeroStore
 from backend.store.look import look_at
 from backend.store.marks import MarkStore
 from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
-from backend.store.people import AccountStore, KeyStore, SessionStore
 from backend.store.rides import Orphan, RideStore
 from backend.store.soundness import Expected, Soundness
 from backend.store.sql.advisory import fence
@@ -46,7 +45,7 @@ NAMED_MAX = 10
 
 class Store:
     """Everything that is kept: `rides`, `cards`, `zeros`, `logbook`, `marks`, `revisions`,
-    `library`, `certificates`, `calibrations`, `units`, `uploads`; `accounts`, `sessions`, `keys`.
+    `library`, `certificates`, `calibrations`, `units`, `uploads`.
 
     closing: lets go of the locks.
     """
@@ -75,9 +74,6 @@ class Store:
         self.logbook = Logbook(database, objects)
         self.uploads = UploadStore(database, objects, objects.root / SPOOL, self.deletions)
         self.table_answers = TableAnswers(objects)
-        self.accounts = AccountStore(database)
-        self.sessions = SessionStore(database)
-        self.keys = KeyStore(database)
         # Rides that the start could not finish.
         self.unfinished: list[int] = []
         # Held by what decides which rides an upload becomes, and by what deletes either.

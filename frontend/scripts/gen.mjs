@@ -9,7 +9,7 @@ const target = new URL('../src/generated/api.d.ts', import.meta.url)
 const venv = ['.venv/bin/python', '.venv/Scripts/python.exe'].map((path) => root + path)
 const python = process.env.SPINDLE_PYTHON ?? venv.find(existsSync) ?? 'python3'
 
-const description = spawnSync(python, ['-m', 'backend.api.openapi'], {
+const description = spawnSync(python, ['-m', 'backend.app'], {
   cwd: root,
   encoding: 'utf8',
   maxBuffer: 1 << 26,

@@ -77,7 +77,7 @@ def test_below_a_path_everything_works(
 ) -> None:
     people = below.services.people
     assert people is not None
-    token = people.managed.first_token()
+    token = people.accounts.first_token()
     with Proxy(below.url, below="/spindle", strips=strips) as proxy:
         desk = open_desk(address=f"{proxy.url}/spindle")
         desk.allowed.append(re.compile("status of 401"))

@@ -122,7 +122,7 @@ def workshop(tmp_path: Path) -> Iterator[Workshop]:
     unit = "sim:own?scenario=none"
     with ServerHere(tmp_path, [unit], SPINDLE_HOST="0.0.0.0") as server:
         assert server.services.people is not None
-        token = server.services.people.managed.first_token()
+        token = server.services.people.accounts.first_token()
         assert token is not None
         yield Workshop(server, server.url.replace("0.0.0.0", "127.0.0.1"), token)
 

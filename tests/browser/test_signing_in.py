@@ -36,7 +36,7 @@ class Workshop:
 def workshop(tmp_path: Path) -> Iterator[Workshop]:
     with ServerHere(tmp_path, [], SPINDLE_HOST="0.0.0.0") as server:
         assert server.services.people is not None
-        token = server.services.people.managed.first_token()
+        token = server.services.people.accounts.first_token()
         assert token is not None
         yield Workshop(server, server.url.replace("0.0.0.0", "127.0.0.1"), token)
 

@@ -144,7 +144,7 @@ def workshop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Workshop]:
     unit = "sim:own?scenario=none"
     with ServerHere(folder, [unit], SPINDLE_HOST="0.0.0.0") as server:
         assert server.services.people is not None
-        token = server.services.people.managed.first_token()
+        token = server.services.people.accounts.first_token()
         assert token is not None
         yield Workshop(server, server.url.replace("0.0.0.0", "127.0.0.1"), token)
 
@@ -153,7 +153,7 @@ def workshop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Workshop]:
 def signed_up(workshop: Workshop) -> Workshop:
     """With its first administrator."""
     assert workshop.server.services.people is not None
-    workshop.server.services.people.managed.make_first(workshop.token, "Anna", PASSWORD)
+    workshop.server.services.people.accounts.make_first(workshop.token, "Anna", PASSWORD)
     return workshop
 
 

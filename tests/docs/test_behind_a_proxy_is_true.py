@@ -48,7 +48,7 @@ def test_a_configuration_of_the_page_works(
     with ServerHere(tmp_path / "data", ["sim:proxied?clock=virtual"], **settings) as server:
         people = server.services.people
         assert people is not None
-        token = people.managed.first_token()
+        token = people.accounts.first_token()
         at = urlsplit(server.url).netloc
         with real_proxy(kind, snippet, site, at, folder) as port:
             origin = f"http://{site}:{port}"

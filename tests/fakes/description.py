@@ -5,10 +5,11 @@ from __future__ import annotations
 import functools
 from typing import Any
 
-from backend.api.app import ApiSettings, create_app
+from backend.app import build_api
+from backend.web.app import WebSettings
 
 
 @functools.cache
 def description() -> dict[str, Any]:
     """The OpenAPI description; made when it is first asked for, not when tests are collected."""
-    return create_app(ApiSettings(version="0")).openapi()
+    return build_api(WebSettings(version="0")).openapi()

@@ -7,18 +7,19 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from backend.api.models.base import Answer, Question
 from backend.api.models.calibration import GravityAt, GravityGiven
+from backend.core.request_body import RequestBody
 from backend.domain.calibration.bike.balance import Balance
 from backend.domain.calibration.bike.coast_down import Resistance
 from backend.domain.calibration.bike.wheel import Circumference, CutOff, Pulses
+from backend.web.models import Answer
 
 RideNumber = Annotated[int, Field(ge=1, le=2**63 - 1)]
 Second = Annotated[float | None, Field(ge=0, le=1e7)]
 DEVICE = "A connected unit, to be told beside; null: none."
 
 
-class RollOut(Question):
+class RollOut(RequestBody):
     """Rolled straight ahead from one mark on the ground to the next, rider on the saddle."""
 
     distances_m: list[Annotated[float, Field(gt=0, le=1000)]] = Field(min_length=2, max_length=50)
@@ -27,7 +28,7 @@ class RollOut(Question):
     device_id: str | None = Field(default=None, max_length=400, description=DEVICE)
 
 
-class WheelByTrack(Question):
+class WheelByTrack(RequestBody):
     """A ride whose speed is counted by the wheel, and positions of the same way."""
 
     ride_id: RideNumber
@@ -68,7 +69,7 @@ class Wheel(Answer):
     beside: BesideUnit | None
 
 
-class PulsesRequest(Question):
+class PulsesRequest(RequestBody):
     """A ride, or a part of it, in which nothing but a hand turned the wheel, from a mark to it."""
 
     ride_id: RideNumber
@@ -86,7 +87,7 @@ class PulsesTold(Answer):
     pulses: Pulses
 
 
-class CadenceRequest(Question):
+class CadenceRequest(RequestBody):
     """A part of a ride; at best from a standing crank to a standing one."""
 
     ride_id: RideNumber
@@ -105,7 +106,7 @@ class Cadence(Answer):
     agrees: bool
 
 
-class SlopeRidden(Question):
+class SlopeRidden(RequestBody):
     """A part of a ride, and how much higher its end lies than its begin."""
 
     ride_id: RideNumber
@@ -116,7 +117,7 @@ class SlopeRidden(Question):
     )
 
 
-class ClimbRequest(Question):
+class ClimbRequest(RequestBody):
     """A steady climb on the legs alone, and coast-downs with the same rider and tyres; each
     `_limit` is a half width."""
 

@@ -7,14 +7,15 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, Field
 
-from backend.api.models.base import Answer, Question
 from backend.api.models.config import ParameterValue
+from backend.core.request_body import RequestBody
 from backend.domain.calibration.capture import State
 from backend.domain.calibration.judgement.history import AmongModel, Change, Past
 from backend.domain.calibration.prechecks import Check
 from backend.domain.calibration.refusal import Refusal
 from backend.domain.calibration.setup import MassClass, Setup, Side
 from backend.domain.calibration.worked import Worked
+from backend.web.models import Answer
 
 Record = dict[str, ParameterValue | None]
 JobState = Literal["setup", "capturing", "fitted", "written", "verified", "closed"]
@@ -27,11 +28,11 @@ Angle = Annotated[
 REASON_MAX = 400
 
 
-class JobRequest(Question):
+class JobRequest(RequestBody):
     device_id: str = Field(max_length=400)
 
 
-class GravityAt(Question):
+class GravityAt(RequestBody):
     """Of a place, by the normal gravity of WGS 84 with its free-air correction."""
 
     latitude_deg: float = Field(ge=-90, le=90)
@@ -39,12 +40,12 @@ class GravityAt(Question):
     height_standard_m: float = Field(default=50.0, ge=0, le=1000)
 
 
-class GravityGiven(Question):
+class GravityGiven(RequestBody):
     gravity_ms2: float = Field(ge=9.76, le=9.84)
     standard_ms2: float = Field(ge=0, le=0.05, description="Its standard uncertainty.")
 
 
-class MassRequest(Question):
+class MassRequest(RequestBody):
     """One weight: of a class of OIML R 111, or weighed to within `limit_kg`."""
 
     name: str = Field(min_length=1, max_length=60)
@@ -53,7 +54,7 @@ class MassRequest(Question):
     limit_kg: float | None = Field(default=None, ge=0, le=10)
 
 
-class SetupRequest(Question):
+class SetupRequest(RequestBody):
     """Instruments and plan. The gain that the unit was made with is the unit's to tell."""
 
     arm_m: float = Field(ge=0.05, le=1.0, description="From the spindle's axis to the pedal's.")
@@ -77,7 +78,7 @@ class SetupRequest(Question):
     )
 
 
-class CaptureRequest(Question):
+class CaptureRequest(RequestBody):
     """What hangs there now. The sensor's temperature is the unit's to tell."""
 
     kind: Literal["zero", "load"]
@@ -93,7 +94,7 @@ class CaptureRequest(Question):
     )
 
 
-class VerifyRequest(Question):
+class VerifyRequest(RequestBody):
     """A mass that the fit has not seen."""
 
     side: Side

@@ -7,14 +7,15 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.api.models.base import Answer, Question
 from backend.api.models.config import Parameters
 from backend.api.models.law import AssistModes, FuzzyTable, UnitLimits
+from backend.core.request_body import RequestBody
+from backend.web.models import Answer
 
 CHANGES = {"fuzzy_table", "second_table", "assist_modes", "limits"}
 
 
-class CertificateRequest(Question):
+class CertificateRequest(RequestBody):
     """Of a unit's configuration, one of its revisions, an entry of the library, or the law's
     defaults; tables, modes, limits and parameters take the place of theirs."""
 

@@ -6,11 +6,11 @@ from typing import Literal
 
 from pydantic import Field
 
-from backend.api.models.base import Answer
 from backend.api.models.config import ParameterChange
 from backend.api.models.insight import CrankTorque
 from backend.api.models.law import FuzzyTable
 from backend.api.models.library import CellChange
+from backend.web.models import Answer
 
 NoFigure = Literal[
     "no_speed",

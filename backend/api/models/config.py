@@ -7,7 +7,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StrictInt, StrictStr
 
-from backend.api.models.base import Answer, Question
+from backend.core.request_body import RequestBody
+from backend.web.models import Answer
 
 # Strict: `true` is no number, and `"5"` is no 5.
 Number = StrictInt | Annotated[float, Field(strict=True, allow_inf_nan=False)]
@@ -88,7 +89,7 @@ class Config(Answer):
     parameters: Parameters
 
 
-class ConfigPatch(Question):
+class ConfigPatch(RequestBody):
     parameters: Parameters = Field(min_length=1, max_length=400)
     reason: str = Field(default="", max_length=400)
     confirm_s: int = Field(default=0, ge=0, le=CONFIRM_S_MAX, description=CONFIRM_S)
@@ -106,7 +107,7 @@ class ConfigPatch(Question):
     )
 
 
-class LiveRequest(Question):
+class LiveRequest(RequestBody):
     """Values to try at once, in the unit's memory alone."""
 
     parameters: Parameters = Field(min_length=1, max_length=400)

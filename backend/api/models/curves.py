@@ -6,13 +6,14 @@ from typing import Annotated
 
 from pydantic import Field
 
-from backend.api.models.base import Answer, Question
 from backend.api.models.config import Parameters
+from backend.core.request_body import RequestBody
+from backend.web.models import Answer
 
 Speed = Annotated[float, Field(ge=0.0, le=100.0)]
 
 
-class ModeCurvesRequest(Question):
+class ModeCurvesRequest(RequestBody):
     """A configuration as it is edited; what is left out has the law's defaults."""
 
     parameters: Parameters = Field(max_length=400)
@@ -39,7 +40,7 @@ class ModeCurves(Answer):
     engine: str
 
 
-class TorqueSurfaceRequest(Question):
+class TorqueSurfaceRequest(RequestBody):
     """A configuration as it is edited; what is left out has the law's defaults."""
 
     parameters: Parameters = Field(max_length=400)

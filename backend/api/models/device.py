@@ -7,8 +7,9 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from backend.api.models.base import Answer, Question
+from backend.core.request_body import RequestBody
 from backend.domain.capability import Capability
+from backend.web.models import Answer
 
 DeviceKind = Literal["simulated", "serial", "socket"]
 DeviceState = Literal["connecting", "ready", "read_only", "lost", "closed"]
@@ -91,7 +92,7 @@ class PortList(Answer):
     next: str | None = None
 
 
-class DeviceRequest(Question):
+class DeviceRequest(RequestBody):
     url: str = Field(
         min_length=1,
         max_length=400,
@@ -357,18 +358,18 @@ class Simulation(BaseModel):
     )
 
 
-class SimulationRiderChange(Question):
+class SimulationRiderChange(RequestBody):
     kind: RiderKind | None = None
     torque_nm: float | None = None
     cadence_rpm_max: float | None = None
 
 
-class SimulationRoadChange(Question):
+class SimulationRoadChange(RequestBody):
     grade_deg: float | None = None
     wind_ms: float | None = None
 
 
-class SimulationFaults(Question):
+class SimulationFaults(RequestBody):
     """What is to be broken, until it is told to be sound again."""
 
     torque_sensor: Literal["sound", "stuck", "open_high", "open_low", "drifting"] | None = None
@@ -384,7 +385,7 @@ class SimulationFaults(Question):
     coupling: float | None = None
 
 
-class SimulationWorkbenchChange(Question):
+class SimulationWorkbenchChange(RequestBody):
     side: Literal["left", "right"] | None = None
     mass_kg: float | None = None
     crank_angle_deg: float | None = None
@@ -394,13 +395,13 @@ class SimulationWorkbenchChange(Question):
     angle_limit_deg: float | None = None
 
 
-class SimulationAdvance(Question):
+class SimulationAdvance(RequestBody):
     """Time that shall pass for a unit with a virtual clock; a day at most."""
 
     seconds: float = Field(gt=0.0, le=86_400.0)
 
 
-class SimulationChange(Question):
+class SimulationChange(RequestBody):
     """Any subset; what is absent stays. A `scenario` starts from its beginning, null ends it.
 
     The simulator itself refuses what it cannot simulate, and names it.

@@ -8,7 +8,8 @@ from typing import Annotated, Literal
 from fastapi import Query
 from pydantic import Field
 
-from backend.api.models.base import Answer, Question
+from backend.core.request_body import RequestBody
+from backend.web.models import Answer
 
 RideIds = Annotated[
     list[Annotated[int, Field(ge=1, le=2**63 - 1)]], Field(min_length=1, max_length=500)
@@ -132,7 +133,7 @@ class RiderHome(Answer):
     tags: list[TagInUse]
 
 
-class RideTags(Question):
+class RideTags(RequestBody):
     """Tags to add to rides and to take from them, all or none."""
 
     ride_ids: RideIds
@@ -140,5 +141,5 @@ class RideTags(Question):
     remove: list[str] = Field(default=[], max_length=100)
 
 
-class RidesGone(Question):
+class RidesGone(RequestBody):
     ride_ids: RideIds

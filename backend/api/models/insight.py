@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from backend.api.models.base import Answer
+from backend.web.models import Answer
 
 Severity = Literal["note", "warning", "serious"]
 NoRange = Literal["no_charge", "no_distance", "short_way", "charged", "little_used"]

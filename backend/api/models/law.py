@@ -6,7 +6,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
-from backend.api.models.base import Answer, Question
+from backend.core.request_body import RequestBody
+from backend.web.models import Answer
 
 
 def in_lower_case(value: Any) -> Any:
@@ -142,7 +143,7 @@ class UnitLimits(LawModel):
     )
 
 
-class SurfaceRequest(Question):
+class SurfaceRequest(RequestBody):
     fuzzy_table: FuzzyTable
     speeds_kmh: list[float] = Field(min_length=1, max_length=512)
     torque_rates: list[float] = Field(min_length=1, max_length=512)
@@ -153,7 +154,7 @@ class Surface(Answer):
     engine: str = Field(description="Which code computed it: the unit's own.")
 
 
-class PointsRequest(Question):
+class PointsRequest(RequestBody):
     fuzzy_table: FuzzyTable
     points: list[tuple[float, float]] = Field(
         min_length=1, max_length=20_000, description="Pairs of speed_kmh and torque_rate."
@@ -165,7 +166,7 @@ class PointGains(Answer):
     engine: str
 
 
-class LintRequest(Question):
+class LintRequest(RequestBody):
     fuzzy_table: FuzzyTable
     assist_modes: AssistModes | None = None
     limits: UnitLimits | None = None
@@ -209,7 +210,7 @@ Readings = Annotated[
 ]
 
 
-class EvaluationRequest(Question):
+class EvaluationRequest(RequestBody):
     """Readings in Nm of `r` strokes over the `k` loads, rising and falling."""
 
     full_scale_nm: float = Field(gt=0.0)

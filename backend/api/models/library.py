@@ -7,9 +7,10 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.api.models.base import Answer, Question
 from backend.api.models.config import ParameterChange, ParameterValue
 from backend.api.models.law import FuzzyTable, Label, Table
+from backend.core.request_body import RequestBody
+from backend.web.models import Answer
 
 PARAMETERS_MAX = 400
 
@@ -59,13 +60,13 @@ class LibraryEntry(Answer):
     parameters: dict[str, LibraryParameter]
 
 
-class DocumentParameter(Question):
+class DocumentParameter(RequestBody):
     value: ParameterValue
     unit: str = Field(max_length=16)
     comment: str = ""
 
 
-class LibraryDocument(Question):
+class LibraryDocument(RequestBody):
     """A document that is to be kept: what `GET /library/{id}` and `spindle device backup` give.
 
     What it says of a unit, `identity`, `unit_key`, `generation` and `crc32`, is not kept.
@@ -83,7 +84,7 @@ class LibraryDocument(Question):
     crc32: int | None = None
 
 
-class FisText(Question):
+class FisText(RequestBody):
     """A `.fis` file as text."""
 
     text: str = Field(max_length=64 * 1024)
@@ -113,7 +114,7 @@ class ReadFis(Answer):
     deviation: Deviation
 
 
-class Side(Question):
+class Side(RequestBody):
     """What is compared: just one of `library`, `device` and `fuzzy_table`."""
 
     library: str | None = Field(default=None, max_length=80, description="Id of an entry.")
@@ -126,7 +127,7 @@ class Side(Question):
     table: Table = Field(default="first", description="Of a configuration.")
 
 
-class CompareRequest(Question):
+class CompareRequest(RequestBody):
     left: Side
     right: Side
     feel: bool = Field(

@@ -6,16 +6,17 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from backend.api.models.base import Answer, Question
 from backend.api.models.config import ParameterChange, Parameters
 from backend.api.models.library import LibraryEntry
+from backend.core.request_body import RequestBody
+from backend.web.models import Answer
 
 Objective = Literal["more_range", "gentler_start", "flatter_at_the_limit"]
 Knob = Literal["ratio", "band", "filter", "torque_rate", "cells"]
 KNOBS: tuple[Knob, ...] = ("ratio", "band", "filter", "torque_rate", "cells")
 
 
-class ProposalRequest(Question):
+class ProposalRequest(RequestBody):
     """A wish, the rides it is measured on, and what may be turned for it."""
 
     ride_ids: Annotated[list[int], Field(min_length=1, max_length=5)]

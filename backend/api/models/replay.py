@@ -7,14 +7,15 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.api.models.base import Answer, Question
 from backend.api.models.config import Parameters
 from backend.api.models.law import AssistModes, FivePoints, FuzzyTable, Table
 from backend.api.models.ride import Series
+from backend.core.request_body import RequestBody
 from backend.domain.rider_and_bike import RiderAndBike
+from backend.web.models import Answer
 
 
-class OtherSettings(Question):
+class OtherSettings(RequestBody):
     """What takes the place of what the ride was made with; what is not told stays."""
 
     parameters: Parameters = Field(
@@ -199,7 +200,7 @@ class Replay(Answer):
     series: Series
 
 
-class TableUseRequest(Question):
+class TableUseRequest(RequestBody):
     """Which rides, and the table as it is edited: its points may differ from those ridden with."""
 
     ride_ids: list[int] | None = Field(

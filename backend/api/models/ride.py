@@ -7,7 +7,8 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.api.models.base import Answer, Question
+from backend.core.request_body import RequestBody
+from backend.web.models import Answer
 
 
 class RideSummary(Answer):
@@ -264,7 +265,7 @@ class RideList(Answer):
     total: int | None = Field(description="Rides of this kind in all; with the first page only.")
 
 
-class RidePatch(Question):
+class RidePatch(RequestBody):
     name: str | None = Field(default=None, max_length=200)
     notes: str | None = Field(default=None, max_length=20_000)
     tags: list[str] | None = Field(default=None, max_length=100, description="All of them, anew.")

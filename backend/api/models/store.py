@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from backend.api.models.base import Answer
+from backend.web.models import Answer
 
 
 class StorePlace(Answer):

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from backend.api.models.base import Answer, Question
+from backend.core.request_body import RequestBody
+from backend.web.models import Answer
 
 
 class TableColumn(Answer):
@@ -17,7 +18,7 @@ class TableColumn(Answer):
     samples: list[str] = Field(description="Of the first rows.")
 
 
-class SaidOfTable(Question):
+class SaidOfTable(RequestBody):
     """What an owner says of a table. It is kept for every file with the same header."""
 
     time_zone: str | None = Field(

@@ -7,7 +7,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from backend.api.models.base import Answer
+from backend.web.models import Answer
 
 
 class UploadParts(Answer):

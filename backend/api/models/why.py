@@ -6,13 +6,14 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.api.models.base import Answer, Question
 from backend.api.models.law import AssistModes, FuzzyTable, Label, Law, Table, UnitLimits
+from backend.core.request_body import RequestBody
+from backend.web.models import Answer
 
 CHANGES = {"fuzzy_table", "second_table", "assist_modes", "limits"}
 
 
-class WhyRequest(Question):
+class WhyRequest(RequestBody):
     """A steady state: nothing changes but that the torque keeps rising at `torque_rate`.
 
     Tables, modes and limits take the place of the unit's, or of the law's defaults.

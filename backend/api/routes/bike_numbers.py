@@ -19,7 +19,6 @@ from backend.api.models.bike_numbers import (
     WheelByTrack,
 )
 from backend.api.models.calibration import GravityAt, GravityGiven
-from backend.api.problem import DAMAGED, refusals
 from backend.api.services import Provided
 from backend.domain.calibration.bike.coast_down import Known
 from backend.domain.calibration.bike.wheel import ROOT_3
@@ -27,6 +26,7 @@ from backend.domain.calibration.gravity import ANYWHERE_LIMIT_MS2, ANYWHERE_MS2,
 from backend.services.rides.bike.climb import Question, Slope
 from backend.services.rides.bike.wheel import TrackQuestion
 from backend.services.rides.insight.rows import Window
+from backend.web.problem import DAMAGED, refusals
 
 router = APIRouter(prefix="/calibration", tags=["calibration"])
 UNIT = refusals(404, 503, 504)

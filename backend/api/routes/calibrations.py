@@ -6,7 +6,6 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Query, Response
 
-from backend.api.author import Author
 from backend.api.models.calibration import (
     REASON_MAX,
     CaptureRequest,
@@ -20,12 +19,13 @@ from backend.api.models.calibration import (
     VerifyRequest,
 )
 from backend.api.models.config import TOKEN, TOKEN_PATTERN
-from backend.api.problem import refusals
 from backend.api.services import Provided
 from backend.domain.calibration.capture import state_of
 from backend.domain.calibration.gravity import gravity_at
 from backend.domain.calibration.plain import to_plain
 from backend.services.calibration.paper import Language, Paper, certificate_file
+from backend.web.authentication import Author
+from backend.web.problem import refusals
 
 router = APIRouter(prefix="/calibrations", tags=["calibration"], responses=refusals(404))
 UNIT = refusals(403, 404, 409, 503, 504)

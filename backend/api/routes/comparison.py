@@ -6,12 +6,12 @@ from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends, Query, Response
 
-from backend.api.large import whole
 from backend.api.models.comparison import ComparedCrank, ComparedSeries, RideComparison
-from backend.api.problem import DAMAGED, refusals
 from backend.api.routes.rides import Channels, channel_names
 from backend.api.services import Provided
 from backend.services.rides.insight.rows import Window
+from backend.web.problem import DAMAGED, refusals
+from backend.web.responses import whole
 
 router = APIRouter(prefix="/rides/compare", tags=["rides"], responses={**refusals(404), **DAMAGED})
 

@@ -6,7 +6,6 @@ from typing import Annotated, Any, Literal, cast
 
 from fastapi import APIRouter, Header, Query, Response
 
-from backend.api.author import Author
 from backend.api.meant import FOR_ONE_UNIT
 from backend.api.models.config import (
     CONFIRM_S,
@@ -25,9 +24,10 @@ from backend.api.models.config import (
 )
 from backend.api.models.law import AssistModes, Calibration, FuzzyTable, Table, UnitLimits
 from backend.api.models.why import Why, WhyRequest
-from backend.api.problem import refusals
 from backend.api.services import Provided
 from backend.services.tuning.config_view import etag
+from backend.web.authentication import Author
+from backend.web.problem import refusals
 
 router = APIRouter(
     prefix="/devices/{device_id}",

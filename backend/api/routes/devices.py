@@ -23,10 +23,10 @@ from backend.api.models.device import (
     WearCounters,
 )
 from backend.api.models.ride import RideMark
-from backend.api.problem import DAMAGED, refusals
 from backend.api.services import Provided
 from backend.services.units.asked_url import check_asked
 from backend.services.units.simulate import advance, scenarios
+from backend.web.problem import DAMAGED, refusals
 
 router = APIRouter(tags=["devices"], responses=refusals(404, 409, 503, 504))
 MEANT: Any = {"dependencies": FOR_ONE_UNIT, "responses": refusals(412)}

@@ -7,9 +7,9 @@ from typing import Any
 from fastapi import APIRouter
 
 from backend.api.models.device import Alive, Health
-from backend.api.problem import problem_response, refusals, refusals_only
 from backend.api.services import Provided
 from backend.errors import StoreError
+from backend.web.problem import problem_response, refusals, refusals_only
 
 router = APIRouter(tags=["server"], responses=refusals())
 # Outside the API's prefix and without its version: what watches processes asks for these.

@@ -8,9 +8,9 @@ from fastapi import APIRouter, Query
 from fastapi.responses import StreamingResponse
 
 from backend.api.models.insight import RideDiagnosis, RideEffort, RideEnergy, RidePedalling
-from backend.api.problem import DAMAGED, refusals
 from backend.api.routes.rides import RideId, as_file
 from backend.api.services import Provided
+from backend.web.problem import DAMAGED, refusals
 
 router = APIRouter(prefix="/rides", tags=["rides"], responses=refusals(404))
 

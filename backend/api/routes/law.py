@@ -24,9 +24,9 @@ from backend.api.models.law import (
     SurfaceRequest,
 )
 from backend.api.models.why import Why, WhyRequest
-from backend.api.problem import refusals
 from backend.api.services import Provided
 from backend.services.tuning.certify import Certified
+from backend.web.problem import refusals
 
 router = APIRouter(tags=["law"], responses=refusals())
 

@@ -6,7 +6,6 @@ from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Header, Path, Query, Response
 
-from backend.api.author import Author
 from backend.api.models.law import Table
 from backend.api.models.library import (
     CompareRequest,
@@ -19,10 +18,11 @@ from backend.api.models.library import (
     LibraryRow,
     ReadFis,
 )
-from backend.api.problem import refusals
 from backend.api.services import Provided
 from backend.services.tuning.compare import Side
 from backend.services.tuning.library_files import library_file, read_fis_file
+from backend.web.authentication import Author
+from backend.web.problem import refusals
 
 router = APIRouter(prefix="/library", tags=["library"], responses=refusals())
 EntryId = Annotated[str, Path(max_length=80)]

@@ -7,16 +7,9 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Depends, Query, status
 from fastapi.responses import StreamingResponse
 
-from backend.api.models.home import (
-    Blur,
-    ExportFormat,
-    RideKind,
-    RiderHome,
-    RidesGone,
-    RideTags,
-)
-from backend.api.problem import refusals
+from backend.api.models.home import Blur, ExportFormat, RideKind, RiderHome, RidesGone, RideTags
 from backend.api.services import Provided
+from backend.web.problem import refusals
 
 router = APIRouter(prefix="/rides", tags=["rides"], responses=refusals(404, 409, 415))
 

@@ -8,8 +8,8 @@ from fastapi import APIRouter, Path, Response, status
 
 from backend.api.meant import FOR_ONE_UNIT
 from backend.api.models.log import ErasedLog, LogDownload, UnitLogs
-from backend.api.problem import refusals
 from backend.api.services import Provided
+from backend.web.problem import refusals
 
 router = APIRouter(
     tags=["devices"], dependencies=FOR_ONE_UNIT, responses=refusals(404, 409, 412, 503, 504)

@@ -7,9 +7,9 @@ from typing import Any
 from fastapi import APIRouter, Path, Response
 
 from backend.api.models.proposal import Proposal, ProposalRequest
-from backend.api.problem import refusals
 from backend.api.services import Provided
 from backend.domain.rider_and_bike import RiderAndBike
+from backend.web.problem import refusals
 
 router = APIRouter(prefix="/proposals", tags=["proposals"], responses=refusals(404))
 JOB = Path(max_length=40)

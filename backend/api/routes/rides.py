@@ -11,8 +11,6 @@ from fastapi import APIRouter, Depends, Path, Query, Request, Response, status
 from fastapi.responses import JSONResponse, StreamingResponse
 from pydantic import BeforeValidator
 
-from backend.api.asker import while_asked
-from backend.api.large import in_pieces, whole
 from backend.api.models.home import Blur, ExportFormat, RideKind
 from backend.api.models.replay import (
     AgainRequest,
@@ -24,9 +22,10 @@ from backend.api.models.replay import (
 )
 from backend.api.models.ride import Figure, Ride, RideList, RidePatch, Series, Track
 from backend.api.models.why import Cuts, Ledger, Why
-from backend.api.problem import DAMAGED, refusals
 from backend.api.services import Provided
 from backend.services.rides.export import Export
+from backend.web.problem import DAMAGED, refusals
+from backend.web.responses import in_pieces, while_asked, whole
 
 router = APIRouter(prefix="/rides", tags=["rides"], responses=refusals(404, 409, 415))
 

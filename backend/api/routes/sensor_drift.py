@@ -7,8 +7,8 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query
 
 from backend.api.models.drift import SensorDrift
-from backend.api.problem import refusals
 from backend.api.services import Provided
+from backend.web.problem import refusals
 
 router = APIRouter(
     prefix="/devices/{device_id}", tags=["devices"], responses=refusals(404, 503, 504)

@@ -8,8 +8,8 @@ from fastapi import APIRouter
 from fastapi.responses import StreamingResponse
 
 from backend.api.models.store import StorePlace
-from backend.api.problem import refusals
 from backend.api.services import Provided
+from backend.web.problem import refusals
 
 router = APIRouter(prefix="/store", tags=["server"], responses=refusals(503))
 

@@ -9,8 +9,8 @@ from fastapi.concurrency import run_in_threadpool
 
 from backend.api.models.table import KnownTables, SaidOfTable, TableQuestion
 from backend.api.models.upload import Upload
-from backend.api.problem import refusals
 from backend.api.services import Provided
+from backend.web.problem import refusals
 
 router = APIRouter(tags=["uploads"], responses=refusals(400, 404, 409))
 

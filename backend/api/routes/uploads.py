@@ -24,9 +24,9 @@ from fastapi.concurrency import run_in_threadpool
 
 from backend.api.models.ride import Ride
 from backend.api.models.upload import Upload, UploadList
-from backend.api.problem import problem_response, refusals
 from backend.api.services import Provided, Services
 from backend.errors import BadFile, InvalidRequest
+from backend.web.problem import problem_response, refusals
 
 TUS_VERSION = "1.0.0"
 TUS_EXTENSIONS = "creation,creation-with-upload,checksum,termination,expiration"

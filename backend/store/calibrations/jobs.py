@@ -13,7 +13,7 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, Select, func, insert, select, update
 
-from backend.domain.author import proof_of
+from backend.core.author import proof_of
 from backend.domain.canonical_json import canonical_text, sha256_of
 from backend.errors import Conflict, NotFound, ObjectDamaged
 from backend.store.calibrations.kept import (

@@ -8,7 +8,7 @@ from typing import Any
 
 from sqlalchemy import Connection, insert, select
 
-from backend.domain.author import proof_of
+from backend.core.author import proof_of
 from backend.domain.canonical_json import sha256_of
 from backend.domain.revision import Revision
 from backend.store.sql import tables as t

@@ -5725,7 +5725,10 @@ export interface components {
         Person: {
             /** Id */
             id: number;
-            /** Name */
+            /**
+             * Name
+             * @description Unique whatever its case, and what changes are signed with.
+             */
             name: string;
             /**
              * Role

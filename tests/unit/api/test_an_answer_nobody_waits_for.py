@@ -14,10 +14,11 @@ from typing import Any, cast
 
 import pytest
 
-from backend.api.app import ApiSettings, create_app
-from backend.api.connections import PatientProtocol
 from backend.api.services import Services
+from backend.app import build_api
 from backend.errors import NotFound, RequestRefused
+from backend.web.app import WebSettings
+from backend.web.connections import PatientProtocol
 from tests.unit.api.test_connections import PATIENCE_S, serving
 
 pytestmark = pytest.mark.slow
@@ -54,7 +55,7 @@ def working() -> Working:
 @pytest.fixture
 def asking(working: Working) -> Iterator[http.client.HTTPConnection]:
     services = cast(Services, SimpleNamespace(ride_again=working))
-    app = create_app(ApiSettings("test"), services)
+    app = build_api(WebSettings("test"), services)
     with serving(PatientProtocol, app) as (host, port):
         connection = http.client.HTTPConnection(host, port, timeout=PATIENCE_S)
         yield connection

@@ -14,8 +14,9 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
-from backend.api.app import ApiSettings, create_app
+from backend.app import build_api
 from backend.domain.calibration.certificate import evaluate
+from backend.web.app import WebSettings
 from tests.unit.services.calibration_job import LOADS_KG, TRUE_GAIN, Workshop
 
 pytestmark = pytest.mark.slow
@@ -41,7 +42,7 @@ def bench(tmp_path: Path) -> Iterator[Workshop]:
 @pytest.fixture
 def client(bench: Workshop) -> TestClient:
     services: Any = SimpleNamespace(calibrations=bench.use)
-    app = create_app(ApiSettings(version="0", author="Ada"), services)
+    app = build_api(WebSettings(version="0", author="Ada"), services)
     return TestClient(app, base_url="http://127.0.0.1:8750")
 
 

@@ -14,13 +14,14 @@ from typing import Any, cast
 import pytest
 from fastapi.testclient import TestClient
 
-from backend.api.app import ApiSettings, create_app
 from backend.api.services import Services
+from backend.app import build_api
 from backend.services.tuning.certify import CertifiedRevisions, Certify, KeptCertificates
 from backend.services.tuning.library import Library
 from backend.services.tuning.tune import Tuning
 from backend.services.units.connect import Devices
 from backend.store import Store, open_store
+from backend.web.app import WebSettings
 from firmware_protocol.parameters import default_config
 
 PATH = "/api/v1/certificates"
@@ -40,7 +41,7 @@ def client(store: Store) -> TestClient:
     library = Library(store.library)
     certify = Certify(kept, cast(Devices, None), cast(Tuning, None), library)
     services = cast(Services, SimpleNamespace(certify=certify))
-    return TestClient(create_app(ApiSettings("test"), services), base_url="http://127.0.0.1")
+    return TestClient(build_api(WebSettings("test"), services), base_url="http://127.0.0.1")
 
 
 def asked(client: TestClient, **question: Any) -> dict[str, Any]:

@@ -11,12 +11,13 @@ from typing import Any
 
 import pytest
 
-from backend.api.app import ApiSettings, create_app
 from backend.api.models.law import AssistMode, FuzzyTable, UnitLimits
+from backend.app import build_api
 from backend.control import law_defaults
 from backend.domain.assist_mode import LAWS, TAPERS
 from backend.domain.calibration.setup import CLASS_SHARE
 from backend.domain.fuzzy_table import INFERENCES, THESIS_TABLE
+from backend.web.app import WebSettings
 from firmware_protocol._generated import Inference, Law, Market, Taper
 from firmware_protocol.spelling import RULE_LABELS, words_of
 
@@ -39,7 +40,7 @@ def choices(node: Any) -> Iterator[str]:
 
 @pytest.mark.slow
 def test_every_enumeration_of_the_description_is_in_lower_case() -> None:
-    found = set(choices(create_app(ApiSettings(version="0")).openapi()))
+    found = set(choices(build_api(WebSettings(version="0")).openapi()))
 
     assert {"mamdani_centroid", "eu_epac", "factory", "latched"} <= found
     assert found >= RULE_LABELS

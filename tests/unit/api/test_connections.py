@@ -15,7 +15,7 @@ import pytest
 import uvicorn
 from fastapi import FastAPI, Request
 
-from backend.api.connections import PatientProtocol
+from backend.web.connections import PatientProtocol
 
 PATIENCE_S = 20.0
 

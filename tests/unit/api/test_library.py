@@ -21,13 +21,14 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from backend.api.app import ApiSettings, create_app
 from backend.api.services import Services
+from backend.app import build_api
 from backend.domain.fuzzy_table import FuzzyTable
 from backend.services.tuning.compare import Compare
 from backend.services.tuning.library import Library, preset_etag
 from backend.services.tuning.tune import Tuning
 from backend.store import open_store
+from backend.web.app import WebSettings
 from firmware_protocol.configuration_file import read
 
 LIBRARY = "/api/v1/library"
@@ -44,7 +45,7 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
         library = Library(store.library)
         compare = Compare(library, cast(Tuning, None))
         services = cast(Services, SimpleNamespace(library=library, compare=compare))
-        app = create_app(ApiSettings("test", author="workshop"), services)
+        app = build_api(WebSettings("test", author="workshop"), services)
         yield TestClient(app, base_url="http://127.0.0.1")
 
 

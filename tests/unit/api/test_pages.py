@@ -8,7 +8,8 @@ import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
-from backend.api import errors, pages
+from backend.web import pages
+from backend.web import problem as errors
 
 
 def client_of(folder: Path | None) -> TestClient:

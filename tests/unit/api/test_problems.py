@@ -11,8 +11,8 @@ from fastapi.testclient import TestClient
 from pydantic import BaseModel
 
 from backend import errors
-from backend.api import errors as api_errors
 from backend.api.models.config import ConfigPatch
+from backend.web import problem as api_errors
 
 
 class Body(BaseModel):

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 import backend
-from backend.api.errors import CODE_OF_STATUS
 from backend.errors import SpindleError
+from backend.web.problem import CODE_OF_STATUS
 from firmware_protocol._generated import Status
 
 ROOT = Path(__file__).resolve().parents[3]

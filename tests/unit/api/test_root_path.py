@@ -10,9 +10,11 @@ import pytest
 from fastapi import FastAPI, Request, Response, WebSocket
 from fastapi.testclient import TestClient
 
-from backend.api import errors, pages
-from backend.api.app import ApiSettings, create_app
-from backend.api.root_path import RootPath
+from backend.app import build_api
+from backend.web import pages
+from backend.web import problem as errors
+from backend.web.app import WebSettings
+from backend.web.pages import RootPath
 
 BUILT = Path(__file__).resolve().parents[3] / "frontend" / "index.html"
 
@@ -74,7 +76,7 @@ def test_the_entry_page_has_what_is_replaced() -> None:
 
 
 def test_the_description_says_where_the_api_is() -> None:
-    app = create_app(ApiSettings(version="1", root_path="/spindle"))
+    app = build_api(WebSettings(version="1", root_path="/spindle"))
     at = TestClient(app, base_url="http://127.0.0.1:8750")
 
     assert at.get("/spindle/api/v1/openapi.json").json()["servers"] == [{"url": "/spindle"}]

@@ -15,8 +15,8 @@ from fastapi import FastAPI, Request, WebSocket
 from fastapi.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
-from backend.api import errors
-from backend.api.safety import AllowedHosts, BodyBound, SameOriginOnly, SecurityHeaders
+from backend.web import problem as errors
+from backend.web.safety import AllowedHosts, BodyBound, SameOriginOnly, SecurityHeaders
 
 
 def guarded_app(hosts: AllowedHosts, guarded: bool = False) -> FastAPI:

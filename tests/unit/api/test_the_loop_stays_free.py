@@ -16,8 +16,9 @@ import pytest
 from anyio.from_thread import start_blocking_portal
 from pydantic import BaseModel
 
-from backend.api import large
-from backend.api.app import ApiSettings, create_app
+from backend.app import build_api
+from backend.web import responses as large
+from backend.web.app import WebSettings
 from tests.unit.api.sample_rides import SAMPLE_RIDE
 
 # A store for every test, or a crowd of requests: left out of `make test-fast`.
@@ -59,7 +60,7 @@ def test_while_rides_are_read_others_are_answered(
 ) -> None:
     rides = HeldRides(ASKED[path])
     services: Any = Desk(rides)
-    app = create_app(ApiSettings("0"), services)
+    app = build_api(WebSettings("0"), services)
     made_on: list[str] = []
     make: Callable[[type[BaseModel], Any], Any] = large.whole
 

@@ -19,11 +19,12 @@ from unittest.mock import patch
 import pytest
 from fastapi.testclient import TestClient
 
-from backend.api.app import ApiSettings, create_app
+from backend.app import build_api
 from backend.ingest import Outcome
 from backend.ingest.formats import read_file
 from backend.services.imports.upload import Uploads
 from backend.store import open_store
+from backend.web.app import WebSettings
 from tests.fakes.fit_file import commute, fit_file
 
 pytestmark = pytest.mark.slow
@@ -51,7 +52,7 @@ class Bench:
         self.store = open_store(f"sqlite:///{folder}/db", f"file://{folder}/objects")
         self.uploads = Uploads(self.store, reader=read_here)
         services: Any = Desk(self.uploads)
-        app = create_app(ApiSettings("0"), services)
+        app = build_api(WebSettings("0"), services)
         self.client = TestClient(app, base_url="http://localhost", raise_server_exceptions=False)
 
     def die(self) -> None:

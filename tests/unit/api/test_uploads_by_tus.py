@@ -18,10 +18,11 @@ from fastapi.testclient import TestClient
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from backend.api.app import ApiSettings, create_app
+from backend.app import build_api
 from backend.ingest.outcome import rejected
 from backend.services.imports.upload import Uploads
 from backend.store import open_store
+from backend.web.app import WebSettings
 from tests import counts
 
 # A store for every test, or a crowd of requests: left out of `make test-fast`.
@@ -59,7 +60,7 @@ def bench(tmp_path: Path) -> Iterator[Bench]:
     with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as store:
         uploads = Uploads(store, reader=lambda path, name: rejected("unknown_format", "No ride."))
         services: Any = Desk(uploads)
-        app = create_app(ApiSettings("0"), services)
+        app = build_api(WebSettings("0"), services)
         client = TestClient(app, base_url="http://localhost", raise_server_exceptions=False)
         yield Bench(client, uploads)
 

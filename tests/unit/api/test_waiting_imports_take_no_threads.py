@@ -15,11 +15,12 @@ import httpx
 import pytest
 from anyio.from_thread import start_blocking_portal
 
-from backend.api.app import ApiSettings, create_app
+from backend.app import build_api
 from backend.ingest import Outcome
 from backend.ingest.outcome import rejected
 from backend.services.imports.upload import Arrival, Uploads
 from backend.store import open_store
+from backend.web.app import WebSettings
 
 # A store for every test, or a crowd of requests: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
@@ -54,7 +55,7 @@ def test_while_many_imports_wait_another_route_is_answered(tmp_path: Path) -> No
 
     async def story(uploads: CountedUploads) -> tuple[list[str], list[str]]:
         services: Any = Desk(uploads)
-        transport = httpx.ASGITransport(app=create_app(ApiSettings("0"), services))
+        transport = httpx.ASGITransport(app=build_api(WebSettings("0"), services))
         async with httpx.AsyncClient(transport=transport, base_url="http://localhost") as client:
             sending = [
                 asyncio.create_task(

@@ -101,7 +101,7 @@ def test_torque_round_the_crank_is_drawn_where_it_can_be_told(store: Store) -> N
 @pytest.mark.slow
 def test_plotly_is_imported_by_the_first_picture_only() -> None:
     code = (
-        "import sys, backend.main, backend.api.app, backend.cli;"
+        "import sys, backend.main, backend.app, backend.cli;"
         "sys.exit(any(name.split('.')[0] == 'plotly' for name in sys.modules))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

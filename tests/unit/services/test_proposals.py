@@ -17,8 +17,8 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from backend.api.app import ApiSettings, create_app
 from backend.api.services import Services
+from backend.app import build_api
 from backend.control import law_defaults
 from backend.control.front_search import GENERATIONS, POPULATION, front_of
 from backend.control.proposal import KNOBS, Space
@@ -28,6 +28,7 @@ from backend.services.rides.propose import RUNNING, Candidate, Job, Proposals, c
 from backend.services.rides.ride_again import RideAgain
 from backend.services.tuning.certify import KeptCertificates
 from backend.store import Store, open_store
+from backend.web.app import WebSettings
 from firmware_protocol._generated import PARAMETER_BY_NAME
 from tests.fakes.known_roads import Ridden, road
 from tests.unit.services.test_a_ride_ridden_again import SPORT, kept, sport
@@ -273,7 +274,7 @@ def test_a_wish_that_a_ride_cannot_tell_is_refused(proposals: Proposals, store: 
 @pytest.mark.slow
 def test_the_api_takes_a_job_tells_of_it_and_cancels_it(proposals: Proposals, ride_id: int) -> None:
     services = cast(Services, SimpleNamespace(proposals=proposals))
-    client = TestClient(create_app(ApiSettings("test"), services), base_url="http://127.0.0.1")
+    client = TestClient(build_api(WebSettings("test"), services), base_url="http://127.0.0.1")
     question = {"ride_ids": [ride_id], "objective": "more_range", "knobs": ["ratio", "cells"]}
 
     begun = client.post("/api/v1/proposals", json=question)

@@ -1,0 +1,120 @@
+"""The API: every route, and the permission each needs.
+
+`python -m backend.app` prints its OpenAPI description; it starts and opens nothing.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+
+from fastapi import FastAPI
+
+from backend import __version__
+from backend.api import live
+from backend.api.routes import (
+    bike_numbers,
+    calibrations,
+    comparison,
+    config,
+    devices,
+    health,
+    insight,
+    law,
+    library,
+    logbook,
+    logs,
+    proposals,
+    rides,
+    sensor_drift,
+    store,
+    tables,
+    uploads,
+)
+from backend.api.services import Services
+from backend.core.person import Permission
+from backend.people.api import router as people_router
+from backend.people.service import PeopleService
+from backend.web.app import Operations, WebSettings, create_app
+from backend.web.permissions import Anyone
+
+P = Permission
+OPERATIONS: dict[Permission | Anyone, str] = {
+    Anyone.STRANGER: "get_not_built get_healthz get_readyz get_session sign_in make_first_person",
+    Anyone.SIGNED_IN: "sign_out change_own_password give_ticket get_description get_docs",
+    P.COMPUTE: "compute_surface compute_points compute_torque_surface compute_mode_curves "
+    "lint_table why_steady evaluate_calibration read_fis list_scenarios",
+    P.SEE_SERVER: "get_health get_store list_ports",
+    P.BACK_UP: "get_backup",
+    P.MANAGE_PEOPLE: "list_people add_person change_person list_keys add_key revoke_key",
+    P.SEE_BIKES: "list_devices get_device get_snapshot get_service get_dashboard list_faults "
+    "moment_of_fault get_simulation list_logs get_log_download list_parameters get_config "
+    "get_last_known list_revisions since_revision why_of_device get_live get_fuzzy_table "
+    "get_assist_modes get_calibration get_limits list_calibrations get_calibration_job "
+    "get_calibration_reading get_calibration_certificate get_calibration_certificate_pdf "
+    "sensor_drift certify live",
+    P.CHANGE_BIKES: "add_device remove_device clear_faults mark_moment erase_log "
+    "start_log_download patch_config confirm_config rollback_config set_live end_live "
+    "put_fuzzy_table put_assist_modes put_limits",
+    P.CALIBRATE: "put_calibration open_calibration set_up_calibration capture strike_capture "
+    "fit_calibration write_calibration verify_calibration restore_calibration "
+    "close_calibration roll_out_wheel track_wheel count_wheel_pulses check_cadence "
+    "check_by_climb",
+    P.SIMULATE: "put_simulation advance_simulation",
+    P.SEE_LIBRARY: "list_library compare get_library_entry export_library_entry "
+    "get_library_feel list_library_versions",
+    P.CHANGE_LIBRARY: "add_library_item change_library_item remove_library_item",
+    P.SEE_RIDES: "rider_home export_rides compare_rides compare_ride_series "
+    "compare_ride_crank energy_of_ride effort_of_ride pedalling_of_ride diagnosis_of_ride "
+    "report_of_ride list_rides get_ride get_ride_series get_ride_track get_ride_figure "
+    "export_ride replay_ride ride_again why_of_ride cuts_of_ride ledger_of_ride table_use "
+    "propose get_proposal cancel_proposal list_tables list_uploads",
+    P.CHANGE_RIDES: "tag_rides delete_rides patch_ride delete_ride delete_upload "
+    "forget_table sample_ride",
+    P.UPLOAD: "import_ride describe_uploads create_upload "
+    "get_upload_offset append_upload get_upload get_mapping put_mapping",
+}
+NEEDED = {one: needed for needed, operations in OPERATIONS.items() for one in operations.split()}
+
+
+# What the table calls a stranger's, by its path; a test compares them.
+STRANGERS = frozenset(
+    {
+        ("GET", "/healthz"),
+        ("GET", "/readyz"),
+        ("GET", "/api/v1/session"),
+        ("POST", "/api/v1/sign-in"),
+        ("POST", "/api/v1/first-person"),
+    }
+)
+
+OF_UNITS = (devices, logs, config, calibrations, bike_numbers, sensor_drift)
+# Before the rides: what several rides come to is at no ride's number.
+OF_RIDES = (logbook, comparison, insight, rides, proposals)
+ROUTERS = [
+    health.router,
+    people_router,
+    *(part.router for part in (store, *OF_UNITS, law, library, *OF_RIDES, uploads, tables, live)),
+]
+
+
+def build_api(
+    settings: WebSettings, services: Services | None = None, people: PeopleService | None = None
+) -> FastAPI:
+    """The application over open services; without any it can only describe itself.
+
+    people: who may sign in; None where nobody is asked to.
+    """
+    operations = Operations(ROUTERS, health.probes, NEEDED, STRANGERS)
+    return create_app(settings, operations, services, people)
+
+
+def main() -> None:
+    """Writes the description to standard output, sorted as the application gives it."""
+    description = build_api(WebSettings(version=__version__)).openapi()
+    json.dump(description, sys.stdout, indent=1, ensure_ascii=False)
+    sys.stdout.write("\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""What every room may know: types and arithmetic without a clock, a file or a port."""

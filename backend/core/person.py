@@ -1,0 +1,105 @@
+"""A person with an account, what a role permits, and who is behind a request.
+
+A rider has none of the bikes, rides and settings of others. Until bikes have owners everything is
+somebody else's to a rider, so the role holds what needs nobody's data.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import datetime
+from enum import StrEnum
+from typing import Literal
+
+from backend.core.described import described
+
+RoleName = Literal["rider", "dealer", "engineer", "admin"]
+
+
+class Permission(StrEnum):
+    """One thing that may be allowed."""
+
+    COMPUTE = "compute"
+    """Ask the law about values that come with the request."""
+    SEE_BIKES = "see_bikes"
+    """Units, their live values, configurations, faults and calibrations."""
+    CHANGE_BIKES = "change_bikes"
+    """Connect units, write what they are set to, try values, clear faults."""
+    CALIBRATE = "calibrate"
+    """Calibrate sensors and write what was found."""
+    SEE_RIDES = "see_rides"
+    """Rides, where they went, and the files they came from."""
+    CHANGE_RIDES = "change_rides"
+    """Name, tag and delete rides and files."""
+    UPLOAD = "upload"
+    """Send files that become rides, and see what became of them."""
+    SEE_LIBRARY = "see_library"
+    """Items of the library."""
+    CHANGE_LIBRARY = "change_library"
+    """Add, change and delete them."""
+    SIMULATE = "simulate"
+    """Control the surroundings of a simulated unit."""
+    SEE_SERVER = "see_server"
+    """How the server is: health, numbers, ports, where it keeps things."""
+    BACK_UP = "back_up"
+    """Take everything away as one file, accounts too."""
+    MANAGE_PEOPLE = "manage_people"
+    """Accounts and keys of everybody."""
+
+
+P = Permission
+RIDER = frozenset({P.COMPUTE})
+DEALER = RIDER | {
+    P.SEE_BIKES,
+    P.CHANGE_BIKES,
+    P.CALIBRATE,
+    P.SEE_RIDES,
+    P.CHANGE_RIDES,
+    P.UPLOAD,
+    P.SEE_LIBRARY,
+    P.CHANGE_LIBRARY,
+    P.SEE_SERVER,
+}
+ENGINEER = DEALER | {P.SIMULATE}
+ADMIN = ENGINEER | {P.BACK_UP, P.MANAGE_PEOPLE}
+
+ROLES: dict[RoleName, frozenset[Permission]] = {
+    "rider": RIDER,
+    "dealer": DEALER,
+    "engineer": ENGINEER,
+    "admin": ADMIN,
+}
+
+
+@described
+class Person:
+    """An account."""
+
+    id: int
+    name: str
+    """Unique whatever its case, and what changes are signed with."""
+    role: RoleName
+    enabled: bool
+    created_at: datetime
+    signed_in_at: datetime | None = None
+    """When last."""
+
+    @property
+    def permissions(self) -> frozenset[Permission]:
+        """What the role allows."""
+        return ROLES[self.role]
+
+
+@dataclass(frozen=True)
+class Caller:
+    """Who is behind a request. by_cookie: a browser sent the proof by itself, unasked."""
+
+    person: Person
+    permissions: frozenset[Permission]
+    by_cookie: bool = False
+    session_id: int | None = None
+
+
+def folded(name: str) -> str:
+    """A name as it is compared: case does not tell people apart."""
+    return name.casefold()

@@ -1,1 +1,0 @@
-"""Who may do what: permissions, roles, the rule for passwords, and patience with wrong ones."""

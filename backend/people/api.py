@@ -1,0 +1,231 @@
+"""Signing in and out, accounts and keys."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Depends, Path, Query, Request, Response
+
+from backend.core.person import Caller, Person
+from backend.errors import Conflict, NotAllowed, NotSignedIn
+from backend.people.service import PeopleService
+from backend.people.tokens import VALID_S
+from backend.people.types import (
+    ApiKeyIn,
+    ApiKeys,
+    FirstPerson,
+    NewApiKey,
+    OwnPassword,
+    People,
+    PersonChange,
+    PersonIn,
+    Session,
+    SignedIn,
+    SignInRequest,
+    Ticket,
+)
+from backend.web import session_cookie
+from backend.web.permissions import caller_of
+from backend.web.problem import refusals, refusals_only
+
+router = APIRouter(tags=["people"], responses=refusals())
+Id = Annotated[int, Path(ge=1, le=2**31 - 1)]
+
+
+def people_of(request: Request) -> PeopleService:
+    """Raises Conflict `no_accounts` on a server that asks nobody."""
+    people = known_people(request)
+    if people is None:
+        message = "This server asks nobody to sign in. SPINDLE_AUTH=required makes it."
+        raise Conflict(message, "no_accounts")
+    return people
+
+
+def known_people(request: Request) -> PeopleService | None:
+    """None on a server that asks nobody."""
+    people: PeopleService | None = request.app.state.authenticator
+    return people
+
+
+def asking(request: Request) -> Caller:
+    """Who asks. Raises NotSignedIn."""
+    caller = caller_of(request)
+    if caller is None:
+        raise NotSignedIn("Nobody is signed in.")
+    return caller
+
+
+Asked = Annotated[PeopleService, Depends(people_of)]
+Asking = Annotated[Caller, Depends(asking)]
+
+
+def in_browser(caller: Asking) -> Caller:
+    """Who asks, by a session. Raises NotAllowed for a key: it must not take over its person."""
+    if caller.session_id is None:
+        raise NotAllowed("A key cannot do this: sign in.", "needs_session")
+    return caller
+
+
+InBrowser = Annotated[Caller, Depends(in_browser)]
+
+
+@router.get(
+    "/session",
+    operation_id="get_session",
+)
+def get_session(request: Request) -> Session:
+    """Whether people sign in here, and who asks."""
+    caller = caller_of(request)
+    people = known_people(request)
+    return Session(
+        sign_in=people is not None,
+        needs_first=people is not None and not people.accounts.has_admin(),
+        signed_in=None if caller is None else SignedIn(caller.person, sorted(caller.permissions)),
+    )
+
+
+@router.post(
+    "/sign-in",
+    operation_id="sign_in",
+    responses=refusals(401, 409, 429),
+)
+def sign_in(body: SignInRequest, people: Asked, request: Request, response: Response) -> Person:
+    """Begins a session: its token goes into a cookie that no script reads."""
+    password = body.password.get_secret_value()
+    return begun(people, body.name, password, request, response)
+
+
+@router.post(
+    "/first-person",
+    operation_id="make_first_person",
+    status_code=201,
+    responses=refusals(401, 403, 409, 429),
+)
+def make_first_person(
+    body: FirstPerson, people: Asked, request: Request, response: Response
+) -> Person:
+    """The first administrator, by the link that the server printed; signs them in."""
+    password = body.password.get_secret_value()
+    person = people.accounts.make_first(body.token.get_secret_value(), body.name, password)
+    return begun(people, person.name, password, request, response)
+
+
+@router.delete(
+    "/session", operation_id="sign_out", status_code=204, responses=refusals(401, 403, 409)
+)
+def sign_out(
+    people: Asked,
+    caller: InBrowser,
+    request: Request,
+    response: Response,
+    everywhere: Annotated[bool, Query(description="All of this person's browsers.")] = False,
+) -> None:
+    """Ends this session."""
+    people.sign_in.sign_out(caller, everywhere)
+    session_cookie.take_away(request, response)
+
+
+@router.put(
+    "/session/password",
+    operation_id="change_own_password",
+    status_code=204,
+    responses=refusals(401, 403, 409, 429),
+)
+def change_own_password(
+    body: OwnPassword, people: Asked, caller: InBrowser, request: Request, response: Response
+) -> None:
+    """Gives oneself another password; every other browser is signed out."""
+    old, new = body.old.get_secret_value(), body.new.get_secret_value()
+    token = people.sign_in.change_password(caller, old, new, address_of(request))
+    session_cookie.put(request, response, token)
+
+
+@router.post(
+    "/tickets",
+    operation_id="give_ticket",
+    status_code=201,
+    responses=refusals_only(401, 403, 409),
+)
+def give_ticket(people: Asked, caller: Asking) -> Ticket:
+    """Opens one WebSocket without a header: for programs. A browser's cookie does by itself."""
+    return Ticket(people.tickets.give(caller), VALID_S)
+
+
+@router.get(
+    "/people",
+    operation_id="list_people",
+    responses=refusals_only(401, 403, 409),
+)
+def list_people(people: Asked) -> People:
+    """Everybody with an account, by name."""
+    return People(people.accounts.list())
+
+
+@router.post(
+    "/people",
+    operation_id="add_person",
+    status_code=201,
+    responses=refusals(401, 403, 409, 429),
+)
+def add_person(body: PersonIn, people: Asked) -> Person:
+    """A new account."""
+    password = body.password.get_secret_value()
+    return people.accounts.add(body.name, body.role, password)
+
+
+@router.patch(
+    "/people/{person_id}",
+    operation_id="change_person",
+    responses=refusals(401, 403, 404, 409, 429),
+)
+def change_person(person_id: Id, body: PersonChange, people: Asked) -> Person:
+    """Another role or password, or disabled; with the last two every browser is signed out."""
+    return people.accounts.change(person_id, body)
+
+
+@router.get(
+    "/keys",
+    operation_id="list_keys",
+    responses=refusals_only(401, 403, 409),
+)
+def list_keys(people: Asked) -> ApiKeys:
+    """Every key, newest first, revoked ones too."""
+    return ApiKeys(people.keys.list())
+
+
+@router.post(
+    "/keys",
+    operation_id="add_key",
+    status_code=201,
+    responses=refusals(401, 403, 404, 409),
+)
+def add_key(body: ApiKeyIn, people: Asked, caller: Asking) -> NewApiKey:
+    """A new key. It is in this answer and nowhere else: only its hash is kept."""
+    whose = caller.person.id if body.person_id is None else body.person_id
+    key, secret = people.keys.add(whose, body.name, set(body.scopes), body.expires_at)
+    return NewApiKey(key, secret)
+
+
+@router.delete(
+    "/keys/{key_id}",
+    operation_id="revoke_key",
+    status_code=204,
+    responses=refusals(401, 403, 404, 409),
+)
+def revoke_key(key_id: Id, people: Asked) -> None:
+    """Ends a key; it stays in the list."""
+    people.keys.revoke(key_id)
+
+
+def begun(
+    people: PeopleService, name: str, password: str, request: Request, response: Response
+) -> Person:
+    """A new session, whatever the browser came with."""
+    token, person = people.sign_in.sign_in(name, password, address_of(request))
+    session_cookie.put(request, response, token)
+    return person
+
+
+def address_of(request: Request) -> str:
+    """Where a request comes from."""
+    return request.client.host if request.client else ""

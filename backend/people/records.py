@@ -1,0 +1,318 @@
+"""Accounts, the browsers that are signed in, and the keys of programs, in the database.
+
+An account that is disabled stays: what it did names it. Of a session's token and of a key only a
+hash is kept: a copy of the database opens nothing. They are random, so a plain hash will do. All
+times are Unix microseconds.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from sqlalchemy import ColumnElement, Connection, Row, Select, delete, func, insert, select, update
+
+from backend.core.moments import utc, utc_or_none
+from backend.core.person import Permission, Person, RoleName, folded
+from backend.errors import Conflict, NotFound
+from backend.people.types import ApiKey
+from backend.store.sql import tables as t
+from backend.store.sql.database import Database
+
+# More than a large workshop has; bounds what a list holds.
+ACCOUNTS_MAX = 10_000
+# Revoked ones too: what a key did stays explained.
+KEYS_MAX = 10_000
+HOUR_US = 3_600_000_000
+# A day's work and the night after it; NIST SP 800-63B, 2.1.3: 30 days at the most.
+IDLE_US = 24 * HOUR_US
+AGE_MAX_US = 30 * 24 * HOUR_US
+# Of one person: the oldest goes first. Protects the table.
+SESSIONS_MAX = 50
+# A use is noted so seldom that a page that asks twice a second does not keep the disk busy.
+NOTED_EVERY_US = 60_000_000
+
+
+class AccountStore:
+    """The accounts there are, from any thread."""
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
+
+    def list(self) -> tuple[Person, ...]:
+        """Everybody, by name."""
+        query = select(t.account).order_by(t.account.c.folded)
+        rows = self._database.read(lambda connection: connection.execute(query).all())
+        return tuple(person_of(row) for row in rows)
+
+    def has_admin(self) -> bool:
+        """Whether somebody can sign in who may manage people."""
+        return self._database.read(lambda connection: admins(connection) > 0)
+
+    def with_password(self, name: str) -> tuple[Person, str] | None:
+        """Who is called so and the hash of the password; None where nobody is."""
+        query = select(t.account).where(t.account.c.folded == folded(name))
+        row = self._database.read(lambda connection: connection.execute(query).first())
+        return None if row is None else (person_of(row), row.password)
+
+    def add(self, name: str, role: RoleName, password: str, only_first: bool = False) -> Person:
+        """A new account. password: its hash. only_first: if there is no administrator yet.
+
+        Raises Conflict `name_taken`, `people_full`, `not_the_first`; StoreError.
+        """
+        values = {
+            "name": name,
+            "folded": folded(name),
+            "role": role,
+            "enabled": True,
+            "password": password,
+            "created_us": now_us(),
+        }
+
+        def work(connection: Connection) -> Person:
+            if only_first and admins(connection):
+                raise Conflict("There is an administrator already: sign in.", "not_the_first")
+            count = connection.execute(select(func.count()).select_from(t.account)).scalar_one()
+            if count >= ACCOUNTS_MAX:
+                raise Conflict(f"There are {ACCOUNTS_MAX} accounts, and no more.", "people_full")
+            taken = select(t.account.c.id).where(t.account.c.folded == folded(name))
+            if connection.execute(taken).first() is not None:
+                raise Conflict(f"Somebody is called {name!r} already.", "name_taken")
+            made = insert(t.account).values(values).returning(t.account)
+            return person_of(connection.execute(made).one())
+
+        return self._database.write(work)
+
+    def change(self, person_id: int, changes: Mapping[str, Any], sign_out: bool) -> Person:
+        """Give an account another role or password (its hash), or disable or enable it.
+
+        sign_out: every browser it signed in with. Raises NotFound; Conflict `last_admin` where
+        nobody would be left who may manage people; StoreError.
+        """
+
+        def work(connection: Connection) -> Person:
+            mine = t.account.c.id == person_id
+            found = connection.execute(select(t.account).where(mine)).first()
+            if found is None:
+                raise NotFound(f"There is no account {person_id}.")
+            had_admin = admins(connection) > 0
+            if changes:
+                connection.execute(update(t.account).where(mine).values(**changes))
+            if had_admin and not admins(connection):
+                message = "Nobody would be left who may manage people: make another admin first."
+                raise Conflict(message, "last_admin")
+            if sign_out:
+                connection.execute(delete(t.session).where(t.session.c.account_id == person_id))
+            return person_of(connection.execute(select(t.account).where(mine)).one())
+
+        return self._database.write(work)
+
+
+def admins(connection: Connection) -> int:
+    """How many may manage people and can sign in."""
+    able = (t.account.c.role == "admin") & t.account.c.enabled
+    query = select(func.count()).select_from(t.account).where(able)
+    return int(connection.execute(query).scalar_one())
+
+
+def person_of(row: Row[Any]) -> Person:
+    """A row of `account`, or of a join that has its columns."""
+    return Person(
+        id=row.id,
+        name=row.name,
+        role=row.role,
+        enabled=row.enabled,
+        created_at=utc(row.created_us),
+        signed_in_at=utc_or_none(row.signed_in_us),
+    )
+
+
+def now_us() -> int:
+    """Unix time."""
+    return time.time_ns() // 1000
+
+
+class SessionStore:
+    """Sessions by the hash of their token, from any thread. All times in Unix microseconds."""
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
+
+    def open(self, person_id: int, password: str, token_sha256: str, now_us: int) -> bool:
+        """A new session of a person whose password was looked at.
+
+        password: its hash. False, and nothing is opened, where the account was disabled or given
+        another password since. Raises StoreError.
+        """
+        values = {
+            "account_id": person_id,
+            "token_sha256": token_sha256,
+            "created_us": now_us,
+            "used_us": now_us,
+        }
+        mine = t.session.c.account_id == person_id
+        newest = (
+            select(t.session.c.id).where(mine).order_by(t.session.c.id.desc()).limit(SESSIONS_MAX)
+        )
+        same = (t.account.c.id == person_id) & (t.account.c.password == password)
+
+        def work(connection: Connection) -> bool:
+            still = update(t.account).where(same & t.account.c.enabled)
+            if not connection.execute(still.values(signed_in_us=now_us)).rowcount:
+                return False
+            connection.execute(delete(t.session).where(over(now_us)))
+            connection.execute(insert(t.session).values(values))
+            connection.execute(delete(t.session).where(mine & t.session.c.id.not_in(newest)))
+            return True
+
+        return self._database.write(work)
+
+    def of_token(self, token_sha256: str, now_us: int) -> tuple[int, Person] | None:
+        """The session's number and whose it is; None where it is over or the account disabled."""
+        query = (
+            select(
+                t.account,
+                t.session.c.id.label("session_id"),
+                t.session.c.used_us,
+            )
+            .join(t.session, t.session.c.account_id == t.account.c.id)
+            .where(t.session.c.token_sha256 == token_sha256, t.account.c.enabled, ~over(now_us))
+        )
+        row = self._database.read(lambda connection: connection.execute(query).first())
+        if row is None:
+            return None
+        if now_us - row.used_us > NOTED_EVERY_US:
+            noted = update(t.session).where(t.session.c.id == row.session_id)
+            # Nobody waits for it, and a full disk signs nobody out.
+            self._database.submit(lambda c: c.execute(noted.values(used_us=now_us)).rowcount)
+        return row.session_id, person_of(row)
+
+    def close(self, session_id: int) -> None:
+        """Sign one browser out. Raises StoreError."""
+        gone = delete(t.session).where(t.session.c.id == session_id)
+        self._database.write(lambda connection: connection.execute(gone).rowcount)
+
+    def close_all(self, person_id: int) -> None:
+        """Sign a person out everywhere. Raises StoreError."""
+        gone = delete(t.session).where(t.session.c.account_id == person_id)
+        self._database.write(lambda connection: connection.execute(gone).rowcount)
+
+
+def over(now_us: int) -> ColumnElement[bool]:
+    """Of a session: it was not used for too long, or began too long ago."""
+    return (t.session.c.used_us < now_us - IDLE_US) | (t.session.c.created_us < now_us - AGE_MAX_US)
+
+
+class KeyStore:
+    """Keys by number and by prefix, from any thread. All times in Unix microseconds."""
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
+
+    def list(self) -> tuple[ApiKey, ...]:
+        """Every key, newest first, revoked ones too."""
+        query = keys().order_by(t.api_key.c.id.desc())
+        rows = self._database.read(lambda connection: connection.execute(query).all())
+        return tuple(key_of(row) for row in rows)
+
+    def add(
+        self,
+        person_id: int,
+        name: str,
+        scopes: Iterable[Permission],
+        prefix: str,
+        secret_sha256: str,
+        now_us: int,
+        expires_us: int | None,
+    ) -> ApiKey:
+        """A new key of a person. Raises NotFound, Conflict `keys_full`, StoreError."""
+        values = {
+            "account_id": person_id,
+            "name": name,
+            "prefix": prefix,
+            "secret_sha256": secret_sha256,
+            "scopes": sorted(scopes),
+            "created_us": now_us,
+            "expires_us": expires_us,
+        }
+
+        def work(connection: Connection) -> ApiKey:
+            whose = select(t.account.c.id).where(t.account.c.id == person_id)
+            if connection.execute(whose).first() is None:
+                raise NotFound(f"There is no account {person_id}.")
+            count = connection.execute(select(func.count()).select_from(t.api_key)).scalar_one()
+            if count >= KEYS_MAX:
+                raise Conflict(f"There are {KEYS_MAX} keys, and no more.", "keys_full")
+            made = insert(t.api_key).values(values).returning(t.api_key.c.id)
+            number = connection.execute(made).scalar_one()
+            return key_of(connection.execute(keys().where(t.api_key.c.id == number)).one())
+
+        return self._database.write(work)
+
+    def revoke(self, key_id: int, now_us: int) -> None:
+        """End a key; ended again it stays as it is. Raises NotFound, StoreError."""
+
+        def work(connection: Connection) -> None:
+            mine = t.api_key.c.id == key_id
+            if connection.execute(select(t.api_key.c.id).where(mine)).first() is None:
+                raise NotFound(f"There is no key {key_id}.")
+            still = mine & t.api_key.c.revoked_us.is_(None)
+            connection.execute(update(t.api_key).where(still).values(revoked_us=now_us))
+
+        self._database.write(work)
+
+    def of_prefix(self, prefix: str, now_us: int) -> tuple[ApiKey, Person, str] | None:
+        """A key that counts, whose it is, and the hash of its secret; None where there is none."""
+        query = (
+            select(
+                t.account,
+                t.api_key.c.id.label("key_id"),
+                t.api_key.c.secret_sha256,
+            )
+            .join(t.api_key, t.api_key.c.account_id == t.account.c.id)
+            .where(
+                t.api_key.c.prefix == prefix,
+                t.account.c.enabled,
+                t.api_key.c.revoked_us.is_(None),
+                t.api_key.c.expires_us.is_(None) | (t.api_key.c.expires_us > now_us),
+            )
+        )
+
+        def work(connection: Connection) -> tuple[ApiKey, Person, str] | None:
+            row = connection.execute(query).first()
+            if row is None:
+                return None
+            key = connection.execute(keys().where(t.api_key.c.id == row.key_id)).one()
+            return key_of(key), person_of(row), row.secret_sha256
+
+        return self._database.read(work)
+
+    def note_use(self, key: ApiKey, now_us: int) -> None:
+        """That a key was used; nobody waits for it."""
+        if key.used_at is None or utc(now_us - NOTED_EVERY_US) > key.used_at:
+            noted = update(t.api_key).where(t.api_key.c.id == key.id).values(used_us=now_us)
+            self._database.submit(lambda connection: connection.execute(noted).rowcount)
+
+
+def keys() -> Select[Any]:
+    """Every key with its person's name."""
+    owner = t.account.c.name.label("person_name")
+    return select(t.api_key, owner).join(t.account, t.account.c.id == t.api_key.c.account_id)
+
+
+def key_of(row: Row[Any]) -> ApiKey:
+    """A row of `keys`. A scope that this version does not know allows nothing."""
+    known = {str(permission) for permission in Permission}
+    return ApiKey(
+        id=row.id,
+        person_id=row.account_id,
+        person_name=row.person_name,
+        name=row.name,
+        prefix=row.prefix,
+        scopes=tuple(sorted(Permission(scope) for scope in row.scopes if scope in known)),
+        created_at=utc(row.created_us),
+        expires_at=utc_or_none(row.expires_us),
+        used_at=utc_or_none(row.used_us),
+        revoked_at=utc_or_none(row.revoked_us),
+    )

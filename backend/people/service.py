@@ -1,0 +1,166 @@
+"""Accounts and keys, as administrators manage them; how the first administrator comes; and who
+sends a request.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterable
+from datetime import datetime
+from typing import Any
+
+from backend.core.author import tidy_author
+from backend.core.person import ROLES, Caller, Permission, Person, RoleName
+from backend.errors import NotAllowed
+from backend.people.passwords import Passwords, field_refusal, require_good
+from backend.people.records import AccountStore, KeyStore, SessionStore
+from backend.people.sign_in import SignIn
+from backend.people.tokens import KEY_FORM, Tickets, is_secret_of, new_key, new_token, token_sha256
+from backend.people.types import NAME_MAX, ApiKey, PersonChange
+from backend.store.sql.database import Database
+
+USED = "This link was used, or is of an earlier start: the server prints a new one when it starts."
+
+
+class Accounts:
+    """Accounts, from any thread."""
+
+    def __init__(self, accounts: AccountStore, passwords: Passwords) -> None:
+        self._accounts = accounts
+        self._passwords = passwords
+        self._turn = threading.Lock()
+        self._first: str | None = None
+
+    def list(self) -> tuple[Person, ...]:
+        """Everybody, by name. Raises StoreError."""
+        return self._accounts.list()
+
+    def add(self, name: str, role: RoleName, password: str) -> Person:
+        """A new account. Raises InvalidRequest, Conflict `name_taken`, StoreError."""
+        name = good_name(name)
+        require_good(password, name)
+        return self._accounts.add(name, role, self._passwords.hashed(password))
+
+    def change(self, person_id: int, change: PersonChange) -> Person:
+        """Another role, another password, disabled or enabled; whoever it is signs in anew where
+        the password or the right to be here went.
+
+        Raises NotFound, InvalidRequest, Conflict `last_admin`, StoreError.
+        """
+        changes: dict[str, Any] = {}
+        if change.role is not None:
+            changes["role"] = change.role
+        if change.enabled is not None:
+            changes["enabled"] = change.enabled
+        if change.password is not None:
+            name = next((one.name for one in self.list() if one.id == person_id), "")
+            password = change.password.get_secret_value()
+            require_good(password, name)
+            changes["password"] = self._passwords.hashed(password)
+        sign_out = change.password is not None or change.enabled is False
+        return self._accounts.change(person_id, changes, sign_out)
+
+    def has_admin(self) -> bool:
+        """Whether anybody may manage people. Raises StoreError."""
+        return self._accounts.has_admin()
+
+    def first_token(self) -> str | None:
+        """What makes the first administrator, once; None where there is one. Raises StoreError."""
+        if self._accounts.has_admin():
+            return None
+        token = new_token()
+        with self._turn:
+            self._first = token_sha256(token)
+        return token
+
+    def make_first(self, token: str, name: str, password: str) -> Person:
+        """The first administrator. Raises NotAllowed `link_used`, InvalidRequest, Conflict."""
+        with self._turn:
+            if self._first is None or not is_secret_of(self._first, token):
+                raise NotAllowed(USED, "link_used")
+            name = good_name(name)
+            require_good(password, name)
+            hashed = self._passwords.hashed(password)
+            person = self._accounts.add(name, "admin", hashed, only_first=True)
+            self._first = None
+            return person
+
+
+class Keys:
+    """Keys of programs, from any thread."""
+
+    def __init__(self, keys: KeyStore) -> None:
+        self._keys = keys
+
+    def list(self) -> tuple[ApiKey, ...]:
+        """Every key, newest first. Raises StoreError."""
+        return self._keys.list()
+
+    def add(
+        self, person_id: int, name: str, scopes: Iterable[Permission], expires_at: datetime | None
+    ) -> tuple[ApiKey, str]:
+        """A new key and what a program sends, which is told this once.
+
+        Raises InvalidRequest, NotFound, StoreError.
+        """
+        now_us = time.time_ns() // 1000
+        expires_us = None if expires_at is None else round(expires_at.timestamp() * 1e6)
+        if expires_us is not None and expires_us <= now_us:
+            raise field_refusal("expires_at", "in_the_past", "This moment is over already.")
+        shown, prefix, secret = new_key()
+        key = self._keys.add(
+            person_id, good_name(name), scopes, prefix, token_sha256(secret), now_us, expires_us
+        )
+        return key, shown
+
+    def revoke(self, key_id: int) -> None:
+        """End a key. Raises NotFound, StoreError."""
+        self._keys.revoke(key_id, time.time_ns() // 1000)
+
+    def caller(self, shown: str) -> Caller | None:
+        """Who sends a key: its person, with what the key is for and the role still allows; None
+        where it is none, is over or was revoked. Raises StoreError."""
+        form = KEY_FORM.fullmatch(shown)
+        now_us = time.time_ns() // 1000
+        found = self._keys.of_prefix(form[1], now_us) if form else None
+        if form is None or found is None or not is_secret_of(found[2], form[2]):
+            return None
+        key, person, _ = found
+        self._keys.note_use(key, now_us)
+        return Caller(person, ROLES[person.role] & set(key.scopes))
+
+
+def good_name(name: str) -> str:
+    """A name as it is kept. Raises InvalidRequest where there is none or it is too long."""
+    tidy = tidy_author(name)
+    if not 0 < len(tidy) <= NAME_MAX:
+        raise field_refusal("name", "not_a_name", f"A name has 1 to {NAME_MAX} characters.")
+    return tidy
+
+
+class PeopleService:
+    """All that is asked of people and their keys, from any thread.
+
+    sign_in: browsers. keys: programs. tickets: sockets of programs.
+    """
+
+    def __init__(self, database: Database) -> None:
+        passwords = Passwords()
+        accounts = AccountStore(database)
+        self.accounts = Accounts(accounts, passwords)
+        self.sign_in = SignIn(accounts, SessionStore(database), passwords)
+        self.keys = Keys(KeyStore(database))
+        self.tickets = Tickets()
+
+    def of_key(self, key: str) -> Caller | None:
+        """Who sends a key. Raises StoreError."""
+        return self.keys.caller(key)
+
+    def of_ticket(self, ticket: str) -> Caller | None:
+        """Who opens a socket with a ticket; it opens no other."""
+        return self.tickets.take(ticket)
+
+    def of_session(self, token: str) -> Caller | None:
+        """Whose browser sends a cookie. Raises StoreError."""
+        return self.sign_in.of_token(token)

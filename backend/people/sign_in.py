@@ -1,0 +1,120 @@
+"""Signing in and out. The answer to a wrong name and to a wrong password is the same, and takes as
+long; each further try waits, by the name and by the address it comes from.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from math import ceil
+
+from backend.core.person import Caller, Person, folded
+from backend.errors import NotSignedIn, TooManyTries
+from backend.people.passwords import Passwords, field_refusal, require_good
+from backend.people.records import AccountStore, SessionStore
+from backend.people.throttle import Throttle
+from backend.people.tokens import new_token, token_sha256
+from backend.people.types import PASSWORD_LENGTH_MAX
+
+# NIST SP 800-63B, 3.2.2 allows 100 in a row; a person who mistypes needs a few.
+FREE_BY_NAME = 5
+# A workshop behind one address has many who mistype.
+FREE_BY_ADDRESS = 30
+WRONG = "Name or password is wrong."
+
+
+class SignIn:
+    """Sessions of browsers, from any thread. now_s: a clock that only goes forward."""
+
+    def __init__(
+        self,
+        accounts: AccountStore,
+        sessions: SessionStore,
+        passwords: Passwords,
+        now_s: Callable[[], float] = time.monotonic,
+        now_us: Callable[[], int] = lambda: time.time_ns() // 1000,
+    ) -> None:
+        self._accounts = accounts
+        self._sessions = sessions
+        self._passwords = passwords
+        self._now_s = now_s
+        self._now_us = now_us
+        self._turn = threading.Lock()
+        self._by_name = Throttle(FREE_BY_NAME)
+        self._by_address = Throttle(FREE_BY_ADDRESS)
+
+    def sign_in(self, name: str, password: str, address: str) -> tuple[str, Person]:
+        """A new session's token, and who it is. address: where the request comes from.
+
+        Raises NotSignedIn `wrong_password`, TooManyTries, StoreError.
+        """
+        key = folded(name)
+        self._begin(key, address)
+        person, password_hash = self._verified(name, password)
+        token = new_token()
+        if not self._sessions.open(person.id, password_hash, token_sha256(token), self._now_us()):
+            raise NotSignedIn(WRONG, "wrong_password")
+        self._succeed(key, address)
+        return token, person
+
+    def sign_out(self, caller: Caller, everywhere: bool) -> None:
+        """End this session, or all of this person's. Raises StoreError."""
+        if everywhere:
+            self._sessions.close_all(caller.person.id)
+        elif caller.session_id is not None:
+            self._sessions.close(caller.session_id)
+
+    def change_password(self, caller: Caller, old: str, new: str, address: str) -> str:
+        """Give oneself another password; every session ends, the new one's token is returned.
+
+        Raises InvalidRequest, TooManyTries, StoreError.
+        """
+        name = caller.person.name
+        require_good(new, name, "new")
+        self._begin(folded(name), address)
+        try:
+            self._verified(name, old)
+        except NotSignedIn:
+            # Who asks is known: it is one field that is wrong.
+            raise field_refusal("old", "wrong_password", "This is not your password.") from None
+        self._succeed(folded(name), address)
+        hashed = self._passwords.hashed(new)
+        self._accounts.change(caller.person.id, {"password": hashed}, sign_out=True)
+        token = new_token()
+        if not self._sessions.open(caller.person.id, hashed, token_sha256(token), self._now_us()):
+            raise NotSignedIn(WRONG, "wrong_password")
+        return token
+
+    def of_token(self, token: str) -> Caller | None:
+        """Who has a session's token; None where it is over or was never. Raises StoreError."""
+        found = self._sessions.of_token(token_sha256(token), self._now_us())
+        if found is None:
+            return None
+        session_id, person = found
+        return Caller(person, person.permissions, by_cookie=True, session_id=session_id)
+
+    def _verified(self, name: str, password: str) -> tuple[Person, str]:
+        """The person of a right password, and its hash."""
+        found = self._accounts.with_password(name)
+        password_hash = found[1] if found else None
+        right = self._passwords.matches(password_hash, password[: PASSWORD_LENGTH_MAX + 1])
+        if not right or found is None or not found[0].enabled:
+            raise NotSignedIn(WRONG, "wrong_password")
+        return found
+
+    def _begin(self, name: str, address: str) -> None:
+        """Counts a try. Raises TooManyTries where it comes too soon."""
+        with self._turn:
+            now_s = self._now_s()
+            wait_s = max(self._by_name.wait_s(name, now_s), self._by_address.wait_s(address, now_s))
+            if wait_s > 0.0:
+                message = f"Too many wrong passwords: wait {ceil(wait_s)} s, then try again."
+                raise TooManyTries(message, wait_s)
+            self._by_name.count(name, now_s)
+            self._by_address.count(address, now_s)
+
+    def _succeed(self, name: str, address: str) -> None:
+        with self._turn:
+            self._by_name.forget(name)
+            self._by_address.take_back(address)

@@ -1,1 +1,0 @@
-"""Who asks: people sign in, keys and tickets are known again, accounts are managed."""
