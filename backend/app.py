@@ -13,8 +13,6 @@ from fastapi import FastAPI
 from backend import __version__
 from backend.api import live
 from backend.api.routes import (
-    bike_numbers,
-    calibrations,
     comparison,
     config,
     devices,
@@ -32,6 +30,8 @@ from backend.api.routes import (
     uploads,
 )
 from backend.api.services import Services
+from backend.calibration import api as calibrations
+from backend.calibration.bike import api as bike_numbers
 from backend.core.person import Permission
 from backend.people.api import router as people_router
 from backend.people.service import PeopleService
@@ -94,6 +94,7 @@ OF_RIDES = (logbook, comparison, insight, rides, proposals)
 ROUTERS = [
     health.router,
     people_router,
+    calibrations.figures,
     *(part.router for part in (store, *OF_UNITS, law, library, *OF_RIDES, uploads, tables, live)),
 ]
 

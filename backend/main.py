@@ -24,22 +24,23 @@ from fastapi import FastAPI
 from backend import __version__
 from backend.api.services import Services
 from backend.app import build_api
+from backend.calibration.bike.service import BikeNumbers
+from backend.calibration.certified_torque import CertifiedTorque
+from backend.calibration.clock import JobDates
+from backend.calibration.records import CalibrationStore
+from backend.calibration.service import Calibrations, open_calibrations
 from backend.device.driver import LinkOpener
 from backend.device.families import FAMILIES, Families
 from backend.errors import LinkError, SpindleError, StoreError
 from backend.ingest import Readers
 from backend.link import kind_of
 from backend.people.service import PeopleService
-from backend.services.calibration.calibrations import Calibrations, open_calibrations
-from backend.services.calibration.certified import CertifiedTorque
-from backend.services.calibration.job_dates import JobDates
 from backend.services.health import Health
 from backend.services.imports.collect import Collect
 from backend.services.imports.mapping import TableMapping
 from backend.services.imports.sample import sample_ride
 from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
 from backend.services.keeping import Keeping
-from backend.services.rides.bike.numbers import BikeNumbers
 from backend.services.rides.cards import RideCards
 from backend.services.rides.fault_moment import FaultMoments, RecentRows
 from backend.services.rides.home import RiderHome
@@ -206,12 +207,12 @@ def make_calibrations(
 ) -> Calibrations:
     """The calibration of sensors, judged by the house's limits."""
     limits = settings.calibration_limits
-    return open_calibrations(devices, store.calibrations, tuning, __version__, limits)
+    return open_calibrations(devices, CalibrationStore(store), tuning, __version__, limits)
 
 
 def make_bike_numbers(store: Store, memory: UnitMemory, tuning: Tuning) -> BikeNumbers:
     """With what a ride's unit was configured as and certified for."""
-    certified = CertifiedTorque(store.calibrations, partial(all_through, memory.ride_config))
+    certified = CertifiedTorque(CalibrationStore(store), partial(all_through, memory.ride_config))
     return BikeNumbers(store, memory.ride_config, tuning.parameters, certified)
 
 
@@ -249,7 +250,7 @@ def upkeep(
         housekeeping=partial(tidy, recorder, uploads, store, last_seen, devices),
         cards=RideCards(store).tick,
         zeros=RideZeros(store).tick,
-        calibrations=JobDates(store.calibrations).tick,
+        calibrations=JobDates(CalibrationStore(store)).tick,
     )
 
 

@@ -1,6 +1,6 @@
 """Figures of an error test as the simulator tells them: thesis eq. 3.18 to 3.21, plain Python.
 
-The server has its own (backend.domain.calibration.figures), for readings of any sensor; a test
+The server has its own (backend.calibration.figures), for readings of any sensor; a test
 holds both against each other and against the thesis' tables.
 """
 

@@ -10,14 +10,14 @@ from fastapi import Depends
 from starlette.requests import HTTPConnection
 
 if TYPE_CHECKING:
+    from backend.calibration.bike.service import BikeNumbers
+    from backend.calibration.service import Calibrations
     from backend.people.service import PeopleService
-    from backend.services.calibration.calibrations import Calibrations
     from backend.services.health import Health
     from backend.services.imports.collect import Collect
     from backend.services.imports.mapping import TableMapping
     from backend.services.imports.upload import Uploads
     from backend.services.keeping import Keeping
-    from backend.services.rides.bike.numbers import BikeNumbers
     from backend.services.rides.fault_moment import FaultMoments
     from backend.services.rides.home import RiderHome
     from backend.services.rides.insight.questions import Insight

@@ -6,12 +6,12 @@ from argparse import Namespace
 from dataclasses import asdict
 from typing import Any
 
+from backend.calibration.certificate import Evaluated, is_certificate, written_document
+from backend.calibration.certificate import evaluate as evaluate_certificate
+from backend.calibration.plain import to_plain
 from backend.cli.client import print_json, text_of
 from backend.cli.device import read_json, server_of
-from backend.domain.calibration.certificate import Evaluated, is_certificate, written_document
-from backend.domain.calibration.certificate import evaluate as evaluate_certificate
-from backend.domain.calibration.plain import to_plain
-from backend.domain.canonical_json import sha256_of
+from backend.core.canonical_json import sha256_of
 
 SHOWN_MAX = 20
 """Differences that are listed; a wrong arm changes hundreds of numbers."""

@@ -117,7 +117,7 @@ def certificate(options: Namespace) -> int:
     if which is not None and not which.isdecimal():
         if options.pdf is None:
             raise RequestRefused("Say with --pdf where the paper of a certificate's file goes.")
-        from backend.services.calibration.paper import certificate_paper
+        from backend.calibration.paper.pdf import certificate_paper
 
         data = certificate_paper(read_json(Path(which)), Path(which).name, **manner)
     else:

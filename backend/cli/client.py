@@ -10,7 +10,7 @@ from http import HTTPStatus
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
-from backend.domain.quantities import plain
+from backend.core.quantities import plain
 from backend.errors import (
     FieldError,
     InvalidRequest,

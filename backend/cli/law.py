@@ -7,7 +7,7 @@ from typing import Any
 
 from backend.cli.client import Server, print_json, print_table, text_of
 from backend.cli.device import read_json, server_of
-from backend.domain.quantities import plain
+from backend.core.quantities import plain
 from backend.errors import InvalidRequest
 
 POINTS_MAX = 512

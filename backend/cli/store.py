@@ -73,7 +73,7 @@ def print_keys(words: str, keys: list[str]) -> None:
 
 def rebuild(options: Namespace) -> int:
     """Brings every ride of the folder into an empty database; 1 if files were not taken."""
-    from backend.store.upkeep.rebuild import rebuild_store, told
+    from backend.rebuild import rebuild_store, told
 
     report = rebuild_store(*urls(options))
     if options.json:

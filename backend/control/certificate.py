@@ -23,9 +23,9 @@ import numpy as np
 
 from backend.control.corner_bounds import gain_most
 from backend.control.market import market_words
-from backend.domain.canonical_json import sha256_of
+from backend.core.canonical_json import sha256_of
+from backend.core.energy import KMH_PER_MS
 from backend.domain.certificate import Cell, Certificate, Claim
-from backend.domain.energy import KMH_PER_MS
 from backend.domain.fuzzy_table import FuzzyTable
 from backend.errors import InvalidRequest
 from sim_device.firmware.python import law

@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from backend.control.market import cutoff_of
 from backend.control.twin import RoadTwin
-from backend.domain.energy import KMH_PER_MS, SECONDS_PER_HOUR
+from backend.core.energy import KMH_PER_MS, SECONDS_PER_HOUR
 from backend.domain.fuzzy_table import LABELS, PARAMETERS_OF, FuzzyTable
 from backend.errors import InvalidRequest
 from sim_device.firmware.python.law import STEP_S, parameter_range

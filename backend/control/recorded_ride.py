@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.energy import KMH_PER_MS, RADIANS_PER_S_PER_RPM
+from backend.core.energy import KMH_PER_MS, RADIANS_PER_S_PER_RPM
 from backend.errors import InvalidRequest
 from sim_device.firmware.python import law
 

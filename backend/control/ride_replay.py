@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.energy import RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
+from backend.core.energy import RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
 from backend.errors import InvalidRequest
 from sim_device.firmware.python import law
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.control.recorded_ride import STANDING_MS, Bools, Floats, Recorded
-from backend.domain.energy import KMH_PER_MS
+from backend.core.energy import KMH_PER_MS
 from sim_device.firmware.python.law import LIMITS
 from sim_device.firmware.python.twin import Totals
 

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.control.ride_replay import law_readings
-from backend.domain.energy import RADIANS_PER_S_PER_RPM
+from backend.core.energy import RADIANS_PER_S_PER_RPM
 from backend.domain.fuzzy_table import LABELS
 from backend.errors import InvalidRequest
 from sim_device.firmware.python import law

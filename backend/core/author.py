@@ -5,13 +5,17 @@ On a server without accounts a name is what somebody says of themselves, and is 
 
 from __future__ import annotations
 
+from typing import Literal
+
 AUTHOR_MAX = 128
 """Characters of a name, as many as the store keeps."""
 
-STATED = "stated"
+AuthorProof = Literal["stated", "signed_in"]
+
+STATED: AuthorProof = "stated"
 """The name is what its owner says it is; nobody checked it."""
 
-SIGNED_IN = "signed_in"
+SIGNED_IN: AuthorProof = "signed_in"
 """The name is that of an account, and its owner had signed in or used a key of it."""
 
 
@@ -21,7 +25,7 @@ class SignedInName(str):
     __slots__ = ()
 
 
-def proof_of(author: str) -> str | None:
+def proof_of(author: str) -> AuthorProof | None:
     """How an author is known; None where there is no author."""
     if isinstance(author, SignedInName):
         return SIGNED_IN

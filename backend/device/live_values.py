@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from backend.core.channels import MISSING_INT16, ChannelSpec
 from backend.device.stream import StreamBlock
-from backend.domain.channels import MISSING_INT16, ChannelSpec
 
 # A count times its scale carries the noise of float64 in its last digits; scales have five.
 DECIMALS = 6

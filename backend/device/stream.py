@@ -8,7 +8,7 @@ from enum import StrEnum
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
 
 TIME_MODULUS = 1 << 32
 """The wire's times are the low 32 bits of the unit's clock."""

@@ -12,6 +12,7 @@ from contextlib import AbstractContextManager
 from copy import copy
 from typing import Any, ClassVar, NoReturn, Self, TypeVar
 
+from backend.core.channels import ChannelSpec
 from backend.device.configuration import (
     Config,
     ConfigImage,
@@ -28,7 +29,6 @@ from backend.device.ride_logs import LogPieces, RideLog, RideLogs
 from backend.device.snapshot import DeviceStatus
 from backend.device.wear_counters import WearCounters
 from backend.domain.capability import Capability
-from backend.domain.channels import ChannelSpec
 from backend.errors import CapabilityMissing
 
 Result = TypeVar("Result")

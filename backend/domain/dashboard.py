@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.energy import (
+from backend.core.energy import (
     DELIVERED,
     KMH_PER_MS,
     MOTOR_TORQUE,

@@ -9,9 +9,8 @@ from datetime import UTC, datetime, timedelta
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain._generated import MOVING_KMH
-from backend.domain.channels import ChannelSpec, Counts, Values, channel_to_json
-from backend.domain.energy import (
+from backend.core.channels import ChannelSpec, Counts, Values, channel_to_json
+from backend.core.energy import (
     BATTERY_POWER,
     MOTOR_POWER,
     RIDER_POWER,
@@ -20,11 +19,12 @@ from backend.domain.energy import (
     motor_torque_meaning,
     sample_seconds,
 )
-from backend.domain.filled import Filled
+from backend.core.filled import Filled
+from backend.core.sphere import great_circle_m
+from backend.domain._generated import MOVING_KMH
 from backend.domain.intake import Intake
 from backend.domain.noted import Noted, Pause, noted_to_json
 from backend.domain.ride_events import RideEvent, settings_changes
-from backend.domain.standards.sphere import great_circle_m
 
 TimesUs = npt.NDArray[np.int64]
 

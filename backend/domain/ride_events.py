@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from backend.domain.channels import ChannelSpec, Counts
+from backend.core.channels import ChannelSpec, Counts
 
 FAULT_SET = "fault_set"
 FAULT_CLEARED = "fault_cleared"

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from backend.domain.standards.zones import zone_of
+from backend.core.zones import zone_of
 
 ROWS_PER_SECOND_MAX = 1000.0
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from backend.domain.channels import Values
-from backend.domain.standards.sphere import great_circle_m
+from backend.core.channels import Values
+from backend.core.sphere import great_circle_m
 
 FILE = Path(__file__).with_name("towns.tsv.xz")
 

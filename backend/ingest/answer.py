@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from backend.domain.channels import Counts, channel_from_json, channel_to_json
+from backend.core.channels import Counts, channel_from_json, channel_to_json
 from backend.domain.intake import Intake
 from backend.domain.noted import noted_from_json, noted_to_json
 from backend.domain.ride import RideContext, RideRows

@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 
 import numpy as np
 
-from backend.domain.channels import NARROW_MAX, WIDE_MAX, Values
+from backend.core.channels import NARROW_MAX, WIDE_MAX, Values
 from backend.ingest.columns import FieldRule
 
 # A longer cell is no number that anything measured.

@@ -17,8 +17,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import ChannelSpec, Counts, Values
-from backend.domain.energy import KMH_PER_MS
+from backend.core.channels import ChannelSpec, Counts, Values
+from backend.core.energy import KMH_PER_MS
 from backend.domain.intake import CLOCK_JUMPED, CLOCK_NOT_SET, NO_TIME, NO_VALUE, Intake
 from backend.domain.ride import RideRows
 from backend.domain.standards.fit import EPOCH_S

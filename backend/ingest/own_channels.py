@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from backend.domain.channels import NARROW_MAX, WIDE_MAX, ChannelSpec, Values
+from backend.core.channels import NARROW_MAX, WIDE_MAX, ChannelSpec, Values
 from backend.ingest.columns import FIT_FIELDS, FieldRule
 
 # A number so many times above 99 of 100 others was not measured.

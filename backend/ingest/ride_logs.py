@@ -17,7 +17,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import MISSING_INT16, ChannelSpec
+from backend.core.channels import MISSING_INT16, ChannelSpec
 from backend.domain.clock_set import set_by_us
 from backend.domain.ride import RideContext, RideRows
 from backend.domain.ride_events import (

@@ -1,7 +1,6 @@
 """SQL and objects: rides, revisions, the library, units, uploads, calibrations; the only door to
 SQLAlchemy and pyarrow."""
 
-from backend.store.calibrations import CalibrationStore, KeptCalibration, KeptCapture
 from backend.store.configurations import LibraryStore, RevisionLog
 from backend.store.logbook.book import Home, Logbook
 from backend.store.logbook.cards import CardStore
@@ -19,11 +18,8 @@ from backend.store.uploads import Upload, UploadStore, Verdict
 
 __all__ = [
     "ROW_DAMAGED",
-    "CalibrationStore",
     "CardStore",
     "Home",
-    "KeptCalibration",
-    "KeptCapture",
     "LibraryStore",
     "Logbook",
     "MarkStore",

@@ -11,10 +11,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from backend.domain.channels import ChannelSpec, Counts, Values
-from backend.domain.energy import FACTORS, derivable, derive
-from backend.domain.filled import filled_mask, filled_seconds
-from backend.domain.pyramid import STEPS, Level, first_level, reduce_groups
+from backend.core.channels import ChannelSpec, Counts, Values
+from backend.core.energy import FACTORS, derivable, derive
+from backend.core.filled import filled_mask, filled_seconds
+from backend.core.pyramid import STEPS, Level, first_level, reduce_groups
 from backend.domain.ride import Gap, Ride, RideSummary, find_gaps, summarise
 from backend.domain.ride_events import RideEvent, events_of_rows, merged
 from backend.store.parquet import ROW_GROUP_ROWS, release_memory

@@ -11,9 +11,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from typing import Any, TypeVar
 
-from backend.domain.channels import ChannelSpec, channel_to_json
-from backend.domain.energy import derivable
-from backend.domain.filled import Filled
+from backend.core.channels import ChannelSpec, channel_to_json
+from backend.core.energy import derivable
+from backend.core.filled import Filled
 from backend.domain.intake import Intake
 from backend.domain.logbook.tags import clean_tags
 from backend.domain.noted import noted_from_json, noted_to_json

@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 from sqlalchemy import Connection
 
-from backend.domain.channels import Counts
-from backend.domain.filled import Filled
+from backend.core.channels import Counts
+from backend.core.filled import Filled
 from backend.domain.ride import Ride, RideRows
 from backend.domain.ride_events import RideEvent
 from backend.store.deletion import MADE

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
-from backend.domain.channels import ChannelSpec, Counts
+from backend.core.channels import ChannelSpec, Counts
 from backend.domain.ride import Ride, RideRows, TimesUs
 from backend.store.digest import Digest, digest
 from backend.store.facts import facts_of

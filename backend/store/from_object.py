@@ -21,15 +21,10 @@ from backend.store.digest import digest
 from backend.store.facts import KeptRide, Original, kept_ride
 from backend.store.finish import WrittenObject
 from backend.store.logbook.book import set_tags
-from backend.store.objects import (
-    SIDECAR_SUFFIX,
-    FileObjects,
-    content_key,
-    file_sha256,
-    sidecar_key,
-)
+from backend.store.named import named_objects
+from backend.store.objects import SIDECAR_SUFFIX, FileObjects, content_key, file_sha256, sidecar_key
 from backend.store.parquet import RideFile, read_facts
-from backend.store.ride_table import finish_row, inserted, named_objects, row_of
+from backend.store.ride_table import finish_row, inserted, row_of
 from backend.store.sidecar import read_sidecar
 from backend.store.soundness import Expected, Soundness
 from backend.store.sql import tables as t

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from backend.domain.channels import ChannelSpec, Counts
+from backend.core.channels import ChannelSpec, Counts
 from backend.domain.ride import RideRows, TimesUs
 from backend.errors import StoreError
 from backend.store.pipe import Pipe

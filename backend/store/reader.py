@@ -14,10 +14,10 @@ from typing import Protocol
 
 import numpy as np
 
-from backend.domain.channels import ChannelSpec, Counts, Values
-from backend.domain.energy import FACTORS, derive, sample_seconds
-from backend.domain.filled import filled_seconds
-from backend.domain.pyramid import STEPS, Level
+from backend.core.channels import ChannelSpec, Counts, Values
+from backend.core.energy import FACTORS, derive, sample_seconds
+from backend.core.filled import filled_seconds
+from backend.core.pyramid import STEPS, Level
 from backend.domain.ride import Ride, RideRows, TimesUs, pause_us
 from backend.errors import StoreError
 from backend.store.soundness import CHANGED, damaged_samples

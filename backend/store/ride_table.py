@@ -10,9 +10,9 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, Select, delete, insert, select, update
 
-from backend.domain.channels import ChannelSpec, channel_to_json
-from backend.domain.energy import derivable
-from backend.domain.filled import Filled
+from backend.core.channels import ChannelSpec, channel_to_json
+from backend.core.energy import derivable
+from backend.core.filled import Filled
 from backend.domain.intake import Intake
 from backend.domain.logbook.card import line_kmh
 from backend.domain.noted import noted_from_json, noted_to_json
@@ -32,7 +32,7 @@ from backend.domain.ride_events import KINDS, RideEvent
 from backend.errors import FieldError, InvalidRequest
 from backend.store.discard import take_back, with_sidecar
 from backend.store.finish import WrittenObject
-from backend.store.objects import RIDE_SUFFIX, content_key
+from backend.store.named import named_objects
 from backend.store.sql import tables as t
 from backend.store.sql.blobs import channel_list, encode_level
 from backend.store.sql.sound_rows import NOT_AS_WRITTEN, is_sound
@@ -175,14 +175,6 @@ def sound_ride(row: Row[Any], tags: tuple[str, ...]) -> Ride:
         place=None if place == RidePlace() else place,
         speed_line_kmh=line_kmh(body["speed_line"] or b""),
     )
-
-
-def named_objects(key: object, sha256: object) -> tuple[str, ...]:
-    """A finished ride's object by its key and by its hash: the same, unless one is damaged."""
-    named = [key] if isinstance(key, str) else []
-    if isinstance(sha256, str):
-        named.append(content_key("rides", sha256, RIDE_SUFFIX))
-    return tuple(dict.fromkeys(named))
 
 
 def cursor_parts(cursor: str) -> tuple[int, int]:

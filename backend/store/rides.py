@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import logging
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -21,9 +21,9 @@ from functools import partial
 import numpy as np
 from sqlalchemy import Connection, case, delete, insert, select, update
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
+from backend.core.pyramid import Level
 from backend.domain.logbook.tags import clean_tags
-from backend.domain.pyramid import Level
 from backend.domain.ride import BAD, DONE, LIVE, Ride, RideContext, RideRows
 from backend.domain.ride_events import RideEvent
 from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
@@ -52,7 +52,6 @@ from backend.store.ride_table import (
     correct,
     finish_row,
     inserted,
-    named_objects,
     refill_row,
     remove_ride,
     ride_row,
@@ -62,7 +61,7 @@ from backend.store.ride_table import (
     upload_key,
 )
 from backend.store.sidecar import keep_words, tell_for_old_file
-from backend.store.soundness import Expected, Soundness
+from backend.store.soundness import Soundness
 from backend.store.sql import tables as t
 from backend.store.sql.blobs import Rows16, decode_level, encode_tail
 from backend.store.sql.database import Database
@@ -418,12 +417,6 @@ class RideStore:
         self._soundness.require(reader.ride)
         return reader
 
-    def expected_objects(self) -> Iterator[Expected]:
-        """Every finished ride's object, as it was written."""
-        written = select(t.ride.c.object_key, t.ride.c.object_bytes)
-        query = written.where(t.ride.c.object_key.is_not(None))
-        return (Expected(*row) for row in self._database.read(lambda c: c.execute(query).all()))
-
     def tell_for_old_files(self) -> None:
         """Write beside every object of an older version what only the database knows of its ride.
 
@@ -434,13 +427,6 @@ class RideStore:
             ride = self.get(ride_id)
             original = self._database.read(partial(upload_file, token=ride.upload_id))
             tell_for_old_file(self._objects, ride, original)
-
-    def object_keys(self) -> set[str]:
-        """Keys of every object a ride needs, sidecars too."""
-        named = select(t.ride.c.object_key, t.ride.c.object_sha256)
-        query = named.where(t.ride.c.object_key.is_not(None))
-        rows = self._database.read(lambda c: c.execute(query).all())
-        return {part for row in rows for key in named_objects(*row) for part in with_sidecar(key)}
 
     def _open_reader(self, ride: Ride) -> RideReader:
         self._soundness.require(ride)

@@ -14,10 +14,8 @@ from types import TracebackType
 
 from backend.domain.ride import Ride, iso_utc
 from backend.errors import StoreError
-from backend.store.calibrations import CalibrationStore
 from backend.store.configurations import CertificateStore, LibraryStore, RevisionLog
 from backend.store.deletion import SPOOL, Deletions
-from backend.store.discard import discarded_keys
 from backend.store.entries import Entries
 from backend.store.identity import belonging, new_id, require, write_identity
 from backend.store.locks import hold
@@ -26,9 +24,10 @@ from backend.store.logbook.cards import CardStore
 from backend.store.logbook.zeros import ZeroStore
 from backend.store.look import look_at
 from backend.store.marks import MarkStore
+from backend.store.named import expected_objects, named_keys
 from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
 from backend.store.rides import Orphan, RideStore
-from backend.store.soundness import Expected, Soundness
+from backend.store.soundness import Soundness
 from backend.store.sql.advisory import fence
 from backend.store.sql.database import Database, is_postgresql, shown
 from backend.store.sql.database_url import check_url
@@ -45,7 +44,7 @@ NAMED_MAX = 10
 
 class Store:
     """Everything that is kept: `rides`, `cards`, `zeros`, `logbook`, `marks`, `revisions`,
-    `library`, `certificates`, `calibrations`, `units`, `uploads`.
+    `library`, `certificates`, `units`, `uploads`.
 
     closing: lets go of the locks.
     """
@@ -67,7 +66,6 @@ class Store:
         self.revisions = RevisionLog(database)
         self.library = LibraryStore(database)
         self.certificates = CertificateStore(database)
-        self.calibrations = CalibrationStore(database, objects, self.soundness)
         self.units = UnitStore(database)
         self.cards = CardStore(database)
         self.zeros = ZeroStore(database)
@@ -109,10 +107,9 @@ class Store:
             if ride is not None:
                 finished.append(ride.id)
                 tell_of_orphan(orphan, ride)
-        known = self.rides.object_keys() | self.uploads.object_keys()
-        known |= self.calibrations.object_keys()
+        known = self.database.read(named_keys)
         self.deletions.sweep(None)
-        self._put_aside(known | self.database.read(discarded_keys))
+        self._put_aside(known)
         return finished
 
     def sweep(self, now_us: int) -> None:
@@ -129,7 +126,7 @@ class Store:
         self.entries.look(now_us)
         # What is worked out of their objects is due again.
         self.rides.finishes += self.entries.mended - mended
-        self.soundness.scrub(now_us, self._expected_objects)
+        self.soundness.scrub(now_us, lambda: self.database.read(expected_objects))
 
     def close(self) -> None:
         """Finish what is being written and let go of database and folder."""
@@ -145,10 +142,6 @@ class Store:
         trace: TracebackType | None,
     ) -> None:
         self.close()
-
-    def _expected_objects(self) -> Iterator[Expected]:
-        yield from self.rides.expected_objects()
-        yield from self.calibrations.expected_objects()
 
     def _put_aside(self, known: set[str]) -> None:
         """Move what the database does not know to `lost+found/`; nothing is unlinked."""

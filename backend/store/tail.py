@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from sqlalchemy import Connection, Select, select
 
-from backend.domain.channels import MISSING_INT16
+from backend.core.channels import MISSING_INT16
 from backend.domain.ride import Ride, RideRows
 from backend.errors import StoreError
 from backend.store.sql import tables as t

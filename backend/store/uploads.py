@@ -377,13 +377,6 @@ class UploadStore:
                 path.unlink(missing_ok=True)
         return unknown
 
-    def object_keys(self) -> set[str]:
-        """Keys of every original, and of those that a crash kept from being noted."""
-        columns = (t.upload.c.object_key, t.upload.c.sha256)
-        query = select(*columns).where(t.upload.c.sha256.is_not(None))
-        rows = self._database.read(lambda c: c.execute(query).all())
-        return {key or content_key("originals", sha256) for key, sha256 in rows}
-
     def _found(self, query: Select[Any]) -> tuple[Upload, ...]:
         return self._database.read(lambda c: uploads_of(c, c.execute(query).all()))
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
 from backend.views.trace import RideReader, Trace, trace
 
 RIDER_COLOUR = "#c4470a"

@@ -15,8 +15,8 @@ from typing import Self
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import Values
-from backend.domain.energy import MOTOR_POWER, MOTOR_TORQUE, MOTOR_TORQUE_DEMANDED, SECONDS_PER_HOUR
+from backend.core.channels import Values
+from backend.core.energy import MOTOR_POWER, MOTOR_TORQUE, MOTOR_TORQUE_DEMANDED, SECONDS_PER_HOUR
 
 SETS = 5
 RATE_STEP = 0.001

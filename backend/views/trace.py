@@ -43,8 +43,8 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import ChannelSpec, Counts, Values
-from backend.domain.pyramid import Level, reduce_groups
+from backend.core.channels import ChannelSpec, Counts, Values
+from backend.core.pyramid import Level, reduce_groups
 from backend.domain.ride import pause_us
 from backend.errors import FieldError, InvalidRequest
 from backend.views.along import Along, Axis, Rows, told_along

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
 from backend.domain.ride import PAUSE_MIN_US
 from backend.views.along import ODOMETER, SPEED, Axis, Rows, places
 

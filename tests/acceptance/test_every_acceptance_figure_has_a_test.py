@@ -21,10 +21,10 @@ HELD_BY = {
     "A1": [
         (ACCEPTANCE, "test_a1_the_simulators_metrics_of_table_3_1_are_exact"),
         (
-            "tests/unit/domain/test_calibration_figures.py",
+            "tests/unit/calibration/test_calibration_figures.py",
             "test_table_3_1_gives_the_recomputed_figures",
         ),
-        ("tests/unit/domain/test_calibration_figures.py", "test_table_5_1_has_one_percent"),
+        ("tests/unit/calibration/test_calibration_figures.py", "test_table_5_1_has_one_percent"),
     ],
     "A2": [(ACCEPTANCE, "test_a2_")],
     "A3": [(ACCEPTANCE, "test_a3_")],

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from sqlalchemy import Connection, insert, select
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
 from backend.domain.ride import Ride, RideContext, RideRows
 from backend.services.rides.cards import RideCards
 from backend.services.rides.home import RiderHome

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
 from backend.domain.ride import RideContext
 from backend.store import Store, open_store
 from backend.views.trace import trace

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
 from backend.domain.ride import RideContext
 from backend.store import open_store
 

@@ -15,8 +15,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, Route, expect
 
-from backend.domain.calibration.bike.balance import Climb, balance
-from backend.domain.calibration.bike.coast_down import Known, resistance
+from backend.calibration.bike.balance import Climb, balance
+from backend.calibration.bike.coast_down import Known, resistance
 from tests.browser.desk import TWO_FRAMES, Desk, sideways
 from tests.browser.judged import JUDGE
 from tests.fakes.server import SpindleServer

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page, Route, expect
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
 from backend.domain.ride import RideContext
 from backend.store import open_store
 from firmware_protocol._generated import CHANNELS

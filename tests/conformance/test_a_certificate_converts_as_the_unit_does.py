@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from backend.domain.calibration.coefficients import Coefficients
-from backend.services.calibration.record import PARAMETER_OF
+from backend.calibration.coefficients import Coefficients
+from backend.calibration.unit_record import PARAMETER_OF
 from sim_device.firmware.python.law import rider_torque_nm
 
 READINGS = 500

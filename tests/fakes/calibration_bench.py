@@ -15,10 +15,9 @@ from typing import Any
 import numpy as np
 from sim_device.firmware.python._native import ffi, lib
 
-from backend.domain.calibration.capture import Capture, State, capture_of
-from backend.domain.calibration.gravity import gravity_at
-from backend.domain.calibration.setup import Mass, Setup
-from backend.domain.calibration.steady import Window, steadiness
+from backend.calibration.capture import Capture, State, capture_of
+from backend.calibration.setup import Mass, Setup, gravity_at
+from backend.calibration.steady import Window, steadiness
 
 SAMPLES, WINDOW_S, SETTLE_S, TRIES = 100, 3.0, 5.0, 3
 LOADS_KG = (12.0, 24.0, 36.0, 48.0, 60.0)

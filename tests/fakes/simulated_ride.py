@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
 from sim_device.lockstep import LockstepUnit
 
 LOOK_S = 0.02

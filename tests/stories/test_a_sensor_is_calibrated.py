@@ -16,8 +16,8 @@ from typing import Any
 
 import pytest
 
+from backend.calibration.describe import has_record
 from backend.cli import main
-from backend.services.calibration.telling import has_record
 from tests.fakes.relay import Relay
 from tests.fakes.server import ServerHere, ServerProcess, eventually
 from tests.fakes.unit_on_port import UnitOnPort

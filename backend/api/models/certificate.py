@@ -7,8 +7,8 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.api.models.config import Parameters
 from backend.api.models.law import AssistModes, FuzzyTable, UnitLimits
+from backend.core.parameter_value import Parameters
 from backend.core.request_body import RequestBody
 from backend.web.models import Answer
 

@@ -3,22 +3,15 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Annotated, Literal
+from typing import Literal
 
-from pydantic import Field, StrictInt, StrictStr
+from pydantic import Field
 
+from backend.core.parameter_value import TOKEN, TOKEN_PATTERN, Parameters, ParameterValue
 from backend.core.request_body import RequestBody
 from backend.web.models import Answer
 
-# Strict: `true` is no number, and `"5"` is no 5.
-Number = StrictInt | Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Scalar = Number | StrictStr
-Row = Annotated[list[Scalar], Field(max_length=64)]
-ParameterValue = Scalar | Row | Annotated[list[Row], Field(max_length=64)] | None
-Parameters = dict[str, ParameterValue]
 CONFIRM_S_MAX = 255
-TOKEN_PATTERN = "^[0-9a-fA-F]{144}$"
-TOKEN = "The maker's answer to the `challenge` of a refusal `token_needed`."
 CONFIRM_S = (
     "0 commits for good; else the unit returns to what it had after so many seconds, at a restart "
     "or power loss, unless `POST .../config/confirm` comes first."

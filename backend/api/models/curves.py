@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from backend.api.models.config import Parameters
+from backend.core.parameter_value import Parameters
 from backend.core.request_body import RequestBody
 from backend.web.models import Answer
 

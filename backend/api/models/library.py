@@ -7,8 +7,9 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.api.models.config import ParameterChange, ParameterValue
+from backend.api.models.config import ParameterChange
 from backend.api.models.law import FuzzyTable, Label, Table
+from backend.core.parameter_value import ParameterValue
 from backend.core.request_body import RequestBody
 from backend.web.models import Answer
 

@@ -6,8 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from backend.api.models.config import ParameterChange, Parameters
+from backend.api.models.config import ParameterChange
 from backend.api.models.library import LibraryEntry
+from backend.core.parameter_value import Parameters
 from backend.core.request_body import RequestBody
 from backend.web.models import Answer
 

@@ -10,8 +10,6 @@ from backend.api.meant import FOR_ONE_UNIT
 from backend.api.models.config import (
     CONFIRM_S,
     CONFIRM_S_MAX,
-    TOKEN,
-    TOKEN_PATTERN,
     Config,
     ConfigChange,
     ConfigPatch,
@@ -25,6 +23,7 @@ from backend.api.models.config import (
 from backend.api.models.law import AssistModes, Calibration, FuzzyTable, Table, UnitLimits
 from backend.api.models.why import Why, WhyRequest
 from backend.api.services import Provided
+from backend.core.parameter_value import TOKEN, TOKEN_PATTERN
 from backend.services.tuning.config_view import etag
 from backend.web.authentication import Author
 from backend.web.problem import refusals

@@ -1,4 +1,4 @@
-"""The law without a unit: surface, single points, lint, and a sensor's calibration figures."""
+"""The law without a unit: surface, single points, lint."""
 
 from __future__ import annotations
 
@@ -14,8 +14,6 @@ from backend.api.models.curves import (
     TorqueSurfaceRequest,
 )
 from backend.api.models.law import (
-    Evaluation,
-    EvaluationRequest,
     LintReport,
     LintRequest,
     PointGains,
@@ -92,13 +90,3 @@ def certify(body: CertificateRequest, services: Provided) -> Any:
 def why_steady(body: WhyRequest, services: Provided) -> Any:
     """Why the law gives what it gives in a steady state, on the law's defaults and these."""
     return services.why_steady(*body.parts())
-
-
-@router.post(
-    "/calibration/evaluate", operation_id="evaluate_calibration", response_model=Evaluation
-)
-def evaluate_calibration(body: EvaluationRequest, services: Provided) -> Any:
-    """Linearity, hysteresis and repeatability of a sensor from its readings."""
-    return services.preview.evaluate_calibration(
-        body.full_scale_nm, body.load_nm, body.forward, body.reverse
-    )

@@ -8,6 +8,7 @@ from contextlib import contextmanager, suppress
 from itertools import count
 from typing import Any, TypeVar, cast
 
+from backend.core.channels import ChannelSpec
 from backend.device.configuration import (
     Config,
     ConfigImage,
@@ -23,10 +24,7 @@ from backend.device.ebl.operations.config_transaction import read_bank, read_con
 from backend.device.ebl.operations.fault_frames import clear_faults, fault_frames, settings_are_lost
 from backend.device.ebl.operations.live_values import CHANNEL_SPECS, ask_values
 from backend.device.ebl.operations.parameters import TABLE
-from backend.device.ebl.operations.simulation import (
-    simulation_get,
-    simulation_set,
-)
+from backend.device.ebl.operations.simulation import simulation_get, simulation_set
 from backend.device.ebl.operations.unlock import Token, token_from
 from backend.device.ebl.operations.wear_counters import read_wear_counters
 from backend.device.ebl.session.log_receiver import LogReceiver
@@ -42,7 +40,6 @@ from backend.device.states import LinkState
 from backend.device.unit import Unit
 from backend.device.wear_counters import WearCounters
 from backend.domain.capability import Capability
-from backend.domain.channels import ChannelSpec
 from backend.domain.unit_key import EBL
 from backend.errors import CapabilityMissing, DeviceRefused, SpindleError
 

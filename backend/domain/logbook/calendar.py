@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from datetime import UTC, date, datetime, timedelta
 from zoneinfo import ZoneInfo
 
-from backend.domain.standards.zones import zone_of
+from backend.core.zones import zone_of
 from backend.errors import FieldError, InvalidRequest
 
 PERIODS = 12

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from backend.domain.channels import Values
-from backend.domain.standards.sphere import great_circle_m
+from backend.core.channels import Values
+from backend.core.sphere import great_circle_m
 
 METHOD = 1
 LINE_POINTS = 64

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
 from backend.domain.standards.fit import BASE_TYPES, TIMESTAMP, UINT32
 from backend.ingest.fit.layout import Definition, Field
 from backend.ingest.fit.profile import COMPRESSED_SPEED_DISTANCE, RECORD_FIELDS, ProfileField

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
 from backend.domain.noted import STATED_MAX, STATEMENTS_MAX, Stated, Statement
 from backend.domain.standards.fit import EPOCH_S, SESSION
 from backend.ingest.fit.fields import Bytes, Described, table_of

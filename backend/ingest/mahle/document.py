@@ -23,9 +23,9 @@ from typing import Any
 
 import numpy as np
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
+from backend.core.zones import zone_of
 from backend.domain.noted import PAUSES_MAX, Instrument, Noted, Pause, Stated, Statement, within
-from backend.domain.standards.zones import zone_of
 from backend.domain.table_answer import TableAnswer, TableQuestion, lacking
 from backend.ingest.cells import Growing, as_written, iso_moment, number, step_of, unix_seconds
 from backend.ingest.columns import FIT_FIELDS, FieldRule, rides_of_columns

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 
-from backend.domain.channels import ChannelSpec
-from backend.domain.energy import KMH_PER_MS
+from backend.core.channels import ChannelSpec
+from backend.core.energy import KMH_PER_MS
 from backend.ingest.columns import FIT_FIELDS, FieldRule
 
 # Unit as files write it, without case and spaces -> its quantity, our word, factor to the

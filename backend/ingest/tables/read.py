@@ -9,27 +9,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from backend.domain.channels import ChannelSpec, Values
-from backend.domain.standards.zones import zone_of
-from backend.domain.table_answer import (
-    TableAnswer,
-    TableColumn,
-    TableQuestion,
-    lacking,
-)
+from backend.core.channels import ChannelSpec, Values
+from backend.core.zones import zone_of
+from backend.domain.table_answer import TableAnswer, TableColumn, TableQuestion, lacking
 from backend.ingest.cells import COLUMNS_MAX, as_written, number, step_of
 from backend.ingest.columns import LATITUDE, LONGITUDE, FieldRule, rides_of_columns
 from backend.ingest.outcome import COMPLETE, NEEDS_MAPPING, PARTIAL, ImportedRide, Outcome, rejected
 from backend.ingest.own_channels import Column, rules_of
 from backend.ingest.tables.layouts import Layout, layout_of, since_column, time_column
-from backend.ingest.tables.measures import (
-    RULES,
-    Measure,
-    measure_in,
-    measure_of,
-    own_rule,
-    words,
-)
+from backend.ingest.tables.measures import RULES, Measure, measure_in, measure_of, own_rule, words
 from backend.ingest.tables.text import cells_of, decoded
 from backend.ingest.tables.times import Times, times_of
 

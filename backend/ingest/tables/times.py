@@ -9,7 +9,7 @@ from datetime import UTC, datetime, tzinfo
 
 import numpy as np
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
 from backend.domain.standards.fit import EPOCH_S
 from backend.ingest.cells import iso_moment, number, unix_seconds
 from backend.ingest.columns import LATEST_S

@@ -15,8 +15,8 @@ from math import isfinite
 
 import numpy as np
 
+from backend.core.zones import zone_of
 from backend.domain.noted import LAPS_MAX, Instrument, Lap, Noted
-from backend.domain.standards.zones import zone_of
 from backend.domain.table_answer import TableAnswer, TableQuestion
 from backend.ingest.cells import number
 from backend.ingest.outcome import NEEDS_MAPPING, Outcome, rejected

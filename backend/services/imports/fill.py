@@ -17,8 +17,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import Counts
-from backend.domain.filled import Filled, filled_mask
+from backend.core.channels import Counts
+from backend.core.filled import Filled, filled_mask
 from backend.domain.ride import Ride
 from backend.domain.ride_events import CLOCK_SET, RideEvent
 from backend.ingest import ImportedRide

@@ -15,9 +15,9 @@ from enum import Enum
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.energy import KMH_PER_MS
+from backend.core.energy import KMH_PER_MS
+from backend.core.sphere import EARTH_M
 from backend.domain.ride import Ride
-from backend.domain.standards.sphere import EARTH_M
 from backend.ingest import ImportedRide
 from backend.store import RideStore, Sought
 from backend.views.export.seconds import BySecond, by_second

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from backend.domain.energy import RIDER_POWER
+from backend.core.energy import RIDER_POWER
 from backend.domain.logbook.card import BEST_S, RideCard, ends_of, speed_line
 from backend.domain.ride import Ride, RidePlace
 from backend.domain.ride_events import FAULT_SET, MARK

@@ -17,11 +17,11 @@ from datetime import UTC, datetime
 import numpy as np
 import numpy.typing as npt
 
+from backend.core.channels import MISSING_INT16, Values
+from backend.core.energy import MOTOR_TORQUE, motor_torque_meaning
 from backend.device.faults import UnitFault
 from backend.device.states import DeviceEvent
 from backend.device.stream import StreamBlock
-from backend.domain.channels import MISSING_INT16, Values
-from backend.domain.energy import MOTOR_TORQUE, motor_torque_meaning
 from backend.domain.ride import Ride, RideContext
 from backend.errors import NotFound
 from backend.store import RideStore, Sought

@@ -23,8 +23,8 @@ import numpy as np
 from backend import control
 from backend.control import proposal
 from backend.control.front_search import GENERATIONS, POPULATION, Tried, front_of
+from backend.core.energy import SECONDS_PER_HOUR
 from backend.domain.assist_mode import AssistModes
-from backend.domain.energy import SECONDS_PER_HOUR
 from backend.domain.fuzzy_table import FuzzyTable
 from backend.domain.rider_and_bike import RiderAndBike
 from backend.errors import Conflict, InvalidRequest, NotFound, SpindleError

@@ -20,10 +20,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from backend.core.channels import MISSING_INT16, ChannelSpec
 from backend.device.states import DeviceEvent, LinkState, StateChanged, UnitEvent
 from backend.device.stream import LostBy, StreamBlock, unwrap_us
 from backend.domain._generated import MOVING_KMH, MOVING_RPM, STANDING_S
-from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.ride import Ride, RideContext, RideSummary
 from backend.errors import SpindleError, StoreError
 from backend.services.host_clock import wall_offset_us

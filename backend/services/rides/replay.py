@@ -17,9 +17,9 @@ import numpy as np
 import numpy.typing as npt
 
 from backend import control
+from backend.core.channels import ChannelSpec, Values
+from backend.core.energy import DELIVERED, KMH_PER_MS, RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
 from backend.domain._generated import INPUT_FLAGS
-from backend.domain.channels import ChannelSpec, Values
-from backend.domain.energy import DELIVERED, KMH_PER_MS, RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
 from backend.domain.ride import Ride, largest
 from backend.errors import InvalidRequest
 from backend.services.rides.settings_in_force import ConfigOf, Stretch, source_of, stretches

@@ -14,9 +14,9 @@ import numpy as np
 import numpy.typing as npt
 
 from backend import control
+from backend.core.channels import Values
+from backend.core.energy import DELIVERED, SECONDS_PER_HOUR
 from backend.domain._generated import INPUT_FLAGS
-from backend.domain.channels import Values
-from backend.domain.energy import DELIVERED, SECONDS_PER_HOUR
 from backend.domain.rider_and_bike import RiderAndBike
 from backend.errors import InvalidRequest
 from backend.services.rides.replay import FLAGS, read_columns

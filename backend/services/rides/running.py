@@ -7,9 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain._generated import MOVING_KMH
-from backend.domain.channels import ChannelSpec, Values
-from backend.domain.energy import (
+from backend.core.channels import ChannelSpec, Values
+from backend.core.energy import (
     FACTORS,
     MOTOR_POWER,
     RIDER_POWER,
@@ -17,6 +16,7 @@ from backend.domain.energy import (
     derivable,
     derive,
 )
+from backend.domain._generated import MOVING_KMH
 from backend.domain.ride import RideSummary, present
 
 POWERS = (RIDER_POWER, MOTOR_POWER)

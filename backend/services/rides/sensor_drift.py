@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
 from backend.domain.logbook.zero import METHOD, ZeroOfRide
 from backend.domain.revision import Revision
 from backend.domain.ride import iso_utc

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from backend.domain.energy import MOTOR_POWER
+from backend.core.energy import MOTOR_POWER
 from backend.domain.fuzzy_table import PARAMETERS_OF, point_faults
 from backend.domain.ride import Ride, iso_utc
 from backend.errors import InvalidRequest, ObjectDamaged

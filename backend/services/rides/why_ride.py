@@ -15,8 +15,8 @@ import numpy as np
 
 from backend import control
 from backend.control import law_defaults
-from backend.domain.channels import Values
-from backend.domain.energy import DELIVERED, MOTOR_TORQUE
+from backend.core.channels import Values
+from backend.core.energy import DELIVERED, MOTOR_TORQUE
 from backend.domain.ride import Ride
 from backend.errors import Conflict, InvalidRequest
 from backend.services.rides.replay import LIMITS, law_inputs, read_columns, warm_up_row

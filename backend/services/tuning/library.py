@@ -13,7 +13,7 @@ from datetime import datetime
 from typing import Any, Literal, Protocol
 
 from backend.control import presets
-from backend.domain.canonical_json import sha256_of
+from backend.core.canonical_json import sha256_of
 from backend.domain.library_item import LibraryVersion
 from backend.errors import AccessDenied, ConfigConflict, Conflict, NotFound
 from backend.ingest.library_document import library_document

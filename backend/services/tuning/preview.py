@@ -10,11 +10,10 @@ import numpy.typing as npt
 
 from backend import control
 from backend.control import Finding, LintReport, Replay
+from backend.core.energy import RADIANS_PER_S_PER_RPM
 from backend.domain.assist_mode import AssistModes
-from backend.domain.energy import RADIANS_PER_S_PER_RPM
 from backend.domain.fuzzy_table import PARAMETER_NAMES, SHARED_FIELDS, FuzzyTable
 from backend.errors import FieldError, InvalidRequest
-from backend.services.tuning.calibrate import evaluate_calibration
 
 
 class Preview:
@@ -153,8 +152,6 @@ class Preview:
             listed = ", ".join(sorted(missing))
             raise InvalidRequest(f"replay: the ride has no {listed}", "missing_channel")
         return control.replay(changed, step_s=step_s, first=first, **readings)
-
-    evaluate_calibration = staticmethod(evaluate_calibration)
 
 
 def changed_config(

@@ -13,6 +13,7 @@ from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
 
+from backend.core.channels import ChannelSpec
 from backend.device.driver import LinkOpener, Listener, other_unit
 from backend.device.families import DEFAULT_FAMILY, FAMILIES, Families
 from backend.device.identity import Identity
@@ -20,7 +21,6 @@ from backend.device.ports import Opener, PortInfo, family_of, kind_of, list_port
 from backend.device.states import CONNECTED, DeviceEvent, LinkState, Named
 from backend.device.unit import Unit
 from backend.domain.capability import Capability
-from backend.domain.channels import ChannelSpec
 from backend.domain.sighting import Sighting
 from backend.domain.unit_key import serial_of, tells_unit, unit_key
 from backend.errors import Conflict, InvalidRequest, NameFirst, NoAnswer, NotFound

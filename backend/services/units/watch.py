@@ -19,9 +19,9 @@ from typing import Protocol, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from backend.core.channels import ChannelSpec
 from backend.device.states import DeviceEvent, StateChanged
 from backend.device.stream import StreamBlock, StreamStarted
-from backend.domain.channels import ChannelSpec
 from backend.errors import FieldError, InvalidRequest
 
 # Three seconds of frames at 20 a second: a browser that was asleep longer wants the present.

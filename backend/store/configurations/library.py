@@ -14,7 +14,7 @@ from typing import Any
 from sqlalchemy import Connection, Row, Select, func, insert, select, update
 
 from backend.core.author import proof_of
-from backend.domain.canonical_json import sha256_of
+from backend.core.canonical_json import sha256_of
 from backend.domain.library_item import LibraryVersion
 from backend.errors import Conflict
 from backend.store.sql import tables as t

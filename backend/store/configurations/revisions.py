@@ -9,7 +9,7 @@ from typing import Any
 from sqlalchemy import Connection, insert, select
 
 from backend.core.author import proof_of
-from backend.domain.canonical_json import sha256_of
+from backend.core.canonical_json import sha256_of
 from backend.domain.revision import Revision
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database

@@ -15,8 +15,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import ChannelSpec, Counts, channel_from_json, channel_to_json
-from backend.domain.pyramid import Level
+from backend.core.channels import ChannelSpec, Counts, channel_from_json, channel_to_json
+from backend.core.pyramid import Level
 from backend.errors import StoreError
 
 LEVEL_MAGIC = b"SPL1"

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
 
 ROUNDING = 1e-6
 """Of a bin."""

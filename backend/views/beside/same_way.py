@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
+from backend.core.sphere import EARTH_M
 from backend.domain.ride import PAUSE_MIN_US
-from backend.domain.standards.sphere import EARTH_M
 
 NEAR_M = 30.0
 STEP_M = 10.0

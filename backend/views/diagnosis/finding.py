@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
 
 Mask = npt.NDArray[np.bool_]
 Span = tuple[float, float]

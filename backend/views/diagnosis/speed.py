@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from backend.domain.channels import Values
-from backend.domain.energy import KMH_PER_MS, rate_hz
-from backend.domain.standards.sphere import EARTH_M
-from backend.domain.standards.statistics import MEDIAN_TO_MEAN, robust_deviation
+from backend.core.channels import Values
+from backend.core.energy import KMH_PER_MS, rate_hz
+from backend.core.sphere import EARTH_M
+from backend.core.statistics import MEDIAN_TO_MEAN, robust_deviation
 from backend.views.diagnosis.finding import WARNING, Evidence, Finding
 from backend.views.insight.way import way_of
 

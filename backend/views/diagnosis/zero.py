@@ -11,10 +11,10 @@ import math
 
 import numpy as np
 
+from backend.core.channels import Values
+from backend.core.statistics import MEDIAN_TO_MEAN, robust_deviation
 from backend.domain._generated import MOVING_KMH
-from backend.domain.channels import Values
 from backend.domain.logbook.zero import RideZero
-from backend.domain.standards.statistics import MEDIAN_TO_MEAN, robust_deviation
 from backend.views.diagnosis.finding import Evidence
 from backend.views.diagnosis.torque import (
     CADENCE,

@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import Values
-from backend.domain.standards.statistics import MAD_TO_DEVIATION, NORMAL_90, NORMAL_95, student
+from backend.core.channels import Values
+from backend.core.statistics import MAD_TO_DEVIATION, NORMAL_90, NORMAL_95, student
 from backend.views.diagnosis.torque import DRIFT_NM, ZERO_NM
 
 WATCH_NM, ACT_NM = ZERO_NM, DRIFT_NM

@@ -28,9 +28,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
+from backend.core.sphere import EARTH_M, great_circle_m
 from backend.domain.ride import Ride, RideRows, summarise
-from backend.domain.standards.sphere import EARTH_M, great_circle_m
 
 Mask = npt.NDArray[np.bool_]
 DISTANCE, LATITUDE, LONGITUDE = "distance_m", "latitude_deg", "longitude_deg"

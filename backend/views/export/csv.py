@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from backend.domain.channels import ChannelSpec, Values
+from backend.core.channels import ChannelSpec, Values
 from backend.domain.ride import Ride, RideRows, iso_utc
 from backend.views.export.names import told_names
 

@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 from fastcrc import crc16
 
-from backend.domain.channels import Values
-from backend.domain.energy import DEMANDED, KMH_PER_MS, MOTOR_POWER, MOTOR_TORQUE, RIDER_POWER
+from backend.core.channels import Values
+from backend.core.energy import DEMANDED, KMH_PER_MS, MOTOR_POWER, MOTOR_TORQUE, RIDER_POWER
 from backend.domain.ride import Ride, pause_us
 from backend.domain.standards.fit import (
     ACTIVITY,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from backend.domain.energy import DEMANDED, MOTOR_TORQUE, MOTOR_TORQUE_DEMANDED
+from backend.core.energy import DEMANDED, MOTOR_TORQUE, MOTOR_TORQUE_DEMANDED
 from backend.domain.ride import Ride
 
 

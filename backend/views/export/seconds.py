@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
 from backend.domain.ride import TimesUs
 
 # What stands at a second's end rather than on its average: counters, places, states.

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from backend.domain.channels import Values
-from backend.domain.energy import SECONDS_PER_HOUR
+from backend.core.channels import Values
+from backend.core.energy import SECONDS_PER_HOUR
 
 ENDS_S = 10.0
 """The charge at either end is the median of so long: one reading may be a glitch."""

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from backend.domain.channels import Values
-from backend.domain.energy import rate_hz
+from backend.core.channels import Values
+from backend.core.energy import rate_hz
 
 BINS = 36
 ANGLE_DEG = 360.0 / BINS

@@ -15,8 +15,8 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import Values
-from backend.domain.energy import RADIANS_PER_S_PER_RPM, RIDER_POWER
+from backend.core.channels import Values
+from backend.core.energy import RADIANS_PER_S_PER_RPM, RIDER_POWER
 
 POWER_ZONE_SHARES = (0.55, 0.75, 0.90, 1.05, 1.20, 1.50)
 HEART_ZONE_SHARES = (0.6, 0.7, 0.8, 0.9)

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import Values
-from backend.domain.energy import BATTERY_POWER, MOTOR_POWER, RIDER_POWER, SECONDS_PER_HOUR
+from backend.core.channels import Values
+from backend.core.energy import BATTERY_POWER, MOTOR_POWER, RIDER_POWER, SECONDS_PER_HOUR
 
 GRADIENT_EDGES_PCT = (-6.0, -2.0, 2.0, 6.0, 10.0)
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
 
 SPEED_STEP_KMH, GAIN_STEP = 2.0, 0.05
 SPEEDS_MAX, GAINS_MAX = 25, 40

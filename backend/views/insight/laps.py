@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from backend.domain.channels import Values
-from backend.domain.energy import MOTOR_POWER, RIDER_POWER
+from backend.core.channels import Values
+from backend.core.energy import MOTOR_POWER, RIDER_POWER
 
 HEART = "heart_rate_bpm"
 MEANS = (RIDER_POWER.name, MOTOR_POWER.name, HEART)

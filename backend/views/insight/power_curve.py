@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
 
 MINUTE_S, HOUR_S = 60, 3600
 DURATIONS_S = (

@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import Values
-from backend.domain.energy import KMH_PER_MS
+from backend.core.channels import Values
+from backend.core.energy import KMH_PER_MS
 
 CELL_M = 5.0
 WINDOW_M = 100.0

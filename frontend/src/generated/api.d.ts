@@ -2520,8 +2520,8 @@ export interface components {
          *     without captures over enough of the crank's angle on both sides.
          */
         Asymmetry: {
-            left_right: components["schemas"]["backend__domain__calibration__asymmetry__Share"];
-            bending_across?: components["schemas"]["backend__domain__calibration__asymmetry__Share"] | null;
+            left_right: components["schemas"]["LoadShare"];
+            bending_across?: components["schemas"]["LoadShare"] | null;
         };
         /**
          * AxisGap
@@ -2722,6 +2722,8 @@ export interface components {
         /**
          * CalibratedTorque
          * @description How well the calibration knows the torque, and who says so.
+         *
+         *     `unknown`: only the climb's uncertainty counts.
          */
         CalibratedTorque: {
             /**
@@ -2876,7 +2878,10 @@ export interface components {
             /** Number */
             number: number;
             state: components["schemas"]["State"];
-            /** Load Nm */
+            /**
+             * Load Nm
+             * @description As of the setup now.
+             */
             load_nm: number;
             /** Mean Counts */
             mean_counts: number;
@@ -3051,9 +3056,15 @@ export interface components {
         };
         /** CertificateOfTorque */
         CertificateOfTorque: {
-            /** Calibration Id */
+            /**
+             * Calibration Id
+             * @description Of the job that has it.
+             */
             calibration_id: number;
-            /** Sha256 */
+            /**
+             * Sha256
+             * @description Of the certificate that the unit keeps.
+             */
             sha256: string;
             /**
              * Written At
@@ -3318,7 +3329,10 @@ export interface components {
         ClimbTold: {
             /** Unit Key */
             unit_key: string | null;
-            /** Rise M */
+            /**
+             * Rise M
+             * @description Of the climb, as it was counted.
+             */
             rise_m: number;
             /** Duration S */
             duration_s: number;
@@ -4082,8 +4096,8 @@ export interface components {
              * @description How many it is made of.
              */
             rides: number;
-            per_month_nm: components["schemas"]["backend__api__models__drift__Share"];
-            per_kelvin_nm: components["schemas"]["backend__api__models__drift__Share"] | null;
+            per_month_nm: components["schemas"]["Share"];
+            per_kelvin_nm: components["schemas"]["Share"] | null;
             /**
              * No Per Kelvin
              * @description Why temperature is not told apart: too few rides have one; all within 5 K.
@@ -4802,7 +4816,10 @@ export interface components {
             captures: components["schemas"]["CaptureTold"][];
             /** @description All that follows from setup and captures. */
             worked: components["schemas"]["Worked"] | null;
-            /** Fitted At */
+            /**
+             * Fitted At
+             * @description Since when nothing of these changed after the fit.
+             */
             fitted_at: string | null;
             /**
              * Certificate Sha256
@@ -4833,6 +4850,7 @@ export interface components {
             earlier_of_model: components["schemas"]["JobSummary"][];
             /** @description Since the last one of this unit. */
             change: components["schemas"]["Change"] | null;
+            /** @description Against the newest of each other unit of the model. */
             among_model: components["schemas"]["AmongModel"] | null;
         };
         /** JobList */
@@ -4845,7 +4863,10 @@ export interface components {
             /** Device Id */
             device_id: string;
         };
-        /** JobSummary */
+        /**
+         * JobSummary
+         * @description One line of a list.
+         */
         JobSummary: {
             /** Id */
             id: number;
@@ -5338,6 +5359,16 @@ export interface components {
              * @description The unit ends it after so many seconds.
              */
             ttl_s: number;
+        };
+        /**
+         * LoadShare
+         * @description A share of the load of a level crank, and its standard uncertainty.
+         */
+        LoadShare: {
+            /** Share */
+            share: number;
+            /** Standard */
+            standard: number;
         };
         /**
          * LogDownload
@@ -6011,7 +6042,10 @@ export interface components {
          * @description The speed sensor's pulses in a turn of its wheel, beside those the unit counts with.
          */
         PulsesTold: {
-            /** Unit Key */
+            /**
+             * Unit Key
+             * @description Whose they are.
+             */
             unit_key: string | null;
             /**
              * Told Turns
@@ -6050,7 +6084,10 @@ export interface components {
              * @description Why it may not be captured.
              */
             reasons: components["schemas"]["Refusal"][];
-            /** T S */
+            /**
+             * T S
+             * @description Unit time before the newest row, thinned with `raw_counts`.
+             */
             t_s: number[];
             /** Raw Counts */
             raw_counts: (number | null)[];
@@ -6067,7 +6104,10 @@ export interface components {
             spread_allowed_counts: number | null;
             /** Window S */
             window_s: number;
-            /** Found Nm */
+            /**
+             * Found Nm
+             * @description Of the steady window by the coefficients that the unit had.
+             */
             found_nm: number | null;
             /** Fitted Nm */
             fitted_nm: number | null;
@@ -6082,7 +6122,10 @@ export interface components {
             /** Checks */
             checks: components["schemas"]["Check"][];
         };
-        /** RecordChange */
+        /**
+         * RecordChange
+         * @description A change of the unit's record that was read back.
+         */
         RecordChange: {
             /**
              * Kind
@@ -6098,7 +6141,10 @@ export interface components {
             author: string;
             /** Reason */
             reason: string;
-            /** Record */
+            /**
+             * Record
+             * @description What it has since.
+             */
             record: {
                 [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
             };
@@ -6106,12 +6152,18 @@ export interface components {
             before: {
                 [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
             };
-            /** Generation */
+            /**
+             * Generation
+             * @description Of the unit's configuration.
+             */
             generation: number;
             /** Certificate Sha256 */
             certificate_sha256: string | null;
         };
-        /** RecordLine */
+        /**
+         * RecordLine
+         * @description A parameter of the unit's record: as it was found, and as `write` makes it.
+         */
         RecordLine: {
             /** Name */
             name: string;
@@ -6119,7 +6171,10 @@ export interface components {
             found: number | string | (number | string)[] | (number | string)[][] | null;
             /** Planned */
             planned: number | string | (number | string)[] | (number | string)[][] | null;
-            /** Free Min */
+            /**
+             * Free Min
+             * @description From here to `free_max` it needs no token.
+             */
             free_min: number | null;
             /** Free Max */
             free_max: number | null;
@@ -6328,17 +6383,24 @@ export interface components {
         Result: {
             /** Verdict */
             verdict: ("pass" | "conditional" | "fail") | null;
+            /** @description Its coefficients with their uncertainty. */
             past: components["schemas"]["Past"] | null;
             /**
              * Expanded Nm
              * @description The largest of the budget, k = 2.
              */
             expanded_nm: number | null;
-            /** Linearity Pct */
+            /**
+             * Linearity Pct
+             * @description To the line, the worse side.
+             */
             linearity_pct: number | null;
             /** Hysteresis Pct */
             hysteresis_pct: number | null;
-            /** Verified */
+            /**
+             * Verified
+             * @default false
+             */
             verified: boolean;
             /** Certificate Sha256 */
             certificate_sha256: string | null;
@@ -7420,6 +7482,20 @@ export interface components {
             arm_again_m?: number | null;
         };
         /**
+         * Share
+         * @description A coefficient: its value, standard uncertainty, and interval of 95 %.
+         */
+        Share: {
+            /** Value */
+            value: number;
+            /** Uncertainty */
+            uncertainty: number;
+            /** Low */
+            low: number;
+            /** High */
+            high: number;
+        };
+        /**
          * Side
          * @description What is compared: just one of `library`, `device` and `fuzzy_table`.
          */
@@ -7920,10 +7996,16 @@ export interface components {
             /** Figures */
             figures: components["schemas"]["Stated"][];
         };
-        /** Step */
+        /**
+         * Step
+         * @description One state to be captured.
+         */
         Step: {
             state: components["schemas"]["State"];
-            /** Load Nm */
+            /**
+             * Load Nm
+             * @description What its mass makes.
+             */
             load_nm: number;
             /**
              * Capture
@@ -7961,7 +8043,10 @@ export interface components {
              */
             free_bytes: number;
         };
-        /** Struck */
+        /**
+         * Struck
+         * @description Why a capture does not count any more, by whom and since when.
+         */
         Struck: {
             /** Reason */
             reason: string;
@@ -8890,30 +8975,6 @@ export interface components {
             /** Verifications */
             verifications: components["schemas"]["Verification"][];
             judgement: components["schemas"]["Judgement"];
-        };
-        /**
-         * Share
-         * @description A coefficient: its value, standard uncertainty, and interval of 95 %.
-         */
-        backend__api__models__drift__Share: {
-            /** Value */
-            value: number;
-            /** Uncertainty */
-            uncertainty: number;
-            /** Low */
-            low: number;
-            /** High */
-            high: number;
-        };
-        /**
-         * Share
-         * @description A share of the load of a level crank, and its standard uncertainty.
-         */
-        backend__domain__calibration__asymmetry__Share: {
-            /** Share */
-            share: number;
-            /** Standard */
-            standard: number;
         };
         /**
          * Problem

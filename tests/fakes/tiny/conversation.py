@@ -14,13 +14,13 @@ from typing import Any
 
 import numpy as np
 
+from backend.core.channels import ChannelSpec
 from backend.device.conversation import OnError, OnResult, Operation, Result
 from backend.device.identity import Identity
 from backend.device.snapshot import DeviceStatus
 from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.statistics import LinkStatistics
 from backend.device.stream import StreamBlock, StreamStarted
-from backend.domain.channels import ChannelSpec
 from backend.errors import LinkError, NoAnswer, SpindleError
 
 CHANNELS = (ChannelSpec("speed_kmh", "km/h", 0.1), ChannelSpec("cadence_rpm", "rpm", 0.1))

@@ -8,14 +8,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from backend.domain.channels import Values
-from backend.domain.logbook.card import (
-    LINE_POINTS,
-    ends_of,
-    line_kmh,
-    speed_line,
-)
-from backend.domain.standards.sphere import great_circle_m
+from backend.core.channels import Values
+from backend.core.sphere import great_circle_m
+from backend.domain.logbook.card import LINE_POINTS, ends_of, line_kmh, speed_line
 
 
 def seconds(count: int) -> Values:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
 from backend.domain.ride_events import RideEvent, events_of_rows, merged
 
 FAULTS = ChannelSpec("fault_flags", "", 1.0)

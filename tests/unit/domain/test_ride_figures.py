@@ -10,14 +10,8 @@ import math
 import numpy as np
 import pytest
 
-from backend.domain.channels import MISSING_INT16, MISSING_INT32, ChannelSpec, Values
-from backend.domain.energy import (
-    derivable,
-    derive,
-    energy,
-    motor_torque_meaning,
-    sample_seconds,
-)
+from backend.core.channels import MISSING_INT16, MISSING_INT32, ChannelSpec, Values
+from backend.core.energy import derivable, derive, energy, motor_torque_meaning, sample_seconds
 from backend.domain.ride import TimesUs, find_gaps, summarise
 
 HOUR_ROWS = 36_000

@@ -16,8 +16,8 @@ import numpy as np
 import pytest
 
 from backend.control import law_defaults
+from backend.core.channels import ChannelSpec, Values
 from backend.domain.assist_mode import AssistModes
-from backend.domain.channels import ChannelSpec, Values
 from backend.domain.ride import Ride, RideRows
 from backend.domain.rider_and_bike import RiderAndBike
 from backend.errors import InvalidRequest, RequestRefused

@@ -17,11 +17,11 @@ from backend.domain.table_answer import TableAnswer
 from backend.errors import Conflict, InvalidRequest, NotFound
 from backend.ingest.formats import read_file
 from backend.ingest.outcome import Outcome
+from backend.rebuild import rebuild_store
 from backend.services.imports.mapping import TableMapping
 from backend.services.imports.upload import Uploads
 from backend.store import Store, Upload, open_store
 from backend.store.upkeep.backup import backup_of
-from backend.store.upkeep.rebuild import rebuild_store
 from tests.fakes.fit_file import commute, fit_file
 
 SAID = {"time_zone": "Europe/Dublin", "units": {"speed": "m/s"}, "rows_per_second": None}

@@ -16,10 +16,11 @@ from backend.errors import Conflict
 from backend.ingest import Entry, Left, Outcome, ReadingStopped
 from backend.ingest.containers.archive import entries
 from backend.ingest.formats import read_file
+from backend.rebuild import rebuild_store
 from backend.services.imports.upload import Uploads, UploadSettings
 from backend.services.rides.review import Rides
 from backend.store import Store, open_store
-from backend.store.upkeep.rebuild import rebuild_store
+from backend.store.named import named_keys
 from tests.fakes.fit_file import START_S, commute, fit_file
 from tests.fakes.zip_file import zipped
 
@@ -107,7 +108,7 @@ def test_with_the_last_ride_the_archive_goes_and_everything_within(
     store.rides.delete(second)
 
     assert uploads.list()["items"] == ()
-    assert store.uploads.object_keys() == set()
+    assert store.database.read(named_keys) == set()
     assert not (store.objects.root / key).exists()
 
 
@@ -119,7 +120,7 @@ def test_an_archive_without_a_ride_is_refused_and_can_be_removed(
     assert (sent.state, sent.code) == ("rejected", "no_rides_inside")
     uploads.remove(sent.id)
     assert uploads.list()["items"] == ()
-    assert store.uploads.object_keys() == set()
+    assert store.database.read(named_keys) == set()
 
 
 def test_a_cut_archive_gives_its_whole_files_and_says_so(uploads: Uploads) -> None:

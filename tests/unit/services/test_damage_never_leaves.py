@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
 from backend.domain.ride import RideRows
 from backend.errors import ObjectDamaged
 from backend.ingest import ImportedRide, Outcome

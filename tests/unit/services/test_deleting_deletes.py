@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
 from backend.domain.ride import RideContext, RideRows
 from backend.errors import Conflict, NotFound, StoreError
 from backend.ingest import ImportedRide, Outcome

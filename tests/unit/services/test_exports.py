@@ -25,7 +25,7 @@ import pyarrow.parquet as pq
 import pytest
 from fit_tool.fit_file import FitFile
 
-from backend.domain.channels import ChannelSpec, Counts
+from backend.core.channels import ChannelSpec, Counts
 from backend.domain.ride import Ride, RideContext, RideRows
 from backend.errors import InvalidRequest
 from backend.ingest.formats import read_file

@@ -102,14 +102,6 @@ def test_a_ride_without_torque_cannot_be_replayed() -> None:
         PREVIEW.replay(default_config(), arrays)
 
 
-def test_a_perfect_sensor_evaluates_to_nothing() -> None:
-    loads = [0.0, 50.0, 100.0]
-
-    figures = PREVIEW.evaluate_calibration(100.0, loads, [loads, loads], [loads, loads])
-
-    assert figures.total_pct.deviation == pytest.approx(0.0, abs=1e-12)
-
-
 def test_a_point_at_fault_is_named_as_it_was_asked() -> None:
     with pytest.raises(InvalidRequest) as of_speed:
         PREVIEW.points(TABLE, [(5.0, 0.1), (float("nan"), 0.2)])

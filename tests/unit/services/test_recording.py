@@ -17,9 +17,9 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
+from backend.core.channels import MISSING_INT16, ChannelSpec
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import LostBy, StreamBlock
-from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.ride import Ride, RideContext
 from backend.domain.ride_events import RideEvent
 from backend.errors import Conflict, NotFound, StoreError

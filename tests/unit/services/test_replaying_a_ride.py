@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 
 from backend.control import law_defaults
+from backend.core.channels import ChannelSpec, Values
 from backend.domain.assist_mode import AssistModes
-from backend.domain.channels import ChannelSpec, Values
 from backend.domain.fuzzy_table import THESIS_TABLE
 from backend.domain.ride import Ride, RideRows
 from backend.errors import InvalidRequest

@@ -18,9 +18,9 @@ import gpxpy
 import numpy as np
 import pytest
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
+from backend.core.sphere import great_circle_m
 from backend.domain.ride import Ride, RideContext, RideRows
-from backend.domain.standards.sphere import great_circle_m
 from backend.errors import InvalidRequest, NotFound
 from backend.ingest.formats import read_file
 from backend.services.rides.review import Rides

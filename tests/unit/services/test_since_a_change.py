@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
 from backend.domain.revision import Revision
 from backend.domain.ride import RideContext
 from backend.domain.ride_events import SETTINGS, RideEvent

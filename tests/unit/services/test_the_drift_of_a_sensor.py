@@ -16,13 +16,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from backend.domain.channels import ChannelSpec, Values
+from backend.core.channels import ChannelSpec, Values
 from backend.domain.revision import Revision
 from backend.domain.ride import RideContext
+from backend.rebuild import rebuild_store
 from backend.services.rides.sensor_drift import SensorDrift, calibrations_of
 from backend.services.rides.zeros import RideZeros
 from backend.store import Store, open_store
-from backend.store.upkeep.rebuild import rebuild_store
 from firmware_protocol._generated import CHANNELS
 from tests.fakes.simulated_ride import GAIN_NM_PER_COUNT, LOOK_S, simulated_ride
 

@@ -15,10 +15,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from backend.core.channels import MISSING_INT16, ChannelSpec
 from backend.device.faults import UnitFault
 from backend.device.live_values import LiveValues
 from backend.device.stream import StreamBlock
-from backend.domain.channels import MISSING_INT16, ChannelSpec
 from backend.domain.ride import RideContext
 from backend.errors import NotFound
 from backend.services.rides.fault_moment import FaultMoments, RecentRows

@@ -14,14 +14,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
 from backend.domain.ride import RideContext
 from backend.ingest import Outcome
 from backend.ingest.formats import read_file
+from backend.rebuild import rebuild_store
 from backend.services.imports.upload import Uploads
 from backend.services.rides.review import Rides
 from backend.store import Store, Upload, open_store
-from backend.store.upkeep.rebuild import rebuild_store
 from tests.fakes.fit_file import START_S, commute, fit_file
 
 DAY_S = 86_400

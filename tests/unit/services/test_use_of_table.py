@@ -16,8 +16,8 @@ import numpy as np
 import pytest
 
 from backend.control import law_defaults
-from backend.domain.channels import ChannelSpec
-from backend.domain.filled import Filled
+from backend.core.channels import ChannelSpec
+from backend.core.filled import Filled
 from backend.domain.fuzzy_table import THESIS_TABLE
 from backend.domain.ride import Ride, RideContext
 from backend.errors import InvalidRequest, NotFound

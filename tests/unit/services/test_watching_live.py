@@ -12,9 +12,9 @@ import struct
 import numpy as np
 
 from backend.api.live_frames import frame_of
+from backend.core.channels import ChannelSpec
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock, StreamStarted
-from backend.domain.channels import ChannelSpec
 from backend.services.units.watch import QUEUE_FRAMES_MAX, Feed, LiveRows, StateNow, Viewer
 
 CHANNELS = (ChannelSpec("speed_kmh", "km/h", 0.01), ChannelSpec("cadence_rpm", "rpm", 0.01))

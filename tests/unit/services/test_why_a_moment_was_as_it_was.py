@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from backend.control import law_defaults
-from backend.domain.channels import ChannelSpec, Values
+from backend.core.channels import ChannelSpec, Values
 from backend.domain.ride import Gap, Ride, RideRows
 from backend.errors import Conflict, InvalidRequest
 from backend.ingest import ImportedRide, Outcome

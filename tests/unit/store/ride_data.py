@@ -7,7 +7,7 @@ from itertools import accumulate
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
 
 CHANNELS = tuple(
     ChannelSpec(name, unit, scale)

@@ -15,7 +15,7 @@ from zipfile import BadZipFile, ZipFile
 import numpy as np
 import pytest
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
 from backend.domain.ride import RideContext
 from backend.errors import StoreError
 from backend.store import Store, backup_of, open_store, place_of

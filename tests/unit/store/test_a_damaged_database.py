@@ -20,9 +20,9 @@ import pytest
 
 from backend.cli import main
 from backend.errors import Conflict, ObjectDamaged, StoreError
+from backend.rebuild import rebuild_store
 from backend.store import Store, open_store
 from backend.store.upkeep.check import check_store
-from backend.store.upkeep.rebuild import rebuild_store
 from tests.unit.store.test_a_database_is_rebuilt import add_imported, add_recorded, urls
 
 pytestmark = pytest.mark.slow

@@ -18,18 +18,18 @@ from typing import Any
 import numpy as np
 import pytest
 
+from backend import rebuild
 from backend.cli import main
-from backend.domain.channels import MISSING_INT16, ChannelSpec
-from backend.domain.filled import Filled
+from backend.core.channels import MISSING_INT16, ChannelSpec
+from backend.core.filled import Filled
 from backend.domain.ride import Ride, RideContext, RideRows
 from backend.domain.ride_events import RideEvent
 from backend.errors import StoreError
+from backend.rebuild import Rebuilt, rebuild_store
 from backend.store import Store, Verdict, open_store
 from backend.store.filling import Filling
 from backend.store.objects import IDENTITY, sidecar_key
-from backend.store.upkeep import rebuild
 from backend.store.upkeep.check import check_store
-from backend.store.upkeep.rebuild import Rebuilt, rebuild_store
 from tests.unit.store.ride_data import STARTED_US
 
 pytestmark = pytest.mark.slow

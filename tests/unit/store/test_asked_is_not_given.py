@@ -19,12 +19,12 @@ from alembic.config import Config
 from sqlalchemy import create_engine
 
 import backend.store
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
 from backend.domain.ride import Ride, RideContext
 from backend.ingest.tables import read_table
 from backend.services.rides.review import Rides
 from backend.store import Store
-from tests.unit.store.conftest import OpenStore
+from tests.unit.conftest import OpenStore
 from tests.unit.store.ride_data import PERIOD_US, STARTED_US
 
 ROWS = 1000

@@ -24,12 +24,12 @@ from sqlalchemy import create_engine
 import backend.store
 from backend.domain.ride import RideContext
 from backend.errors import StoreError
+from backend.rebuild import rebuild_store
 from backend.store import Store, open_store
 from backend.store.sql import advisory
 from backend.store.sql.advisory import AdvisoryLock, lock_engine
 from backend.store.sql.tables import metadata
 from backend.store.upkeep.check import check_store
-from backend.store.upkeep.rebuild import rebuild_store
 from tests.fakes.postgres import Postgres
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
 

@@ -11,12 +11,12 @@ import sys
 import numpy as np
 import pytest
 
-from backend.domain.channels import MISSING_INT16
+from backend.core.channels import MISSING_INT16
 from backend.domain.ride import Ride, RideContext
 from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
 from backend.store import Sought, Store
 from backend.views.trace import trace
-from tests.unit.store.conftest import OpenStore
+from tests.unit.conftest import OpenStore
 from tests.unit.store.ride_data import (
     CHANNELS,
     GEAR_RATIO,

@@ -15,15 +15,15 @@ import numpy as np
 import pytest
 from sqlalchemy import Connection
 
-from backend.domain.channels import ChannelSpec
+from backend.core.channels import ChannelSpec
 from backend.domain.logbook.calendar import last_months, last_weeks
 from backend.domain.logbook.card import RideCard
 from backend.domain.ride import Ride, RideContext, RideRows
 from backend.errors import InvalidRequest, NotFound
+from backend.rebuild import rebuild_store
 from backend.services.rides.cards import RideCards, card_of
 from backend.services.rides.insight.rows import RideColumns
 from backend.store import Sought, Store
-from backend.store.upkeep.rebuild import rebuild_store
 
 pytestmark = pytest.mark.slow
 

@@ -18,10 +18,10 @@ from sqlalchemy import create_engine, insert, update
 import backend.store
 from backend.domain.ride import Ride, RideContext
 from backend.domain.unit_key import bike_name, ebl_key, tells_unit, unit_key
+from backend.rebuild import rebuild_store
 from backend.store import SeenUnit, Sought, Store, open_store
 from backend.store.sql import tables as t
-from backend.store.upkeep.rebuild import rebuild_store
-from tests.unit.store.conftest import OpenStore
+from tests.unit.conftest import OpenStore
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
 
 MIGRATIONS = Path(backend.store.__file__).parent / "sql" / "migrations"

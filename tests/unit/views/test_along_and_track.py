@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from backend.domain.channels import ChannelSpec, Values
+from backend.core.channels import ChannelSpec, Values
 from backend.errors import InvalidRequest
 from backend.views.along import Axis, along
 from backend.views.trace import trace

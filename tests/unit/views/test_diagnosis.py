@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from backend import control
-from backend.domain.channels import Values
+from backend.core.channels import Values
 from backend.views.diagnosis.diagnosis import METHOD, diagnose
 from backend.views.diagnosis.finding import Check, Evidence, Limits
 from tests.fakes.simulated_ride import LOOK_S, simulated_ride

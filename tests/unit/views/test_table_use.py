@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
 from backend.domain.fuzzy_table import point_faults
 from backend.views.table_use import TableUse, acting, table_use
 

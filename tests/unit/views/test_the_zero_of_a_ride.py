@@ -13,7 +13,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from backend.domain.channels import Values
+from backend.core.channels import Values
 from backend.views.diagnosis.finding import Evidence, Limits
 from backend.views.diagnosis.zero import zero_of
 from tests.fakes.simulated_ride import GAIN_NM_PER_COUNT, LOOK_S, Step, simulated_ride

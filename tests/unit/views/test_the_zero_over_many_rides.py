@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from scipy.stats import t as student_t
 
-from backend.domain.standards.statistics import NORMAL_95, student
+from backend.core.statistics import NORMAL_95, student
 from backend.views.diagnosis.zero_trend import (
     ACT_NM,
     MONTH_DAYS,

@@ -18,9 +18,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from backend.domain.channels import MISSING_INT16, MISSING_INT32, ChannelSpec, Counts, Values
-from backend.domain.energy import sample_seconds
-from backend.domain.pyramid import STEPS, Level, first_level
+from backend.core.channels import MISSING_INT16, MISSING_INT32, ChannelSpec, Counts, Values
+from backend.core.energy import sample_seconds
+from backend.core.pyramid import STEPS, Level, first_level
 from backend.domain.ride import pause_us
 from backend.errors import InvalidRequest
 from backend.views.figure import figure

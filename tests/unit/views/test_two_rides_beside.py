@@ -11,8 +11,8 @@ import math
 import numpy as np
 import pytest
 
-from backend.domain.channels import Values
-from backend.domain.energy import DELIVERED, DEMANDED
+from backend.core.channels import Values
+from backend.core.energy import DELIVERED, DEMANDED
 from backend.views.beside.figures import Figure, Stretch, compared
 from backend.views.beside.grid import Laid, binned
 from backend.views.beside.same_way import Positions, same_way

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from backend.core.channels import ChannelSpec
 from backend.device.ebl.session.operation import Operation, ask
 from backend.device.live_values import LiveValues, named_values
-from backend.domain.channels import ChannelSpec
 from firmware_protocol._generated import CHANNELS, StrSnapshotRequest, StrSnapshotResponse
 from firmware_protocol.layout import MISSING
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Mapping
 
-from backend.domain.quantities import plain
+from backend.core.quantities import plain
 from backend.errors import FieldError
 from firmware_protocol._generated import PARAMETER_BY_ID, Violation
 from firmware_protocol.layout import Parameter, Value

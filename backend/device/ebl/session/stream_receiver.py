@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from backend.core.channels import ChannelSpec
 from backend.device.ebl.session.frame_counts import FrameCounts
 from backend.device.statistics import LinkStatistics
 from backend.device.stream import LostBy, StreamBlock, StreamStarted, unwrap_us
-from backend.domain.channels import ChannelSpec
 from firmware_protocol._generated import CHANNELS, StreamCountsEvent, StrSubscribeResponse
 from firmware_protocol.codec import Stream
 from firmware_protocol.layout import Channel

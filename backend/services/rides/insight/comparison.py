@@ -14,8 +14,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from backend.domain.channels import ChannelSpec, Values
-from backend.domain.energy import (
+from backend.core.channels import ChannelSpec, Values
+from backend.core.energy import (
     DEMANDED,
     MOTOR_TORQUE,
     MOTOR_TORQUE_CRANK,

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from backend.domain.energy import BATTERY_POWER, MOTOR_POWER, RIDER_POWER
+from backend.core.energy import BATTERY_POWER, MOTOR_POWER, RIDER_POWER
 from backend.services.rides.insight.rows import WAY, RideColumns, columns_of
 from backend.services.rides.settings_in_force import ConfigOf, Stretch, source_of, stretches
 from backend.store import Store

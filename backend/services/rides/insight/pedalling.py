@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from backend.domain.energy import DELIVERED, MOTOR_TORQUE_CRANK
+from backend.core.energy import DELIVERED, MOTOR_TORQUE_CRANK
 from backend.services.rides.insight.rows import RideColumns, columns_of
 from backend.services.rides.settings_in_force import ConfigOf, all_through
 from backend.store import Store

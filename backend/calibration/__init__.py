@@ -1,0 +1,1 @@
+"""Calibration of the torque sensor: captures in; coefficients, uncertainty, certificate out."""

@@ -1,0 +1,1 @@
+"""The bike's other numbers: wheel, pulses, cadence, and the torque gain by a climb."""

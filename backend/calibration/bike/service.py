@@ -1,0 +1,93 @@
+"""The cadence that a unit tells against the turns of its crank, counted by the crank's angle."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from backend.calibration.bike.climb_check import CertifiedOf, ClimbCheck
+from backend.calibration.bike.types import Cadence, PulsesTold
+from backend.calibration.bike.wheel import cadence_error_rpm, pulses_per_turn, summed
+from backend.calibration.bike.wheel_measure import (
+    KEPT,
+    SPEED,
+    ParametersOf,
+    WheelMeasure,
+    refusal,
+    rows_of,
+)
+from backend.core.energy import KMH_PER_MS
+from backend.services.rides.insight.rows import Window
+from backend.services.rides.settings_in_force import ConfigOf, all_through
+from backend.store import Store
+
+CADENCE, ANGLE = "cadence_rpm", "crank_angle_deg"
+TURNS_MIN = 20.0
+"""Fewer, and where the crank stood at either end decides."""
+SPACING_S_MAX = 0.15
+"""Half a turn at 200 rpm: over longer ones nobody knows how often the crank came round."""
+
+
+class CadenceCheck:
+    """Counts the turns of a window. Safe from any thread."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+
+    def __call__(self, window: Window) -> Cadence:
+        """Raises NotFound, ObjectDamaged, and InvalidRequest where the ride cannot tell."""
+        rows = rows_of(self._store, window, "ride_id", [CADENCE, ANGLE])
+        if np.diff(rows.time_s).max() > SPACING_S_MAX:
+            message = f"rows more than {SPACING_S_MAX:g} s apart do not tell the crank's turns"
+            raise refusal("ride_id", "too_slow", message)
+        angle_deg = np.unwrap(rows[ANGLE], period=360.0)
+        turns = abs(float(angle_deg[-1] - angle_deg[0])) / 360.0
+        if turns < TURNS_MIN:
+            message = f"the crank made {turns:.1f} turns there; {TURNS_MIN:g} are needed"
+            raise refusal("ride_id", "too_few_turns", message)
+        duration_s = float(rows.time_s[-1] - rows.time_s[0])
+        told_rpm = float(np.trapezoid(rows[CADENCE], rows.time_s)) / duration_s
+        error, expanded = cadence_error_rpm(told_rpm, turns, duration_s)
+        agrees = abs(error) <= expanded
+        return Cadence(told_rpm, turns, duration_s, error, expanded, agrees)
+
+
+KEPT_PULSES = "wheel_pulses_per_turn"
+
+
+class PulseCount:
+    """Counts the pulses of a window. Safe from any thread. config_of: a ride's."""
+
+    def __init__(self, store: Store, config_of: ConfigOf) -> None:
+        self._store = store
+        self._config_of = config_of
+
+    def __call__(self, window: Window, turns: float) -> PulsesTold:
+        """turns: of the wheel by hand, counted. Raises NotFound, ObjectDamaged, and InvalidRequest
+        where the ride cannot tell."""
+        rows = rows_of(self._store, window, "ride_id", [SPEED])
+        config, source = all_through(self._config_of, rows.ride)
+        circumference_m, kept = config.get(KEPT), config.get(KEPT_PULSES)
+        if source != "ride" or circumference_m is None or kept is None:
+            message = f"ride {window.ride_id} does not tell what its unit counted with"
+            raise refusal("ride_id", "missing", message)
+        way_m = float(summed(rows[SPEED] / KMH_PER_MS, rows.time_s)[-1])
+        told_turns = way_m / float(circumference_m)
+        found = pulses_per_turn(int(kept), told_turns, turns)
+        return PulsesTold(rows.ride.context.unit_key, told_turns, turns, found)
+
+
+class BikeNumbers:
+    """wheel: its circumference. pulses: in a turn of it. cadence: against the crank's turns. climb:
+    the torque gain by an energy balance. Safe from any thread."""
+
+    def __init__(
+        self,
+        store: Store,
+        config_of: ConfigOf,
+        parameters_of: ParametersOf,
+        certified_of: CertifiedOf,
+    ) -> None:
+        self.wheel = WheelMeasure(store, config_of, parameters_of)
+        self.pulses = PulseCount(store, config_of)
+        self.cadence = CadenceCheck(store)
+        self.climb = ClimbCheck(store, certified_of)

@@ -1,1 +1,0 @@
-"""Calibration of the torque sensor, pure: captures in, coefficients, uncertainty, judgement out."""

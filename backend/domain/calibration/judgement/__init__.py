@@ -1,1 +1,0 @@
-"""Whether a calibration passes: limits, verification, and the earlier ones beside it."""

@@ -1,0 +1,1 @@
+"""Documents as PDF; the only user of reportlab."""

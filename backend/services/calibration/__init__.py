@@ -1,1 +1,0 @@
-"""Calibration jobs: a sensor read under known loads, fitted, written, verified, certified."""
