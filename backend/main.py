@@ -31,9 +31,9 @@ from backend.calibration.records import CalibrationStore
 from backend.calibration.service import Calibrations, open_calibrations
 from backend.device.driver import LinkOpener
 from backend.device.families import FAMILIES, Families
+from backend.device.link import kind_of
 from backend.errors import LinkError, SpindleError, StoreError
-from backend.ingest import Readers
-from backend.link import kind_of
+from backend.formats import Readers
 from backend.people.service import PeopleService
 from backend.services.health import Health
 from backend.services.imports.collect import Collect
@@ -96,7 +96,7 @@ def open_services(
 ) -> Iterator[Services]:
     """Everything behind the API, opened; closed again in the other order, whatever happens.
 
-    opener: how a url becomes a link, if not by backend.link. Raises StoreError, InvalidRequest.
+    opener: how a url becomes a link, if not by `device.link`. Raises StoreError, InvalidRequest.
     """
     check(settings)
     with contextlib.ExitStack() as closing:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 SPREAD = {
     "tests/fuzz/test_fuzzers_find_nothing.py",
     "tests/mutation/test_every_known_break_is_noticed.py",
-    "tests/unit/control/test_gain_bounds.py",
+    "tests/unit/law/test_gain_bounds.py",
     "tests/unit/sim_device/test_no_transient_breaks_a_law.py",
 }
 """Files whose tests share nothing that is expensive to make."""

@@ -12,7 +12,7 @@ from backend.calibration.job import is_written, moment
 from backend.calibration.plain import from_plain
 from backend.calibration.records import CalibrationStore
 from backend.calibration.unit_record import PARAMETER_OF
-from backend.domain.ride import Ride
+from backend.core.ride import Ride
 
 GAIN = PARAMETER_OF["gain_nm_per_count"]
 FLOAT32_SHARE = 1e-6

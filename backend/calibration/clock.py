@@ -18,8 +18,8 @@ from typing import Any
 from backend.calibration.files import KeptCalibration, KeptCapture
 from backend.calibration.job import is_written
 from backend.calibration.records import CalibrationStore
-from backend.domain.clock_set import set_by_us
-from backend.services.host_clock import wall_offset_us
+from backend.core.moments import set_by_us
+from backend.device.host_clock import wall_offset_us
 
 Kept = tuple[KeptCalibration, Sequence[KeptCapture]]
 

@@ -23,7 +23,7 @@ from backend.calibration.records import CalibrationStore
 from backend.calibration.setup import Setup, setup_of
 from backend.calibration.steady import WINDOW_S
 from backend.calibration.unit_record import PARAMETER_OF, record_of
-from backend.domain.capability import Capability
+from backend.device.capability import Capability
 from backend.errors import Conflict, FieldError, InvalidRequest, NotFound
 from backend.services.units.connect import Devices
 from backend.services.units.device_view import DeviceView

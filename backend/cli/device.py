@@ -13,7 +13,7 @@ from backend.core.author import tidy_author
 from backend.errors import InvalidRequest, RequestRefused
 
 if TYPE_CHECKING:
-    from backend.ingest.backup import Backup
+    from backend.formats.backup import Backup
 
 
 def server_of(options: Namespace) -> Server:
@@ -97,7 +97,7 @@ def set_parameters(options: Namespace) -> int:
 
 def backup(options: Namespace) -> int:
     """A configuration of a unit as a JSON file that `restore` and `diff` read."""
-    from backend.ingest.backup import backup_json
+    from backend.formats.backup import backup_json
 
     server = server_of(options)
     unit = server.device_id(options.unit)
@@ -169,7 +169,7 @@ def diff(options: Namespace) -> int:
 
     Of values of two units, which of them stay with the unit they were measured on.
     """
-    from backend.ingest.backup import of_the_unit, read_backup
+    from backend.formats.backup import of_the_unit, read_backup
 
     one = backup_at(options.file)
     if options.other is not None and Path(options.other).is_file():
@@ -194,7 +194,7 @@ def diff(options: Namespace) -> int:
 
 def list_presets(options: Namespace) -> int:
     """The configurations and tables that come with Spindle; `restore` takes their names."""
-    from backend.control import presets
+    from backend.law import presets
 
     found = [presets.load(name) for name in presets.names()]
     if options.json:
@@ -208,8 +208,8 @@ def list_presets(options: Namespace) -> int:
 
 def backup_at(file: Path) -> Backup:
     """A backup's file, or the preset of that name where there is no such file."""
-    from backend.control import presets
-    from backend.ingest.backup import backup_of, read_backup
+    from backend.formats.backup import backup_of, read_backup
+    from backend.law import presets
 
     if not file.exists() and str(file) in presets.names():
         return backup_of(presets.load(str(file)))
@@ -239,7 +239,7 @@ def unknown_here(saved: dict[str, Any], items: list[dict[str, Any]]) -> list[str
 
 def second_table_moves(backup: Backup, items: list[dict[str, Any]]) -> list[str]:
     """Says that a table's points are the second one's too, if a mode uses that and they change."""
-    from backend.domain.fuzzy_table import PARAMETER_NAMES, SHARED_FIELDS
+    from backend.core.fuzzy_table import PARAMETER_NAMES, SHARED_FIELDS
 
     now = {item["name"]: item["value"] for item in items}
     shared = [PARAMETER_NAMES[field] for field in SHARED_FIELDS]

@@ -151,7 +151,7 @@ def keep(server: Server, document: dict[str, Any], options: Namespace) -> int:
 
 def of_unit(server: Server, unit: str) -> dict[str, Any]:
     """What a unit has now, as a document. unit: empty for the only one."""
-    from backend.ingest.backup import backup_json
+    from backend.formats.backup import backup_json
 
     path = f"/devices/{server.device_id(unit or None)}"
     items = server.ask("GET", f"{path}/parameters")["items"]

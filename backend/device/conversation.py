@@ -55,7 +55,7 @@ class Conversation(Protocol):
         bits_per_second: float | None = None,
         wanted: float | None = None,
     ) -> None:
-        """A port is open. nonce: 8 random bytes. Rates as in backend.link.Link."""
+        """A port is open. nonce: 8 random bytes. Rates as in backend.device.link.Link."""
         ...
 
     def port_failed(self, now_s: float, error: LinkError) -> None:

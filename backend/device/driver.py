@@ -17,10 +17,10 @@ from concurrent.futures import TimeoutError as FutureTimeout
 from typing import Protocol, TypeVar
 
 from backend.device.conversation import Conversation, Operation
+from backend.device.link import Link
 from backend.device.snapshot import DeviceStatus
 from backend.device.states import CONNECTED, DeviceEvent, LinkState
 from backend.errors import LinkError, NoAnswer, OtherUnit, SpindleError
-from backend.link import Link
 
 LOG = logging.getLogger(__name__)
 
@@ -59,7 +59,7 @@ _Command = Callable[[], None]
 
 
 class LinkOpener(Protocol):
-    """Opens the same way to a unit again and again; backend.link.Opener is one."""
+    """Opens the same way to a unit again and again; backend.device.link.Opener is one."""
 
     @property
     def url(self) -> str: ...

@@ -2,6 +2,13 @@
 
 from __future__ import annotations
 
-from backend.link import Opener, PortInfo, family_of, is_character_device, kind_of, list_ports
+from backend.device.link import (
+    Opener,
+    PortInfo,
+    family_of,
+    is_character_device,
+    kind_of,
+    list_ports,
+)
 
 __all__ = ["Opener", "PortInfo", "family_of", "is_character_device", "kind_of", "list_ports"]

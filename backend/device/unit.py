@@ -13,6 +13,7 @@ from copy import copy
 from typing import Any, ClassVar, NoReturn, Self, TypeVar
 
 from backend.core.channels import ChannelSpec
+from backend.device.capability import Capability
 from backend.device.configuration import (
     Config,
     ConfigImage,
@@ -28,7 +29,6 @@ from backend.device.live_values import LiveValues
 from backend.device.ride_logs import LogPieces, RideLog, RideLogs
 from backend.device.snapshot import DeviceStatus
 from backend.device.wear_counters import WearCounters
-from backend.domain.capability import Capability
 from backend.errors import CapabilityMissing
 
 Result = TypeVar("Result")

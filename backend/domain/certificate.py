@@ -15,7 +15,7 @@ NOT_COVERED = (
     "restart",
     "other_firmware",
 )
-"""What no proof about the law can hold: see `backend.control.certificate`."""
+"""What no proof about the law can hold: see `backend.law.certificate`."""
 
 
 @dataclass(frozen=True, slots=True)

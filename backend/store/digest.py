@@ -15,8 +15,8 @@ from backend.core.channels import ChannelSpec, Counts, Values
 from backend.core.energy import FACTORS, derivable, derive
 from backend.core.filled import filled_mask, filled_seconds
 from backend.core.pyramid import STEPS, Level, first_level, reduce_groups
-from backend.domain.ride import Gap, Ride, RideSummary, find_gaps, summarise
-from backend.domain.ride_events import RideEvent, events_of_rows, merged
+from backend.core.ride import Gap, Ride, RideSummary, find_gaps, summarise
+from backend.core.ride_events import RideEvent, events_of_rows, merged
 from backend.store.parquet import ROW_GROUP_ROWS, release_memory
 from backend.store.reader import RowSource
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from sqlalchemy import select
 
-from backend.domain.ride import BAD, Ride
+from backend.core.ride import BAD, Ride
 from backend.errors import StoreError
 from backend.store.from_object import mend_row
 from backend.store.objects import FileObjects

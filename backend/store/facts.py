@@ -14,12 +14,12 @@ from typing import Any, TypeVar
 from backend.core.channels import ChannelSpec, channel_to_json
 from backend.core.energy import derivable
 from backend.core.filled import Filled
-from backend.domain.intake import Intake
+from backend.core.intake import Intake
+from backend.core.noted import noted_from_json, noted_to_json
+from backend.core.ride import ORIGINS, Gap, Ride, RideContext
+from backend.core.ride_events import RideEvent
+from backend.core.unit_key import ebl_key
 from backend.domain.logbook.tags import clean_tags
-from backend.domain.noted import noted_from_json, noted_to_json
-from backend.domain.ride import ORIGINS, Gap, Ride, RideContext
-from backend.domain.ride_events import RideEvent
-from backend.domain.unit_key import ebl_key
 
 Item = TypeVar("Item", Filled, Gap, Intake, RideContext, RideEvent)
 

@@ -12,8 +12,8 @@ from sqlalchemy import Connection
 
 from backend.core.channels import Counts
 from backend.core.filled import Filled
-from backend.domain.ride import Ride, RideRows
-from backend.domain.ride_events import RideEvent
+from backend.core.ride import Ride, RideRows
+from backend.core.ride_events import RideEvent
 from backend.store.deletion import MADE
 from backend.store.objects import Objects
 from backend.store.parquet import ROW_GROUP_ROWS, RideFile, read_facts

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 from backend.core.channels import ChannelSpec, Counts
-from backend.domain.ride import Ride, RideRows, TimesUs
+from backend.core.ride import Ride, RideRows, TimesUs
 from backend.store.digest import Digest, digest
 from backend.store.facts import facts_of
 from backend.store.objects import RIDE_SUFFIX, Objects, content_key, file_sha256

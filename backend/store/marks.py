@@ -10,7 +10,7 @@ from dataclasses import asdict
 
 from sqlalchemy import Connection, select, update
 
-from backend.domain.ride_events import EVENTS_MAX, MARK, RideEvent
+from backend.core.ride_events import EVENTS_MAX, MARK, RideEvent
 from backend.errors import Conflict
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database

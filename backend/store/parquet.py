@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from backend.core.channels import ChannelSpec, Counts
-from backend.domain.ride import RideRows, TimesUs
+from backend.core.ride import RideRows, TimesUs
 from backend.errors import StoreError
 from backend.store.pipe import Pipe
 

@@ -18,7 +18,7 @@ from backend.core.channels import ChannelSpec, Counts, Values
 from backend.core.energy import FACTORS, derive, sample_seconds
 from backend.core.filled import filled_seconds
 from backend.core.pyramid import STEPS, Level
-from backend.domain.ride import Ride, RideRows, TimesUs, pause_us
+from backend.core.ride import Ride, RideRows, TimesUs, pause_us
 from backend.errors import StoreError
 from backend.store.soundness import CHANGED, damaged_samples
 from backend.store.sql.blobs import Rows16

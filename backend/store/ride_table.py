@@ -13,10 +13,9 @@ from sqlalchemy import Connection, Row, Select, delete, insert, select, update
 from backend.core.channels import ChannelSpec, channel_to_json
 from backend.core.energy import derivable
 from backend.core.filled import Filled
-from backend.domain.intake import Intake
-from backend.domain.logbook.card import line_kmh
-from backend.domain.noted import noted_from_json, noted_to_json
-from backend.domain.ride import (
+from backend.core.intake import Intake
+from backend.core.noted import noted_from_json, noted_to_json
+from backend.core.ride import (
     BAD,
     ORIGINS,
     STATES,
@@ -28,7 +27,8 @@ from backend.domain.ride import (
     iso_utc,
     readable_name,
 )
-from backend.domain.ride_events import KINDS, RideEvent
+from backend.core.ride_events import KINDS, RideEvent
+from backend.domain.logbook.card import line_kmh
 from backend.errors import FieldError, InvalidRequest
 from backend.store.discard import take_back, with_sidecar
 from backend.store.finish import WrittenObject

@@ -23,9 +23,9 @@ from sqlalchemy import Connection, case, delete, insert, select, update
 
 from backend.core.channels import ChannelSpec
 from backend.core.pyramid import Level
+from backend.core.ride import BAD, DONE, LIVE, Ride, RideContext, RideRows
+from backend.core.ride_events import RideEvent
 from backend.domain.logbook.tags import clean_tags
-from backend.domain.ride import BAD, DONE, LIVE, Ride, RideContext, RideRows
-from backend.domain.ride_events import RideEvent
 from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
 from backend.store.deletion import (
     FILLED,

@@ -14,7 +14,7 @@ from typing import Any
 
 from sqlalchemy import Connection, select
 
-from backend.domain.ride import Ride
+from backend.core.ride import Ride
 from backend.errors import StoreError
 from backend.store.facts import WORDS, facts_of
 from backend.store.objects import Objects, sidecar_key

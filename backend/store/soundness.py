@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
-from backend.domain.ride import BAD, Ride
+from backend.core.ride import BAD, Ride
 from backend.errors import Conflict, ObjectDamaged
 
 LOG = logging.getLogger(__name__)

@@ -12,7 +12,7 @@ from contextlib import ExitStack, contextmanager
 from functools import partial
 from types import TracebackType
 
-from backend.domain.ride import Ride, iso_utc
+from backend.core.ride import Ride, iso_utc
 from backend.errors import StoreError
 from backend.store.configurations import CertificateStore, LibraryStore, RevisionLog
 from backend.store.deletion import SPOOL, Deletions

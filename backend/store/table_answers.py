@@ -9,12 +9,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from backend.domain.table_answer import (
-    TableAnswer,
-    TableQuestion,
-    answer_from_json,
-    answer_to_json,
-)
+from backend.domain.table_answer import TableAnswer, TableQuestion, answer_from_json, answer_to_json
 from backend.errors import NotFound, StoreError
 from backend.store.objects import TABLES, Objects
 

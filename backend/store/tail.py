@@ -10,7 +10,7 @@ import numpy as np
 from sqlalchemy import Connection, Select, select
 
 from backend.core.channels import MISSING_INT16
-from backend.domain.ride import Ride, RideRows
+from backend.core.ride import Ride, RideRows
 from backend.errors import StoreError
 from backend.store.sql import tables as t
 from backend.store.sql.blobs import Rows16, decode_tail

@@ -1,4 +1,4 @@
-"""Units that were seen, and the bikes they are on. Which unit is which: backend/domain/unit_key.py.
+"""Units that were seen, and the bikes they are on. Which unit is which: backend/core/unit_key.py.
 
 A unit that is seen for the first time is on a bike of its own from then on. One that only its url
 is known of is on none: nobody can say which bike that is.
@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from sqlalchemy import Connection, Table, insert, select, update
 from sqlalchemy.dialects import postgresql, sqlite
 
-from backend.domain.ride import RideContext
+from backend.core.ride import RideContext
+from backend.core.unit_key import bike_name, tells_unit
 from backend.domain.sighting import Sighting
-from backend.domain.unit_key import bike_name, tells_unit
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
 

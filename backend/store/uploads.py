@@ -20,7 +20,7 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, Select, func, insert, select, union_all, update
 
-from backend.domain.ride import iso_utc
+from backend.core.ride import iso_utc
 from backend.errors import BadFile, Conflict, NotFound, StoreError
 from backend.store.deletion import BESIDE, MADE, Deletions, forget_upload, join_source
 from backend.store.objects import Objects, content_key, file_sha256

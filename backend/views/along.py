@@ -14,9 +14,9 @@ from typing import Literal, Protocol
 import numpy as np
 import numpy.typing as npt
 
+from backend.core._generated import MOVING_KMH
 from backend.core.channels import ChannelSpec, Counts, Values
-from backend.domain._generated import MOVING_KMH
-from backend.domain.ride import PAUSE_MIN_US, TimesUs
+from backend.core.ride import PAUSE_MIN_US, TimesUs
 from backend.errors import FieldError, InvalidRequest
 from backend.views.insight.way import way_of
 

@@ -45,7 +45,7 @@ import numpy.typing as npt
 
 from backend.core.channels import ChannelSpec, Counts, Values
 from backend.core.pyramid import Level, reduce_groups
-from backend.domain.ride import pause_us
+from backend.core.ride import pause_us
 from backend.errors import FieldError, InvalidRequest
 from backend.views.along import Along, Axis, Rows, told_along
 

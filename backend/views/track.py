@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.core.channels import Values
-from backend.domain.ride import PAUSE_MIN_US
+from backend.core.ride import PAUSE_MIN_US
 from backend.views.along import ODOMETER, SPEED, Axis, Rows, places
 
 LATITUDE, LONGITUDE = "latitude_deg", "longitude_deg"

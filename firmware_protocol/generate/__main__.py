@@ -40,7 +40,7 @@ def outputs(root: Path) -> dict[Path, str]:
         folder / "c" / "ebl_messages.c": c_source.messages_source(registry),
         schema_file: c_source.schema_source(compressed, digest),
         folder / "_generated.py": python.module(registry, digest),
-        root / "backend/domain/_generated.py": python.domain_module(registry),
+        root / "backend/core/_generated.py": python.domain_module(registry),
         root / "frontend/src/generated/registry.ts": typescript.module(registry),
         folder / "wireshark" / "ebl.lua": wireshark.dissector(registry, logic),
         folder / "a2l" / "ebl.a2l": a2l.description(registry, digest),

@@ -64,7 +64,7 @@ def _riding(registry: Registry) -> list[str]:
 
 
 def domain_module(registry: Registry) -> str:
-    """The text of backend/domain/_generated.py, which needs nothing of the wire."""
+    """The text of backend/core/_generated.py, which needs nothing of the wire."""
     flags = next(table for table in registry.flags if table.name == "input_flags")
     return "\n".join([FIRST_LINE, "", *_riding(registry), "", *_masks(flags)]) + "\n"
 

@@ -15,9 +15,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from backend.control.recorded_ride import recorded
-from backend.control.twin import RoadTwin
-from backend.domain.rider_and_bike import RiderAndBike
+from backend.law.recorded_ride import recorded
+from backend.law.rider_and_bike import RiderAndBike
+from backend.law.twin import RoadTwin
 from sim_device import preset
 from sim_device.firmware.python import law
 from sim_device.firmware.python.twin import Rider

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from backend.domain.fuzzy_table import THESIS_TABLE
+from backend.core.fuzzy_table import THESIS_TABLE
 from firmware_protocol.parameters import default_config
 from sim_device.firmware.python import law
 from tests.bench.figures import Figure, best_of

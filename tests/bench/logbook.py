@@ -15,7 +15,7 @@ import numpy as np
 from sqlalchemy import Connection, insert, select
 
 from backend.core.channels import ChannelSpec
-from backend.domain.ride import Ride, RideContext, RideRows
+from backend.core.ride import Ride, RideContext, RideRows
 from backend.services.rides.cards import RideCards
 from backend.services.rides.home import RiderHome
 from backend.services.rides.review import Rides

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from backend.core.channels import ChannelSpec
-from backend.domain.ride import RideContext
+from backend.core.ride import RideContext
 from backend.store import Store, open_store
 from backend.views.trace import trace
 from firmware_protocol._generated import CHANNELS

@@ -12,8 +12,8 @@ from pathlib import Path
 import fitdecode
 import httpx
 
-from backend.ingest import Outcome, Readers, read_in_child
-from backend.ingest.formats import read_file
+from backend.formats import Outcome, Readers, read_in_child
+from backend.formats.formats import read_file
 from tests.bench.figures import Figure, best_of
 from tests.bench.law import RIVALS
 from tests.bench.server import serving

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from backend.link import Link, Opener
+from backend.device.link import Link, Opener
 from firmware_protocol import codec, framing
 from firmware_protocol._generated import (
     BootEvent,

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from backend.link import Opener
+from backend.device.link import Opener
 from firmware_protocol import codec, framing
 from firmware_protocol._generated import MTU_BEFORE_HELLO, HelloRequest, HelloResponse, Status
 from sim_device import emulator

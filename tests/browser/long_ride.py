@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.core.channels import ChannelSpec
-from backend.domain.ride import RideContext
+from backend.core.ride import RideContext
 from backend.store import open_store
 
 ROWS = 720_000

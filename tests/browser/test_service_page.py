@@ -13,7 +13,7 @@ from pathlib import Path
 
 from playwright.sync_api import Route, expect
 
-from backend.ingest.backup import read_backup
+from backend.formats.backup import read_backup
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import sideways
 from tests.browser.judged import COVERED, JUDGE, moved

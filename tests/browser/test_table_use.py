@@ -17,7 +17,7 @@ import pytest
 from playwright.sync_api import Page, Route, expect
 
 from backend.core.channels import ChannelSpec
-from backend.domain.ride import RideContext
+from backend.core.ride import RideContext
 from backend.store import open_store
 from firmware_protocol._generated import CHANNELS
 from tests.browser.conftest import OpenDesk

@@ -10,11 +10,11 @@ from dataclasses import dataclass, field
 import fitdecode
 import numpy as np
 
-from backend.domain.standards.fit import FIELD_DESCRIPTION, RECORD
-from backend.ingest.fit.fields import PROFILE_NAMES, channel_name, descriptions, table_of
-from backend.ingest.fit.profile import RECORD_FIELDS
-from backend.ingest.fit.salvage import Salvaging
-from backend.ingest.fit.walk import sound_parts
+from backend.formats.fit.fields import PROFILE_NAMES, channel_name, descriptions, table_of
+from backend.formats.fit.profile import RECORD_FIELDS
+from backend.formats.fit.salvage import Salvaging
+from backend.formats.fit.walk import sound_parts
+from backend.formats.fit_numbers import FIELD_DESCRIPTION, RECORD
 
 FIT_EPOCH_S = 631_065_600
 SEMICIRCLE_DEG = 180.0 / 2**31

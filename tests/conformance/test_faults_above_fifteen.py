@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from backend.ingest.blocks import EVENT, Block
-from backend.ingest.ride_logs import events_in
+from backend.formats.blocks import EVENT, Block
+from backend.formats.ride_logs import events_in
 from firmware_protocol._generated import EvtFaultClearRequest, FaultSetEvent, LogEvent
 from firmware_protocol.generate import a2l, c_header, c_source, typescript, wireshark
 from firmware_protocol.generate.registry import BadRegistry, Registry, load

@@ -13,9 +13,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from backend.device.driver import LinkOpener
-from backend.link import Link, Opener
-from backend.link.base import READ_BYTES_MAX
-from backend.link.simulated import SimulatedAddress
+from backend.device.link import Link, Opener
+from backend.device.link.base import READ_BYTES_MAX
+from backend.device.link.simulated import SimulatedAddress
 from sim_device.__main__ import command_line, host_unit
 from sim_device.emulator import BOARD_VARIABLE
 from sim_device.lockstep import US_PER_S
@@ -26,7 +26,7 @@ PIECES_MAX = 5
 
 
 class UnitHere:
-    """A link whose far end is a simulated unit; arguments as of backend.link.Opener.
+    """A link whose far end is a simulated unit; arguments as of backend.device.link.Opener.
 
     Raises SystemExit for a url whose words the simulator does not take.
     """

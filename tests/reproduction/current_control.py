@@ -1,4 +1,4 @@
-"""Writes docs/current-control.md: `python -m tests.reproduction.current_control`, two minutes.
+"""Writes docs/current-law.md: `python -m tests.reproduction.current_control`, two minutes.
 
 The last step of the list that the page Why shows is what the motor gave less what the law, run
 again on the recorded readings, tells it. Here it is measured on rides that a server recorded: five
@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from backend import control
+from backend import law
 from backend.services.rides.replay import law_inputs, read_columns
 from backend.store import open_store
 from sim_device.scenario_file import load, names
 from tests.fakes.server import ServerProcess, SpindleServer, eventually
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "current-control.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "current-law.md"
 RIDDEN_S, REST_S = 300.0, 60.0
 HEAD = """# What current control misses
 
@@ -58,8 +58,8 @@ def recorded(server: SpindleServer, name: str) -> tuple[int, dict[str, Any]]:
 
 def row(name: str, columns: dict[str, Any], config: dict[str, Any], step_s: float) -> str:
     """One scenario's line."""
-    readings = control.law_readings(config, law_inputs(columns))
-    told_nm = np.asarray(control.replay(config, step_s=step_s, **readings).motor_torque_nm)
+    readings = law.law_readings(config, law_inputs(columns))
+    told_nm = np.asarray(law.replay(config, step_s=step_s, **readings).motor_torque_nm)
     given_nm = columns["motor_torque_nm"]
     driven = (told_nm > 0.0) | (given_nm > 0.0)
     gear = config["gear_ratio"]

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from backend.control import feel
-from backend.control.feel import SPORT, STEP_S, Numbers, assisted, seconds_of
 from backend.core.energy import SECONDS_PER_HOUR
+from backend.law import feel
+from backend.law.feel import SPORT, STEP_S, Numbers, assisted, seconds_of
 from backend.views.table_use import table_use
 from sim_device.preset import load
 from sim_device.preset_unit import preset_unit

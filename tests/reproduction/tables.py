@@ -6,8 +6,8 @@ Every number on the page is computed now, by the simulated unit with the table u
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from backend.control import lint, presets
-from backend.domain.fuzzy_table import FuzzyTable
+from backend.core.fuzzy_table import FuzzyTable
+from backend.law import lint, presets
 from firmware_protocol._generated import PARAMETERS
 from firmware_protocol.configuration_file import TABLE
 from firmware_protocol.parameters import default_config

@@ -30,7 +30,7 @@ KINDS: tuple[tuple[str, tuple[str, ...]], ...] = (
     (SERVER, ("backend.cli serve", "backend.dev")),
     (COMMAND, ("backend.cli", "bin/spindle")),
     (UNIT, ("sim_device unit",)),
-    (READER, ("backend.ingest.worker",)),
+    (READER, ("backend.formats.worker",)),
     (COMPILER, ("gcc", "clang", "cc ")),
 )
 

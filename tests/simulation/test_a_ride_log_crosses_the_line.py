@@ -28,7 +28,7 @@ from backend.device.ride_logs import RideLog
 from backend.device.states import LinkState
 from backend.device.stream import StreamBlock
 from backend.errors import DeviceRefused
-from backend.ingest.ride_logs import read_blocks
+from backend.formats.ride_logs import read_blocks
 from tests.fakes.bench_logs import unit_with_log
 from tests.fakes.bench_unit import BenchUnit
 from tests.fakes.serial_wire import SerialWire

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
+from backend.device.link.simulated import SimulatedLink
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock
-from backend.link.simulated import SimulatedLink
 from backend.services.tuning.tune import Tuning
 from backend.services.units.connect import Devices
 from tests.fakes.revisions import MemoryRevisions

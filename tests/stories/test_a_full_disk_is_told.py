@@ -15,8 +15,8 @@ from typing import Any
 
 import pytest
 
+from backend.device.link.simulated import SimulatedLink
 from backend.errors import LinkError, StoreError
-from backend.link.simulated import SimulatedLink
 from backend.store import open_store
 from tests.fakes.ride_in_time import ride_on
 from tests.fakes.server import ServerProcess, eventually

@@ -11,7 +11,7 @@ import time
 
 from backend.device.driver import Driver
 from backend.device.ebl.session.operation import ask
-from backend.link import Opener
+from backend.device.link import Opener
 from firmware_protocol._generated import AliveRequest, AliveResponse
 from tests.fakes.ebl_driver import ebl_driver
 from tests.fakes.server import eventually

@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from backend.domain.ride import Ride
-from backend.ingest import ImportedRide, Outcome
-from backend.ingest.formats import read_file
+from backend.core.ride import Ride
+from backend.formats import ImportedRide, Outcome
+from backend.formats.formats import read_file
 from backend.services.imports.collect import Collect
 from backend.services.imports.upload import Uploads
 from backend.services.rides.record import Recorder, RecordSettings

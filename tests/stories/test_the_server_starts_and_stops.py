@@ -152,7 +152,7 @@ def test_a_server_that_ends_waits_for_no_file_that_is_read(tmp_path: Path) -> No
         sending = browser.submit(
             server.client.post, "/rides/import?name=a.fit", content=fit_file(commute(60))
         )
-        (reader,) = eventually(lambda: children_of(server.pid, b"backend.ingest.worker"))
+        (reader,) = eventually(lambda: children_of(server.pid, b"backend.formats.worker"))
         os.kill(reader, signal.SIGSTOP)
 
         said = server.stop(signal.SIGTERM)
@@ -174,7 +174,7 @@ def test_a_file_that_is_read_when_the_server_ends_is_one_ride_after_the_next_sta
         sending = browser.submit(
             first.client.post, "/rides/import?name=a.fit", content=fit_file(commute(3000))
         )
-        readers = eventually(lambda: children_of(first.pid, b"backend.ingest.worker"))
+        readers = eventually(lambda: children_of(first.pid, b"backend.formats.worker"))
 
         said = first.stop(ending)
         sending.exception()

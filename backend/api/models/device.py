@@ -8,7 +8,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from backend.core.request_body import RequestBody
-from backend.domain.capability import Capability
+from backend.device.capability import Capability
 from backend.web.models import Answer
 
 DeviceKind = Literal["simulated", "serial", "socket"]

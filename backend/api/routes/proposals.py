@@ -8,7 +8,7 @@ from fastapi import APIRouter, Path, Response
 
 from backend.api.models.proposal import Proposal, ProposalRequest
 from backend.api.services import Provided
-from backend.domain.rider_and_bike import RiderAndBike
+from backend.law.rider_and_bike import RiderAndBike
 from backend.web.problem import refusals
 
 router = APIRouter(prefix="/proposals", tags=["proposals"], responses=refusals(404))

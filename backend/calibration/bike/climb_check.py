@@ -17,7 +17,7 @@ from backend.calibration.bike.types import CalibratedTorque, CertificateOfTorque
 from backend.calibration.bike.wheel_measure import Rows, refusal, rows_of
 from backend.core.channels import Values
 from backend.core.energy import KMH_PER_MS, MOTOR_POWER, MOTOR_TORQUE, MOTOR_TORQUE_DEMANDED
-from backend.domain.ride import Ride
+from backend.core.ride import Ride
 from backend.services.rides.insight.rows import Window
 from backend.store import Store
 

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from backend.calibration.bike.track import track_of
 from backend.calibration.bike.types import BesideUnit, Wheel
 from backend.calibration.bike.wheel import Circumference, cut_off, from_gps, roll_out, summed
+from backend.core._generated import MOVING_KMH
 from backend.core.channels import Values
 from backend.core.energy import KMH_PER_MS
-from backend.domain._generated import MOVING_KMH
-from backend.domain.ride import Ride
+from backend.core.ride import Ride
 from backend.errors import FieldError, InvalidRequest
 from backend.services.rides.insight.rows import Window, columns_from
 from backend.services.rides.settings_in_force import ConfigOf, all_through

@@ -9,6 +9,8 @@ from itertools import count
 from typing import Any, TypeVar, cast
 
 from backend.core.channels import ChannelSpec
+from backend.core.unit_key import EBL
+from backend.device.capability import Capability
 from backend.device.configuration import (
     Config,
     ConfigImage,
@@ -39,8 +41,6 @@ from backend.device.ride_logs import LogPieces, RideLog, RideLogs
 from backend.device.states import LinkState
 from backend.device.unit import Unit
 from backend.device.wear_counters import WearCounters
-from backend.domain.capability import Capability
-from backend.domain.unit_key import EBL
 from backend.errors import CapabilityMissing, DeviceRefused, SpindleError
 
 Result = TypeVar("Result")

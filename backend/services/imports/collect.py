@@ -25,10 +25,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import BinaryIO
 
+from backend.core.ride import iso_utc
+from backend.core.unit_key import EBL, serial_of
 from backend.device.ride_logs import LogPieces, RideLog, RideLogs
 from backend.device.unit import Unit
-from backend.domain.ride import iso_utc
-from backend.domain.unit_key import EBL, serial_of
 from backend.errors import (
     Conflict,
     DeviceRefused,
@@ -40,7 +40,7 @@ from backend.errors import (
     SpindleError,
     StoreError,
 )
-from backend.ingest.blocks import BLOCKS_SUFFIX, PAGE_BYTES, sync_block
+from backend.formats.blocks import BLOCKS_SUFFIX, PAGE_BYTES, sync_block
 from backend.services.imports.upload import Uploads
 from backend.services.units.connect import Devices
 from backend.services.units.outcome import find_outcome, telling

@@ -15,9 +15,9 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
 
-from backend.domain.ride import Ride
+from backend.core.ride import Ride
 from backend.errors import InvalidRequest, NotFound
-from backend.ingest import (
+from backend.formats import (
     NEEDS_MAPPING,
     BrokenArchive,
     Entry,
@@ -26,7 +26,7 @@ from backend.ingest import (
     ReadingStopped,
     Titles,
 )
-from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED
+from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED
 from backend.services.imports.naming import ride_name
 from backend.store import Store, Upload, Verdict
 

@@ -19,9 +19,9 @@ import numpy.typing as npt
 
 from backend.core.channels import Counts
 from backend.core.filled import Filled, filled_mask
-from backend.domain.ride import Ride
-from backend.domain.ride_events import CLOCK_SET, RideEvent
-from backend.ingest import ImportedRide
+from backend.core.ride import Ride
+from backend.core.ride_events import CLOCK_SET, RideEvent
+from backend.formats import ImportedRide
 from backend.services.imports.same_ride import ride_span_us
 from backend.store import RideStore
 from backend.store.filling import Filling

@@ -16,11 +16,11 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.core.energy import KMH_PER_MS
+from backend.core.ride import Ride
 from backend.core.sphere import EARTH_M
-from backend.domain.ride import Ride
-from backend.ingest import ImportedRide
+from backend.formats import ImportedRide
+from backend.formats.export.seconds import BySecond, by_second
 from backend.store import RideStore, Sought
-from backend.views.export.seconds import BySecond, by_second
 
 LATITUDE, LONGITUDE = "latitude_deg", "longitude_deg"
 # What tells a recording from another, and what formats round off: TCX has whole watts, GPX 7 digits

@@ -10,7 +10,7 @@ from typing import Any
 
 from backend.domain.table_answer import TableAnswer, answer_from_json, answer_to_json, lacking
 from backend.errors import FieldError, InvalidRequest
-from backend.ingest import NEEDS_MAPPING
+from backend.formats import NEEDS_MAPPING
 from backend.services.imports.container import PART_ASKS
 from backend.services.imports.upload import Uploads
 from backend.store import Store, Upload

@@ -14,7 +14,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 
 from backend.errors import Conflict, NotFound, SpindleError
-from backend.ingest import ReadingStopped
+from backend.formats import ReadingStopped
 from backend.store import Upload
 
 LOG = logging.getLogger(__name__)

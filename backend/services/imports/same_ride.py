@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from backend.domain.ride import Ride
-from backend.ingest import ImportedRide
+from backend.core.ride import Ride
+from backend.formats import ImportedRide
 from backend.store import RideStore, Sought
 
 # A log and a recording that have so much of the unit's time in common, or half of the log, are of

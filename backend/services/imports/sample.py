@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from backend.control.sample_ride import sample_log
 from backend.errors import StoreError
-from backend.ingest.blocks import BLOCKS_SUFFIX
+from backend.formats.blocks import BLOCKS_SUFFIX
+from backend.law.sample_ride import sample_log
 from backend.services.imports.upload import Uploads
 from backend.store import Store
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from backend.domain.ride import Ride, iso_utc
-from backend.ingest import ImportedRide, Outcome
+from backend.core.ride import Ride, iso_utc
+from backend.formats import ImportedRide, Outcome
 
 
 @dataclass

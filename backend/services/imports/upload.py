@@ -18,10 +18,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
-from backend.domain.ride import Ride, iso_utc
+from backend.core.ride import Ride, iso_utc
 from backend.domain.table_answer import TableAnswer, TableQuestion
 from backend.errors import BadFile, Conflict, InvalidRequest
-from backend.ingest import (
+from backend.formats import (
     NEEDS_MAPPING,
     SNIFFED_BYTES,
     ImportedRide,
@@ -31,7 +31,7 @@ from backend.ingest import (
     read_in_child,
     refused_by_head,
 )
-from backend.ingest.outcome import COMPLETE, PARTIAL, REJECTED, TOO_SLOW
+from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED, TOO_SLOW
 from backend.services.imports.container import Container, Unpacker
 from backend.services.imports.fill import fill
 from backend.services.imports.kinship import Kind, kin_of

@@ -15,7 +15,7 @@ import time
 from collections.abc import Iterator, Sequence
 from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
 
-from backend.domain.ride import Ride, iso_utc
+from backend.core.ride import Ride, iso_utc
 from backend.errors import NotFound, SpindleError
 from backend.services.rides.export import Export, export
 from backend.services.rides.share import share

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from backend.core.energy import RIDER_POWER
+from backend.core.ride import Ride, RidePlace
+from backend.core.ride_events import FAULT_SET, MARK
 from backend.domain.logbook.card import BEST_S, RideCard, ends_of, speed_line
-from backend.domain.ride import Ride, RidePlace
-from backend.domain.ride_events import FAULT_SET, MARK
 from backend.gazetteer import Gazetteer
 from backend.services.rides.derived import DueRides, made_or
 from backend.services.rides.insight.rows import WAY, RideColumns, columns_of

@@ -9,7 +9,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import TypeVar
 
-from backend.domain.ride import Ride
+from backend.core.ride import Ride
 from backend.errors import NotFound, SpindleError
 from backend.store import Store
 

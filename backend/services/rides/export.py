@@ -6,15 +6,15 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import BinaryIO
 
-from backend.domain.ride import Ride
+from backend.core.ride import Ride
 from backend.errors import InvalidRequest, NotFound
+from backend.formats.export import fit, gpx
+from backend.formats.export.csv import csv_chunks
+from backend.formats.export.names import told_names
+from backend.formats.export.seconds import BySecond, by_second
 from backend.store import RideReader, Store
 from backend.store.facts import facts_of
 from backend.store.parquet import ROW_GROUP_ROWS, physical_chunks
-from backend.views.export import fit, gpx
-from backend.views.export.csv import csv_chunks
-from backend.views.export.names import told_names
-from backend.views.export.seconds import BySecond, by_second
 
 PIECE_BYTES = 1 << 16
 CSV_ROWS = 4096

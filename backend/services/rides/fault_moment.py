@@ -19,10 +19,10 @@ import numpy.typing as npt
 
 from backend.core.channels import MISSING_INT16, Values
 from backend.core.energy import MOTOR_TORQUE, motor_torque_meaning
+from backend.core.ride import Ride, RideContext
 from backend.device.faults import UnitFault
 from backend.device.states import DeviceEvent
 from backend.device.stream import StreamBlock
-from backend.domain.ride import Ride, RideContext
 from backend.errors import NotFound
 from backend.store import RideStore, Sought
 

@@ -6,7 +6,7 @@ import logging
 from collections.abc import Sequence
 from concurrent.futures import Future
 
-from backend.domain.ride import Ride
+from backend.core.ride import Ride
 from backend.errors import StoreError
 from backend.store import RideStore
 

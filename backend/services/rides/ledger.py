@@ -15,7 +15,7 @@ import numpy as np
 
 from backend.core.channels import Values
 from backend.core.energy import MOTOR_POWER, SECONDS_PER_HOUR
-from backend.domain.fuzzy_table import PARAMETERS_OF, stored_json
+from backend.core.fuzzy_table import PARAMETERS_OF, stored_json
 from backend.errors import InvalidRequest
 from backend.services.rides.settings_in_force import ConfigOf, Stretch, source_of, stretches
 from backend.services.rides.use_of_table import (

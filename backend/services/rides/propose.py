@@ -20,15 +20,15 @@ from typing import Any
 
 import numpy as np
 
-from backend import control
-from backend.control import proposal
-from backend.control.front_search import GENERATIONS, POPULATION, Tried, front_of
+from backend import law
+from backend.core.assist_mode import AssistModes
 from backend.core.energy import SECONDS_PER_HOUR
-from backend.domain.assist_mode import AssistModes
-from backend.domain.fuzzy_table import FuzzyTable
-from backend.domain.rider_and_bike import RiderAndBike
+from backend.core.fuzzy_table import FuzzyTable
 from backend.errors import Conflict, InvalidRequest, NotFound, SpindleError
-from backend.ingest.library_document import settings_document
+from backend.formats.library_document import settings_document
+from backend.law import proposal
+from backend.law.front_search import GENERATIONS, POPULATION, Tried, front_of
+from backend.law.rider_and_bike import RiderAndBike
 from backend.services.rides.ride_again import twin_of
 from backend.services.rides.settings_in_force import ConfigOf, unchanged
 from backend.services.tuning.certify import KeptCertificates
@@ -104,7 +104,7 @@ class _Work:
     job: Job
     road: proposal.Road
     space: proposal.Space
-    twins: Sequence[control.RoadTwin]
+    twins: Sequence[law.RoadTwin]
     config: Mapping[str, Any]
     stopped: threading.Event = field(default_factory=threading.Event)
 
@@ -151,7 +151,7 @@ class Proposals:
         if waiting >= WAITING_MAX:
             raise Conflict(f"{waiting} proposals are being made: wait or cancel one.", "busy")
         config, source = unchanged(self._config_of, self._store.rides.get(ride_ids[0]))
-        config = {**control.law_defaults(), **config}
+        config = {**law.law_defaults(), **config}
         twins = [self._twin(ride_id, told or RiderAndBike()) for ride_id in ride_ids]
         road = proposal.Road(twins, objective, config)
         space = proposal.Space(config, road.modes, knobs)
@@ -204,9 +204,9 @@ class Proposals:
             raise NotFound(f"There is no proposal {job_id}: this server keeps the newest alone.")
         return found
 
-    def _twin(self, ride_id: int, told: RiderAndBike) -> control.RoadTwin:
+    def _twin(self, ride_id: int, told: RiderAndBike) -> law.RoadTwin:
         reader = self._store.rides.reader(ride_id)
-        own = {**control.law_defaults(), **unchanged(self._config_of, reader.ride)[0]}
+        own = {**law.law_defaults(), **unchanged(self._config_of, reader.ride)[0]}
         return twin_of(reader, own, told)
 
     def _tell(self, work: _Work, **news: Any) -> None:
@@ -356,7 +356,7 @@ def figures(work: _Work, config: Mapping[str, Any]) -> tuple[Figure, Figure]:
 
 def codes_of(config: Mapping[str, Any], which: str) -> set[str]:
     """What the linter doubts: its errors and warnings by code."""
-    report = control.lint(
+    report = law.lint(
         FuzzyTable.from_parameters(config, which),
         AssistModes.from_parameters(config),
         config,

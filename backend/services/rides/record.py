@@ -20,13 +20,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from backend.core._generated import MOVING_KMH, MOVING_RPM, STANDING_S
 from backend.core.channels import MISSING_INT16, ChannelSpec
+from backend.core.ride import Ride, RideContext, RideSummary
+from backend.device.host_clock import wall_offset_us
 from backend.device.states import DeviceEvent, LinkState, StateChanged, UnitEvent
 from backend.device.stream import LostBy, StreamBlock, unwrap_us
-from backend.domain._generated import MOVING_KMH, MOVING_RPM, STANDING_S
-from backend.domain.ride import Ride, RideContext, RideSummary
 from backend.errors import SpindleError, StoreError
-from backend.services.host_clock import wall_offset_us
 from backend.services.rides.finishing import Finishing
 from backend.services.rides.missing_rows import MissingRows
 from backend.services.rides.ride_bounds import (

@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from backend import control
+from backend import law
+from backend.core._generated import INPUT_FLAGS
 from backend.core.channels import ChannelSpec, Values
 from backend.core.energy import DELIVERED, KMH_PER_MS, RADIANS_PER_S_PER_RPM, SECONDS_PER_HOUR
-from backend.domain._generated import INPUT_FLAGS
-from backend.domain.ride import Ride, largest
+from backend.core.ride import Ride, largest
 from backend.errors import InvalidRequest
 from backend.services.rides.settings_in_force import ConfigOf, Stretch, source_of, stretches
 from backend.services.tuning.preview import Preview
@@ -84,7 +84,7 @@ class RideReplay:
         parts = stretches(self._config_of, ride)
         inputs = law_inputs(columns)
 
-        def of(part: Stretch) -> control.Replay:
+        def of(part: Stretch) -> law.Replay:
             start, stop = part.rows(reader)
             before = warm_up_row(ride, start)
             rows = {
@@ -94,7 +94,7 @@ class RideReplay:
             changes = fuzzy_table, assist_modes, step_s, second_table, parameters
             return self._preview.replay(part.config, rows, *changes, first=start - before)
 
-        replayed = control.joined([of(part) for part in parts])
+        replayed = law.joined([of(part) for part in parts])
         new_nm = np.asarray(replayed.motor_torque_nm, np.float64)
         # What was only asked of a motor is not compared with what it gives.
         delivered = ride.motor_torque_meaning == DELIVERED
@@ -106,7 +106,7 @@ class RideReplay:
             "mode": "open_loop",
             "meaning": OPEN_LOOP,
             "config_source": source_of(parts),
-            "engine": control.ENGINE,
+            "engine": law.ENGINE,
             "inputs_missing": inputs_missing(columns),
             "rows": len(new_nm),
             "motor_torque_meaning": ride.motor_torque_meaning,
@@ -117,7 +117,7 @@ class RideReplay:
             "motor_work_wh": compared(recorded_wh, replayed.motor_work_wh),
             "motor_torque_nm_max": compared(largest(recorded_nm), replayed.motor_torque_nm_max),
             **on_the_way(
-                columns["speed_kmh"] / KMH_PER_MS > control.STANDING_MS,
+                columns["speed_kmh"] / KMH_PER_MS > law.STANDING_MS,
                 (recorded_wh, recorded_nm),
                 (replayed.motor_work_wh, new_nm),
                 step_s,
@@ -189,7 +189,7 @@ def warm_up_row(ride: Ride, row: int) -> int:
 def inputs_missing(columns: Mapping[str, Values]) -> list[str]:
     """The channels of the law's inputs that a ride has not one sample of.
 
-    What stands for them is the law's business: backend.control.replay.
+    What stands for them is the law's business: backend.law.replay.
     """
     known = {name for name, values in columns.items() if np.isfinite(values).any()}
     return [name for name in (*OPTIONAL, FLAGS) if name not in known]
@@ -252,10 +252,10 @@ def on_the_way(
         return {"motor_power_w_mean": None, "ripple_nm_per_s": None}
 
     def power_w(work_wh: float) -> float:
-        return control.power_w_mean(work_wh * SECONDS_PER_HOUR, moving, step_s)
+        return law.power_w_mean(work_wh * SECONDS_PER_HOUR, moving, step_s)
 
     def ripple(torque_nm: Values) -> float:
-        return control.ripple_nm_per_s(torque_nm, moving, step_s)
+        return law.ripple_nm_per_s(torque_nm, moving, step_s)
 
     (then_wh, then_nm), (now_wh, now_nm) = recorded, replayed
     return {
@@ -286,7 +286,7 @@ def recorded_shares(flags: Values | None) -> dict[str, float] | None:
     """
     if flags is None or not np.isfinite(flags).any():
         return None
-    return control.limit_shares(flags[np.isfinite(flags)].astype(np.uint16))
+    return law.limit_shares(flags[np.isfinite(flags)].astype(np.uint16))
 
 
 class ReplayedReader:

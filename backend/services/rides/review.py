@@ -8,7 +8,7 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from typing import Any
 
-from backend.domain.ride import BAD, Ride, RideSummary
+from backend.core.ride import BAD, Ride, RideSummary
 from backend.errors import InvalidRequest, NotFound
 from backend.services.rides.archive import archive
 from backend.services.rides.export import Export, export

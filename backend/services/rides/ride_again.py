@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from backend import control
+from backend import law
+from backend.core._generated import INPUT_FLAGS
 from backend.core.channels import Values
 from backend.core.energy import DELIVERED, SECONDS_PER_HOUR
-from backend.domain._generated import INPUT_FLAGS
-from backend.domain.rider_and_bike import RiderAndBike
 from backend.errors import InvalidRequest
+from backend.law.rider_and_bike import RiderAndBike
 from backend.services.rides.replay import FLAGS, read_columns
 from backend.services.rides.settings_in_force import ConfigOf, unchanged
 from backend.services.tuning.preview import changed_config
@@ -94,7 +94,7 @@ class RideAgain:
         }
 
 
-def trust(twin: control.RoadTwin, own: control.Totals) -> dict[str, Any]:
+def trust(twin: law.RoadTwin, own: law.Totals) -> dict[str, Any]:
     """How far the twin is off without any change, and what it rests on."""
     return {
         "no_change_error_pct": 100.0 * share_off(own.motor_work_j, twin.ride.motor_work_j),
@@ -105,7 +105,7 @@ def trust(twin: control.RoadTwin, own: control.Totals) -> dict[str, Any]:
     }
 
 
-def twin_of(reader: RideReader, config: Config, told: RiderAndBike) -> control.RoadTwin:
+def twin_of(reader: RideReader, config: Config, told: RiderAndBike) -> law.RoadTwin:
     """The ride's twin. config: the unit's on the ride. told: of rider and bike.
 
     Raises InvalidRequest with the reason where the ride cannot be trusted for that.
@@ -113,8 +113,8 @@ def twin_of(reader: RideReader, config: Config, told: RiderAndBike) -> control.R
     columns = read_columns(reader)
     refuse_what_cannot_be_laid_over(reader, columns)
     step_s = (reader.ride.period_us or 0) / 1e6
-    ride = control.recorded_ride(with_brake(columns), config, step_s)
-    twin = control.RoadTwin(ride, config, told)
+    ride = law.recorded_ride(with_brake(columns), config, step_s)
+    twin = law.RoadTwin(ride, config, told)
     refuse_what_differs(reader.ride.id, twin)
     return twin
 
@@ -163,7 +163,7 @@ def refuse_what_cannot_be_laid_over(reader: RideReader, columns: Columns) -> Non
         )
 
 
-def refuse_what_differs(ride_id: int, twin: control.RoadTwin) -> None:
+def refuse_what_differs(ride_id: int, twin: law.RoadTwin) -> None:
     """Raises InvalidRequest if the twin, without a change, does not come to what the ride was."""
     again, ride = twin.self_replay, twin.ride
     work = share_off(again.motor_work_j, ride.motor_work_j)
@@ -179,12 +179,10 @@ def refuse_what_differs(ride_id: int, twin: control.RoadTwin) -> None:
 
 def share_off(told_j: float, recorded_j: float) -> float:
     """How far a work is off, as a share of the recorded one."""
-    return (told_j - recorded_j) / max(abs(recorded_j), control.WORK_LEAST_J)
+    return (told_j - recorded_j) / max(abs(recorded_j), law.WORK_LEAST_J)
 
 
-def estimates(
-    twin: control.RoadTwin, again: control.Totals, band: control.Band
-) -> dict[str, Estimate | None]:
+def estimates(twin: law.RoadTwin, again: law.Totals, band: law.Band) -> dict[str, Estimate | None]:
     """Each figure of the ride with its band; None for what the ride did not record."""
     recorded, told = twin.recorded, twin.corrected(again)
 
@@ -228,12 +226,10 @@ def way_on(battery_wh: Estimate, wh_km: float) -> Estimate | None:
     return estimate(*(wh_km / battery_wh[name] for name in order))
 
 
-def limits(
-    twin: control.RoadTwin, own: control.Totals, again: control.Totals
-) -> list[dict[str, Any]]:
+def limits(twin: law.RoadTwin, own: law.Totals, again: law.Totals) -> list[dict[str, Any]]:
     """Seconds on the way that each limit was at work, where it was. What the record has on top of
     the twin without a change is on top of the estimate too."""
-    recorded = control.limits_of_record(twin.ride)
+    recorded = law.limits_of_record(twin.ride)
     told = []
     for name, own_s in own.limit_s.items():
         recorded_s = None if recorded is None else recorded[name]
@@ -244,14 +240,14 @@ def limits(
     return told
 
 
-def curves(twin: control.RoadTwin, own: Samples, again: Samples) -> dict[str, Any]:
+def curves(twin: law.RoadTwin, own: Samples, again: Samples) -> dict[str, Any]:
     """The three rides over the distance, as the API tells them."""
     turn_m = 2.0 * math.pi * twin.reach_m
-    ends_km = control.places_km(twin.ride, turn_m)
+    ends_km = law.places_km(twin.ride, turn_m)
     of = {
-        "recorded": control.curves_of_record(twin.ride, ends_km),
-        "unchanged": control.curves_of(own, ends_km),
-        "replayed": control.curves_of(again, ends_km),
+        "recorded": law.curves_of_record(twin.ride, ends_km),
+        "unchanged": law.curves_of(own, ends_km),
+        "replayed": law.curves_of(again, ends_km),
     }
     middles = 0.5 * (ends_km[1:] + ends_km[:-1])
     told = {

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from backend.domain.ride_events import RideEvent
+from backend.core.ride_events import RideEvent
 from backend.errors import StoreError
 from backend.store import RideStore
 

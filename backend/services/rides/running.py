@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from backend.core._generated import MOVING_KMH
 from backend.core.channels import ChannelSpec, Values
 from backend.core.energy import (
     FACTORS,
@@ -16,8 +17,7 @@ from backend.core.energy import (
     derivable,
     derive,
 )
-from backend.domain._generated import MOVING_KMH
-from backend.domain.ride import RideSummary, present
+from backend.core.ride import RideSummary, present
 
 POWERS = (RIDER_POWER, MOTOR_POWER)
 

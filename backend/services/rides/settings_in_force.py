@@ -8,8 +8,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from backend.domain.ride import Ride
-from backend.domain.ride_events import SETTINGS, RideEvent
+from backend.core.ride import Ride
+from backend.core.ride_events import SETTINGS, RideEvent
 from backend.errors import InvalidRequest
 from backend.store import RideReader
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from backend.domain.ride import Ride, RideRows
+from backend.core.ride import Ride, RideRows
 from backend.errors import FieldError, InvalidRequest
+from backend.formats.export import fit, gpx
+from backend.formats.export.blurred import ShownRide, shown_ride, shown_rows
+from backend.formats.export.csv import csv_chunks
+from backend.formats.export.seconds import by_second
 from backend.services.rides.export import CSV_ROWS, Export, stem, verified, whole
 from backend.store import Store
-from backend.views.export import fit, gpx
-from backend.views.export.blurred import ShownRide, shown_ride, shown_rows
-from backend.views.export.csv import csv_chunks
-from backend.views.export.seconds import by_second
 
 KNOWN = frozenset(fit.CHANNELS)
 SHARED = ("fit", "gpx", "csv")

@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from backend.core._generated import STANDING_S
 from backend.core.energy import SECONDS_PER_HOUR
-from backend.domain._generated import STANDING_S
+from backend.core.ride import Ride
 from backend.domain.revision import Revision
-from backend.domain.ride import Ride
 from backend.errors import NotFound
 from backend.store import Sought, Store
 

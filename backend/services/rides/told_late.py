@@ -6,9 +6,9 @@ import logging
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
-from backend.domain.clock_set import set_by_us
-from backend.domain.ride import RideContext
-from backend.domain.ride_events import CLOCK_SET, RideEvent
+from backend.core.moments import set_by_us
+from backend.core.ride import RideContext
+from backend.core.ride_events import CLOCK_SET, RideEvent
 from backend.errors import StoreError
 from backend.store import RideStore
 

@@ -10,8 +10,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from backend.core.energy import MOTOR_POWER
-from backend.domain.fuzzy_table import PARAMETERS_OF, point_faults
-from backend.domain.ride import Ride, iso_utc
+from backend.core.fuzzy_table import PARAMETERS_OF, point_faults
+from backend.core.ride import Ride, iso_utc
 from backend.errors import InvalidRequest, ObjectDamaged
 from backend.services.rides.settings_in_force import ConfigOf, Stretch, source_of, stretches
 from backend.store import RideReader, Sought, Store

@@ -13,12 +13,12 @@ from typing import Any
 
 import numpy as np
 
-from backend import control
-from backend.control import law_defaults
+from backend import law
 from backend.core.channels import Values
 from backend.core.energy import DELIVERED, MOTOR_TORQUE
-from backend.domain.ride import Ride
+from backend.core.ride import Ride
 from backend.errors import Conflict, InvalidRequest
+from backend.law import law_defaults
 from backend.services.rides.replay import LIMITS, law_inputs, read_columns, warm_up_row
 from backend.services.rides.settings_in_force import ConfigOf
 from backend.services.tuning.why import number, told
@@ -75,7 +75,7 @@ class WhyRide:
         step_s = period_us / 1e6
         readings = law_inputs(columns)
         delivered = self._delivered_nm(reader.ride, columns)
-        found = control.why(config, readings, step_s=step_s, delivered_nm=delivered)
+        found = law.why(config, readings, step_s=step_s, delivered_nm=delivered)
         moment = {"kind": "ride", "ride_id": ride_id, "t_s": row * step_s, "held_s": None}
         recorded = {
             name: number(columns[name][-1]) if name in columns else None for name in RECORDED
@@ -129,7 +129,7 @@ def cuts_of(flags: np.ndarray[Any, np.dtype[np.uint16]], step_s: float) -> list[
 
     At most CUTS_MAX. at_s: a moment near its middle in which a limit is at work.
     """
-    held = np.flatnonzero(flags & sum(control.LIMITS[name] for name in HELD_BY))
+    held = np.flatnonzero(flags & sum(law.LIMITS[name] for name in HELD_BY))
     if not len(held):
         return []
     ends = np.flatnonzero(np.diff(held) > round(CUT_HOLE_S / step_s))
@@ -144,7 +144,7 @@ def cuts_of(flags: np.ndarray[Any, np.dtype[np.uint16]], step_s: float) -> list[
                 "from_s": float(first * step_s),
                 "to_s": float((last + 1) * step_s),
                 "at_s": float(middle * step_s),
-                "limits": [name for name in HELD_BY if control.LIMITS[name] & all_of],
+                "limits": [name for name in HELD_BY if law.LIMITS[name] & all_of],
             }
         )
     return found[:CUTS_MAX]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from backend.core.ride import Ride
 from backend.domain.logbook.zero import RideZero
-from backend.domain.ride import Ride
 from backend.services.rides.derived import DueRides, made_or
 from backend.services.rides.insight.diagnosis import evidence_of, limits_of
 from backend.services.rides.insight.rows import columns_of

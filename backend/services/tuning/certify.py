@@ -11,8 +11,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
-from backend import control
-from backend.domain.capability import Capability
+from backend import law
+from backend.device.capability import Capability
 from backend.domain.certificate import Certificate
 from backend.domain.revision import Revision, RevisionLog
 from backend.errors import FieldError, InvalidRequest, NotFound, SpindleError
@@ -57,7 +57,7 @@ class KeptCertificates:
 
     def of(self, config: Mapping[str, Any]) -> Certificate:
         """Of a configuration by registry name. Raises InvalidRequest, StoreError."""
-        made = control.certify(config, self._firmware_version)
+        made = law.certify(config, self._firmware_version)
         return replace(made, created_us=self._certificates.keep(made))
 
 
@@ -113,7 +113,7 @@ class Certify:
         return made if runs == made.firmware_version else replace(made, unproven=OTHER_FIRMWARE)
 
     def _base(self, asked: Certified) -> dict[str, Any]:
-        defaults = control.law_defaults()
+        defaults = law.law_defaults()
         if asked.library is not None:
             document = self._library.entry(asked.library).document
             values = {name: entry["value"] for name, entry in document["parameters"].items()}

@@ -10,10 +10,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from backend.control.comparison import TableComparison, compare_tables
-from backend.control.feel import Feel, feel_of
-from backend.domain.fuzzy_table import PARAMETERS_OF, FuzzyTable
+from backend.core.fuzzy_table import PARAMETERS_OF, FuzzyTable
 from backend.errors import Conflict, FieldError, InvalidRequest, NotFound
+from backend.law.comparison import TableComparison, compare_tables
+from backend.law.feel import Feel, feel_of
 from backend.services.tuning.library import Library
 from backend.services.tuning.tune import Tuning
 

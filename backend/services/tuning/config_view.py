@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
+from backend.core.unit_key import unit_tag
 from backend.device.configuration import ConfigImage, Free, ParameterRow, Value
-from backend.domain.unit_key import unit_tag
 from backend.errors import ConfigConflict, OtherUnit
 
 

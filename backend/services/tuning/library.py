@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any, Literal, Protocol
 
-from backend.control import presets
 from backend.core.canonical_json import sha256_of
 from backend.domain.library_item import LibraryVersion
 from backend.errors import AccessDenied, ConfigConflict, Conflict, NotFound
-from backend.ingest.library_document import library_document
+from backend.formats.library_document import library_document
+from backend.law import presets
 from backend.services.tuning.config_view import is_match
 
 FORMAT_START = "spindle-"

@@ -10,10 +10,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from backend.control.fis import Deviation, deviation, read_fis, table_of, write_fis
-from backend.domain.fuzzy_table import LABELS, PARAMETERS_OF, FuzzyTable
+from backend.core.fuzzy_table import LABELS, PARAMETERS_OF, FuzzyTable
 from backend.errors import Conflict
-from backend.ingest.library_document import NAME_MAX, table_document
+from backend.formats.library_document import NAME_MAX, table_document
+from backend.law.fis import Deviation, deviation, read_fis, table_of, write_fis
 
 MEDIA_TYPES = {
     "json": "application/json",

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from backend import control
-from backend.control import Finding, LintReport, Replay
+from backend import law
+from backend.core.assist_mode import AssistModes
 from backend.core.energy import RADIANS_PER_S_PER_RPM
-from backend.domain.assist_mode import AssistModes
-from backend.domain.fuzzy_table import PARAMETER_NAMES, SHARED_FIELDS, FuzzyTable
+from backend.core.fuzzy_table import PARAMETER_NAMES, SHARED_FIELDS, FuzzyTable
 from backend.errors import FieldError, InvalidRequest
+from backend.law import Finding, LintReport, Replay
 
 
 class Preview:
@@ -27,8 +27,8 @@ class Preview:
     ) -> dict[str, Any]:
         """`{gain: [n][m], engine}`, rows = speeds. Raises InvalidRequest."""
         table = FuzzyTable.from_json(fuzzy_table)
-        gain = control.surface(table, speeds_kmh, torque_rates)
-        return {"gain": gain.tolist(), "engine": control.ENGINE}
+        gain = law.surface(table, speeds_kmh, torque_rates)
+        return {"gain": gain.tolist(), "engine": law.ENGINE}
 
     def points(
         self, fuzzy_table: Mapping[str, Any], points: Sequence[tuple[float, float]]
@@ -41,8 +41,8 @@ class Preview:
             message = "points must be pairs of speed_kmh and torque_rate"
             raise InvalidRequest(message, "wrong_shape") from wrong
         places = ("points[{}][0]", "points[{}][1]")
-        gain = control.points(table, pairs[:, 0], pairs[:, 1], places)
-        return {"gain": gain.tolist(), "engine": control.ENGINE}
+        gain = law.points(table, pairs[:, 0], pairs[:, 1], places)
+        return {"gain": gain.tolist(), "engine": law.ENGINE}
 
     def mode_curves(
         self, parameters: Mapping[str, Any], rider_torque_nm: float, speeds_kmh: Sequence[float]
@@ -52,12 +52,12 @@ class Preview:
         parameters: by registry name; those that are missing have the law's defaults. Raises
         InvalidRequest.
         """
-        config = {**control.law_defaults(), **parameters}
-        curves = control.mode_curves(config, rider_torque_nm, speeds_kmh)
-        crank_rad_per_s = control.CADENCE_RPM * RADIANS_PER_S_PER_RPM
+        config = {**law.law_defaults(), **parameters}
+        curves = law.mode_curves(config, rider_torque_nm, speeds_kmh)
+        crank_rad_per_s = law.CADENCE_RPM * RADIANS_PER_S_PER_RPM
         return {
-            "cadence_rpm": control.CADENCE_RPM,
-            "hard_push_nm": control.HARD_PUSH_NM,
+            "cadence_rpm": law.CADENCE_RPM,
+            "hard_push_nm": law.HARD_PUSH_NM,
             "modes": [
                 {
                     "torque_nm": curve.torque_nm.tolist(),
@@ -66,7 +66,7 @@ class Preview:
                 }
                 for curve in curves
             ],
-            "engine": control.ENGINE,
+            "engine": law.ENGINE,
         }
 
     def torque_surface(
@@ -82,17 +82,17 @@ class Preview:
         parameters: by registry name; those that are missing have the law's defaults. Raises
         InvalidRequest.
         """
-        config = {**control.law_defaults(), **parameters}
-        found = control.torque_surface(config, mode, rider_torque_nm, speeds_kmh, torque_rates)
+        config = {**law.law_defaults(), **parameters}
+        found = law.torque_surface(config, mode, rider_torque_nm, speeds_kmh, torque_rates)
         return {
             "speeds_kmh": list(speeds_kmh),
             "torque_rates": list(torque_rates),
             "asked_nm": found.asked_nm.tolist(),
             "given_nm": found.given_nm.tolist(),
             "limit_flags": found.limit_flags.tolist(),
-            "cadence_rpm": control.CADENCE_RPM,
-            "crank_rad_per_s": control.CADENCE_RPM * RADIANS_PER_S_PER_RPM,
-            "engine": control.ENGINE,
+            "cadence_rpm": law.CADENCE_RPM,
+            "crank_rad_per_s": law.CADENCE_RPM * RADIANS_PER_S_PER_RPM,
+            "engine": law.ENGINE,
         }
 
     def lint(
@@ -106,7 +106,7 @@ class Preview:
     ) -> LintReport:
         """Findings about a table; one that cannot exist is an answer too, with its faults.
 
-        Arguments as of backend.control.lint.
+        Arguments as of backend.law.lint.
         """
         faults: list[Finding] = []
         table = modes = None
@@ -120,7 +120,7 @@ class Preview:
             faults += _findings(refused)
         if table is None:
             return LintReport(tuple(faults), (), ())
-        report = control.lint(table, modes, limits, which, taper_speeds_kmh, gear_ratio)
+        report = law.lint(table, modes, limits, which, taper_speeds_kmh, gear_ratio)
         return LintReport((*faults, *report.errors), report.warnings, report.notes)
 
     def replay(
@@ -138,7 +138,7 @@ class Preview:
 
         config: the unit's parameters by registry name. arrays: `speed_kmh`, `cadence_rpm`, `mode`,
         and `torque_raw_counts` or `rider_torque_nm`, (n,) each; what else is known by the names of
-        control.replay, as `first` is. The rest as of `changed_config`. Raises InvalidRequest.
+        law.replay, as `first` is. The rest as of `changed_config`. Raises InvalidRequest.
         """
         changed = changed_config(
             config, fuzzy_table, assist_modes, second_table, parameters=parameters
@@ -146,12 +146,12 @@ class Preview:
         readings = dict(arrays)
         torque_nm = readings.pop("rider_torque_nm", None)
         if torque_nm is not None:
-            readings.setdefault("torque_raw_counts", control.raw_counts_of(config, torque_nm))
+            readings.setdefault("torque_raw_counts", law.raw_counts_of(config, torque_nm))
         missing = {"speed_kmh", "cadence_rpm", "torque_raw_counts", "mode"} - set(readings)
         if missing:
             listed = ", ".join(sorted(missing))
             raise InvalidRequest(f"replay: the ride has no {listed}", "missing_channel")
-        return control.replay(changed, step_s=step_s, first=first, **readings)
+        return law.replay(changed, step_s=step_s, first=first, **readings)
 
 
 def changed_config(
@@ -169,7 +169,7 @@ def changed_config(
     InvalidRequest.
     """
     chosen = (parameters or {}).items()
-    changed = {**config, **{name: one for name, one in chosen if name not in control.OF_THE_BIKE}}
+    changed = {**config, **{name: one for name, one in chosen if name not in law.OF_THE_BIKE}}
     if fuzzy_table is not None:
         changed |= FuzzyTable.from_json(fuzzy_table).to_parameters()
     if second_table is not None:

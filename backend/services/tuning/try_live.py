@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
+from backend.device.capability import Capability
 from backend.device.configuration import LiveState, Value
-from backend.domain.capability import Capability
 from backend.errors import FieldError, InvalidRequest, LimitViolation, NoAnswer
 from backend.services.units.connect import Devices
 from backend.services.units.outcome import find_outcome, telling

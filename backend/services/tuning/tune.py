@@ -14,18 +14,11 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import asdict
 from datetime import UTC, datetime
 
+from backend.device.capability import Capability
 from backend.device.configuration import NO_TRIAL, ConfigImage, ParameterTable, Value
 from backend.device.unit import Unit
-from backend.domain.capability import Capability
 from backend.domain.revision import Revision, RevisionLog
-from backend.errors import (
-    Conflict,
-    FieldError,
-    InvalidRequest,
-    LimitViolation,
-    NoAnswer,
-    NotFound,
-)
+from backend.errors import Conflict, FieldError, InvalidRequest, LimitViolation, NoAnswer, NotFound
 from backend.services.tuning.config_view import (
     Change,
     ConfigChange,

@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 from operator import itemgetter
 from typing import Any, cast
 
-from backend.control import cutoff_of
+from backend.core.assist_mode import AssistModes
+from backend.core.fuzzy_table import PARAMETERS_OF, SHARED_FIELDS, FuzzyTable, stored_json
+from backend.device.capability import Capability
 from backend.device.configuration import ParameterTable, Value
-from backend.domain.assist_mode import AssistModes
-from backend.domain.capability import Capability
-from backend.domain.fuzzy_table import PARAMETERS_OF, SHARED_FIELDS, FuzzyTable, stored_json
 from backend.errors import FieldError, InvalidRequest
+from backend.law import cutoff_of
 
 EFFECTIVE_CUTOFF = "effective_assist_cutoff_kmh"
 # Parameter of the slots -> where its element `{index}` is in the modes' JSON.

@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from backend import control
-from backend.control import Why, law_defaults
+from backend import law
+from backend.core.fuzzy_table import PARAMETERS_OF, stored_json
+from backend.device.capability import Capability
 from backend.device.unit import Unit
-from backend.domain.capability import Capability
-from backend.domain.fuzzy_table import PARAMETERS_OF, stored_json
+from backend.law import Why, law_defaults
 from backend.services.tuning.preview import changed_config
 
 Config = Mapping[str, Any]
@@ -50,7 +50,7 @@ class WhySteady:
         known = {name: value for name, value in state.items() if value is not None}
         torque_rate, held_s = known.pop("torque_rate"), known.pop("held_s")
         known.setdefault("mode", config["assist_mode_at_start"])
-        found = control.why_steady(config, known, torque_rate, held_s)
+        found = law.why_steady(config, known, torque_rate, held_s)
         moment = {"kind": "steady", "ride_id": None, "t_s": None, "held_s": held_s}
         return told(found, config, known, moment, source)
 
@@ -74,7 +74,7 @@ def told(
         **asdict(found),
         "moment": moment,
         "config_source": config_source,
-        "engine": control.ENGINE,
+        "engine": law.ENGINE,
         "mode": mode,
         "mode_name": config["mode_names"][mode],
         "table": stored_json(config, which) if found.law == "fuzzy" else None,
@@ -89,7 +89,7 @@ def told(
 
 def settings(config: Config, mode: int) -> dict[str, float]:
     """What the steps after the law go by, in a mode; the registry's names where they are its."""
-    cutoff = control.cutoff_of(config)
+    cutoff = law.cutoff_of(config)
     share = float(config["mode_torque_pct"][mode]) / 100.0
     up = min(config["assist_ramp_up_nm_per_s"], config["mode_ramp_up_nm_per_s"][mode])
     down = min(config["assist_ramp_down_nm_per_s"], config["mode_ramp_down_nm_per_s"][mode])

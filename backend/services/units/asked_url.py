@@ -10,9 +10,9 @@ from __future__ import annotations
 import os
 from urllib.parse import parse_qs
 
-from backend.control.scenarios import live_scenarios
 from backend.device.ports import is_character_device, kind_of
 from backend.errors import FieldError, InvalidRequest
+from backend.law.scenarios import live_scenarios
 
 # Settings of a simulated unit that are paths.
 FILE_SETTINGS = frozenset({"flash", "unlock_key"})

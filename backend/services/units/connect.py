@@ -14,15 +14,15 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from backend.core.channels import ChannelSpec
+from backend.core.unit_key import serial_of, tells_unit, unit_key
+from backend.device.capability import Capability
 from backend.device.driver import LinkOpener, Listener, other_unit
 from backend.device.families import DEFAULT_FAMILY, FAMILIES, Families
 from backend.device.identity import Identity
 from backend.device.ports import Opener, PortInfo, family_of, kind_of, list_ports
 from backend.device.states import CONNECTED, DeviceEvent, LinkState, Named
 from backend.device.unit import Unit
-from backend.domain.capability import Capability
 from backend.domain.sighting import Sighting
-from backend.domain.unit_key import serial_of, tells_unit, unit_key
 from backend.errors import Conflict, InvalidRequest, NameFirst, NoAnswer, NotFound
 from backend.services.units.device_ids import canonical, id_of
 from backend.services.units.device_view import ConfigStamp, DeviceView

@@ -47,8 +47,8 @@ class DeviceView:
     id: of the connection, from its url: the same after every start. kind: simulated, serial or
     socket. state: connecting, ready, read_only, lost or closed. reason: a sentence for people.
     identity: the last one known, from before the server's start too. link: counters of
-    LinkStatistics by name. capabilities: as in backend.domain.capability.Capability. name: the
-    owner's for the unit. unit_key: as of backend.domain.unit_key; None until the unit said who it
+    LinkStatistics by name. capabilities: as in backend.device.capability.Capability. name: the
+    owner's for the unit. unit_key: as of backend.core.unit_key; None until the unit said who it
     is. bike_id: the bike the unit is on; None for a unit that nobody can tell from another.
     last_seen_at: when the unit was last there over this connection, now if it is; None if none ever
     was. A unit that has not said who it is since the server's start is told as the one before.

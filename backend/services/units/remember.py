@@ -13,20 +13,13 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from backend.control import law_defaults
+from backend.core.ride import Ride, RideContext
+from backend.device.capability import Capability
 from backend.device.configuration import ConfigImage
-from backend.device.states import (
-    CONNECTED,
-    DeviceEvent,
-    LinkState,
-    Named,
-    StateChanged,
-    UnitEvent,
-)
-from backend.domain.capability import Capability
+from backend.device.states import CONNECTED, DeviceEvent, LinkState, Named, StateChanged, UnitEvent
 from backend.domain.revision import RevisionLog
-from backend.domain.ride import Ride, RideContext
 from backend.errors import NoAnswer, NotFound, SpindleError
+from backend.law import law_defaults
 from backend.services.units.connect import Devices
 from backend.store import SeenUnit, UnitStore
 

@@ -7,8 +7,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
-from backend.control.scenarios import live_scenarios
 from backend.errors import Conflict, NoAnswer
+from backend.law.scenarios import live_scenarios
 from backend.services.units.inspection import Inspection
 
 LOOK_EVERY_S = 0.01

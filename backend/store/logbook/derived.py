@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 from sqlalchemy import Connection, Table, delete, insert, or_, select
 
-from backend.domain.ride import Ride
+from backend.core.ride import Ride
 from backend.store.sql import tables as t
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from sqlalchemy import Connection, Select, func, select
 
-from backend.domain.ride import Ride
+from backend.core.ride import Ride
 from backend.errors import InvalidRequest
 from backend.store.ride_table import cursor_parts, rides_whole
 from backend.store.sql import tables as t

@@ -23,7 +23,7 @@ from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
 
 from sqlalchemy import func, select
 
-from backend.domain.ride import iso_utc
+from backend.core.ride import iso_utc
 from backend.errors import StoreError
 from backend.store.look import look_at
 from backend.store.objects import IDENTITY, READ_BYTES, RIDE_SUFFIX, sidecar_key

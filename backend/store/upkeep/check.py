@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass
 
 from sqlalchemy import select
 
-from backend.domain.ride import iso_utc
+from backend.core.ride import iso_utc
 from backend.errors import StoreError
 from backend.store.entries import ROWS_AT_ONCE
 from backend.store.from_object import damage_of

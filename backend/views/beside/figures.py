@@ -13,7 +13,7 @@ import numpy as np
 
 from backend.core.channels import Values
 from backend.core.energy import DEMANDED
-from backend.domain.ride import RideSummary, TimesUs, summarise
+from backend.core.ride import RideSummary, TimesUs, summarise
 from backend.views.insight.energy_split import energy_shares
 from backend.views.insight.way import climb_of, way_of
 

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from backend.core.channels import Values
+from backend.core.ride import PAUSE_MIN_US
 from backend.core.sphere import EARTH_M
-from backend.domain.ride import PAUSE_MIN_US
 
 NEAR_M = 30.0
 STEP_M = 10.0

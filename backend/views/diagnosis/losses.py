@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from backend.domain._generated import MOVING_KMH
+from backend.core._generated import MOVING_KMH
 from backend.views.diagnosis.finding import NOTE, SERIOUS, WARNING, Evidence, Finding, Span
 
 SPEED, AGE = "speed_kmh", "torque_age_ms"

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from backend.core._generated import RESTING_KMH
 from backend.core.channels import Values
 from backend.core.energy import rate_hz
-from backend.domain._generated import RESTING_KMH
 from backend.views.diagnosis.finding import SERIOUS, WARNING, Evidence, Finding, Mask
 from backend.views.insight.crank import RATE_HZ_MIN
 

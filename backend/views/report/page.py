@@ -12,7 +12,7 @@ from html import escape
 from typing import Any
 
 from backend.core.quantities import plain
-from backend.domain.ride_events import RideEvent
+from backend.core.ride_events import RideEvent
 from backend.views.report.charts import crank_chart, curve_chart, energy_chart, zones_chart
 from backend.views.report.track_map import track_map
 from backend.views.report.words import WORDS

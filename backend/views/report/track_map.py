@@ -13,7 +13,7 @@ from html import escape
 import numpy as np
 
 from backend.core.channels import Values
-from backend.domain.ride_events import RideEvent
+from backend.core.ride_events import RideEvent
 from backend.views.figure import MOTOR_COLOUR, NEUTRAL_COLOUR, RIDER_COLOUR
 from backend.views.track import Track
 

@@ -8,12 +8,12 @@ import zlib
 from collections.abc import Mapping
 
 from backend.core.channels import ChannelSpec
+from backend.device.capability import Capability
 from backend.device.configuration import Config, ConfigImage, ParameterRow, ParameterTable, Value
 from backend.device.conversation import Operation
 from backend.device.driver import Driver, LinkOpener, Listener
 from backend.device.live_values import LiveValues, named_values
 from backend.device.unit import Unit
-from backend.domain.capability import Capability
 from backend.errors import ConfigConflict, DeviceRefused, FieldError, NoAnswer, PeerProtocolError
 from tests.fakes.tiny.conversation import CHANNELS, TinyConversation, ask_values
 from tests.fakes.tiny.motor import SETTINGS

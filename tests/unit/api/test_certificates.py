@@ -1,7 +1,7 @@
 """Goal: whoever asks gets the certificate of what he asks about, and it is kept as first made.
 
 Method: the application over a store of its own, without a unit; a log of revisions that keeps one
-with each. What the claims are worth is shown in tests/unit/control/test_certificate.py.
+with each. What the claims are worth is shown in tests/unit/law/test_certificate.py.
 """
 
 from __future__ import annotations

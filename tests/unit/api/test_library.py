@@ -23,7 +23,7 @@ from fastapi.testclient import TestClient
 
 from backend.api.services import Services
 from backend.app import build_api
-from backend.domain.fuzzy_table import FuzzyTable
+from backend.core.fuzzy_table import FuzzyTable
 from backend.services.tuning.compare import Compare
 from backend.services.tuning.library import Library, preset_etag
 from backend.services.tuning.tune import Tuning

@@ -10,8 +10,8 @@ import pytest
 
 from backend.device.ebl.session import reasons
 from backend.device.ebl.session.reasons import port_reason
+from backend.device.link import trouble
 from backend.device.states import code_of
-from backend.link import trouble
 
 ROOT = Path(__file__).resolve().parents[3]
 WORDS = (ROOT / "frontend/src/shared/i18n/zh_codes.ts").read_text(encoding="utf-8")

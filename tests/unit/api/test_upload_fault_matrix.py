@@ -20,8 +20,8 @@ import pytest
 from fastapi.testclient import TestClient
 
 from backend.app import build_api
-from backend.ingest import Outcome
-from backend.ingest.formats import read_file
+from backend.formats import Outcome
+from backend.formats.formats import read_file
 from backend.services.imports.upload import Uploads
 from backend.store import open_store
 from backend.web.app import WebSettings

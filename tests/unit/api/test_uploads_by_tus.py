@@ -19,7 +19,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from backend.app import build_api
-from backend.ingest.outcome import rejected
+from backend.formats.outcome import rejected
 from backend.services.imports.upload import Uploads
 from backend.store import open_store
 from backend.web.app import WebSettings

@@ -16,8 +16,8 @@ import pytest
 from anyio.from_thread import start_blocking_portal
 
 from backend.app import build_api
-from backend.ingest import Outcome
-from backend.ingest.outcome import rejected
+from backend.formats import Outcome
+from backend.formats.outcome import rejected
 from backend.services.imports.upload import Arrival, Uploads
 from backend.store import open_store
 from backend.web.app import WebSettings

@@ -16,7 +16,7 @@ import pytest
 
 from backend.calibration.certified_torque import CertifiedTorque
 from backend.calibration.types import Job
-from backend.domain.ride import Ride, RideContext
+from backend.core.ride import Ride, RideContext
 from tests.unit.calibration.calibration_job import Workshop
 
 pytestmark = pytest.mark.slow

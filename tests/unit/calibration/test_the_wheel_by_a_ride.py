@@ -22,11 +22,11 @@ from backend.calibration.bike.coast_down import Known
 from backend.calibration.bike.service import CadenceCheck, PulseCount
 from backend.calibration.bike.types import Cadence, CertificateOfTorque
 from backend.calibration.bike.wheel_measure import TrackQuestion, WheelMeasure
-from backend.control import law_defaults
 from backend.core.channels import ChannelSpec, Values
-from backend.domain.ride import Ride, RideRows
+from backend.core.ride import Ride, RideRows
 from backend.errors import InvalidRequest
-from backend.ingest import ImportedRide, Outcome
+from backend.formats import ImportedRide, Outcome
+from backend.law import law_defaults
 from backend.services.imports.upload import Uploads
 from backend.services.rides.insight.rows import Window
 from backend.store import Store, open_store

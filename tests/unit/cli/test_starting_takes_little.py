@@ -12,7 +12,7 @@ import sys
 import pytest
 
 HEAVY = {"numpy", "pydantic", "cryptography", "fastapi", "sqlalchemy", "pyarrow", "reportlab"}
-ROOMS = {"backend.control", "backend.ingest", "backend.store", "backend.services", "backend.api"}
+ROOMS = {"backend.law", "backend.formats", "backend.store", "backend.services", "backend.api"}
 LOADED = """
 import json, sys
 from backend.cli import main

@@ -20,11 +20,11 @@ from backend.device.driver import Driver
 from backend.device.ebl.operations.config_transaction import read_config
 from backend.device.ebl.session.operation import ask
 from backend.device.ebl.session.stream_receiver import StreamPlan
+from backend.device.link.opening import Opener
+from backend.device.link.ports import pyserial_ports
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock, StreamStarted
 from backend.errors import LinkError, NoAnswer
-from backend.link.opening import Opener
-from backend.link.ports import pyserial_ports
 from firmware_protocol._generated import CfgInfoRequest, CfgInfoResponse, MessageId
 from tests.fakes.ebl_driver import ebl_driver
 from tests.fakes.unit import FakeUnit

@@ -20,10 +20,10 @@ import pytest
 from backend.device.driver import REOPEN_S_MAX
 from backend.device.ebl.session.session import Session
 from backend.device.ebl.session.stream_receiver import StreamPlan
+from backend.device.link.opening import Opener
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock
 from backend.errors import LinkError
-from backend.link.opening import Opener
 from tests.fakes.bench import Bench
 from tests.fakes.ebl_driver import ebl_driver
 from tests.fakes.unit import FakeUnit

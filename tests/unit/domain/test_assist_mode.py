@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from backend.domain.assist_mode import AssistModes
+from backend.core.assist_mode import AssistModes
 from backend.errors import InvalidRequest
 from firmware_protocol.parameters import default_config
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from backend.domain.fuzzy_table import (
+from backend.core.fuzzy_table import (
     LEAST_STEPS,
     PARAMETER_NAMES,
     RANGES,

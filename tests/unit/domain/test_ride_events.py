@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from backend.core.channels import ChannelSpec
-from backend.domain.ride_events import RideEvent, events_of_rows, merged
+from backend.core.ride_events import RideEvent, events_of_rows, merged
 
 FAULTS = ChannelSpec("fault_flags", "", 1.0)
 FAULTS_HIGH = ChannelSpec("fault_flags_high", "", 1.0)

@@ -12,7 +12,7 @@ import pytest
 
 from backend.core.channels import MISSING_INT16, MISSING_INT32, ChannelSpec, Values
 from backend.core.energy import derivable, derive, energy, motor_torque_meaning, sample_seconds
-from backend.domain.ride import TimesUs, find_gaps, summarise
+from backend.core.ride import TimesUs, find_gaps, summarise
 
 HOUR_ROWS = 36_000
 TENTH_US = 100_000

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from backend.domain.ride import readable_name
+from backend.core.ride import readable_name
 
 
 @pytest.mark.parametrize(

@@ -15,13 +15,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from backend.control import law_defaults
+from backend.core.assist_mode import AssistModes
 from backend.core.channels import ChannelSpec, Values
-from backend.domain.assist_mode import AssistModes
-from backend.domain.ride import Ride, RideRows
-from backend.domain.rider_and_bike import RiderAndBike
+from backend.core.ride import Ride, RideRows
 from backend.errors import InvalidRequest, RequestRefused
-from backend.ingest import ImportedRide, Outcome
+from backend.formats import ImportedRide, Outcome
+from backend.law import law_defaults
+from backend.law.rider_and_bike import RiderAndBike
 from backend.services.imports.upload import Uploads
 from backend.services.rides import ride_again
 from backend.services.rides.replay import RideReplay

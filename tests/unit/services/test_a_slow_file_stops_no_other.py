@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 
 from backend.errors import Conflict, NotFound
-from backend.ingest import Outcome, ReadingStopped
-from backend.ingest.formats import read_file
-from backend.ingest.outcome import rejected
+from backend.formats import Outcome, ReadingStopped
+from backend.formats.formats import read_file
+from backend.formats.outcome import rejected
 from backend.services.imports.upload import WAITS, Uploads
 from backend.store import Store, Verdict, open_store
 from tests.fakes.fit_file import START_S, commute, fit_file

@@ -15,8 +15,8 @@ import pytest
 
 from backend.domain.table_answer import TableAnswer
 from backend.errors import Conflict, InvalidRequest, NotFound
-from backend.ingest.formats import read_file
-from backend.ingest.outcome import Outcome
+from backend.formats.formats import read_file
+from backend.formats.outcome import Outcome
 from backend.rebuild import rebuild_store
 from backend.services.imports.mapping import TableMapping
 from backend.services.imports.upload import Uploads

@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 
 from backend.errors import Conflict
-from backend.ingest import Entry, Left, Outcome, ReadingStopped
-from backend.ingest.containers.archive import entries
-from backend.ingest.formats import read_file
+from backend.formats import Entry, Left, Outcome, ReadingStopped
+from backend.formats.containers.archive import entries
+from backend.formats.formats import read_file
 from backend.rebuild import rebuild_store
 from backend.services.imports.upload import Uploads, UploadSettings
 from backend.services.rides.review import Rides

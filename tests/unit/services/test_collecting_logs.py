@@ -16,9 +16,9 @@ from pathlib import Path
 import pytest
 
 from backend.errors import Conflict, NotFound, SpindleError
-from backend.ingest import Outcome
-from backend.ingest.blocks import BLOCKS_SUFFIX
-from backend.ingest.formats import read_file
+from backend.formats import Outcome
+from backend.formats.blocks import BLOCKS_SUFFIX
+from backend.formats.formats import read_file
 from backend.services.imports.collect import Collect, Download
 from backend.services.imports.upload import Uploads
 from backend.services.units.connect import Devices

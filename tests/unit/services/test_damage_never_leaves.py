@@ -16,9 +16,9 @@ import numpy as np
 import pytest
 
 from backend.core.channels import ChannelSpec
-from backend.domain.ride import RideRows
+from backend.core.ride import RideRows
 from backend.errors import ObjectDamaged
-from backend.ingest import ImportedRide, Outcome
+from backend.formats import ImportedRide, Outcome
 from backend.main import open_services
 from backend.services.imports.upload import Uploads
 from backend.services.rides.review import Rides

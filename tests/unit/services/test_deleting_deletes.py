@@ -14,10 +14,10 @@ import numpy as np
 import pytest
 
 from backend.core.channels import ChannelSpec
-from backend.domain.ride import RideContext, RideRows
+from backend.core.ride import RideContext, RideRows
 from backend.errors import Conflict, NotFound, StoreError
-from backend.ingest import ImportedRide, Outcome
-from backend.ingest.outcome import rejected
+from backend.formats import ImportedRide, Outcome
+from backend.formats.outcome import rejected
 from backend.services.imports.upload import Uploads, UploadSettings
 from backend.services.rides.cards import RideCards
 from backend.services.rides.review import Rides

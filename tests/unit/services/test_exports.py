@@ -26,9 +26,9 @@ import pytest
 from fit_tool.fit_file import FitFile
 
 from backend.core.channels import ChannelSpec, Counts
-from backend.domain.ride import Ride, RideContext, RideRows
+from backend.core.ride import Ride, RideContext, RideRows
 from backend.errors import InvalidRequest
-from backend.ingest.formats import read_file
+from backend.formats.formats import read_file
 from backend.services.rides.review import Rides
 from backend.store import Store, open_store
 

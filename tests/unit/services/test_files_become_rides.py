@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from backend.errors import Conflict, InvalidRequest, NotFound
-from backend.ingest import Outcome
+from backend.formats import Outcome
 from backend.services.imports.upload import Uploads, UploadSettings
 from backend.services.rides.export import safe_name
 from backend.services.rides.review import Rides

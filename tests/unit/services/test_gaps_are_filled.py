@@ -16,11 +16,11 @@ import numpy.typing as npt
 import pytest
 
 from backend.core.channels import MISSING_INT16, ChannelSpec
+from backend.core.ride import Ride, RideContext, RideRows
+from backend.core.ride_events import RideEvent
 from backend.device.stream import StreamBlock
-from backend.domain.ride import Ride, RideContext, RideRows
-from backend.domain.ride_events import RideEvent
 from backend.errors import StoreError
-from backend.ingest import ImportedRide, Outcome
+from backend.formats import ImportedRide, Outcome
 from backend.services.imports.upload import Uploads
 from backend.services.rides.record import Recorder, RecordSettings
 from backend.store import Store, open_store, rides

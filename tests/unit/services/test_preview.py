@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from backend.domain.assist_mode import AssistModes
-from backend.domain.fuzzy_table import THESIS_TABLE
+from backend.core.assist_mode import AssistModes
+from backend.core.fuzzy_table import THESIS_TABLE
 from backend.errors import InvalidRequest
 from backend.services.tuning.preview import Preview
 from firmware_protocol.parameters import default_config

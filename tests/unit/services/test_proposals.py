@@ -19,11 +19,11 @@ from fastapi.testclient import TestClient
 
 from backend.api.services import Services
 from backend.app import build_api
-from backend.control import law_defaults
-from backend.control.front_search import GENERATIONS, POPULATION, front_of
-from backend.control.proposal import KNOBS, Space
 from backend.errors import InvalidRequest, NotFound
-from backend.ingest.library_document import library_document
+from backend.formats.library_document import library_document
+from backend.law import law_defaults
+from backend.law.front_search import GENERATIONS, POPULATION, front_of
+from backend.law.proposal import KNOBS, Space
 from backend.services.rides.propose import RUNNING, Candidate, Job, Proposals, codes_of
 from backend.services.rides.ride_again import RideAgain
 from backend.services.tuning.certify import KeptCertificates

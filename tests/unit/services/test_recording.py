@@ -18,10 +18,10 @@ import numpy.typing as npt
 import pytest
 
 from backend.core.channels import MISSING_INT16, ChannelSpec
+from backend.core.ride import Ride, RideContext
+from backend.core.ride_events import RideEvent
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import LostBy, StreamBlock
-from backend.domain.ride import Ride, RideContext
-from backend.domain.ride_events import RideEvent
 from backend.errors import Conflict, NotFound, StoreError
 from backend.services.health import Health
 from backend.services.rides.mark import MarkMoment

@@ -14,13 +14,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from backend.control import law_defaults
+from backend.core.assist_mode import AssistModes
 from backend.core.channels import ChannelSpec, Values
-from backend.domain.assist_mode import AssistModes
-from backend.domain.fuzzy_table import THESIS_TABLE
-from backend.domain.ride import Ride, RideRows
+from backend.core.fuzzy_table import THESIS_TABLE
+from backend.core.ride import Ride, RideRows
 from backend.errors import InvalidRequest
-from backend.ingest import ImportedRide, Outcome
+from backend.formats import ImportedRide, Outcome
+from backend.law import law_defaults
 from backend.services.imports.upload import Uploads
 from backend.services.rides.replay import RideReplay
 from backend.services.tuning.preview import Preview

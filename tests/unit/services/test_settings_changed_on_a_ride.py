@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from backend.control import law_defaults
+from backend.core.ride import Ride, RideContext
+from backend.core.ride_events import SETTINGS, RideEvent
 from backend.device.states import LinkState, StateChanged, UnitEvent
-from backend.domain.ride import Ride, RideContext
-from backend.domain.ride_events import SETTINGS, RideEvent
 from backend.errors import InvalidRequest, StoreError
+from backend.law import law_defaults
 from backend.services.rides.insight.comparison import RideComparison
 from backend.services.rides.insight.rows import Window
 from backend.services.rides.ledger import EnergyLedger

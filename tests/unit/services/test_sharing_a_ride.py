@@ -19,13 +19,13 @@ import numpy as np
 import pytest
 
 from backend.core.channels import ChannelSpec
+from backend.core.ride import Ride, RideContext, RideRows
 from backend.core.sphere import great_circle_m
-from backend.domain.ride import Ride, RideContext, RideRows
 from backend.errors import InvalidRequest, NotFound
-from backend.ingest.formats import read_file
+from backend.formats.export.blurred import moved
+from backend.formats.formats import read_file
 from backend.services.rides.review import Rides
 from backend.store import Store, open_store
-from backend.views.export.blurred import moved
 
 pytestmark = pytest.mark.slow
 

@@ -15,9 +15,9 @@ from pathlib import Path
 import pytest
 from sqlalchemy import Connection, insert, update
 
+from backend.core.ride import Ride, RideContext
+from backend.core.ride_events import CLOCK_SET, RideEvent
 from backend.device.states import LinkState, StateChanged
-from backend.domain.ride import Ride, RideContext
-from backend.domain.ride_events import CLOCK_SET, RideEvent
 from backend.errors import StoreError
 from backend.services.rides.record import Recorder
 from backend.store import Store, open_store

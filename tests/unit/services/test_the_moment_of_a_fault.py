@@ -16,10 +16,10 @@ import numpy as np
 import pytest
 
 from backend.core.channels import MISSING_INT16, ChannelSpec
+from backend.core.ride import RideContext
 from backend.device.faults import UnitFault
 from backend.device.live_values import LiveValues
 from backend.device.stream import StreamBlock
-from backend.domain.ride import RideContext
 from backend.errors import NotFound
 from backend.services.rides.fault_moment import FaultMoments, RecentRows
 from backend.store import Store, open_store

@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 
 from backend.core.channels import ChannelSpec
-from backend.domain.ride import RideContext
-from backend.ingest import Outcome
-from backend.ingest.formats import read_file
+from backend.core.ride import RideContext
+from backend.formats import Outcome
+from backend.formats.formats import read_file
 from backend.rebuild import rebuild_store
 from backend.services.imports.upload import Uploads
 from backend.services.rides.review import Rides

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from backend.control import law_defaults
-from backend.domain.ride import Ride
+from backend.core.ride import Ride
 from backend.errors import InvalidRequest, NotFound
+from backend.law import law_defaults
 from backend.services.rides.insight.comparison import RideComparison
 from backend.services.rides.insight.rows import Window
 from backend.store import Store, open_store

@@ -15,12 +15,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from backend.control import law_defaults
 from backend.core.channels import ChannelSpec
 from backend.core.filled import Filled
-from backend.domain.fuzzy_table import THESIS_TABLE
-from backend.domain.ride import Ride, RideContext
+from backend.core.fuzzy_table import THESIS_TABLE
+from backend.core.ride import Ride, RideContext
 from backend.errors import InvalidRequest, NotFound
+from backend.law import law_defaults
 from backend.services.rides.use_of_table import RIDES_MAX, UseOfTable
 from backend.store import RideReader, Store, open_store
 from backend.store.reader import LiveRows

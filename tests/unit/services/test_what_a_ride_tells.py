@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from backend.control import law_defaults
-from backend.domain.ride import Ride
+from backend.core.ride import Ride
+from backend.law import law_defaults
 from backend.services.rides.insight.questions import Insight
 from backend.store import Store, open_store
 from tests.unit.services.test_why_a_moment_was_as_it_was import PUSHING, ROWS, config_of, kept

@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from backend.control import law_defaults
 from backend.core.channels import ChannelSpec, Values
-from backend.domain.ride import Gap, Ride, RideRows
+from backend.core.ride import Gap, Ride, RideRows
 from backend.errors import Conflict, InvalidRequest
-from backend.ingest import ImportedRide, Outcome
+from backend.formats import ImportedRide, Outcome
+from backend.law import law_defaults
 from backend.services.imports.upload import Uploads
 from backend.services.rides.replay import WARM_UP_S, warm_up_row
 from backend.services.rides.why_ride import WhyRide, cuts_of

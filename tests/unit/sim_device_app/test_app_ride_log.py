@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from sim_device.firmware.python._native import lib
 
-from backend.ingest.blocks import CONFIG, CONFIG_REST, DATA, END, EVENT, SCHEMA, scan
-from backend.ingest.ride_logs import read_blocks
+from backend.formats.blocks import CONFIG, CONFIG_REST, DATA, END, EVENT, SCHEMA, scan
+from backend.formats.ride_logs import read_blocks
 from firmware_protocol._generated import (
     CHANNELS,
     Event,

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from sim_device.firmware.python._native import ffi, lib
 
-from backend.ingest.blocks import block_at, put_block
+from backend.formats.blocks import block_at, put_block
 from tests.fakes.bench_logs import directory, fetch, logs, ride, unit_with_log
 
 BLOCK_BYTES = 1024

@@ -5,7 +5,7 @@ Method: the real firmware on the bench board; what counts is what a restart find
 
 from sim_device.firmware.python._native import lib
 
-from backend.ingest.ride_logs import read_blocks
+from backend.formats.ride_logs import read_blocks
 from firmware_protocol import codec
 from firmware_protocol._generated import (
     Event,

@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 from sim_device.firmware.python._native import ffi, lib
 
-from backend.ingest.blocks import DATA, scan
-from backend.ingest.ride_logs import read_blocks
+from backend.formats.blocks import DATA, scan
+from backend.formats.ride_logs import read_blocks
 from firmware_protocol._generated import LogFlags
 from tests import counts
 from tests.fakes.bench_logs import Entry, fetch, logs, ride, unit_with_log

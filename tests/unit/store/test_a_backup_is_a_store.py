@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from backend.core.channels import ChannelSpec
-from backend.domain.ride import RideContext
+from backend.core.ride import RideContext
 from backend.errors import StoreError
 from backend.store import Store, backup_of, open_store, place_of
 from backend.store.upkeep.check import check_store

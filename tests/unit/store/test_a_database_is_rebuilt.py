@@ -22,8 +22,8 @@ from backend import rebuild
 from backend.cli import main
 from backend.core.channels import MISSING_INT16, ChannelSpec
 from backend.core.filled import Filled
-from backend.domain.ride import Ride, RideContext, RideRows
-from backend.domain.ride_events import RideEvent
+from backend.core.ride import Ride, RideContext, RideRows
+from backend.core.ride_events import RideEvent
 from backend.errors import StoreError
 from backend.rebuild import Rebuilt, rebuild_store
 from backend.store import Store, Verdict, open_store

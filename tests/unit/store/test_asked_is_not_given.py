@@ -20,8 +20,8 @@ from sqlalchemy import create_engine
 
 import backend.store
 from backend.core.channels import ChannelSpec
-from backend.domain.ride import Ride, RideContext
-from backend.ingest.tables import read_table
+from backend.core.ride import Ride, RideContext
+from backend.formats.tables import read_table
 from backend.services.rides.review import Rides
 from backend.store import Store
 from tests.unit.conftest import OpenStore

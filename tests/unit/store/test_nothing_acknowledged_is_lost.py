@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from backend.domain.ride import RideContext
+from backend.core.ride import RideContext
 from backend.errors import StoreError
 from backend.store import Store
 from backend.store.objects import Disk, FileObjects
@@ -31,7 +31,7 @@ OpenStore = Callable[..., Store]
 
 RECORDING = """
 import sys
-from backend.domain.ride import RideContext
+from backend.core.ride import RideContext
 from backend.store import open_store
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
 

@@ -16,7 +16,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from backend.domain.ride import RideContext
+from backend.core.ride import RideContext
 from backend.errors import StoreError
 from backend.store import Store, locks, open_store
 from backend.store.upkeep.check import check_store

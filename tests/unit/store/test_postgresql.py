@@ -22,7 +22,7 @@ from alembic.migration import MigrationContext
 from sqlalchemy import create_engine
 
 import backend.store
-from backend.domain.ride import RideContext
+from backend.core.ride import RideContext
 from backend.errors import StoreError
 from backend.rebuild import rebuild_store
 from backend.store import Store, open_store

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from backend.core.channels import MISSING_INT16
-from backend.domain.ride import Ride, RideContext
+from backend.core.ride import Ride, RideContext
 from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
 from backend.store import Sought, Store
 from backend.views.trace import trace

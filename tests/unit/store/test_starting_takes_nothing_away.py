@@ -19,7 +19,7 @@ from alembic.config import Config
 from sqlalchemy import create_engine
 
 import backend.store
-from backend.domain.ride import RideContext
+from backend.core.ride import RideContext
 from backend.errors import StoreError
 from backend.store import Store, open_store
 from backend.store.objects import IDENTITY, Disk

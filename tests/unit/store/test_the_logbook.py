@@ -16,9 +16,9 @@ import pytest
 from sqlalchemy import Connection
 
 from backend.core.channels import ChannelSpec
+from backend.core.ride import Ride, RideContext, RideRows
 from backend.domain.logbook.calendar import last_months, last_weeks
 from backend.domain.logbook.card import RideCard
-from backend.domain.ride import Ride, RideContext, RideRows
 from backend.errors import InvalidRequest, NotFound
 from backend.rebuild import rebuild_store
 from backend.services.rides.cards import RideCards, card_of

@@ -16,8 +16,8 @@ from alembic.config import Config
 from sqlalchemy import create_engine, insert, update
 
 import backend.store
-from backend.domain.ride import Ride, RideContext
-from backend.domain.unit_key import bike_name, ebl_key, tells_unit, unit_key
+from backend.core.ride import Ride, RideContext
+from backend.core.unit_key import bike_name, ebl_key, tells_unit, unit_key
 from backend.rebuild import rebuild_store
 from backend.store import SeenUnit, Sought, Store, open_store
 from backend.store.sql import tables as t

@@ -12,15 +12,15 @@ from functools import cache
 import numpy as np
 import pytest
 
-from backend import control
+from backend import law
 from backend.core.channels import Values
 from backend.views.diagnosis.diagnosis import METHOD, diagnose
 from backend.views.diagnosis.finding import Check, Evidence, Limits
 from tests.fakes.simulated_ride import LOOK_S, simulated_ride
 
 LIMITS = Limits(
-    control.LIMITS["temperature"],
-    control.law_defaults()["battery_voltage_v_min"],
+    law.LIMITS["temperature"],
+    law.law_defaults()["battery_voltage_v_min"],
     wheel_circumference_m=2.2,
 )
 EARTH_M = 6_371_008.8

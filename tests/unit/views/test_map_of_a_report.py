@@ -10,7 +10,7 @@ import re
 import numpy as np
 import pytest
 
-from backend.domain.ride_events import RideEvent
+from backend.core.ride_events import RideEvent
 from backend.views.report.track_map import (
     LOOKS,
     UNKNOWN,

@@ -11,7 +11,7 @@ import numpy.typing as npt
 import pytest
 
 from backend.core.channels import Values
-from backend.domain.fuzzy_table import point_faults
+from backend.core.fuzzy_table import point_faults
 from backend.views.table_use import TableUse, acting, table_use
 
 SPEEDS = (5.0, 10.0, 16.0, 20.0, 25.0)

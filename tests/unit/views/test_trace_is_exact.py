@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 from backend.core.channels import MISSING_INT16, MISSING_INT32, ChannelSpec, Counts, Values
 from backend.core.energy import sample_seconds
 from backend.core.pyramid import STEPS, Level, first_level
-from backend.domain.ride import pause_us
+from backend.core.ride import pause_us
 from backend.errors import InvalidRequest
 from backend.views.figure import figure
 from backend.views.trace import Trace, trace

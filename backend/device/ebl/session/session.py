@@ -212,7 +212,7 @@ class Session:
     ) -> None:
         """A port is open. nonce: 8 random bytes, so that no unit mistakes us for our past.
 
-        bits_per_second, wanted: as in backend.link.Link.
+        bits_per_second, wanted: as in backend.device.link.Link.
         """
         self._now_s = now_s
         self._port_name = name

@@ -22,7 +22,7 @@ from backend.core.energy import (
     MOTOR_TORQUE_DEMANDED,
     MOTOR_TORQUE_DEMANDED_CRANK,
 )
-from backend.domain.ride import Ride
+from backend.core.ride import Ride
 from backend.errors import FieldError, InvalidRequest
 from backend.services.rides.insight.energy import ALTITUDE, POWERS
 from backend.services.rides.insight.pedalling import ANGLE, CADENCE, TORQUE, told_crank

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
-from backend import control
-from backend.domain.ride import Ride
+from backend import law
+from backend.core.ride import Ride
 from backend.services.rides.insight.rows import RideColumns, columns_of
 from backend.services.rides.settings_in_force import ConfigOf, all_through
 from backend.store import Store
@@ -54,7 +54,7 @@ def evidence_of(rows: RideColumns, limits: Limits) -> Evidence:
 def limits_of(config: Mapping[str, Any]) -> Limits:
     """What a configuration says; nothing of one that nobody kept."""
     return Limits(
-        temperature=control.LIMITS["temperature"],
+        temperature=law.LIMITS["temperature"],
         battery_voltage_v_min=config.get("battery_voltage_v_min"),
         wheel_circumference_m=config.get("wheel_circumference_m"),
     )

@@ -7,7 +7,7 @@ from dataclasses import asdict
 from typing import Any
 
 from backend import __version__
-from backend.domain.ride import Ride, iso_utc
+from backend.core.ride import Ride, iso_utc
 from backend.services.rides.export import Export, stem
 from backend.services.rides.insight.diagnosis import Diagnosis
 from backend.services.rides.insight.effort import RideEffort

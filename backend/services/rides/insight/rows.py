@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from backend.core.channels import Values
-from backend.domain.ride import Ride
+from backend.core.ride import Ride
 from backend.store import RideReader, Store
 from backend.views.insight.way import Way, way_of
 

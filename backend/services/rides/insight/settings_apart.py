@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from backend.control.comparison import cells_changed
-from backend.domain.fuzzy_table import PARAMETERS_OF, FuzzyTable
-from backend.domain.ride import Ride
+from backend.core.fuzzy_table import PARAMETERS_OF, FuzzyTable
+from backend.core.ride import Ride
+from backend.law.comparison import cells_changed
 from backend.services.rides.settings_in_force import ConfigOf
 from backend.services.tuning.compare import Difference, differences
 

@@ -1,0 +1,368 @@
+"""From the columns a file happens to have to the rows of a ride, by our rules.
+
+- A row without a believable time is dropped, and counted (`domain.intake`).
+- A break of hours makes two rides. A clock that jumps away and comes back makes none.
+- Rows of one time that complete each other are one row: some head units write a row's parts one
+  after the other. Rows of one time that differ are samples of their own, and stand evenly in it.
+- Missing is missing: a maker's "no value" number (65535, 255) never becomes a value, nor does what
+  no bike can do, nor a single sample far from both its neighbours (one flipped bit in an odometer
+  makes 84 km of 2.9). All become null, never 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from backend.core.channels import ChannelSpec, Counts, Values
+from backend.core.energy import KMH_PER_MS
+from backend.core.intake import CLOCK_JUMPED, CLOCK_NOT_SET, NO_TIME, NO_VALUE, Intake
+from backend.core.ride import RideRows
+from backend.formats.fit_numbers import EPOCH_S
+from backend.formats.outcome import ImportedRide
+
+# Before it a clock was never set: FIT then counts from the device's start. Behind 2099 nothing is.
+CLOCK_MIN_S = EPOCH_S + 0x10000000
+LATEST_S = 4_102_444_800
+# A break longer than this is between two rides: nobody rests so long within one.
+BREAK_S = 6 * 3600
+# Rows of one time lie within this, if no other time comes sooner.
+TICK_US = 1_000_000
+# Rows closer than this to equal spacing make a regular ride.
+REGULAR_TOLERANCE_US = 1000
+# A spike stands out by more than this many of its own resolution, too.
+SPIKE_STEPS = 4
+
+Seconds = npt.NDArray[np.float64]
+Places = npt.NDArray[np.intp]
+
+
+@dataclass(frozen=True)
+class FieldRule:
+    """How a field of a file becomes a channel.
+
+    sources: names of the field, the best first. factor: file's unit -> channel's unit.
+    lowest, highest: what a bike can do; beyond it the sample is missing. rate_max: how fast it can
+    change, a second; a single sample that does so to and fro is missing.
+    """
+
+    channel: ChannelSpec
+    sources: tuple[str, ...]
+    lowest: float
+    highest: float
+    factor: float = 1.0
+    rate_max: float = np.inf
+
+
+SEMICIRCLE_DEG = 180.0 / 2**31
+LATITUDE, LONGITUDE = "latitude_deg", "longitude_deg"
+
+FIT_FIELDS: tuple[FieldRule, ...] = (
+    # 2 g, which no tyre holds.
+    FieldRule(
+        ChannelSpec("speed_kmh", "km/h", 0.0036),
+        ("enhanced_speed", "speed"),
+        0,
+        117.9,
+        KMH_PER_MS,
+        70.0,
+    ),
+    FieldRule(ChannelSpec("cadence_rpm", "rpm", 1.0), ("cadence",), 0, 254),
+    FieldRule(ChannelSpec("rider_power_w", "W", 1.0), ("power",), 0, 4000),
+    FieldRule(ChannelSpec("rider_torque_nm", "Nm", 0.01), ("rider_torque",), -320, 320),
+    FieldRule(ChannelSpec("right_leg_pct", "%", 1.0), ("right_leg",), 0, 100),
+    *(
+        FieldRule(ChannelSpec(f"{name}_pct", "%", 0.5), (name,), 0, 100)
+        for name in (
+            "left_torque_effectiveness",
+            "right_torque_effectiveness",
+            "left_pedal_smoothness",
+            "right_pedal_smoothness",
+            "combined_pedal_smoothness",
+        )
+    ),
+    FieldRule(ChannelSpec("motor_power_w", "W", 1.0), ("motor_power",), 0, 4000),
+    FieldRule(ChannelSpec("motor_torque_nm", "Nm", 0.01), ("motor_torque",), -320, 320),
+    FieldRule(
+        ChannelSpec("motor_torque_demanded_nm", "Nm", 0.01), ("motor_torque_demanded",), -320, 320
+    ),
+    FieldRule(ChannelSpec("battery_current_a", "A", 0.01), ("battery_current",), -320, 320),
+    FieldRule(
+        ChannelSpec("motor_temperature_degc", "degC", 0.01), ("motor_temperature",), -60, 320
+    ),
+    FieldRule(ChannelSpec("motor_current_a", "A", 0.01), ("motor_current",), -320, 320),
+    FieldRule(ChannelSpec("battery_voltage_v", "V", 0.01), ("battery_voltage",), 0, 120),
+    FieldRule(ChannelSpec("battery_soc_pct", "%", 1.0), ("ebike_battery_level",), 0, 100),
+    FieldRule(ChannelSpec("assist_mode", "", 1.0), ("ebike_assist_mode",), 0, 254),
+    FieldRule(ChannelSpec("assist_level_pct", "%", 1.0), ("ebike_assist_level_percent",), 0, 254),
+    FieldRule(ChannelSpec("range_km", "km", 1.0), ("ebike_travel_range",), 0, 1000),
+    FieldRule(ChannelSpec("fuzzy_gain", "", 0.0001), ("fuzzy_gain",), 0, 3),
+    FieldRule(ChannelSpec("heart_rate_bpm", "bpm", 1.0), ("heart_rate",), 1, 254),
+    FieldRule(ChannelSpec("temperature_degc", "degC", 1.0), ("temperature",), -60, 120),
+    FieldRule(
+        ChannelSpec("altitude_m", "m", 0.2),
+        ("enhanced_altitude", "altitude"),
+        -500,
+        6000,
+        rate_max=50.0,
+    ),
+    FieldRule(ChannelSpec("grade_pct", "%", 0.01), ("grade",), -100, 100),
+    FieldRule(
+        ChannelSpec("distance_m", "m", 0.01, wide=True), ("distance",), 0, 2e7, rate_max=60.0
+    ),
+    # A thousandth of a degree of latitude is 111 m.
+    FieldRule(
+        ChannelSpec(LATITUDE, "deg", SEMICIRCLE_DEG, wide=True),
+        ("position_lat",),
+        -90,
+        90,
+        rate_max=0.001,
+    ),
+    FieldRule(
+        ChannelSpec(LONGITUDE, "deg", SEMICIRCLE_DEG, wide=True), ("position_long",), -180, 180
+    ),
+)
+
+
+@dataclass
+class Found:
+    """What is counted while one ride is made."""
+
+    spread: int = 0
+    moved: int = 0
+    dropped: dict[str, int] = field(default_factory=dict)
+    values: dict[str, int] = field(default_factory=dict)
+
+    def drop(self, reason: str, rows: int) -> None:
+        """Count rows that are not in the ride."""
+        if rows:
+            self.dropped[reason] = self.dropped.get(reason, 0) + rows
+
+    def leave_out(self, channel: str, samples: int) -> None:
+        """Count samples that are missing from now on."""
+        if samples:
+            self.values[channel] = self.values.get(channel, 0) + samples
+
+
+def rides_of_columns(
+    time_s: Seconds,
+    columns: Mapping[str, Values],
+    fields: tuple[FieldRule, ...] = FIT_FIELDS,
+    sport: str | None = None,
+    unread: Mapping[str, int] | None = None,
+) -> list[ImportedRide]:
+    """Columns (n,) and Unix times (n,) -> rides in order of time; none without a time and a value.
+
+    columns: by the file's field names, missing as NaN. unread: fields that are in no column. What
+    is in no ride is counted with the first.
+    """
+    found = Found()
+    read = {rule: values for rule in fields if (values := rule_values(rule, columns)) is not None}
+    rides: list[tuple[ImportedRide, Found, int]] = []
+    for rows in blocks_of_time(time_s, found):
+        own = found if not rides else Found()
+        samples = {rule: values[rows] for rule, values in read.items()}
+        ride = ride_of_rows(rows, time_s[rows], samples, own, sport)
+        if ride is None:
+            found.drop(NO_VALUE, len(rows))
+            continue
+        rides.append((ride, own, len(rows)))
+    return [
+        with_intake(ride, own, rows, unread if number == 0 else None)
+        for number, (ride, own, rows) in enumerate(rides)
+    ]
+
+
+def with_intake(
+    ride: ImportedRide, found: Found, rows: int, unread: Mapping[str, int] | None
+) -> ImportedRide:
+    """The ride with what became of the rows it was made of."""
+    kept = len(ride.rows.times_us)
+    intake = Intake(
+        rows_read=rows + sum(found.dropped.values()),
+        rows_kept=kept,
+        rows_joined=rows - kept,
+        rows_spread=found.spread,
+        rows_moved=found.moved,
+        rows_dropped=dict(found.dropped),
+        values_dropped=dict(found.values),
+        fields_unread=dict(unread or {}),
+    )
+    return replace(ride, intake=intake)
+
+
+def blocks_of_time(time_s: Seconds, found: Found) -> list[Places]:
+    """Rows with believable times, a block for each ride, each in order of time."""
+    there = np.isfinite(time_s) & (time_s < LATEST_S) & (time_s > EPOCH_S)
+    found.drop(NO_TIME, int((~there).sum()))
+    is_set = there & (time_s >= CLOCK_MIN_S)
+    if is_set.any():
+        found.drop(CLOCK_NOT_SET, int((there & ~is_set).sum()))
+    rows = np.flatnonzero(is_set if is_set.any() else there)
+    if not len(rows):
+        return []
+    order = rows[np.argsort(time_s[rows], kind="stable")]
+    breaks = np.flatnonzero(np.diff(time_s[order]) > BREAK_S) + 1
+    blocks = np.split(order, breaks)
+    kept = [block for block in blocks if not jumped_away(block, blocks)]
+    found.drop(CLOCK_JUMPED, len(rows) - sum(map(len, kept)))
+    return kept
+
+
+def jumped_away(block: Places, blocks: Sequence[Places]) -> bool:
+    """Whether a block stands in the middle of a larger one in the file, though not in time."""
+    first, last = block.min(), block.max()
+    return any(
+        len(other) > len(block) and other.min() < first and other.max() > last for other in blocks
+    )
+
+
+def ride_of_rows(
+    rows: Places,
+    time_s: Seconds,
+    read: Mapping[FieldRule, Values],
+    found: Found,
+    sport: str | None,
+) -> ImportedRide | None:
+    """One block of rows, in order of time, as a ride; None when it has no value.
+
+    rows: their places in the file. time_s: of each. read: values of each, cleaned on the way.
+    """
+    found.moved = int((np.diff(rows) < 0).sum())
+    unix_us = np.rint(time_s * 1e6).astype(np.int64)
+    started_us = int(unix_us[0])
+    times_us = unix_us - started_us
+    left_out = {rule: cleaned(rule, values) for rule, values in read.items()}
+    starts = np.flatnonzero(np.concatenate(([True], np.diff(times_us) > 0)))
+    if len(starts) < len(times_us):
+        times_us, starts = spread_out(times_us, starts, read.values(), found)
+    times = times_us[starts]
+    channels: list[ChannelSpec] = []
+    counts: dict[str, Counts] = {}
+    for rule, values in read.items():
+        merged = first_present(values, starts)
+        spikes = without_spikes(rule, merged, times)
+        found.leave_out(rule.channel.name, left_out[rule] + spikes)
+        if np.isfinite(merged).any():
+            channels.append(rule.channel)
+            counts[rule.channel.name] = rule.channel.to_counts(merged)
+    no_position(counts, channels, found)
+    if not channels:
+        return None
+    ride_rows = RideRows(tuple(channels), times, counts)
+    return ImportedRide(
+        started_us,
+        regular_period_us(times),
+        ride_rows,
+        sport,
+        start_known=started_us >= CLOCK_MIN_S * 1_000_000,
+    )
+
+
+def rule_values(rule: FieldRule, columns: Mapping[str, Values]) -> Values | None:
+    """The rule's values (n,), from its best source row by row; None when no source is there."""
+    there = [columns[name] for name in rule.sources if name in columns]
+    if not there:
+        return None
+    values = np.array(there[0], dtype=np.float64)
+    for other in there[1:]:
+        values = np.where(np.isnan(values), other, values)
+    values *= rule.factor
+    return values
+
+
+def cleaned(rule: FieldRule, values: Values) -> int:
+    """Take out of `values` what no bike can do; how many that were."""
+    impossible = np.isfinite(values) & ((values < rule.lowest) | (values > rule.highest))
+    values[impossible | ~np.isfinite(values)] = np.nan
+    return int(impossible.sum())
+
+
+def without_spikes(rule: FieldRule, values: Values, times_us: npt.NDArray[np.int64]) -> int:
+    """Take single samples out of `values` that leave both neighbours faster than can be.
+
+    The neighbours agree with each other, so that nothing real looks like this. How many that were.
+    """
+    there = np.flatnonzero(np.isfinite(values))
+    if not np.isfinite(rule.rate_max) or len(there) < 3:
+        return 0
+    seconds = times_us[there] / 1e6
+    least = SPIKE_STEPS * rule.channel.scale
+    with_rate = rule.rate_max * np.diff(seconds) + least
+    steps = np.diff(values[there])
+    across = np.abs(values[there][2:] - values[there][:-2])
+    fast = np.abs(steps) > with_rate
+    back = np.signbit(steps[:-1]) != np.signbit(steps[1:])
+    spikes = fast[:-1] & fast[1:] & back & (across <= with_rate[:-1] + with_rate[1:])
+    # The first and the last have one neighbour each, which the next one beyond bears out.
+    ends = np.array([fast[0] and not fast[1], fast[-1] and not fast[-2]])
+    inner = there[1:-1][spikes]
+    outer = there[[0, -1]][ends]
+    values[inner] = np.nan
+    values[outer] = np.nan
+    return len(inner) + len(outer)
+
+
+def spread_out(
+    times_us: npt.NDArray[np.int64],
+    starts: Places,
+    read: Iterable[Values],
+    found: Found,
+) -> tuple[npt.NDArray[np.int64], Places]:
+    """Give rows of one time that differ times of their own; times and beginnings of rows now."""
+    differ = np.zeros(len(starts), dtype=bool)
+    for values in read:
+        there = np.isfinite(values)
+        highest = np.maximum.reduceat(np.where(there, values, -np.inf), starts)
+        lowest = np.minimum.reduceat(np.where(there, values, np.inf), starts)
+        differ |= highest > lowest
+    sizes = np.diff(np.append(starts, len(times_us)))
+    if not differ.any():
+        return times_us, starts
+    firsts = times_us[starts]
+    room_us = np.minimum(np.diff(firsts, append=firsts[-1] + TICK_US), TICK_US)
+    group = np.repeat(np.arange(len(starts)), sizes)
+    place = np.arange(len(times_us)) - starts[group]
+    moved = np.where(differ[group], place * (room_us // sizes)[group], 0)
+    times = times_us + moved
+    found.spread += int(sizes[differ].sum())
+    return times, np.flatnonzero(np.concatenate(([True], np.diff(times) > 0)))
+
+
+def no_position(counts: dict[str, Counts], channels: list[ChannelSpec], found: Found) -> None:
+    """0, 0 is where a receiver without a fix is, and half a position is none."""
+    if LATITUDE not in counts or LONGITUDE not in counts:
+        return
+    missing = {channel.name: channel.missing for channel in channels}
+    latitude, longitude = counts[LATITUDE], counts[LONGITUDE]
+    nowhere = (latitude == 0) & (longitude == 0)
+    half = (latitude == missing[LATITUDE]) != (longitude == missing[LONGITUDE])
+    found.leave_out(LATITUDE, int(nowhere.sum()))
+    found.leave_out(LONGITUDE, int(nowhere.sum()))
+    for values, name in ((latitude, LATITUDE), (longitude, LONGITUDE)):
+        values[nowhere | half] = missing[name]
+        if (values == missing[name]).all():
+            del counts[name]
+            channels[:] = [channel for channel in channels if channel.name != name]
+
+
+def first_present(values: Values, starts: Places) -> Values:
+    """The first sample that is there in each group of rows beginning at `starts`; a copy."""
+    if len(starts) == len(values):
+        return values.copy()
+    index = np.where(np.isfinite(values), np.arange(len(values)), len(values))
+    first = np.minimum.reduceat(index, starts)
+    return np.append(values, np.nan)[first]
+
+
+def regular_period_us(times_us: npt.NDArray[np.int64]) -> int | None:
+    """The spacing when every row keeps to it, else None."""
+    if len(times_us) < 2:
+        return None
+    period_us = round(float(times_us[-1]) / (len(times_us) - 1))
+    expected = np.arange(len(times_us), dtype=np.int64) * period_us
+    regular = period_us > 0 and bool(np.abs(times_us - expected).max() <= REGULAR_TOLERANCE_US)
+    return period_us if regular else None

@@ -1,0 +1,12 @@
+"""What a ride's channels are called in a file: torque that was only asked for is named so."""
+
+from __future__ import annotations
+
+from backend.core.energy import DEMANDED, MOTOR_TORQUE, MOTOR_TORQUE_DEMANDED
+from backend.core.ride import Ride
+
+
+def told_names(ride: Ride) -> dict[str, str]:
+    """The name in a file of every recorded channel."""
+    asked = {MOTOR_TORQUE: MOTOR_TORQUE_DEMANDED} if ride.motor_torque_meaning == DEMANDED else {}
+    return {channel.name: asked.get(channel.name, channel.name) for channel in ride.channels}

@@ -1,0 +1,151 @@
+"""What a FIT file tells beside its records: laps, pauses of the timer, and the devices it heard."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from backend.core.noted import INSTRUMENTS_MAX, LAPS_MAX, PAUSES_MAX, Instrument, Lap, Noted, Pause
+from backend.formats.fit.fields import Bytes, Table, table_of, text
+from backend.formats.fit.layout import Part
+from backend.formats.fit.noted_words import (
+    BATTERY_STATUS,
+    DEVICE_KINDS,
+    LAP_TRIGGERS,
+    LOCAL_KINDS,
+    MANUFACTURERS,
+)
+from backend.formats.fit.profile import ProfileField
+from backend.formats.fit_numbers import DEVICE_INFO, EPOCH_S, EVENT, LAP
+
+LAP_FIELDS = {
+    2: ProfileField("start_time"),
+    7: ProfileField("total_elapsed_time", "s", 1000),
+    8: ProfileField("total_timer_time", "s", 1000),
+    9: ProfileField("total_distance", "m", 100),
+    11: ProfileField("total_calories", "kcal"),
+    24: ProfileField("lap_trigger"),
+}
+EVENT_FIELDS = {
+    0: ProfileField("event"),
+    1: ProfileField("event_type"),
+    3: ProfileField("data"),
+}
+DEVICE_FIELDS = {
+    0: ProfileField("device_index"),
+    1: ProfileField("device_type"),
+    2: ProfileField("manufacturer"),
+    3: ProfileField("serial_number"),
+    4: ProfileField("product"),
+    5: ProfileField("software_version", "", 100),
+    10: ProfileField("battery_voltage", "V", 256),
+    11: ProfileField("battery_status"),
+    25: ProfileField("source_type"),
+}
+PRODUCT_NAME = 27
+TIMER, TIMER_STARTS, TIMER_STOPS = 0, (0,), (1, 4, 8, 9)
+BY_HAND, BY_ITSELF = 0, 1
+# Index of the device that wrote the file, and the source of what is built into it.
+CREATOR, LOCAL = 0, 5
+
+
+def noted_of(data: bytes, cells: Bytes, part: Part) -> Noted:
+    """Laps and pauses with their times as Unix seconds, and the instruments."""
+    return Noted(
+        laps_of(table_of(cells, part.of(LAP), LAP_FIELDS)),
+        pauses_of(table_of(cells, part.of(EVENT), EVENT_FIELDS)),
+        instruments_of(data, cells, part),
+    )
+
+
+def laps_of(laps: Table) -> tuple[Lap, ...]:
+    """Every lap whose beginning and end are told."""
+    elapsed_s = laps.values("total_elapsed_time")
+    ends_s, starts_s = laps.time_s, laps.values("start_time")
+    starts_s = np.where(np.isnan(starts_s), ends_s - elapsed_s, starts_s)
+    ends_s = np.where(np.isnan(elapsed_s), ends_s, starts_s + elapsed_s)
+    triggers = laps.values("lap_trigger")
+    found = []
+    for row in np.flatnonzero(ends_s > starts_s)[:LAPS_MAX]:
+        told = {
+            name: known(laps.values(field)[row])
+            for name, field in (
+                ("timer_s", "total_timer_time"),
+                ("distance_m", "total_distance"),
+                ("calories_kcal", "total_calories"),
+            )
+        }
+        trigger = known(triggers[row])
+        word = None if trigger is None else LAP_TRIGGERS.get(int(trigger), "other")
+        begins_s, over_s = EPOCH_S + float(starts_s[row]), EPOCH_S + float(ends_s[row])
+        found.append(Lap(begins_s, over_s, word, **told))
+    return tuple(found)
+
+
+def pauses_of(events: Table) -> tuple[Pause, ...]:
+    """From each stop of the timer to its next start; a stop that ends the file is none."""
+    kinds, who = events.values("event_type"), events.values("data")
+    timer = np.flatnonzero((events.values("event") == TIMER) & np.isfinite(events.time_s))
+    stopped: int | None = None
+    found: list[Pause] = []
+    for row in timer[np.argsort(events.time_s[timer], kind="stable")]:
+        if kinds[row] in TIMER_STOPS and stopped is None:
+            stopped = int(row)
+        elif kinds[row] in TIMER_STARTS and stopped is not None:
+            from_s, to_s = (EPOCH_S + float(events.time_s[at]) for at in (stopped, row))
+            by = {BY_HAND: True, BY_ITSELF: False}.get(who[stopped])
+            if to_s > from_s and len(found) < PAUSES_MAX:
+                found.append(Pause(from_s, to_s, by))
+            stopped = None
+    return tuple(found)
+
+
+def instruments_of(data: bytes, cells: Bytes, part: Part) -> tuple[Instrument, ...]:
+    """Each device once, by its index in the file: devices are told again as they are heard."""
+    told = table_of(cells, part.of(DEVICE_INFO), DEVICE_FIELDS)
+    names = [
+        name
+        for _, name in sorted(
+            (offset, text(data, definition, offset, PRODUCT_NAME))
+            for definition in part.of(DEVICE_INFO)
+            for offset in definition.offsets
+        )
+    ]
+    index = told.values("device_index")
+    found: dict[float, dict[str, object]] = {}
+    for row in range(len(told)):
+        number = float(index[row])
+        if np.isnan(number) or (number not in found and len(found) >= INSTRUMENTS_MAX):
+            continue
+        facts = instrument(told, row, names[row])
+        before = found.setdefault(number, {})
+        before |= {name: value for name, value in facts.items() if value is not None}
+    return tuple(Instrument(**facts) for facts in found.values() if facts)  # type: ignore[arg-type]
+
+
+def instrument(told: Table, row: int, name: str) -> dict[str, object]:
+    """What one message tells of a device; None for what it does not."""
+
+    def value(field: str) -> float | None:
+        return known(told.values(field)[row])
+
+    def word(field: str, words: dict[int, str], other: str) -> str | None:
+        number = value(field)
+        return None if number is None else words.get(int(number), f"{other}_{int(number)}")
+
+    product, version = value("product"), value("software_version")
+    kinds = LOCAL_KINDS if value("source_type") == LOCAL else DEVICE_KINDS
+    serial, kind = value("serial_number"), word("device_type", kinds, "device")
+    return {
+        "kind": "recorder" if value("device_index") == CREATOR else kind,
+        "maker": word("manufacturer", MANUFACTURERS, "manufacturer"),
+        "product": name or (None if product is None else str(int(product))),
+        "serial_number": None if serial is None else str(int(serial)),
+        "software_version": None if version is None else f"{version:.2f}",
+        "battery_v": value("battery_voltage"),
+        "battery_status": word("battery_status", BATTERY_STATUS, "status"),
+    }
+
+
+def known(value: float) -> float | None:
+    """A number, None for a missing one."""
+    return float(value) if np.isfinite(value) else None

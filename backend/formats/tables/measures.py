@@ -1,0 +1,200 @@
+"""What a column measures, by its name and unit, and how its numbers become a channel's."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+
+from backend.core.channels import ChannelSpec
+from backend.core.energy import KMH_PER_MS
+from backend.formats.columns import FIT_FIELDS, FieldRule
+
+# Unit as files write it, without case and spaces -> its quantity, our word, factor to the
+# channel's unit, and what is added after that.
+UNITS: dict[str, tuple[str, str, float, float]] = {
+    **dict.fromkeys(("km/h", "kmh", "kph", "kmph", "km/hr"), ("speed", "km/h", 1.0, 0.0)),
+    **dict.fromkeys(("mph", "mi/h", "mp/h"), ("speed", "mph", 1.609344, 0.0)),
+    **dict.fromkeys(("m/s", "mps", "ms"), ("speed", "m/s", KMH_PER_MS, 0.0)),
+    **dict.fromkeys(("m", "meter", "meters", "metres", "metre"), ("length", "m", 1.0, 0.0)),
+    **dict.fromkeys(("km", "kilometers", "kilometres"), ("length", "km", 1000.0, 0.0)),
+    **dict.fromkeys(("mi", "miles", "mile"), ("length", "mi", 1609.344, 0.0)),
+    **dict.fromkeys(("ft", "feet"), ("length", "ft", 0.3048, 0.0)),
+    **dict.fromkeys(("degc", "c", "°c", "celsius", "ºc"), ("temperature", "degC", 1.0, 0.0)),
+    **dict.fromkeys(("degf", "f", "°f", "fahrenheit"), ("temperature", "degF", 5 / 9, -160 / 9)),
+    **dict.fromkeys(("nm", "n-m", "n·m", "n*m"), ("torque", "Nm", 1.0, 0.0)),
+    **dict.fromkeys(("ft-lb", "lb-ft", "ftlb", "lbft"), ("torque", "ft-lb", 1.3558179, 0.0)),
+    **dict.fromkeys(("w", "watt", "watts"), ("power", "W", 1.0, 0.0)),
+    "kw": ("power", "kW", 1000.0, 0.0),
+    **dict.fromkeys(("rpm", "1/min"), ("cadence", "rpm", 1.0, 0.0)),
+    "bpm": ("heart_rate", "bpm", 1.0, 0.0),
+    **dict.fromkeys(("deg", "°", "degrees"), ("angle", "deg", 1.0, 0.0)),
+    **dict.fromkeys(("%", "pct", "percent"), ("share", "%", 1.0, 0.0)),
+    "1": ("share", "1", 100.0, 0.0),
+    "v": ("voltage", "V", 1.0, 0.0),
+    "a": ("current", "A", 1.0, 0.0),
+}
+# Quantities whose unit is never taken for granted, with what may be said of each channel.
+ASKED: dict[str, tuple[str, ...]] = {
+    "speed_kmh": ("km/h", "m/s", "mph"),
+    "distance_m": ("m", "km", "mi"),
+    "altitude_m": ("m", "ft"),
+    "temperature_degc": ("degC", "degF"),
+    "motor_temperature_degc": ("degC", "degF"),
+    "rider_torque_nm": ("Nm", "ft-lb"),
+    "motor_torque_nm": ("Nm", "ft-lb"),
+}
+DEFINED: dict[str, str] = {
+    "cadence_rpm": "rpm",
+    "rider_power_w": "W",
+    "motor_power_w": "W",
+    "heart_rate_bpm": "bpm",
+    "latitude_deg": "deg",
+    "longitude_deg": "deg",
+    "battery_voltage_v": "V",
+    "battery_current_a": "A",
+    "motor_current_a": "A",
+    "battery_soc_pct": "%",
+    "assist_level_pct": "%",
+    "grade_pct": "%",
+    "assist_mode": "",
+    "right_leg_pct": "%",
+    "range_km": "km",
+    "fuzzy_gain": "",
+    "motor_torque_demanded_nm": "Nm",
+}
+# A column's name, lower case with single spaces for all that is no letter -> its channel.
+NAMES: dict[str, str] = {
+    **dict.fromkeys(("speed", "enhanced speed", "velocity", "km h", "kph", "mph"), "speed_kmh"),
+    **dict.fromkeys(("cadence", "cad", "rpm", "pedal cadence"), "cadence_rpm"),
+    **dict.fromkeys(("power", "watts", "watt", "rider power", "human power"), "rider_power_w"),
+    **dict.fromkeys(("motor power", "motor watts"), "motor_power_w"),
+    **dict.fromkeys(("rider torque", "human torque", "pedal torque"), "rider_torque_nm"),
+    "motor torque": "motor_torque_nm",
+    "motor torque demanded": "motor_torque_demanded_nm",
+    **dict.fromkeys(("heart rate", "heartrate", "hr", "hrate", "puls"), "heart_rate_bpm"),
+    **dict.fromkeys(("distance", "dist", "km", "miles"), "distance_m"),
+    **dict.fromkeys(
+        ("altitude", "enhanced altitude", "elevation", "ele", "alt", "height"), "altitude_m"
+    ),
+    **dict.fromkeys(("temperature", "temp", "atemp"), "temperature_degc"),
+    "motor temperature": "motor_temperature_degc",
+    **dict.fromkeys(("position lat", "latitude", "lat"), "latitude_deg"),
+    **dict.fromkeys(("position long", "longitude", "lon", "lng", "long"), "longitude_deg"),
+    **dict.fromkeys(("battery voltage", "voltage"), "battery_voltage_v"),
+    "battery current": "battery_current_a",
+    "motor current": "motor_current_a",
+    **dict.fromkeys(("battery level", "battery soc", "ebike battery level"), "battery_soc_pct"),
+    **dict.fromkeys(("grade", "slope", "hill slope"), "grade_pct"),
+    **dict.fromkeys(("ebike assist mode", "assist mode"), "assist_mode"),
+    "ebike assist level percent": "assist_level_pct",
+    "ebike travel range": "range_km",
+    "fuzzy gain": "fuzzy_gain",
+}
+IN_BRACKETS = re.compile(r"^(.*?)[(\[]\s*([^()\[\]]*?)\s*[)\]]\s*$")
+RULES: dict[str, FieldRule] = {rule.channel.name: rule for rule in FIT_FIELDS}
+
+# Suffix of our channel names -> unit and the scale that holds what a bike has of it.
+OWN_UNITS: dict[str, tuple[str, float]] = {
+    "_kmh": ("km/h", 0.01),
+    "_rpm": ("rpm", 0.1),
+    "_nm": ("Nm", 0.01),
+    "_v": ("V", 0.002),
+    "_a": ("A", 0.001),
+    "_w": ("W", 0.1),
+    "_pct": ("%", 0.01),
+    "_degc": ("degC", 0.01),
+    "_deg": ("deg", 0.02),
+}
+OWN_SCALES: dict[str, float] = {
+    "cadence_rpm": 0.01,
+    "motor_torque_nm": 0.0001,
+    "motor_torque_demanded_nm": 0.0001,
+    "motor_torque_available_nm": 0.0001,
+    "rider_torque_raw": 1.0,
+    "torque_rate": 0.0005,
+    "fuzzy_gain": 0.00005,
+    "assist_ratio": 0.0002,
+}
+OWN_NAME = re.compile(r"[a-z][a-z0-9_]{0,47}")
+
+
+@dataclass(frozen=True)
+class Measure:
+    """What a column becomes. unit: of its numbers, None where it must be asked, "" for none.
+
+    choices: what may be answered. own: of our own export, whose scales are exact.
+    """
+
+    rule: FieldRule
+    unit: str | None
+    choices: tuple[str, ...] = ()
+    own: bool = False
+
+    def in_unit(self, unit: str) -> tuple[FieldRule, float]:
+        """The rule for numbers in a unit, and what is added to them afterwards."""
+        known = UNITS.get(plain_unit(unit))
+        if self.own or known is None:
+            return self.rule, 0.0
+        _, _, factor, added = known
+        if self.rule.channel.name == "range_km":
+            factor /= 1000.0
+        return replace(self.rule, factor=factor), added
+
+
+def measure_of(header: str) -> Measure | None:
+    """What a column measures by its header; None when nothing is known of it."""
+    name, told = split_unit(header)
+    own = own_rule(header.strip().lower())
+    if own is not None:
+        return Measure(own, own.channel.unit, own=True)
+    channel = NAMES.get(words(name)) or (header.strip().lower() if header in RULES else None)
+    # A unit in a name can be all that it says: `Km/h` of a head unit is its speed.
+    if told is None and words(name) in ("km h", "kph", "mph", "km", "miles", "watts"):
+        told = name.strip()
+    if channel is None or channel not in RULES:
+        return None
+    return measure_in(channel, told)
+
+
+def measure_in(channel: str, told: str | None) -> Measure:
+    """A channel in the unit a header tells; where it tells none, as the channel is defined."""
+    rule = RULES[channel]
+    known = UNITS.get(plain_unit(told)) if told else None
+    if known is not None and known[1] in ASKED.get(channel, (known[1],)):
+        return Measure(rule, known[1])
+    if channel in ASKED:
+        return Measure(rule, None, ASKED[channel])
+    return Measure(rule, DEFINED.get(channel, rule.channel.unit))
+
+
+def split_unit(header: str) -> tuple[str, str | None]:
+    """Name and unit of a header like `Speed (km/h)`; no unit where none is in brackets."""
+    found = IN_BRACKETS.match(header.strip())
+    return (found.group(1), found.group(2)) if found else (header, None)
+
+
+def plain_unit(unit: str) -> str:
+    """A unit without case and spaces, as `UNITS` has it."""
+    return unit.strip().lower().replace(" ", "")
+
+
+def words(name: str) -> str:
+    """A name in lower case, single spaces for all that is no letter or digit."""
+    return re.sub(r"[^0-9a-zà-ÿ]+", " ", name.strip().strip('"').lower()).strip()
+
+
+def own_rule(name: str) -> FieldRule | None:
+    """The rule of a column of our own export, None for other names."""
+    if not OWN_NAME.fullmatch(name):
+        return None
+    suffix = next((suffix for suffix in OWN_UNITS if name.endswith(suffix)), None)
+    if name not in OWN_SCALES and suffix is None:
+        # Of a wide channel its name is its unit: `distance_m`.
+        known = RULES.get(name)
+        return replace(known, sources=(name,), factor=1.0) if known and known.channel.unit else None
+    if name in ("latitude_deg", "longitude_deg"):
+        return replace(RULES[name], sources=(name,), factor=1.0)
+    unit, scale = OWN_UNITS[suffix] if suffix else ("", 1.0)
+    scale = OWN_SCALES.get(name, scale)
+    limit = 32767 * scale
+    return FieldRule(ChannelSpec(name, unit, scale), (name,), -limit, limit)

@@ -1,0 +1,189 @@
+"""TCX (Training Center Database v2): each activity a ride, with its laps and its device.
+
+Positions are optional: a ride on a roller has none. Times that name no zone are not read before
+somebody says it, as a table's. Speed and power are those of the extension ActivityExtension v2. A
+course is a plan, not a ride.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import UTC
+from math import isfinite
+
+import numpy as np
+
+from backend.core.noted import LAPS_MAX, Instrument, Lap, Noted
+from backend.core.zones import zone_of
+from backend.domain.table_answer import TableAnswer, TableQuestion
+from backend.formats.cells import number
+from backend.formats.outcome import NEEDS_MAPPING, Outcome, rejected
+from backend.formats.tracks.rides import Clock, Track, outcome_of, refused
+from backend.formats.tracks.walk import Listener, Shape, Texts, UnsafeXml, as_utf8, walk
+
+SHAPE = Shape("Trackpoint", ("Activity", "Course", "Lap", "Creator"))
+SPORTS = {"biking": "cycling", "running": "running", "other": None}
+SPORT_LENGTH_MAX = 32
+TRIGGERS = {
+    "Manual": "manual",
+    "Distance": "distance",
+    "Location": "position",
+    "Time": "time",
+    "HeartRate": "other",
+}
+
+
+@dataclass
+class LapTold:
+    """A lap as the file has it. first_s, last_s: times of its points."""
+
+    start_s: float
+    texts: dict[str, str] = field(default_factory=dict)
+    first_s: float = float("nan")
+    last_s: float = float("nan")
+
+
+@dataclass
+class Activity:
+    """One activity as it comes."""
+
+    track: Track
+    laps: list[LapTold] = field(default_factory=list)
+    device: dict[str, str] = field(default_factory=dict)
+
+
+def read_tcx(data: bytes, answer: TableAnswer | None = None) -> Outcome:
+    """A TCX file -> what came of it. Never raises on any bytes. answer: the zone, where asked."""
+    zone = zone_of(answer.time_zone) if answer and answer.time_zone else None
+    reader = TcxReader(clock := Clock(zone or UTC))
+    listener = Listener(reader.opened, reader.closed, reader.told, reader.point)
+    try:
+        walked = walk(as_utf8(data), SHAPE, listener)
+    except UnsafeXml:
+        return refused()
+    activities = [one for one in reader.activities if one.track.points.rows]
+    if not activities and reader.courses:
+        return rejected("no_records", "The file holds a course: a plan, not the record of a ride.")
+    if clock.lacks_zone and zone is None:
+        question = question_of(activities)
+        detail = f"A {question.kind} that does not say: time_zone. Say it once, and every such "
+        return replace(rejected(NEEDS_MAPPING, f"{detail}file is read."), question=question)
+    for activity in activities:
+        activity.track.noted = Noted(laps=laps_of(activity), instruments=device_of(activity))
+    tracks = [activity.track for activity in activities]
+    return outcome_of(tracks, walked, len(data), "points without a time are no ride")
+
+
+class TcxReader:
+    """Builds activities of what the walk meets."""
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
+        self.activities: list[Activity] = []
+        self.courses = 0
+        self._in_course = self._in_device = False
+
+    def opened(self, name: str, attributes: Mapping[str, str]) -> None:
+        """An activity, a course, a lap or a device begins."""
+        if name == "Activity":
+            told = attributes.get("Sport", "").lower()[:SPORT_LENGTH_MAX]
+            self.activities.append(Activity(Track(self._clock, SPORTS.get(told, told or None))))
+            self._in_course = False
+        elif name == "Course":
+            self.courses += 1
+            self._in_course = True
+        elif name == "Lap" and not self._in_course:
+            start_s = self._clock.unix_s(attributes.get("StartTime", ""))
+            laps = self._latest().laps
+            if len(laps) < LAPS_MAX:
+                laps.append(LapTold(start_s))
+        elif name == "Creator":
+            self._in_device = True
+
+    def closed(self, name: str) -> None:
+        """A course or a device ends."""
+        self._in_course &= name != "Course"
+        self._in_device &= name != "Creator"
+
+    def told(self, parent: str, name: str, text: str) -> None:
+        """Of a lap, or of the device."""
+        if self._in_course or not self.activities:
+            return
+        activity = self.activities[-1]
+        if self._in_device:
+            activity.device.setdefault(name, text[:100])
+        elif parent == "Lap" and activity.laps:
+            activity.laps[-1].texts.setdefault(name, text[:100])
+
+    def point(self, texts: Texts) -> None:
+        """A point of the latest activity."""
+        if self._in_course:
+            return
+        activity = self._latest()
+        # What the sensor on the foot is called is no number.
+        texts.pop("SensorState", None)
+        time_s = activity.track.add(texts)
+        if activity.laps and isfinite(time_s):
+            lap = activity.laps[-1]
+            lap.first_s = float(np.fmin(lap.first_s, time_s))
+            lap.last_s = float(np.fmax(lap.last_s, time_s))
+
+    def _latest(self) -> Activity:
+        if not self.activities:
+            self.activities.append(Activity(Track(self._clock)))
+        return self.activities[-1]
+
+
+def question_of(activities: Sequence[Activity]) -> TableQuestion:
+    """What must be said before; files of one device share the answer."""
+    devices = {name for one in activities if (name := one.device.get("Name"))}
+    kind = f"TCX file of {min(devices)}" if devices else "TCX file"
+    return TableQuestion(hashlib.sha256(kind.encode()).hexdigest(), kind, time_zone=True)
+
+
+def laps_of(activity: Activity) -> tuple[Lap, ...]:
+    """Each lap from its start to the next one's; the last to its last point."""
+    told = [lap for lap in activity.laps if isfinite(lap.start_s) or isfinite(lap.first_s)]
+    starts = [lap.start_s if isfinite(lap.start_s) else lap.first_s for lap in told]
+    found = []
+    for place, lap in enumerate(told):
+        timer_s = known(lap.texts.get("TotalTimeSeconds"))
+        end_s = lap.last_s if isfinite(lap.last_s) else starts[place] + (timer_s or 0.0)
+        if place + 1 < len(told) and starts[place + 1] >= end_s:
+            end_s = starts[place + 1]
+        if end_s > starts[place]:
+            found.append(
+                Lap(
+                    starts[place],
+                    end_s,
+                    TRIGGERS.get(lap.texts.get("TriggerMethod", "")),
+                    timer_s,
+                    known(lap.texts.get("DistanceMeters")),
+                    known(lap.texts.get("Calories")),
+                )
+            )
+    return tuple(found)
+
+
+def device_of(activity: Activity) -> tuple[Instrument, ...]:
+    """The device that recorded; nothing where the file names none."""
+    told = activity.device
+    if not told:
+        return ()
+    version = [told[name] for name in ("VersionMajor", "VersionMinor") if name in told]
+    return (
+        Instrument(
+            "recorder",
+            product=told.get("Name"),
+            serial_number=told.get("UnitId"),
+            software_version=".".join(version) or None,
+        ),
+    )
+
+
+def known(text: str | None) -> float | None:
+    """A number, None for a missing one and for what is none."""
+    value = number(text or "")
+    return value if isfinite(value) else None

@@ -1,6 +1,0 @@
-"""FIT files to rides: sound ones and damaged ones, by one reader."""
-
-from backend.ingest.fit.layout import HEADER_SIZES, MAGIC
-from backend.ingest.fit.read import read_fit
-
-__all__ = ["HEADER_SIZES", "MAGIC", "read_fit"]
