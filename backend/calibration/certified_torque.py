@@ -1,4 +1,4 @@
-"""What a certificate says of a torque, for whoever compares something with it."""
+"""How well a unit's torque was known on a ride, by the certificate of its calibration then."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ from typing import Any
 
 from backend.calibration.bike.types import CertificateOfTorque
 from backend.calibration.budget import Budget
-from backend.calibration.job import is_written, moment
+from backend.calibration.job import is_written
 from backend.calibration.plain import from_plain
 from backend.calibration.records import CalibrationStore
 from backend.calibration.unit_record import PARAMETER_OF
+from backend.core.moments import utc
 from backend.core.ride import Ride
 
 GAIN = PARAMETER_OF["gain_nm_per_count"]
@@ -48,6 +49,6 @@ class CertifiedTorque:
             budget = from_plain(Budget, kept["worked"]["budget"])
             share = budget.expanded_at(torque_nm) / torque_nm
             return CertificateOfTorque(
-                job.id, kept["sha256"], moment(written["at_us"]), torque_nm, share
+                job.id, kept["sha256"], utc(written["at_us"]), torque_nm, share
             )
         return None

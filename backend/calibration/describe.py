@@ -1,4 +1,5 @@
-"""The certificate of a job: as it was written into the unit, and with its verification.
+"""Kept jobs as the API describes them, and the certificate of a job: as it was written into the
+unit, and with its verification.
 
 What the unit keeps is the hash of the document before the verification, which needs the unit
 written. So the file of a closed job has the last document with its own hash, and under `written`
@@ -15,7 +16,7 @@ from backend.calibration.capture import Capture
 from backend.calibration.certificate import About, certificate
 from backend.calibration.coefficients import Coefficients
 from backend.calibration.files import KeptCalibration, KeptCapture
-from backend.calibration.job import Body, counting, is_written, moment, require_setup, setup_in
+from backend.calibration.job import Body, counting, is_written, require_setup, setup_in
 from backend.calibration.judgement import Limits
 from backend.calibration.plain import from_plain, to_plain
 from backend.calibration.types import (
@@ -31,6 +32,7 @@ from backend.calibration.types import (
 from backend.calibration.unit_record import NUMBER, coefficients_of
 from backend.calibration.verification import Past, past_of
 from backend.calibration.worked import Worked, work_out
+from backend.core.moments import utc, utc_or_none
 
 
 def about_json(job: KeptCalibration, software: str) -> dict[str, Any]:
@@ -145,8 +147,8 @@ def summary_of(job: KeptCalibration, worked: Worked | None = None) -> JobSummary
         unit_key=job.unit_key,
         bike_id=job.bike_id,
         model=job.model,
-        opened_at=moment(job.opened_us),
-        closed_at=None if job.closed_us is None else moment(job.closed_us),
+        opened_at=utc(job.opened_us),
+        closed_at=utc_or_none(job.closed_us),
         author=job.author,
         author_proof=job.author_proof,
         file_sha256=job.sha256,
@@ -175,13 +177,13 @@ def capture_views(
             count=capture.count,
             rejected=len(capture.rejected),
             duration_s=capture.duration_s,
-            at=moment(capture.at_utc_us),
+            at=utc(capture.at_utc_us),
             found_nm=reading_nm(found, capture.mean_counts, capture.state.sensor_degc),
             fitted_nm=reading_nm(fitted, capture.mean_counts, capture.state.sensor_degc),
             unit_nm=body["unit_nm"].get(str(capture.number)),
             struck=None
             if one.struck is None
-            else Struck(one.struck["reason"], one.struck["author"], moment(one.struck["at_us"])),
+            else Struck(one.struck["reason"], one.struck["author"], utc(one.struck["at_us"])),
             refusals=tuple(
                 refusal
                 for refusal in refusals
@@ -214,7 +216,7 @@ def record_changes(body: Body) -> tuple[RecordChange, ...]:
     return tuple(
         RecordChange(
             kind=one["kind"],
-            at=moment(one["at_us"]),
+            at=utc(one["at_us"]),
             author=one["author"],
             reason=one["reason"],
             record=one["record"],
@@ -229,7 +231,7 @@ def record_changes(body: Body) -> tuple[RecordChange, ...]:
 def clock_changes(body: Body) -> tuple[ClockSet, ...]:
     """When the host's clock was set while the job was open, oldest first."""
     return tuple(
-        ClockSet(at=moment(one["at_us"]), by_s=one["by_us"] / 1e6, dated=one["dated"])
+        ClockSet(at=utc(one["at_us"]), by_s=one["by_us"] / 1e6, dated=one["dated"])
         for one in body.get("clock_set", ())
     )
 

@@ -1,4 +1,15 @@
-"""The repeatability: what captures scatter by beyond what each one knows of itself."""
+"""The coefficients from the captures: weighted least squares, and what each is uncertain by.
+
+Counts are the dependent variable, because they scatter; what all loads share (arm, gravity, masses,
+level) is kept apart from the scatter, for it does not average out.
+
+    counts = offset + offset_per_k dt + counts_per_nm load / (1 + gain_share_per_k dt)
+
+is `Coefficients` solved for the counts. The weights are one over the variance of a capture: of its
+own mean, of the reading's step, and of the repeatability: what captures scatter by beyond what each
+one knows of itself, which is what makes the weighted squares of the residuals equal to the degrees
+of freedom (Paule and Mandel, 1982).
+"""
 
 from __future__ import annotations
 

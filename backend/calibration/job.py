@@ -17,7 +17,6 @@ clock_set  at_us, by_us, dated of each time the host's clock was set meanwhile; 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from datetime import UTC, datetime
 from typing import Any
 
 from backend.calibration.capture import Capture, State
@@ -96,11 +95,6 @@ def not_fitted() -> Conflict:
 def changed(**values: Any) -> Callable[[Body], dict[str, Any]]:
     """A change of the named parts."""
     return lambda body: {**body, **values}
-
-
-def moment(at_us: int) -> datetime:
-    """Unix microseconds as a moment in UTC."""
-    return datetime.fromtimestamp(at_us / 1e6, UTC)
 
 
 def steps(setup: Setup, captures: Sequence[Capture]) -> tuple[Step, ...]:

@@ -1,4 +1,10 @@
-"""What a calibration may be off by, per market and model, and who says so."""
+"""Judgement of a calibration against limits: pass, conditional or fail, each with its causes.
+
+The limits are per market and model, and each tells who says so. A figure above its limit fails if
+it is above it by more than its own uncertainty, else it is a condition (the rule of ILAC-G8:09/2019
+without a guard band). What was not measured is a condition, never a pass; but temperature and crank
+angles, which a plan may leave out, are a note.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Why something is not taken: a code for programs and pages, a sentence, the figure."""
+"""What must be so before the first capture: standing, nobody on the pedals, supply, temperature;
+and why something is not taken: a code for programs and pages, a sentence, the figure.
+"""
 
 from __future__ import annotations
 

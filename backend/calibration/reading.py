@@ -1,4 +1,6 @@
-"""The steady window: what a capture is made of, whether it may be taken, and why not."""
+"""What a unit's sensor reads now; the steady window that a capture is made of, whether it may be
+taken, and why not.
+"""
 
 from __future__ import annotations
 

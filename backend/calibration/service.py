@@ -1,4 +1,4 @@
-"""Jobs as pages and programs see them, and what the sensor reads now."""
+"""The use cases of calibration together: jobs as pages see them, and what the sensor reads now."""
 
 from __future__ import annotations
 
@@ -34,6 +34,7 @@ from backend.calibration.verification import Past, among_model, change
 from backend.calibration.worked import Worked
 from backend.calibration.writing import CalibrationRecord
 from backend.core.canonical_json import canonical_text
+from backend.core.moments import utc_or_none
 from backend.services.tuning.tune import Tuning
 from backend.services.units.connect import Devices
 
@@ -94,7 +95,7 @@ class CalibrationShow:
             checks=() if device is None or job.closed_us else self._readings.checks(device, body),
             captures=tuple(capture_views(body, captures, worked)),
             worked=worked,
-            fitted_at=None if body["fitted_us"] is None else kept.moment(body["fitted_us"]),
+            fitted_at=utc_or_none(body["fitted_us"]),
             certificate_sha256=None if planned is None else planned[1]["sha256"],
             record=tuple(record_lines(body, None if planned is None else planned[0])),
             changes=record_changes(body),

@@ -1,4 +1,6 @@
-"""Local gravity: given, or from latitude and height."""
+"""Instruments and plan of a calibration: what hangs on which arm, where, and what is planned; and
+local gravity: given, or from latitude and height.
+"""
 
 from __future__ import annotations
 

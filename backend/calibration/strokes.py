@@ -1,4 +1,7 @@
-"""The error test's figures (thesis eq. 3.18 to 3.21) from captures, side by side."""
+"""The error test's figures (thesis eq. 3.18 to 3.21) from captures, side by side; and a correction
+by straight pieces through what the line leaves: for the certificate only, because the unit's law
+knows a line.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Verification: a mass that the fit has not seen, read with the new coefficients."""
+"""A mass that the fit has not seen, read with the new coefficients; and a calibration beside the
+earlier ones: of this bike, and of all units of its model.
+"""
 
 from __future__ import annotations
 

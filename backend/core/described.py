@@ -15,7 +15,8 @@ CONFIG = {"use_attribute_docstrings": True, "json_schema_serialization_defaults_
 def described(cls: type[Described]) -> type[Described]:
     """A frozen dataclass; in the API's description the docstrings of class and fields describe it.
 
-    Nothing is checked when one is made: that is for what comes from outside, a `RequestBody`.
+    Nothing is checked when one is made: that is for what comes from outside, a `RequestBody`. The
+    docstring of an inherited field is not seen: write such a field again.
     """
     cls.__pydantic_config__ = CONFIG  # type: ignore[attr-defined]
     return dataclass(frozen=True)(cls)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from datetime import UTC, datetime, timedelta
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +21,7 @@ from backend.core.energy import (
 )
 from backend.core.filled import Filled
 from backend.core.intake import Intake
+from backend.core.moments import utc
 from backend.core.noted import Noted, Pause, noted_to_json
 from backend.core.ride_events import RideEvent, settings_changes
 from backend.core.sphere import great_circle_m
@@ -238,8 +238,7 @@ def readable_name(name: str) -> str:
 
 def iso_utc(time_us: int) -> str:
     """Microseconds since 1970 UTC -> ISO 8601 with `Z`. Raises OverflowError past the year 9999."""
-    moment = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=time_us)
-    return moment.isoformat(timespec="milliseconds").replace("+00:00", "Z")
+    return utc(time_us).isoformat(timespec="milliseconds").replace("+00:00", "Z")
 
 
 def pause_us(times_us: TimesUs, period_us: int | None) -> int:

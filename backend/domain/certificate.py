@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import Any
+
+from backend.core.moments import utc
 
 NOT_COVERED = (
     "sensor_gain",
@@ -102,7 +104,7 @@ class Certificate:
         """`created_us` as a moment in UTC."""
         if self.created_us is None:
             return None
-        return datetime.fromtimestamp(self.created_us / 1e6, UTC)
+        return utc(self.created_us)
 
     def body(self) -> dict[str, Any]:
         """As plain JSON, without when it was made and for whom it was asked."""

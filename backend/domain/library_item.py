@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import Any
+
+from backend.core.moments import utc
 
 
 @dataclass(frozen=True)
@@ -34,9 +36,9 @@ class LibraryVersion:
     @property
     def made_at(self) -> datetime:
         """When the item came into the library, in UTC."""
-        return datetime.fromtimestamp(self.made_us / 1e6, UTC)
+        return utc(self.made_us)
 
     @property
     def created_at(self) -> datetime:
         """When it came into this state, in UTC."""
-        return datetime.fromtimestamp(self.created_us / 1e6, UTC)
+        return utc(self.created_us)

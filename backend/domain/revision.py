@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import Any, Protocol, TypeAlias
+
+from backend.core.moments import utc
 
 Parameters: TypeAlias = Mapping[str, Any]
 
@@ -44,7 +46,7 @@ class Revision:
     @property
     def created_at(self) -> datetime:
         """`created_us` as a moment in UTC."""
-        return datetime.fromtimestamp(self.created_us / 1e6, UTC)
+        return utc(self.created_us)
 
 
 class RevisionLog(Protocol):

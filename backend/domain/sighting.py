@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
+
+from backend.core.moments import utc
 
 
 @dataclass(frozen=True)
@@ -21,4 +23,4 @@ class Sighting:
     @property
     def seen_at(self) -> datetime:
         """`seen_us` as a moment in UTC."""
-        return datetime.fromtimestamp(self.seen_us / 1e6, UTC)
+        return utc(self.seen_us)

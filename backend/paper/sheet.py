@@ -1,4 +1,5 @@
-"""Any text in the fonts there are, as markup of a paragraph.
+"""Sheets of paper: size, margins, what stands at the foot of each, page x of y; and any text in the
+fonts there are, as markup of a paragraph.
 
 Latin, Greek and Cyrillic come in Source Sans, embedded as far as used. Chinese is named, not
 embedded: STSong-Light is one of the fonts that PDF leaves to the reader (ISO 32000-1, 9.7.5.2),

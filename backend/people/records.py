@@ -1,7 +1,8 @@
 """Accounts, the browsers that are signed in, and the keys of programs, in the database.
 
 An account that is disabled stays: what it did names it. Of a session's token and of a key only a
-hash is kept: a copy of the database opens nothing. They are random, so a plain hash will do. All
+hash is kept: a copy of the database opens nothing. They are random, so a plain hash will do. A
+session ends when it was not used for a while, and after some time whatever is done with it. All
 times are Unix microseconds.
 """
 

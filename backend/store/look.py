@@ -16,6 +16,7 @@ from sqlalchemy.engine import make_url
 from sqlalchemy.exc import DatabaseError, OperationalError, SQLAlchemyError
 
 from backend.errors import StoreError
+from backend.store.named import calibration_key
 from backend.store.objects import RIDE_SUFFIX, content_key, sidecar_key
 from backend.store.sql.database import shown, sqlite_path
 from backend.store.sql.sound_rows import NOT_AS_WRITTEN, decoded, parsed
@@ -159,7 +160,7 @@ def view_of(connection: Connection) -> DatabaseView:
     objects = frozenset(rides) | frozenset(originals)
     if "calibration" in tables:
         closed = values("SELECT sha256 FROM calibration WHERE sha256 IS NOT NULL")
-        objects |= {content_key("calibrations", sha256, ".json") for sha256 in closed}
+        objects |= {calibration_key(sha256) for sha256 in closed}
     arrived = values("SELECT sha256 FROM upload WHERE sha256 IS NOT NULL")
     known = objects | {content_key("originals", sha256) for sha256 in arrived}
     if "object_sha256" in names:

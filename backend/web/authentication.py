@@ -133,7 +133,8 @@ def author_of(
         ),
     ] = None,
 ) -> str:
-    """The author of a change; empty where nobody knows."""
+    """The author of a change: who signed in, else whom the request names, else the name the server
+    was started with; empty where nobody knows."""
     caller = caller_of(request)
     if caller is not None:
         return SignedInName(caller.person.name)

@@ -92,6 +92,11 @@ def install(app: FastAPI, folder: Path | None, root_path: str = "") -> None:
 class RootPath:
     """Takes the path off requests, and puts it before the addresses that answers tell.
 
+    A proxy takes the path off or passes it on; both are served, since no path of Spindle's own
+    begins like the site's (settings refuse one that does). Inside, paths are as they are at the
+    root. Cookies are for the whole site: a name with `__Host-` has to be, and no page of the site
+    is kept apart from another by a path anyway.
+
     root_path: `/spindle`, without a slash at its end.
     """
 

@@ -248,7 +248,11 @@ PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Spindle: {
 
 
 def refused_page(status: int, code: str, detail: str) -> HTMLResponse:
-    """The refusal as a page of both languages. code: one of CHINESE; detail: the English words."""
+    """The refusal as a page of both languages, for a person whose browser opens what is refused.
+
+    Programs and scripts get it as a problem. Nothing is fetched for it: the addresses of files may
+    be what is wrong. code: one of CHINESE; detail: the English words.
+    """
     page = PAGE.format(
         code=code, detail=escape(detail), chinese=escape(CHINESE[code]), docs=escape(DOCS)
     )

@@ -1,4 +1,9 @@
-"""The cadence that a unit tells against the turns of its crank, counted by the crank's angle."""
+"""The measurements of a bike's numbers: among them the cadence that a unit tells against the turns
+of its crank, and the speed sensor's pulses in a turn of a wheel that is turned by hand.
+
+A unit tells no pulses: it tells the speed that they come to with the circumference and the pulses
+a turn that it keeps. Its way over turns that somebody counted tells both apart.
+"""
 
 from __future__ import annotations
 

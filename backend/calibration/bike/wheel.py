@@ -1,4 +1,6 @@
-"""Samples of a ride as the balance takes them, and its refusal."""
+"""Wheel circumference, speed pulses per turn and cadence: what the legal cut-off rests on; and the
+samples of a ride as these and the energy balance take them.
+"""
 
 from __future__ import annotations
 

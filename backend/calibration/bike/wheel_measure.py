@@ -1,4 +1,8 @@
-"""A part of a ride as a measurement reads it: rows that tell all of some channels."""
+"""The circumference of a bike's wheel, rolled out or by the positions of a ride, beside what its
+unit counts with; and the rows of a ride that a measurement of the bike reads.
+
+Nothing is written: that is a change of the configuration like any other.
+"""
 
 from __future__ import annotations
 

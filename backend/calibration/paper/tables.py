@@ -1,4 +1,6 @@
-"""The certificate's pictures: what the new scale leaves of each reading, and the loop."""
+"""The certificate's tables: fit, figures, budget, verification, captures; and its pictures: what
+the new scale leaves of each reading, and the loop.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""What each number of a calibration means, in one sentence; pages translate by the code."""
+"""The certificate's words in each language, and what each number of a calibration means, in one
+sentence; pages translate by the code.
+"""
 
 from __future__ import annotations
 

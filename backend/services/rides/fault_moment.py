@@ -12,13 +12,14 @@ import threading
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from datetime import UTC, datetime
+from datetime import datetime
 
 import numpy as np
 import numpy.typing as npt
 
 from backend.core.channels import MISSING_INT16, Values
 from backend.core.energy import MOTOR_TORQUE, motor_torque_meaning
+from backend.core.moments import utc
 from backend.core.ride import Ride, RideContext
 from backend.device.faults import UnitFault
 from backend.device.states import DeviceEvent
@@ -203,7 +204,7 @@ def moment(fault: str, t_us: int, cut: Cut, gear_ratio: float | None, goes_on: b
     return FaultMoment(
         fault,
         unit_t_us=t_us,
-        came_at=datetime.fromtimestamp((t_us + cut.wall_us) / 1e6, UTC),
+        came_at=utc(t_us + cut.wall_us),
         motor_torque_meaning=None if at_crank is None else motor_torque_meaning(cut.channels),
         whole=not goes_on or last_us >= t_us + AFTER_US - ROW_US_MAX,
         at_s=((cut.t_us - t_us) / 1e6).tolist(),

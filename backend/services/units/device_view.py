@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 
+from backend.core.moments import utc
 from backend.device.identity import Identity
 from backend.device.snapshot import DeviceStatus
 from backend.device.states import code_of
@@ -36,7 +37,7 @@ class ConfigStamp:
         ends_us, left_s = status.trial_ends_unix_us, status.trial_left_s
         if ends_us is None or left_s is None:
             return cls(generation, crc32, rollback_cause=cause)
-        ends_at = datetime.fromtimestamp(ends_us / 1e6, UTC)
+        ends_at = utc(ends_us)
         return cls(generation, crc32, "provisional", ends_at, round(left_s, 1), cause)
 
 
