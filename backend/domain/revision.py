@@ -62,8 +62,10 @@ class RevisionLog(Protocol):
         generation: int | None = None,
         crc32: int | None = None,
         state: str = "verified",
+        only_if_changed: bool = False,
     ) -> Revision:
-        """Add a configuration the unit has. Raises StoreError."""
+        """Add a configuration the unit has; only_if_changed: unless the newest is the same, by
+        whomever. Raises StoreError."""
         ...
 
     def list(self, unit_key: str, limit: int = ...) -> Sequence[Revision]:

@@ -26,10 +26,13 @@ class MemoryRevisions:
         generation: int | None = None,
         crc32: int | None = None,
         state: str = "verified",
+        only_if_changed: bool = False,
     ) -> Revision:
         if self.full:
             raise StoreError("The disk is full.")
         rows = self.kept.setdefault(unit_key, [])
+        if only_if_changed and rows and rows[-1].crc32 == crc32:
+            return rows[-1]
         revision = Revision(
             len(rows) + 1,
             1_700_000_000_000_000,

@@ -69,7 +69,7 @@ class RevisionBook:
             if open_change is not None and open_change.crc32 == found.crc32:
                 # The change was made after all: the log has it with its author's own reason.
                 meant = open_change
-            self._append(unit, found, meant)
+            self._append(unit, found, meant, only_if_changed=True)
         self._open.pop(unit, None)
 
     def note(self, unit: str, found: ConfigImage, meant: Meant) -> None:
@@ -81,7 +81,9 @@ class RevisionBook:
             self.leave_open(unit, meant)
             LOG.error("%s: a proven change could not be noted yet: %s", unit, error.message)
 
-    def _append(self, unit: str, found: ConfigImage, meant: Meant) -> None:
+    def _append(
+        self, unit: str, found: ConfigImage, meant: Meant, only_if_changed: bool = False
+    ) -> None:
         self._revisions.append(
             unit,
             found.parameters,
@@ -91,6 +93,7 @@ class RevisionBook:
             found.generation,
             found.crc32,
             meant.state,
+            only_if_changed,
         )
 
     def _newest(self, unit: str) -> Revision | None:

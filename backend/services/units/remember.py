@@ -150,6 +150,7 @@ class UnitMemory:
                 generation=config.generation,
                 crc32=config.crc32,
                 state=FOUND,
+                only_if_changed=True,
             )
 
 

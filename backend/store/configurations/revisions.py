@@ -6,7 +6,7 @@ import time
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from sqlalchemy import Connection, insert, select
+from sqlalchemy import Connection, Row, Select, insert, select
 
 from backend.core.author import proof_of
 from backend.core.canonical_json import sha256_of
@@ -34,10 +34,13 @@ class RevisionLog:
         generation: int | None = None,
         crc32: int | None = None,
         state: str = "verified",
+        only_if_changed: bool = False,
     ) -> Revision:
         """Add a configuration that the unit has; returns it with its number.
 
-        parameters: the whole configuration as plain JSON. Raises StoreError.
+        parameters: the whole configuration as plain JSON. only_if_changed: nothing is added where
+        the newest has the same checksum, whoever added it just now; that one is returned. Raises
+        StoreError.
         """
         values = {
             "body": dict(parameters),
@@ -52,46 +55,45 @@ class RevisionLog:
             "created_us": time.time_ns() // 1000,
         }
 
-        def work(connection: Connection) -> int:
+        def work(connection: Connection) -> Revision:
             known_unit(connection, unit_key)
-            last = connection.execute(
-                select(t.revision.c.id, t.revision.c.seq)
-                .where(t.revision.c.unit_key == unit_key)
-                .order_by(t.revision.c.seq.desc())
-                .limit(1)
-            ).first()
-            seq = last.seq + 1 if last else 1
-            parent_id = last.id if last else None
-            connection.execute(
-                insert(t.revision).values(unit_key=unit_key, parent_id=parent_id, seq=seq, **values)
-            )
-            return seq
+            last = connection.execute(newest_of(unit_key, 1)).first()
+            if last is not None and only_if_changed and last.crc32 == crc32:
+                return revision_from(last)
+            place = {
+                "unit_key": unit_key,
+                "parent_id": last.id if last else None,
+                "seq": last.seq + 1 if last else 1,
+            }
+            added = insert(t.revision).values(**place, **values).returning(t.revision)
+            return revision_from(connection.execute(added).one())
 
-        seq = self._database.write(work)
-        return next(found for found in self.list(unit_key, 1) if found.seq == seq)
+        return self._database.write(work)
 
     def list(self, unit_key: str, limit: int = REVISIONS_MAX) -> tuple[Revision, ...]:
         """Configurations of a unit, newest first; empty for an unknown one."""
-        query = (
-            select(t.revision)
-            .where(t.revision.c.unit_key == unit_key)
-            .order_by(t.revision.c.seq.desc())
-            .limit(min(limit, REVISIONS_MAX))
-        )
+        query = newest_of(unit_key, min(limit, REVISIONS_MAX))
         rows = self._database.read(lambda c: c.execute(query).all())
-        return tuple(
-            Revision(
-                seq=row.seq,
-                created_us=row.created_us,
-                author=row.author,
-                author_proof=row.author_proof,
-                reason=row.reason,
-                state=row.state,
-                generation=row.generation,
-                crc32=row.crc32,
-                changed=row.changed,
-                parameters=row.body,
-                unit_key=row.unit_key,
-            )
-            for row in rows
-        )
+        return tuple(map(revision_from, rows))
+
+
+def newest_of(unit_key: str, limit: int) -> Select[Any]:
+    """The newest configurations of a unit, newest first."""
+    mine = select(t.revision).where(t.revision.c.unit_key == unit_key)
+    return mine.order_by(t.revision.c.seq.desc()).limit(limit)
+
+
+def revision_from(row: Row[Any]) -> Revision:
+    return Revision(
+        seq=row.seq,
+        created_us=row.created_us,
+        author=row.author,
+        author_proof=row.author_proof,
+        reason=row.reason,
+        state=row.state,
+        generation=row.generation,
+        crc32=row.crc32,
+        changed=row.changed,
+        parameters=row.body,
+        unit_key=row.unit_key,
+    )

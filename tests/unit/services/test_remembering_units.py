@@ -5,15 +5,17 @@ The unit is the small honest one behind a real thread, the revision log one in m
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import cast
 
 import pytest
 
+from backend.device.configuration import ConfigImage
 from backend.device.states import UnitEvent
-from backend.services.tuning.revision_book import GIVEN_UP_REASON
+from backend.domain.revision import Revision
+from backend.services.tuning.revision_book import GIVEN_UP_REASON, RevisionBook
 from backend.services.tuning.tune import Tuning
 from backend.services.units.connect import Devices
 from backend.services.units.remember import UnitMemory
@@ -111,3 +113,16 @@ def test_a_unit_that_gave_a_trial_up_by_restarting_says_so(bench: Bench) -> None
     assert (stamp.rollback_cause, stamp.remaining_s) == ("restart", None)
     newest = eventually(lambda: bench.revisions.kept[KEY][-1], lambda row: row.generation == 7)
     assert newest.reason == GIVEN_UP_REASON
+
+
+def test_what_was_noted_since_one_looked_is_not_noted_again() -> None:
+    class LookedBefore(MemoryRevisions):
+        def list(self, unit_key: str, limit: int = 1000) -> Sequence[Revision]:
+            return ()
+
+    log = LookedBefore()
+    log.append(KEY, {"pedal_stop_ms": 150}, crc32=7)
+
+    RevisionBook(log).back_up(KEY, ConfigImage(1, 7, {"pedal_stop_ms": 150}))
+
+    assert len(log.kept[KEY]) == 1

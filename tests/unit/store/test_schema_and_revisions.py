@@ -6,18 +6,21 @@ compiled, not run.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from alembic import command
 from alembic.autogenerate import compare_metadata
 from alembic.config import Config
 from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
-from sqlalchemy import create_engine, inspect
+from sqlalchemy import Connection, create_engine, inspect
 from sqlalchemy.dialects import postgresql
 from sqlalchemy.schema import CreateTable
 
 import backend.store
+from backend.domain.revision import Revision
 from backend.store import Store
 from backend.store.sql.database import HEAD_REVISION
 from backend.store.sql.tables import metadata
@@ -122,3 +125,34 @@ def test_configurations_are_numbered_for_each_unit_and_newest_first(store: Store
     assert [revision.author_proof for revision in log.list("ebl:SP-1")] == ["stated", None]
     assert log.list("ebl:SP-1")[1].crc32 == 0xFFFFFFFF
     assert log.list("ebl:SP-3") == ()
+
+
+def test_each_gets_the_configuration_it_added_whoever_adds_another_at_once(store: Store) -> None:
+    """The memory of units notes what it finds while somebody writes."""
+    log, write = store.revisions, store.database.write
+    first: list[Revision] = []
+
+    def write_with_another_behind(work: Callable[[Connection], Any]) -> Any:
+        done = write(work)
+        if not first:
+            first.append(done)
+            log.append("ebl:SP-1", {"gear_ratio": 36.744}, reason="another")
+        return done
+
+    store.database.write = write_with_another_behind  # type: ignore[method-assign]
+    added = log.append("ebl:SP-1", {"gear_ratio": 40.34}, reason="mine")
+
+    assert (added.seq, added.reason, added.parameters) == (1, "mine", {"gear_ratio": 40.34})
+    assert [one.reason for one in log.list("ebl:SP-1")] == ["another", "mine"]
+
+
+def test_what_two_find_in_a_unit_at_once_is_kept_once(store: Store) -> None:
+    log = store.revisions
+    found = log.append("ebl:SP-1", {"gear_ratio": 40.34}, crc32=7, only_if_changed=True)
+
+    again = log.append("ebl:SP-1", {"gear_ratio": 40.34}, crc32=7, only_if_changed=True)
+    other = log.append("ebl:SP-1", {"gear_ratio": 36.744}, crc32=8, only_if_changed=True)
+    back = log.append("ebl:SP-1", {"gear_ratio": 40.34}, crc32=7, only_if_changed=True)
+
+    assert again == found
+    assert [found.seq, other.seq, back.seq] == [1, 2, 3]
