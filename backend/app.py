@@ -11,21 +11,18 @@ import sys
 from fastapi import FastAPI
 
 from backend import __version__
-from backend.api import live
 from backend.api.routes import (
     comparison,
     config,
-    devices,
-    health,
     insight,
     law,
     library,
     logbook,
     logs,
+    moments,
     proposals,
     rides,
     sensor_drift,
-    store,
     tables,
     uploads,
 )
@@ -35,6 +32,9 @@ from backend.calibration.bike import api as bike_numbers
 from backend.core.person import Permission
 from backend.people.api import router as people_router
 from backend.people.service import PeopleService
+from backend.server import api as server
+from backend.units import api as devices
+from backend.units import live
 from backend.web.app import Operations, WebSettings, create_app
 from backend.web.permissions import Anyone
 
@@ -88,14 +88,14 @@ STRANGERS = frozenset(
     }
 )
 
-OF_UNITS = (devices, logs, config, calibrations, bike_numbers, sensor_drift)
+OF_UNITS = (devices, moments, logs, config, calibrations, bike_numbers, sensor_drift)
 # Before the rides: what several rides come to is at no ride's number.
 OF_RIDES = (logbook, comparison, insight, rides, proposals)
 ROUTERS = [
-    health.router,
+    server.router,
     people_router,
     calibrations.figures,
-    *(part.router for part in (store, *OF_UNITS, law, library, *OF_RIDES, uploads, tables, live)),
+    *(part.router for part in (*OF_UNITS, law, library, *OF_RIDES, uploads, tables, live)),
 ]
 
 
@@ -106,7 +106,7 @@ def build_api(
 
     people: who may sign in; None where nobody is asked to.
     """
-    operations = Operations(ROUTERS, health.probes, NEEDED, STRANGERS)
+    operations = Operations(ROUTERS, server.probes, NEEDED, STRANGERS)
     return create_app(settings, operations, services, people)
 
 

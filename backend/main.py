@@ -35,12 +35,12 @@ from backend.device.link import kind_of
 from backend.errors import LinkError, SpindleError, StoreError
 from backend.formats import Readers
 from backend.people.service import PeopleService
-from backend.services.health import Health
+from backend.server.backup import StoreService
+from backend.server.health import HealthCheck
 from backend.services.imports.collect import Collect
 from backend.services.imports.mapping import TableMapping
 from backend.services.imports.sample import sample_ride
 from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
-from backend.services.keeping import Keeping
 from backend.services.rides.cards import RideCards
 from backend.services.rides.fault_moment import FaultMoments, RecentRows
 from backend.services.rides.home import RiderHome
@@ -65,15 +65,16 @@ from backend.services.tuning.preview import Preview
 from backend.services.tuning.try_live import LiveTuning
 from backend.services.tuning.tune import Tuning
 from backend.services.tuning.why import WhySteady
-from backend.services.units.connect import Devices
-from backend.services.units.dashboard import Dashboards
-from backend.services.units.inspection import Inspection
-from backend.services.units.last_seen import LastSeen
-from backend.services.units.remember import UnitMemory
-from backend.services.units.watch import Watch
 from backend.settings import CHECKOUT, Settings
 from backend.store import Store, open_store
 from backend.store.schemas import SchemaFiles
+from backend.units.dashboard import Dashboards
+from backend.units.inspection import Inspection
+from backend.units.last_seen import LastSeen
+from backend.units.memory import UnitMemory
+from backend.units.records import UnitStore
+from backend.units.service import Devices
+from backend.units.watch import Watch
 from backend.web.app import WebSettings
 from backend.web.connections import PatientProtocol
 from backend.web.safety import AllowedHosts
@@ -101,12 +102,12 @@ def open_services(
     check(settings)
     with contextlib.ExitStack() as closing:
         store = closing.enter_context(open_store(settings.db, settings.objects))
-        last_seen = closing.enter_context(contextlib.closing(LastSeen(store.units)))
-        devices = make_devices(settings, store, last_seen, families, opener)
-        certificates = KeptCertificates(store.certificates, __version__)
-        revisions = CertifiedRevisions(store.revisions, certificates)
+        units = UnitStore(store.database)
+        last_seen = closing.enter_context(contextlib.closing(LastSeen(units)))
+        devices = make_devices(settings, units, last_seen, families, opener)
+        revisions, certificates = make_revisions(store)
         tuning = Tuning(devices, revisions)
-        memory = UnitMemory(devices, revisions, store.units, tuning.note_trial_end)
+        memory = UnitMemory(devices, revisions, units, tuning.note_trial_end)
         closing.callback(memory.close)
         recorder = Recorder(store.rides, memory.ride_context, unfinished=store.unfinished)
         closing.callback(recorder.close)
@@ -128,7 +129,7 @@ def open_services(
         proposals = Proposals(store, memory.ride_config, certificates)
         closing.callback(proposals.close)
         yield Services(
-            keeping=Keeping(store, __version__),
+            store=StoreService(store, __version__),
             health=make_health(devices, recorder, store),
             devices=devices,
             inspection=inspection,
@@ -163,9 +164,15 @@ def open_services(
         )
 
 
-def make_health(devices: Devices, recorder: Recorder, store: Store) -> Health:
+def make_revisions(store: Store) -> tuple[CertifiedRevisions, KeptCertificates]:
+    """Every unit's configurations, each with the proof that it keeps the limits."""
+    certificates = KeptCertificates(store.certificates, __version__)
+    return CertifiedRevisions(store.revisions, certificates), certificates
+
+
+def make_health(devices: Devices, recorder: Recorder, store: Store) -> HealthCheck:
     """What is told of units, recordings and the store."""
-    return Health(
+    return HealthCheck(
         __version__,
         devices,
         recorder,
@@ -178,7 +185,7 @@ def make_health(devices: Devices, recorder: Recorder, store: Store) -> Health:
 
 def make_devices(
     settings: Settings,
-    store: Store,
+    units: UnitStore,
     last_seen: LastSeen,
     families: Families,
     opener: OpenerOf | None,
@@ -188,7 +195,7 @@ def make_devices(
         flash_folder=settings.data / "units",
         opener=opener,
         schemas=SchemaFiles(settings.data / "schemas"),
-        bike_of=store.units.bike_of,
+        bike_of=units.bike_of,
         last_seen=last_seen.at,
         families=families,
     )

@@ -14,22 +14,21 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from typing import Any, Unpack
+from typing import Any, TypeVar, Unpack
+
+from pydantic import TypeAdapter
 
 from backend.api.models.config import Config, ConfigChange, Parameter, ParameterList
-from backend.api.models.device import (
-    Dashboard,
-    Device,
-    Fault,
-    FaultList,
-    Health,
-    Simulation,
-    Snapshot,
-)
 from backend.api.models.law import FuzzyTable, Table, UnitLimits
 from backend.api.models.ride import Ride, RideList, Series
 from backend.cli.client import Server, default_key, default_server
+from backend.device.faults import Fault
+from backend.device.live_values import Snapshot
 from backend.errors import NoAnswer, RequestRefused
+from backend.server.health import Health
+from backend.units.dashboard import Dashboard
+from backend.units.simulation import Simulation
+from backend.units.types import Device, FaultList
 from spindle.stimulus import Stimulus
 
 LOOK_EVERY_S = 0.05
@@ -39,6 +38,14 @@ STANDSTILL_WITHIN_S = 60.0
 # Below these the firmware calls a bike at rest, with room for rounding.
 STANDSTILL_KMH = 0.01
 STANDSTILL_MOTOR_RPM = 0.1
+
+
+Kind = TypeVar("Kind")
+
+
+def read_as(kind: type[Kind], answer: object) -> Kind:
+    """An answer of the API as the type that the server made it of."""
+    return TypeAdapter(kind).validate_python(answer)
 
 
 class Spindle:
@@ -52,7 +59,7 @@ class Spindle:
 
     def health(self) -> Health:
         """Version and units. Raises LinkError when no server answers."""
-        return Health.model_validate(self.server.ask("GET", "/health"))
+        return read_as(Health, self.server.ask("GET", "/health"))
 
     def unit(self, name: str | None = None, within_s: float = 0.0) -> Unit:
         """The unit of this id, url, key or serial number; the only one if None.
@@ -71,12 +78,12 @@ class Spindle:
     def add(self, url: str, name: str | None = None) -> Unit:
         """Connect the unit at this url, as `POST /devices` does. name: what its owner calls it."""
         body = {"url": url, "name": name}
-        added = Device.model_validate(self.server.ask("POST", "/devices", json=body))
+        added = read_as(Device, self.server.ask("POST", "/devices", json=body))
         return Unit(self.server, added.id)
 
     def rides(self) -> list[Ride]:
         """The latest rides, newest first."""
-        return RideList.model_validate(self.server.ask("GET", "/rides")).items
+        return read_as(RideList, self.server.ask("GET", "/rides")).items
 
     def finished_ride(self, within_s: float = READY_WITHIN_S) -> Ride:
         """The newest ride, once its record is closed. Raises NoAnswer when that does not come."""
@@ -92,7 +99,7 @@ class Spindle:
         """Exact minima and maxima of a ride's channels in `px` bins."""
         asked = {"channels": ",".join(channels), "px": px}
         answer = self.server.ask("GET", f"/rides/{ride_id}/series", params=asked)
-        return Series.model_validate(answer)
+        return read_as(Series, answer)
 
 
 class Unit:
@@ -105,7 +112,7 @@ class Unit:
 
     def device(self) -> Device:
         """State, identity, configuration stamp, counters of the link, active faults."""
-        return Device.model_validate(self._server.ask("GET", self._path))
+        return read_as(Device, self._server.ask("GET", self._path))
 
     def wait_ready(self, within_s: float = READY_WITHIN_S) -> Device:
         """Wait until the unit can be asked. Raises NoAnswer with its own reason."""
@@ -118,20 +125,20 @@ class Unit:
 
     def snapshot(self) -> Snapshot:
         """The latest row of every channel."""
-        return Snapshot.model_validate(self._server.ask("GET", f"{self._path}/snapshot"))
+        return read_as(Snapshot, self._server.ask("GET", f"{self._path}/snapshot"))
 
     def dashboard(self) -> Dashboard:
         """Speed, acceleration, powers, battery, distance and range as the rider sees them."""
-        return Dashboard.model_validate(self._server.ask("GET", f"{self._path}/dashboard"))
+        return read_as(Dashboard, self._server.ask("GET", f"{self._path}/dashboard"))
 
     def parameters(self) -> list[Parameter]:
         """Every parameter with its range, unit, default and value."""
         answer = self._server.ask("GET", f"{self._path}/parameters")
-        return ParameterList.model_validate(answer).items
+        return read_as(ParameterList, answer).items
 
     def config(self) -> Config:
         """The active configuration, read from the unit."""
-        return Config.model_validate(self._server.ask("GET", f"{self._path}/config"))
+        return read_as(Config, self._server.ask("GET", f"{self._path}/config"))
 
     def write(
         self, parameters: Mapping[str, Any], reason: str = "", confirm_s: int = 0
@@ -142,12 +149,12 @@ class Unit:
         """
         body = {"parameters": dict(parameters), "reason": reason, "confirm_s": confirm_s}
         answer = self._server.ask("PATCH", f"{self._path}/config", json=body)
-        return ConfigChange.model_validate(answer)
+        return read_as(ConfigChange, answer)
 
     def fuzzy_table(self, table: Table = "first") -> FuzzyTable:
         """One of the two rule tables, read from the unit."""
         answer = self._server.ask("GET", f"{self._path}/fuzzy-table", params={"table": table})
-        return FuzzyTable.model_validate(answer)
+        return read_as(FuzzyTable, answer)
 
     def write_fuzzy_table(
         self,
@@ -162,44 +169,44 @@ class Unit:
         """
         query = {"table": table, "reason": reason, "confirm_s": confirm_s}
         path, body = f"{self._path}/fuzzy-table", value.model_dump()
-        return ConfigChange.model_validate(self._server.ask("PUT", path, params=query, json=body))
+        return read_as(ConfigChange, self._server.ask("PUT", path, params=query, json=body))
 
     def limits(self) -> UnitLimits:
         """What the unit enforces whatever a table says, and where assist ends because of it."""
-        return UnitLimits.model_validate(self._server.ask("GET", f"{self._path}/limits"))
+        return read_as(UnitLimits, self._server.ask("GET", f"{self._path}/limits"))
 
     def confirm(self) -> ConfigChange:
         """Keep what is on trial."""
         answer = self._server.ask("POST", f"{self._path}/config/confirm")
-        return ConfigChange.model_validate(answer)
+        return read_as(ConfigChange, answer)
 
     def roll_back(self) -> ConfigChange:
         """Give up what is on trial."""
         answer = self._server.ask("POST", f"{self._path}/config/rollback")
-        return ConfigChange.model_validate(answer)
+        return read_as(ConfigChange, answer)
 
-    def faults(self) -> list[Fault]:
+    def faults(self) -> tuple[Fault, ...]:
         """The faults that are active or were, with what the bike did when they came."""
-        return FaultList.model_validate(self._server.ask("GET", f"{self._path}/faults")).items
+        return read_as(FaultList, self._server.ask("GET", f"{self._path}/faults")).items
 
-    def clear_faults(self) -> list[Fault]:
+    def clear_faults(self) -> tuple[Fault, ...]:
         """Forget the faults that are over; what is left."""
         answer = self._server.ask("POST", f"{self._path}/faults/clear")
-        return FaultList.model_validate(answer).items
+        return read_as(FaultList, answer).items
 
     def simulation(self) -> Simulation:
         """Rider, road and clock. Raises RequestRefused for a real unit."""
-        return Simulation.model_validate(self._server.ask("GET", f"{self._path}/simulation"))
+        return read_as(Simulation, self._server.ask("GET", f"{self._path}/simulation"))
 
     def simulate(self, **changes: Unpack[Stimulus]) -> Simulation:
         """Change rider, road, load, clock or faults. Raises RequestRefused naming the fault."""
         answer = self._server.ask("PUT", f"{self._path}/simulation", json=changes)
-        return Simulation.model_validate(answer)
+        return read_as(Simulation, answer)
 
     def advance(self, seconds: float) -> Simulation:
         """Let time pass for a unit with a virtual clock."""
         path = f"{self._path}/simulation/advance"
-        return Simulation.model_validate(self._server.ask("POST", path, json={"seconds": seconds}))
+        return read_as(Simulation, self._server.ask("POST", path, json={"seconds": seconds}))
 
     def stand_still(self) -> None:
         """Brake until wheel and motor rest, which a write needs. Raises NoAnswer."""

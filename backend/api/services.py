@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     from backend.calibration.bike.service import BikeNumbers
     from backend.calibration.service import Calibrations
     from backend.people.service import PeopleService
-    from backend.services.health import Health
+    from backend.server.backup import StoreService
+    from backend.server.health import HealthCheck
     from backend.services.imports.collect import Collect
     from backend.services.imports.mapping import TableMapping
     from backend.services.imports.upload import Uploads
-    from backend.services.keeping import Keeping
     from backend.services.rides.fault_moment import FaultMoments
     from backend.services.rides.home import RiderHome
     from backend.services.rides.insight.questions import Insight
@@ -37,18 +37,18 @@ if TYPE_CHECKING:
     from backend.services.tuning.try_live import LiveTuning
     from backend.services.tuning.tune import Tuning
     from backend.services.tuning.why import WhySteady
-    from backend.services.units.connect import Devices
-    from backend.services.units.dashboard import Dashboards
-    from backend.services.units.inspection import Inspection
-    from backend.services.units.watch import Watch
+    from backend.units.dashboard import Dashboards
+    from backend.units.inspection import Inspection
+    from backend.units.service import Devices
+    from backend.units.watch import Watch
 
 
 @dataclass(frozen=True)
 class Services:
     """The use cases behind the API; each is safe to call from any thread."""
 
-    health: Health
-    keeping: Keeping
+    health: HealthCheck
+    store: StoreService
     devices: Devices
     inspection: Inspection
     fault_moments: FaultMoments

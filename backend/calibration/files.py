@@ -19,10 +19,10 @@ from sqlalchemy import Connection, insert, select
 
 from backend.core.author import AuthorProof
 from backend.errors import StoreError
+from backend.store.bikes import known_unit
 from backend.store.objects import CALIBRATING, FileObjects, Objects
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
-from backend.store.units import known_unit
 
 Body = Mapping[str, Any]
 

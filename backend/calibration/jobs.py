@@ -25,8 +25,8 @@ from backend.calibration.steady import WINDOW_S
 from backend.calibration.unit_record import PARAMETER_OF, record_of
 from backend.device.capability import Capability
 from backend.errors import Conflict, FieldError, InvalidRequest, NotFound
-from backend.services.units.connect import Devices
-from backend.services.units.device_view import DeviceView
+from backend.units.service import Devices
+from backend.units.types import Device
 
 READY = "ready"
 FOOT = "foot_at_start"
@@ -84,7 +84,7 @@ class CalibrationJobs:
         job, is_new = self._store.open(key, model, body, author)
         return job.id, is_new
 
-    def connection(self, job: KeptCalibration) -> DeviceView | None:
+    def connection(self, job: KeptCalibration) -> Device | None:
         """The connection a job's unit is on now, ready to be asked; None while it is on none."""
         return next(
             (

@@ -19,7 +19,7 @@ from backend.calibration.setup import Setup
 from backend.calibration.steady import WINDOW_S, Steadiness, Window, steadiness
 from backend.calibration.types import Reading
 from backend.calibration.unit_record import coefficients_of
-from backend.services.units.device_view import DeviceView
+from backend.units.types import Device
 
 LOOK_S = 0.5
 """How finely it is told since when the readings are steady."""
@@ -154,7 +154,7 @@ class Readings:
 
     def now(
         self,
-        device: DeviceView | None,
+        device: Device | None,
         body: Body,
         setup: Setup | None,
         fitted: Coefficients | None,
@@ -189,7 +189,7 @@ class Readings:
             unit_nm=seen.unit_nm,
         )
 
-    def checks(self, device: DeviceView, body: Body) -> tuple[Check, ...]:
+    def checks(self, device: Device, body: Body) -> tuple[Check, ...]:
         """The prechecks of this moment; none of a unit that is not heard."""
         recent = self.recent.of(device.id)
         if recent is None:

@@ -25,11 +25,11 @@ from backend.calibration.files import (
 from backend.core.author import proof_of
 from backend.core.canonical_json import canonical_text, sha256_of
 from backend.errors import Conflict, NotFound, ObjectDamaged
+from backend.store.bikes import known_unit
 from backend.store.named import calibration_key
 from backend.store.soundness import WORDS, Expected
 from backend.store.sql import tables as t
 from backend.store.store import Store
-from backend.store.units import known_unit
 
 JOBS_MAX = 1000
 CAPTURES_MAX = 500

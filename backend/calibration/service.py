@@ -36,7 +36,7 @@ from backend.calibration.writing import CalibrationRecord
 from backend.core.canonical_json import canonical_text
 from backend.core.moments import utc_or_none
 from backend.services.tuning.tune import Tuning
-from backend.services.units.connect import Devices
+from backend.units.service import Devices
 
 EARLIER_MAX = 10
 

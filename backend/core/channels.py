@@ -80,3 +80,9 @@ def channel_from_json(body: Mapping[str, object]) -> ChannelSpec:
         scale=float(str(body["scale"])),
         wide=bool(body.get("wide", False)),
     )
+
+
+def channel_names(text: str | None) -> list[str] | None:
+    """`"a, b"` as a list; None where no channel was named."""
+    names = [name.strip() for name in (text or "").split(",")]
+    return [name for name in names if name] or None

@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from typing import Final, Literal
 
 import numpy as np
 
@@ -36,7 +37,9 @@ MOTOR_TORQUE_DEMANDED_CRANK = ChannelSpec("motor_torque_demanded_crank_nm", "Nm"
 AT_CRANK = (MOTOR_TORQUE_CRANK, MOTOR_TORQUE_DEMANDED_CRANK)
 
 # What a ride's `motor_torque_nm` is. A unit that measures what it delivers tells what it asks, too.
-DEMANDED, DELIVERED = "demanded", "delivered"
+MotorTorqueMeaning = Literal["delivered", "demanded"]
+DEMANDED: Final = "demanded"
+DELIVERED: Final = "delivered"
 MOTOR_TORQUE = "motor_torque_nm"
 MOTOR_TORQUE_DEMANDED = "motor_torque_demanded_nm"
 
@@ -62,7 +65,7 @@ class Energy:
     excluded_s: float
 
 
-def motor_torque_meaning(recorded: Collection[str]) -> str | None:
+def motor_torque_meaning(recorded: Collection[str]) -> MotorTorqueMeaning | None:
     """Whether the motor torque of these channels was asked for or given; None without one."""
     if MOTOR_TORQUE in recorded and MOTOR_TORQUE_DEMANDED in recorded:
         return DELIVERED

@@ -1,26 +1,27 @@
-"""A fault of a unit as services see it, with the words for rider and mechanic."""
+"""A fault of a unit as services and the API see it, with the words for rider and mechanic."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import Literal
 
-from backend.device.live_values import LiveValues
+from backend.core.described import described
+from backend.device.live_values import Snapshot
+
+Severity = Literal["warning", "assist_off", "latched"]
 
 
-@dataclass(frozen=True)
-class UnitFault:
-    """A fault that is active or was, and what to do about it.
-
-    description: what the rider reads. mechanic_text: what to measure and mend.
-    severity: warning, assist_off (while it lasts) or latched (until cleared at standstill).
-    count: how often it came since the unit's start, None when the unit is not there to be asked.
-    frozen: every channel when it came last, None when nothing was kept.
-    """
+@described
+class Fault:
+    """A fault that is active or was. `frozen` is what the bike did when it came last."""
 
     name: str
     description: str
+    """What the rider reads."""
     active: bool = True
     count: int | None = None
-    frozen: LiveValues | None = None
-    severity: str = "latched"
+    """How often since the unit's start; null if not known."""
+    frozen: Snapshot | None = None
+    severity: Severity = "latched"
+    """A warning only; no assist while it lasts; no assist until cleared at standstill."""
     mechanic_text: str = ""
+    """What a mechanic measures and mends."""

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from backend.core.described import described
 
 
-@dataclass(frozen=True)
+@described
 class Identity:
-    """A unit's identity in words and hexadecimal; None for what a unit does not tell, never "".
-
-    serial_number: lasts as long as the unit. boot_id: another one at every start. reset_cause: why
-    the unit started, as a word of the registry's reset_cause.
-    """
+    """Who a unit says it is, in words and hexadecimal; null for what it does not say, never ""."""
 
     serial_number: str | None
+    """Lasts as long as the unit."""
     model: str
     firmware_version: str | None
     hardware_revision: int | None = None
@@ -21,4 +18,7 @@ class Identity:
     schema_hash: str | None = None
     simulated: bool = False
     boot_id: int | None = None
+    """Another one at every start of the unit."""
     reset_cause: str | None = None
+    """Why the unit started: `power_on`, `brown_out`, `watchdog`, `fault_handler`, `deadline` or
+    `software`; null where its firmware cannot tell."""

@@ -3,27 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from backend.core.channels import MISSING_INT16, ChannelSpec
+from backend.core.described import described
 from backend.device.stream import StreamBlock
 
 # A count times its scale carries the noise of float64 in its last digits; scales have five.
 DECIMALS = 6
 
 
-@dataclass(frozen=True)
-class LiveValues:
-    """t_us: unit time of the row, 64 bit. channels: value in the channel's unit, None: missing."""
+@described
+class Snapshot:
+    """One row of every channel, in its unit; a channel without a value is null. t_us: unit time."""
 
     t_us: int
     channels: dict[str, float | None]
 
 
-def last_values(block: StreamBlock) -> LiveValues:
+def last_values(block: StreamBlock) -> Snapshot:
     """The newest row of a block."""
     t_us = block.t0_us + (len(block.values) - 1) * block.period_us
-    return LiveValues(t_us, named_values(block.channels, block.values[-1].tolist()))
+    return Snapshot(t_us, named_values(block.channels, block.values[-1].tolist()))
 
 
 def named_values(channels: Sequence[ChannelSpec], counts: Sequence[int]) -> dict[str, float | None]:

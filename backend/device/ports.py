@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 from backend.device.link import (
+    DeviceKind,
     Opener,
-    PortInfo,
+    Port,
     family_of,
     is_character_device,
     kind_of,
     list_ports,
 )
 
-__all__ = ["Opener", "PortInfo", "family_of", "is_character_device", "kind_of", "list_ports"]
+__all__ = [
+    "DeviceKind",
+    "Opener",
+    "Port",
+    "family_of",
+    "is_character_device",
+    "kind_of",
+    "list_ports",
+]

@@ -24,8 +24,8 @@ from backend.device.configuration import (
 )
 from backend.device.conversation import Operation
 from backend.device.driver import Driver
-from backend.device.faults import UnitFault
-from backend.device.live_values import LiveValues
+from backend.device.faults import Fault
+from backend.device.live_values import Snapshot
 from backend.device.ride_logs import LogPieces, RideLog, RideLogs
 from backend.device.snapshot import DeviceStatus
 from backend.device.wear_counters import WearCounters
@@ -107,7 +107,7 @@ class Unit(ABC):
                 self._lacks(capability)
 
     @abstractmethod
-    def values(self) -> LiveValues:
+    def values(self) -> Snapshot:
         """One row of every channel, asked now."""
 
     # ------------------------------------------------------------------ configuration
@@ -197,15 +197,15 @@ class Unit(ABC):
 
     # ------------------------------------------------------------------ faults and wear
 
-    def faults(self) -> Sequence[UnitFault]:
+    def faults(self) -> Sequence[Fault]:
         """Every fault that is active or was."""
         return self.faults_told()
 
-    def faults_told(self) -> Sequence[UnitFault]:
+    def faults_told(self) -> Sequence[Fault]:
         """Those that were active when the unit was last heard, without asking."""
-        return [UnitFault(name, name) for name in self.status().faults_active]
+        return [Fault(name, name) for name in self.status().faults_active]
 
-    def clear_faults(self) -> Sequence[UnitFault]:
+    def clear_faults(self) -> Sequence[Fault]:
         """Forget the faults that are over; those that are left."""
         return self.faults()
 

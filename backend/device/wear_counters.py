@@ -2,27 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import Literal
+
+from backend.core.described import described
+
+SlotState = Literal["empty", "confirmed", "provisional", "void", "damaged", "unknown"]
 
 
-@dataclass(frozen=True)
+@described
 class ConfigSlot:
-    """One of the two places in flash a configuration is kept.
+    """One of the two places in the unit's flash its configuration is kept."""
 
-    state: empty, confirmed, provisional, void, damaged, or unknown to this Spindle. erases: how
-    often it was erased in the unit's life, which wears it. active: whether the unit runs on it.
-    """
-
-    state: str
+    state: SlotState
+    """`unknown`: to this Spindle."""
     generation: int
     erases: int
+    """In the unit's life; this wears it."""
     active: bool
+    """Whether the unit runs on it."""
 
 
-@dataclass(frozen=True)
+@described
 class WearCounters:
-    """distance_m, operating_s: over the unit's life. saved_*: as its flash has them; what came
-    after is lost with the supply, a minute at most. runs_on_default: neither slot was good."""
+    """What the unit knows of its own wear. What is not saved yet is lost with its supply, a minute
+    at most."""
 
     distance_m: int
     operating_s: int
@@ -30,3 +33,4 @@ class WearCounters:
     saved_operating_s: int
     config_slots: tuple[ConfigSlot, ...]
     runs_on_default: bool
+    """Neither slot is good: the factory's values apply."""

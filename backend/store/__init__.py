@@ -1,6 +1,7 @@
 """SQL and objects: rides, revisions, the library, units, uploads, calibrations; the only door to
 SQLAlchemy and pyarrow."""
 
+from backend.store.bikes import SeenUnit
 from backend.store.configurations import LibraryStore, RevisionLog
 from backend.store.logbook.book import Home, Logbook
 from backend.store.logbook.cards import CardStore
@@ -12,7 +13,6 @@ from backend.store.rides import RideStore
 from backend.store.soundness import ROW_DAMAGED, expected_of
 from backend.store.store import Store, open_store
 from backend.store.trouble import Trouble, WriteWatch
-from backend.store.units import SeenUnit, UnitStore
 from backend.store.upkeep.backup import StorePlace, backup_of, place_of
 from backend.store.uploads import Upload, UploadStore, Verdict
 
@@ -33,7 +33,6 @@ __all__ = [
     "StorePlace",
     "Totals",
     "Trouble",
-    "UnitStore",
     "Upload",
     "UploadStore",
     "Verdict",

@@ -16,6 +16,7 @@ from pathlib import Path, PurePosixPath
 from sqlalchemy import Connection, delete, insert, select, update
 
 from backend.errors import StoreError
+from backend.store.bikes import bike_of_ride
 from backend.store.deletion import FILLED, MADE, join_source
 from backend.store.digest import digest
 from backend.store.facts import KeptRide, Original, kept_ride
@@ -30,7 +31,6 @@ from backend.store.soundness import Expected, Soundness
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
 from backend.store.sql.sound_rows import NOT_AS_WRITTEN
-from backend.store.units import bike_of_ride
 
 LOG = logging.getLogger(__name__)
 

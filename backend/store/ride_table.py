@@ -30,13 +30,13 @@ from backend.core.ride import (
 from backend.core.ride_events import KINDS, RideEvent
 from backend.domain.logbook.card import line_kmh
 from backend.errors import FieldError, InvalidRequest
+from backend.store.bikes import bike_of_ride
 from backend.store.discard import take_back, with_sidecar
 from backend.store.finish import WrittenObject
 from backend.store.named import named_objects
 from backend.store.sql import tables as t
 from backend.store.sql.blobs import channel_list, encode_level
 from backend.store.sql.sound_rows import NOT_AS_WRITTEN, is_sound
-from backend.store.units import bike_of_ride
 
 NAME_LENGTH_MAX = 200
 # Columns that a ride keeps when its rows become others.

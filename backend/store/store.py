@@ -33,7 +33,6 @@ from backend.store.sql.database import Database, is_postgresql, shown
 from backend.store.sql.database_url import check_url
 from backend.store.table_answers import TableAnswers
 from backend.store.trouble import DISK_FULL, WORDS, code_of
-from backend.store.units import UnitStore
 from backend.store.uploads import UploadStore
 
 LOG = logging.getLogger(__name__)
@@ -44,7 +43,7 @@ NAMED_MAX = 10
 
 class Store:
     """Everything that is kept: `rides`, `cards`, `zeros`, `logbook`, `marks`, `revisions`,
-    `library`, `certificates`, `units`, `uploads`.
+    `library`, `certificates`, `uploads`.
 
     closing: lets go of the locks.
     """
@@ -66,7 +65,6 @@ class Store:
         self.revisions = RevisionLog(database)
         self.library = LibraryStore(database)
         self.certificates = CertificateStore(database)
-        self.units = UnitStore(database)
         self.cards = CardStore(database)
         self.zeros = ZeroStore(database)
         self.logbook = Logbook(database, objects)

@@ -20,8 +20,8 @@ from backend.device.ebl.operations.live_values import ask_values
 from backend.device.ebl.session.operation import Operation
 from backend.device.ebl.session.session import Session
 from backend.device.ebl.session.stream_receiver import StreamPlan
-from backend.device.faults import UnitFault
-from backend.device.live_values import LiveValues
+from backend.device.faults import Fault
+from backend.device.live_values import Snapshot
 from backend.device.states import LinkState
 from backend.device.stream import StreamBlock
 from backend.errors import NoAnswer
@@ -136,7 +136,7 @@ class DriveUnit:
 
     def channels(self) -> dict[str, float | None]:
         """Every telemetry channel as the unit reports it now; missing is None."""
-        values: LiveValues = self.ask(ask_values())
+        values: Snapshot = self.ask(ask_values())
         return values.channels
 
     def trace(self, *names: str) -> dict[str, npt.NDArray[np.float64]]:
@@ -156,11 +156,11 @@ class DriveUnit:
         empty = np.empty(0)
         return {name: np.concatenate(parts) if parts else empty for name, parts in columns.items()}
 
-    def faults(self) -> list[UnitFault]:
+    def faults(self) -> list[Fault]:
         """The faults that are active or were, with what the bike did when they came."""
         return self.ask(fault_frames())
 
-    def clear_faults(self) -> list[UnitFault]:
+    def clear_faults(self) -> list[Fault]:
         """Forget the faults that are over; what is left."""
         return self.ask(clear_faults())
 

@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import Any
 
 from backend.device.configuration import ConfigImage, TrialStatus
-from backend.device.live_values import LiveValues
+from backend.device.live_values import Snapshot
 from backend.device.stream import StreamBlock
 from firmware_protocol._generated import (
     CHANNELS,
@@ -265,7 +265,7 @@ class Checker:
                 f"frame {sent} of the unit: rows were lost and not counted, or counted twice."
             )
 
-    def shown_values(self, values: LiveValues) -> None:
+    def shown_values(self, values: Snapshot) -> None:
         """A row somebody asked for."""
         counts = bytearray()
         for channel in CHANNELS:

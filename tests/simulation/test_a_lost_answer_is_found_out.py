@@ -18,7 +18,7 @@ from backend.device.states import LinkState
 from backend.errors import Conflict, NoAnswer
 from backend.services.tuning.try_live import LiveTuning
 from backend.services.tuning.tune import Tuning
-from backend.services.units.connect import Devices
+from backend.units.service import Devices
 from firmware_protocol._generated import (
     CfgBeginRequest,
     CfgCommitRequest,
@@ -226,7 +226,7 @@ def test_a_write_that_takes_too_long_is_taken_back_or_found_out(
 def test_a_change_found_out_only_later_has_its_reason_in_the_log(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("backend.services.units.outcome.OUTCOME_WAIT_S", 0.0)
+    monkeypatch.setattr("backend.units.outcome.OUTCOME_WAIT_S", 0.0)
     bench.unit.dead_down_s = 3.0
 
     told = outcome_of(lambda: bench.tuning.write_config(bench.id, CHANGE, "for the rain"))

@@ -13,7 +13,7 @@ from backend.device.ebl.operations.config_transaction import (
     write_config,
 )
 from backend.device.ebl.operations.live_values import ask_values
-from backend.device.live_values import LiveValues
+from backend.device.live_values import Snapshot
 from backend.device.states import LinkState
 from backend.errors import ConfigConflict, NoAnswer, PeerProtocolError
 from firmware_protocol.layout import Value
@@ -142,7 +142,7 @@ class Workload:
         world = self.world
         name = self.name("look")
 
-        def done(values: LiveValues) -> None:
+        def done(values: Snapshot) -> None:
             world.checker.shown_values(values)
 
         world.ask(name, ask_values(), done, lambda error: self.told(name, error))

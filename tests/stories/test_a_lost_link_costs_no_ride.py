@@ -21,10 +21,11 @@ from backend.formats.formats import read_file
 from backend.services.imports.collect import Collect
 from backend.services.imports.upload import Uploads
 from backend.services.rides.record import Recorder, RecordSettings
-from backend.services.units.connect import Devices
-from backend.services.units.inspection import Inspection
-from backend.services.units.remember import UnitMemory
 from backend.store import Store, open_store
+from backend.units.inspection import Inspection
+from backend.units.memory import UnitMemory
+from backend.units.records import UnitStore
+from backend.units.service import Devices
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.server import eventually
 from tests.fakes.unit_link import UnitOpener
@@ -117,7 +118,7 @@ def desk(tmp_path: Path) -> Iterator[Desk]:
     cable = UnitOpener(in_time, URL)
     devices = Devices(opener=lambda url: cable)
     with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as store:
-        memory = UnitMemory(devices, store.revisions, store.units, lambda unit: None)
+        memory = UnitMemory(devices, store.revisions, UnitStore(store.database), lambda unit: None)
         recorder = Recorder(store.rides, memory.ride_context, RecordSettings())
         uploads = Uploads(store, reader=read_here)
         collect = Collect(devices, uploads, tmp_path / "collecting")

@@ -156,14 +156,6 @@ class RideEvent(Answer):
     value: int
 
 
-class RideMark(Answer):
-    """A moment that was marked, t_s seconds after the start of its ride."""
-
-    ride_id: int
-    t_s: float
-    number: int = Field(description="From 1, in its ride.")
-
-
 class RideChannel(Answer):
     """A channel that can be asked for; `derived` ones are computed from recorded ones."""
 

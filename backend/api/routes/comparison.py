@@ -7,8 +7,9 @@ from typing import Annotated, Any, Literal
 from fastapi import APIRouter, Depends, Query, Response
 
 from backend.api.models.comparison import ComparedCrank, ComparedSeries, RideComparison
-from backend.api.routes.rides import Channels, channel_names
+from backend.api.routes.rides import Channels
 from backend.api.services import Provided
+from backend.core.channels import channel_names
 from backend.services.rides.insight.rows import Window
 from backend.web.problem import DAMAGED, refusals
 from backend.web.responses import whole

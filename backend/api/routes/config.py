@@ -6,7 +6,6 @@ from typing import Annotated, Any, Literal, cast
 
 from fastapi import APIRouter, Header, Query, Response
 
-from backend.api.meant import FOR_ONE_UNIT
 from backend.api.models.config import (
     CONFIRM_S,
     CONFIRM_S_MAX,
@@ -25,6 +24,7 @@ from backend.api.models.why import Why, WhyRequest
 from backend.api.services import Provided
 from backend.core.parameter_value import TOKEN, TOKEN_PATTERN
 from backend.services.tuning.config_view import etag
+from backend.units.precondition import FOR_ONE_UNIT
 from backend.web.authentication import Author
 from backend.web.problem import refusals
 

@@ -6,9 +6,9 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Response, status
 
-from backend.api.meant import FOR_ONE_UNIT
 from backend.api.models.log import ErasedLog, LogDownload, UnitLogs
 from backend.api.services import Provided
+from backend.units.precondition import FOR_ONE_UNIT
 from backend.web.problem import refusals
 
 router = APIRouter(

@@ -23,6 +23,7 @@ from backend.api.models.replay import (
 from backend.api.models.ride import Figure, Ride, RideList, RidePatch, Series, Track
 from backend.api.models.why import Cuts, Ledger, Why
 from backend.api.services import Provided
+from backend.core.channels import channel_names
 from backend.services.rides.export import Export
 from backend.web.problem import DAMAGED, refusals
 from backend.web.responses import in_pieces, while_asked, whole
@@ -48,12 +49,6 @@ def dated(text: object) -> object:
 
 Moment = Annotated[datetime, BeforeValidator(dated)]
 Axis = Literal["time", "moving", "distance"]
-
-
-def channel_names(text: str | None) -> list[str] | None:
-    """`"a, b"` as a list; None where no channel was named."""
-    names = [name.strip() for name in (text or "").split(",")]
-    return [name for name in names if name] or None
 
 
 @router.get("", operation_id="list_rides", response_model=RideList)

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from backend.device.faults import UnitFault
-from backend.device.live_values import LiveValues
+from typing import cast
+
+from backend.device.faults import Fault
+from backend.device.faults import Severity as SeverityWord
+from backend.device.live_values import Snapshot
 from firmware_protocol._generated import FAULTS, Severity
 from firmware_protocol.spelling import word_of
 
@@ -25,17 +28,17 @@ def fault_names(flags: int) -> tuple[str, ...]:
 
 
 def described(
-    name: str, active: bool = True, count: int | None = None, frozen: LiveValues | None = None
-) -> UnitFault:
+    name: str, active: bool = True, count: int | None = None, frozen: Snapshot | None = None
+) -> Fault:
     """A fault by its name with its words; one of a newer firmware says that it is unknown, and
     counts as latched."""
     fault = FAULT_BY_WORD.get(name)
-    return UnitFault(
+    return Fault(
         name,
         fault.rider_text if fault else UNKNOWN,
         active,
         count,
         frozen,
-        word_of(Severity(fault.severity if fault else Severity.LATCHED).name),
+        cast(SeverityWord, word_of(Severity(fault.severity if fault else Severity.LATCHED).name)),
         fault.mechanic_text if fault else UNKNOWN,
     )

@@ -35,8 +35,8 @@ from backend.device.ebl.session.schema import Schemas
 from backend.device.ebl.session.session import Session
 from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.ebl.session.trial_status import trial_status
-from backend.device.faults import UnitFault
-from backend.device.live_values import LiveValues
+from backend.device.faults import Fault
+from backend.device.live_values import Snapshot
 from backend.device.ride_logs import LogPieces, RideLog, RideLogs
 from backend.device.states import LinkState
 from backend.device.unit import Unit
@@ -95,7 +95,7 @@ class EblUnit(Unit):
     def channels(self) -> tuple[ChannelSpec, ...]:
         return CHANNEL_SPECS
 
-    def values(self) -> LiveValues:
+    def values(self) -> Snapshot:
         return self._run(ask_values())
 
     # ------------------------------------------------------------------ configuration
@@ -159,13 +159,13 @@ class EblUnit(Unit):
 
     # ------------------------------------------------------------------ faults and wear
 
-    def faults(self) -> Sequence[UnitFault]:
+    def faults(self) -> Sequence[Fault]:
         return self._run(fault_frames())
 
-    def faults_told(self) -> Sequence[UnitFault]:
+    def faults_told(self) -> Sequence[Fault]:
         return [described(name) for name in self.status().faults_active]
 
-    def clear_faults(self) -> Sequence[UnitFault]:
+    def clear_faults(self) -> Sequence[Fault]:
         return self._run(clear_faults())
 
     def wear_counters(self) -> WearCounters | None:

@@ -2,12 +2,13 @@
 
 from backend.device.link.base import Link
 from backend.device.link.opening import Opener, family_of, kind_of, open_link
-from backend.device.link.ports import PortInfo, is_character_device, list_ports
+from backend.device.link.ports import DeviceKind, Port, is_character_device, list_ports
 
 __all__ = [
+    "DeviceKind",
     "Link",
     "Opener",
-    "PortInfo",
+    "Port",
     "family_of",
     "is_character_device",
     "kind_of",

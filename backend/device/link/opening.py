@@ -17,7 +17,12 @@ from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 
 from backend.device.link.base import Link
-from backend.device.link.ports import device_with_usb_serial, is_character_device, usb_serial_of
+from backend.device.link.ports import (
+    DeviceKind,
+    device_with_usb_serial,
+    is_character_device,
+    usb_serial_of,
+)
 from backend.device.link.serial_port import SerialPort, baud_of
 from backend.device.link.simulated import SimulatedAddress, SimulatedLink
 from backend.device.link.socket_link import SocketLink
@@ -30,7 +35,7 @@ def open_link(url: str) -> Link:
     return Opener(url).open()
 
 
-def kind_of(url: str) -> str:
+def kind_of(url: str) -> DeviceKind:
     """`simulated`, `socket` or `serial`. Raises InvalidRequest when the url is none of them."""
     if url == "sim" or url.startswith(("sim:", "sim?")):
         SimulatedAddress.parse(url)

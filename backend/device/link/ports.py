@@ -6,35 +6,38 @@ import os
 import stat
 import sys
 from collections.abc import Iterable
-from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from serial.tools import list_ports as pyserial_ports
 
+from backend.core.described import described
 
-@dataclass(frozen=True)
-class PortInfo:
-    """One port that can be added as a device.
+DeviceKind = Literal["simulated", "serial", "socket"]
 
-    url: what to add. description: the adapter's own words. usb_serial_number: finds the same
-    adapter again under a new name. in_use: None where it cannot be told without opening the port.
-    hint: what stands in the way and what to do about it, None when nothing does. hint_code: a word
-    for it, as a LinkError of such a port has.
-    """
+
+@described
+class Port:
+    """A place where a unit may be: pass `url` to `POST /devices`."""
 
     url: str
-    kind: str
+    kind: DeviceKind
     description: str
+    """In the adapter's own words."""
     manufacturer: str | None = None
     usb_vendor_id: int | None = None
     usb_product_id: int | None = None
     usb_serial_number: str | None = None
+    """Finds the same adapter again under a new name."""
     in_use: bool | None = None
+    """null where it cannot be told without opening it."""
     hint: str | None = None
+    """What stands in the way and what to do about it."""
     hint_code: str | None = None
+    """A word for the hint: `port_permission` or `port_busy`, as a device's `reason_code`."""
 
 
-SIMULATED = PortInfo(
+SIMULATED = Port(
     url="sim", kind="simulated", description="A simulated drive unit, started by Spindle"
 )
 
@@ -47,7 +50,7 @@ def is_character_device(name: str) -> bool | None:
         return None
 
 
-def list_ports() -> list[PortInfo]:
+def list_ports() -> list[Port]:
     """Every serial port of this machine, without opening any, and the simulated unit."""
     found = sorted(pyserial_ports.comports(), key=lambda port: str(port.device))
     holders = _open_devices()
@@ -70,11 +73,11 @@ def usb_serial_of(device: str) -> str | None:
     return None
 
 
-def _describe(port: pyserial_ports.ListPortInfo, holders: set[str] | None) -> PortInfo:
+def _describe(port: pyserial_ports.ListPortInfo, holders: set[str] | None) -> Port:
     device = str(port.device)
     in_use = None if holders is None else os.path.realpath(device) in holders
     hint, hint_code = _hint(device, in_use)
-    return PortInfo(
+    return Port(
         url=device,
         kind="serial",
         description=str(port.description or device),

@@ -42,8 +42,8 @@ from backend.errors import (
 )
 from backend.formats.blocks import BLOCKS_SUFFIX, PAGE_BYTES, sync_block
 from backend.services.imports.upload import Uploads
-from backend.services.units.connect import Devices
-from backend.services.units.outcome import find_outcome, telling
+from backend.units.outcome import find_outcome, telling
+from backend.units.service import Devices
 
 LOG = logging.getLogger(__name__)
 

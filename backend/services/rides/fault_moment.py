@@ -13,15 +13,17 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from backend.core.channels import MISSING_INT16, Values
-from backend.core.energy import MOTOR_TORQUE, motor_torque_meaning
+from backend.core.described import described
+from backend.core.energy import MOTOR_TORQUE, MotorTorqueMeaning, motor_torque_meaning
 from backend.core.moments import utc
 from backend.core.ride import Ride, RideContext
-from backend.device.faults import UnitFault
+from backend.device.faults import Fault
 from backend.device.states import DeviceEvent
 from backend.device.stream import StreamBlock
 from backend.errors import NotFound
@@ -42,30 +44,32 @@ ROW_US_MAX = 50_000
 KEPT_GAP_US_MAX = 60_000_000
 
 
-@dataclass(frozen=True)
+@described
 class FaultMoment:
-    """The samples from 2 s before a fault to 1 s after it.
-
-    unit_t_us: unit time of the fault. came_at: that as wall time, by the ride's or the stream's
-    start. source: `ride` or `stream`. missing: why there are no
-    samples, None where there are: `no_frame` (nobody knows when it came), `not_recorded`.
-    ride_t_s: of the fault in the ride. whole: False while rows after the fault are still to come.
-    at_s: of each sample, 0 at the fault; a value of None is a sample without a reading.
-    motor_torque_nm: at the crank, `delivered` or `demanded` as motor_torque_meaning says.
-    """
+    """What the bike did from 2 s before a fault to 1 s after it, as it was recorded."""
 
     fault: str
     unit_t_us: int | None = None
+    """When it came last, on the unit's clock."""
     came_at: datetime | None = None
-    source: str | None = None
-    missing: str | None = None
+    """The same as wall time, where samples tell it."""
+    source: Literal["ride", "stream"] | None = None
+    """What had the samples."""
+    missing: Literal["no_frame", "not_recorded"] | None = None
+    """Why there is no sample: nobody knows when the fault came, or nothing was recorded then; null
+    where there are some."""
     ride_id: int | None = None
     ride_t_s: float | None = None
-    motor_torque_meaning: str | None = None
+    """The fault's place in the ride."""
+    motor_torque_meaning: MotorTorqueMeaning | None = None
     whole: bool = True
+    """False while samples after the fault are still to come."""
     at_s: Sequence[float] = ()
+    """Of each sample; the fault came at 0."""
     rider_torque_nm: Sequence[float | None] = ()
+    """At the crank; null: no reading."""
     motor_torque_nm: Sequence[float | None] = ()
+    """At the crank; null: no reading, or no gear ratio is known."""
 
 
 @dataclass(frozen=True)
@@ -141,7 +145,7 @@ class FaultMoments:
         self,
         rides: RideStore,
         recent: RecentRows,
-        faults_of: Callable[[str], Sequence[UnitFault]],
+        faults_of: Callable[[str], Sequence[Fault]],
         context_of: Callable[[str], RideContext],
     ) -> None:
         self._rides = rides

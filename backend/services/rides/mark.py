@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
+from backend.core.described import described
 from backend.errors import Conflict
 from backend.services.rides.record import Recorder
 from backend.store import MarkStore
 
 
-@dataclass(frozen=True, slots=True)
-class Mark:
-    """number: from 1, in its ride."""
+@described
+class RideMark:
+    """A moment that was marked, t_s seconds after the start of its ride."""
 
     ride_id: int
     t_s: float
     number: int
+    """From 1, in its ride."""
 
 
 class MarkMoment:
@@ -29,7 +30,7 @@ class MarkMoment:
         self._marks = marks
         self._known = known
 
-    def __call__(self, device_id: str) -> Mark:
+    def __call__(self, device_id: str) -> RideMark:
         """Mark the newest moment of a unit's ride.
 
         Raises NotFound, Conflict `no_ride` while the unit records none, `marks_full`, StoreError.
@@ -39,4 +40,4 @@ class MarkMoment:
         if newest is None:
             raise Conflict("No ride is being recorded; one begins when the bike moves.", "no_ride")
         ride_id, t_s = newest
-        return Mark(ride_id, t_s, self._marks.add(ride_id, t_s).value)
+        return RideMark(ride_id, t_s, self._marks.add(ride_id, t_s).value)

@@ -36,7 +36,7 @@ from backend.services.rides.ride_bounds import (
     rows_until_still,
     still_rows,
 )
-from backend.services.rides.ride_tail import RideTail, RowCounts
+from backend.services.rides.ride_tail import RecorderHealth, RideTail
 from backend.services.rides.running import RunningTotals
 from backend.services.rides.settings_in_force import SettingsInForce
 from backend.services.rides.told_late import RideClock, tell_clock, tell_context
@@ -132,7 +132,7 @@ class UnitRecorder:
         self._lead: deque[StreamBlock] = deque()
         self._told_trouble = False
         # Read by those who must not wait for the lock.
-        self.counts = RowCounts()
+        self.counts = RecorderHealth()
         self.lost_lately = 0
         self.missing = MissingRows(device_id)
         self._finish = finish
@@ -458,10 +458,10 @@ class Recorder:
         found = (unit.running(ride_id) for unit in self._all())
         return next((summary for summary in found if summary), None)
 
-    def counts(self, device_id: str) -> RowCounts:
+    def counts(self, device_id: str) -> RecorderHealth:
         """What became of a unit's rows; never waits."""
         unit = self._units.get(device_id)
-        return unit.counts if unit else RowCounts()
+        return unit.counts if unit else RecorderHealth()
 
     def rows_lost_lately(self) -> Sequence[tuple[str, int]]:
         """Units whose latest ride lost rows to the store, and how many; never waits."""

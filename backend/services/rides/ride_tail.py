@@ -31,18 +31,17 @@ LAST_TRIES = 3
 
 
 @dataclass
-class RowCounts:
-    """What became of the rows that were taken.
-
-    rows_saved: committed. rows_lost: given up, because the store refused them too long.
-    rows_waiting: on the way to the store, or waiting for it. rows_missing: never came while the
-    bike was ridden, and so are none of the others.
-    """
+class RecorderHealth:
+    """Rows of rides since the server started."""
 
     rows_saved: int = 0
+    """Committed in the store."""
     rows_lost: int = 0
+    """Given up, because the store refused them too long."""
     rows_waiting: int = 0
+    """On the way to the store, or waiting for it."""
     rows_missing: int = 0
+    """Never came while the bike was ridden: gaps of its rides. None of the others."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +78,7 @@ class RideTail:
         # Rows of the ride, missing ones included.
         self.rows = 0
         self.rows_unsent = 0
-        self.counts = RowCounts()
+        self.counts = RecorderHealth()
         # Why the store refused last.
         self.trouble: StoreError | None = None
 

@@ -19,7 +19,7 @@ from backend.errors import FieldError, InvalidRequest, NotFound, SpindleError
 from backend.services.tuning.library import Library
 from backend.services.tuning.preview import changed_config
 from backend.services.tuning.tune import Tuning
-from backend.services.units.connect import Devices
+from backend.units.service import Devices
 
 LOG = logging.getLogger(__name__)
 OTHER_FIRMWARE = "other_firmware"

@@ -10,8 +10,8 @@ from datetime import UTC, datetime
 from backend.device.capability import Capability
 from backend.device.configuration import LiveState, Value
 from backend.errors import FieldError, InvalidRequest, LimitViolation, NoAnswer
-from backend.services.units.connect import Devices
-from backend.services.units.outcome import find_outcome, telling
+from backend.units.outcome import find_outcome, telling
+from backend.units.service import Devices
 
 TTL_S_MAX = 255
 

@@ -31,8 +31,8 @@ from backend.services.tuning.config_view import (
 )
 from backend.services.tuning.revision_book import KEPT, TRIED, Meant, RevisionBook
 from backend.services.tuning.typed_views import PARTS, ConfigPart
-from backend.services.units.connect import Devices
-from backend.services.units.outcome import find_outcome, telling
+from backend.units.outcome import find_outcome, telling
+from backend.units.service import Devices
 
 RETURNED_REASON = "Returned to: the trial before was given up."
 KEPT_REASON = "Kept after its trial."

@@ -11,9 +11,9 @@ from sqlalchemy import Connection, Row, Select, insert, select
 from backend.core.author import proof_of
 from backend.core.canonical_json import sha256_of
 from backend.domain.revision import Revision
+from backend.store.bikes import known_unit
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
-from backend.store.units import known_unit
 
 REVISIONS_MAX = 1000
 

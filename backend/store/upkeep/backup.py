@@ -17,12 +17,12 @@ import json
 import shutil
 import time
 from collections.abc import Generator, Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
 
 from sqlalchemy import func, select
 
+from backend.core.described import described
 from backend.core.ride import iso_utc
 from backend.errors import StoreError
 from backend.store.look import look_at
@@ -38,20 +38,20 @@ FOLDER = "objects"
 MANIFEST = "backup.json"
 
 
-@dataclass(frozen=True)
+@described
 class StorePlace:
-    """Where everything is kept. database: its URL without a password.
-
-    database_bytes: of an SQLite file with its journal, None where the database is a server's.
-    object_bytes: of every file of rides and originals. free_bytes: where the objects are.
-    """
+    """The database and the folder of rides and files, with what they hold."""
 
     database: str
+    """Its URL, without a password."""
     folder: str
+    """Of rides and originals, on the server's machine."""
     rides: int
     database_bytes: int | None
+    """Null where a database server keeps it."""
     object_bytes: int
     free_bytes: int
+    """On the disk of the folder."""
 
 
 def place_of(store: Store) -> StorePlace:

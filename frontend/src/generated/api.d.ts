@@ -21,6 +21,47 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/store": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Store
+         * @description Where rides, units and settings are kept, how large that is, and how much room is left.
+         */
+        get: operations["get_store"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/store/backup": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Backup
+         * @description Everything that is kept, at this moment, as a zip; unpacked into an empty folder it is a data
+         *     folder. The database is checked before the first byte; its `backup.json` names what lacks.
+         */
+        get: operations["get_backup"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/session": {
         parameters: {
             query?: never;
@@ -213,41 +254,20 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/store": {
+    "/api/v1/calibration/evaluate": {
         parameters: {
             query?: never;
             header?: never;
             path?: never;
             cookie?: never;
         };
-        /**
-         * Get Store
-         * @description Where rides, units and settings are kept, how large that is, and how much room is left.
-         */
-        get: operations["get_store"];
+        get?: never;
         put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/store/backup": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
         /**
-         * Get Backup
-         * @description Everything that is kept, at this moment, as a zip; unpacked into an empty folder it is a data
-         *     folder. The database is checked before the first byte; its `backup.json` names what lacks.
+         * Evaluate Calibration
+         * @description Linearity, hysteresis and repeatability of a sensor from its readings.
          */
-        get: operations["get_backup"];
-        put?: never;
-        post?: never;
+        post: operations["evaluate_calibration"];
         delete?: never;
         options?: never;
         head?: never;
@@ -404,27 +424,6 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/devices/{device_id}/faults/{fault_name}/moment": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Moment Of Fault
-         * @description The rider's and the motor's torque around a fault, from the ride it came on, else from the
-         *     last minutes of the stream.
-         */
-        get: operations["moment_of_fault"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
     "/api/v1/devices/{device_id}/faults/clear": {
         parameters: {
             query?: never;
@@ -441,26 +440,6 @@ export interface paths {
          *     active while the bike moves.
          */
         post: operations["clear_faults"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/devices/{device_id}/marks": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /**
-         * Mark Moment
-         * @description Marks the newest moment of the ride that is being recorded; it is among the ride's events.
-         */
-        post: operations["mark_moment"];
         delete?: never;
         options?: never;
         head?: never;
@@ -525,6 +504,47 @@ export interface paths {
          * @description Lets time pass for a unit with a virtual clock, as fast as it can; 409 for any other.
          */
         post: operations["advance_simulation"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/devices/{device_id}/faults/{fault_name}/moment": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Moment Of Fault
+         * @description The rider's and the motor's torque around a fault, from the ride it came on, else from the
+         *     last minutes of the stream.
+         */
+        get: operations["moment_of_fault"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/devices/{device_id}/marks": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Mark Moment
+         * @description Marks the newest moment of the ride that is being recorded; it is among the ride's events.
+         */
+        post: operations["mark_moment"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1413,26 +1433,6 @@ export interface paths {
          * @description Why the law gives what it gives in a steady state, on the law's defaults and these.
          */
         post: operations["why_steady"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/calibration/evaluate": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /**
-         * Evaluate Calibration
-         * @description Linearity, hysteresis and repeatability of a sensor from its readings.
-         */
-        post: operations["evaluate_calibration"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2384,6 +2384,7 @@ export interface components {
         Alive: {
             /**
              * Status
+             * @default ok
              * @constant
              */
             status: "ok";
@@ -3642,6 +3643,7 @@ export interface components {
         ConfigSlot: {
             /**
              * State
+             * @description `unknown`: to this Spindle.
              * @enum {string}
              */
             state: "empty" | "confirmed" | "provisional" | "void" | "damaged" | "unknown";
@@ -3652,7 +3654,10 @@ export interface components {
              * @description In the unit's life; this wears it.
              */
             erases: number;
-            /** Active */
+            /**
+             * Active
+             * @description Whether the unit runs on it.
+             */
             active: boolean;
         };
         /**
@@ -3666,6 +3671,7 @@ export interface components {
             crc32: number;
             /**
              * State
+             * @default committed
              * @enum {string}
              */
             state: "committed" | "provisional";
@@ -3824,7 +3830,10 @@ export interface components {
          * @description What the rider sees. Rider power and motor power are two things; missing is null.
          */
         Dashboard: {
-            /** T Us */
+            /**
+             * T Us
+             * @description Unit time of the last row.
+             */
             t_us: number | null;
             /** Speed Kmh */
             speed_kmh: number | null;
@@ -3840,7 +3849,8 @@ export interface components {
             rider_power_w: number | null;
             /**
              * Motor Power W
-             * @description Mechanical, at the motor's shaft; null from a unit that tells only what it asks of its motor.
+             * @description Mechanical, at the motor's shaft; null from a unit that reports only what it demands of its
+             *     motor.
              */
             motor_power_w: number | null;
             /** Battery Soc Pct */
@@ -3898,26 +3908,12 @@ export interface components {
         Device: {
             /**
              * Id
-             * @description Of the connection: made of its url, the same after every start. Where a path takes it, it takes the unit's serial number and `unit_key` too.
+             * @description Of the connection: made of its url, the same after every start. Where a path takes it, it
+             *     takes the unit's serial number and `unit_key` too.
              */
             id: string;
             /** Url */
             url: string;
-            /**
-             * Name
-             * @description What its owner calls the unit, as it was added.
-             */
-            name: string | null;
-            /**
-             * Unit Key
-             * @description Of the unit, whatever it is connected by: `family:serial`, else `family:name:NAME`, else `family:url:URL`. null until it said who it is. Its rides and its revisions have the same.
-             */
-            unit_key: string | null;
-            /**
-             * Bike Id
-             * @description The bike the unit is on, made when it was first seen; null for a unit without a serial number and without a name.
-             */
-            bike_id: number | null;
             /**
              * Kind
              * @enum {string}
@@ -3947,20 +3943,39 @@ export interface components {
             /** Faults Active */
             faults_active: string[];
             /**
-             * Last Seen At
-             * @description When the unit was last there over this connection, now if it is; null if none ever was. Kept over a restart, as are `identity` and `unit_key` of a unit that is away.
-             */
-            last_seen_at: string | null;
-            /**
              * Family
              * @description The make of the unit: what `?family=` of its url takes.
              */
             family: string;
             /**
              * Capabilities
-             * @description What this unit can do. A route that needs another answers 409 `capability_missing` and names it.
+             * @description What this unit can do. A route that needs another answers 409 `capability_missing` and names
+             *     it.
              */
             capabilities: components["schemas"]["Capability"][];
+            /**
+             * Name
+             * @description What its owner calls the unit, as it was added.
+             */
+            name: string | null;
+            /**
+             * Unit Key
+             * @description Of the unit, whatever it is connected by: `family:serial`, else `family:name:NAME`, else
+             *     `family:url:URL`. null until it said who it is. Its rides and its revisions have the same.
+             */
+            unit_key: string | null;
+            /**
+             * Bike Id
+             * @description The bike the unit is on, made when it was first seen; null for a unit without a serial number
+             *     and without a name.
+             */
+            bike_id: number | null;
+            /**
+             * Last Seen At
+             * @description When the unit was last there over this connection, now if it is; null if none ever was. Kept
+             *     over a restart, as are `identity` and `unit_key` of a unit that is away.
+             */
+            last_seen_at: string | null;
         };
         /** DeviceHealth */
         DeviceHealth: {
@@ -4170,9 +4185,15 @@ export interface components {
             /** High */
             high: number;
         };
-        /** Evaluation */
+        /**
+         * Evaluation
+         * @description The figures of an error test, in percent of full scale.
+         */
         Evaluation: {
-            /** Linearity Pct */
+            /**
+             * Linearity Pct
+             * @description Against the load, as the thesis uses it.
+             */
             linearity_pct: number;
             /** Hysteresis Pct */
             hysteresis_pct: number;
@@ -4209,9 +4230,15 @@ export interface components {
         Fault: {
             /** Name */
             name: string;
-            /** Description */
+            /**
+             * Description
+             * @description What the rider reads.
+             */
             description: string;
-            /** Active */
+            /**
+             * Active
+             * @default true
+             */
             active: boolean;
             /**
              * Count
@@ -4221,13 +4248,15 @@ export interface components {
             frozen: components["schemas"]["Snapshot"] | null;
             /**
              * Severity
-             * @description Tells only; no assist while it lasts; no assist until cleared at standstill.
+             * @description A warning only; no assist while it lasts; no assist until cleared at standstill.
+             * @default latched
              * @enum {string}
              */
             severity: "warning" | "assist_off" | "latched";
             /**
              * Mechanic Text
              * @description What a mechanic measures and mends.
+             * @default
              */
             mechanic_text: string;
         };
@@ -4262,7 +4291,8 @@ export interface components {
             source: ("ride" | "stream") | null;
             /**
              * Missing
-             * @description Why there is no sample: nobody knows when the fault came, or nothing was recorded then; null where there are some.
+             * @description Why there is no sample: nobody knows when the fault came, or nothing was recorded then; null
+             *     where there are some.
              */
             missing: ("no_frame" | "not_recorded") | null;
             /** Ride Id */
@@ -4273,25 +4303,29 @@ export interface components {
              */
             ride_t_s: number | null;
             /** Motor Torque Meaning */
-            motor_torque_meaning: ("demanded" | "delivered") | null;
+            motor_torque_meaning: ("delivered" | "demanded") | null;
             /**
              * Whole
              * @description False while samples after the fault are still to come.
+             * @default true
              */
             whole: boolean;
             /**
              * At S
              * @description Of each sample; the fault came at 0.
+             * @default []
              */
             at_s: number[];
             /**
              * Rider Torque Nm
              * @description At the crank; null: no reading.
+             * @default []
              */
             rider_torque_nm: (number | null)[];
             /**
              * Motor Torque Nm
              * @description At the crank; null: no reading, or no gear ratio is known.
+             * @default []
              */
             motor_torque_nm: (number | null)[];
         };
@@ -4614,7 +4648,9 @@ export interface components {
             version: string;
             /**
              * Reasons
-             * @description Why. With status ok too: `rows_lost` and `rows_missing_*` until the unit's next ride, the latter with where most of them were lost; `rides_damaged` until the files are restored or the rides deleted.
+             * @description Why. With status ok too: `rows_lost` and `rows_missing_*` until the unit's next ride, the
+             *     latter with where most of them were lost; `rides_damaged` until the files are restored or the
+             *     rides deleted.
              */
             reasons: components["schemas"]["HealthReason"][];
             /** Devices */
@@ -4637,24 +4673,38 @@ export interface components {
         };
         /**
          * Identity
-         * @description Who a unit says it is; null for what it does not tell.
+         * @description Who a unit says it is, in words and hexadecimal; null for what it does not say, never "".
          */
         Identity: {
-            /** Serial Number */
+            /**
+             * Serial Number
+             * @description Lasts as long as the unit.
+             */
             serial_number: string | null;
             /** Model */
             model: string;
-            /** Hardware Revision */
-            hardware_revision: number | null;
             /** Firmware Version */
             firmware_version: string | null;
+            /** Hardware Revision */
+            hardware_revision: number | null;
             /** Protocol Version */
             protocol_version: string | null;
             /** Schema Hash */
             schema_hash: string | null;
             /**
+             * Simulated
+             * @default false
+             */
+            simulated: boolean;
+            /**
+             * Boot Id
+             * @description Another one at every start of the unit.
+             */
+            boot_id: number | null;
+            /**
              * Reset Cause
-             * @description Why the unit started: `power_on`, `brown_out`, `watchdog`, `fault_handler`, `deadline` or `software`; null where its firmware cannot tell.
+             * @description Why the unit started: `power_on`, `brown_out`, `watchdog`, `fault_handler`, `deadline` or
+             *     `software`; null where its firmware cannot tell.
              */
             reset_cause: string | null;
         };
@@ -5280,14 +5330,20 @@ export interface components {
             /** Made Gain Pct */
             made_gain_pct?: number | null;
         };
-        /** LineFit */
+        /**
+         * LineFit
+         * @description Least-squares line through the mean readings: reading = slope x load + offset.
+         */
         LineFit: {
             /** Slope */
             slope: number;
             /** Offset Nm */
             offset_nm: number;
         };
-        /** LinearityAgainstLines */
+        /**
+         * LinearityAgainstLines
+         * @description Linearity against a line instead of the load; the rest is gain error (thesis_checks I-6).
+         */
         LinearityAgainstLines: {
             /** Least Squares */
             least_squares: number;
@@ -5849,16 +5905,26 @@ export interface components {
         Port: {
             /** Url */
             url: string;
-            /** Description */
-            description: string;
             /**
              * Kind
              * @enum {string}
              */
             kind: "simulated" | "serial" | "socket";
+            /**
+             * Description
+             * @description In the adapter's own words.
+             */
+            description: string;
             /** Manufacturer */
             manufacturer: string | null;
-            /** Usb Serial Number */
+            /** Usb Vendor Id */
+            usb_vendor_id: number | null;
+            /** Usb Product Id */
+            usb_product_id: number | null;
+            /**
+             * Usb Serial Number
+             * @description Finds the same adapter again under a new name.
+             */
             usb_serial_number: string | null;
             /**
              * In Use
@@ -6192,21 +6258,25 @@ export interface components {
             /**
              * Rows Saved
              * @description Committed in the store.
+             * @default 0
              */
             rows_saved: number;
             /**
              * Rows Lost
              * @description Given up, because the store refused them too long.
+             * @default 0
              */
             rows_lost: number;
             /**
              * Rows Waiting
              * @description On the way to the store, or waiting for it.
+             * @default 0
              */
             rows_waiting: number;
             /**
              * Rows Missing
              * @description Never came while the bike was ridden: gaps of its rides. None of the others.
+             * @default 0
              */
             rows_missing: number;
         };
@@ -7172,7 +7242,7 @@ export interface components {
         };
         /**
          * Scenario
-         * @description A ride that a simulated unit can be sent on.
+         * @description A ride that a simulated unit can be sent on: `scenario` of its simulation takes the name.
          */
         Scenario: {
             /** Name */
@@ -7919,7 +7989,7 @@ export interface components {
         };
         /**
          * Snapshot
-         * @description One row of every channel; a channel without a value is null.
+         * @description One row of every channel, in its unit; a channel without a value is null. t_us: unit time.
          */
         Snapshot: {
             /** T Us */
@@ -8645,7 +8715,8 @@ export interface components {
         };
         /**
          * WearCounters
-         * @description What the unit knows of its own wear. What is not saved yet is lost with its supply.
+         * @description What the unit knows of its own wear. What is not saved yet is lost with its supply, a minute
+         *     at most.
          */
         WearCounters: {
             /** Distance M */
@@ -9096,6 +9167,118 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_store: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StorePlace"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_backup: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/zip": unknown;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -9892,14 +10075,18 @@ export interface operations {
             };
         };
     };
-    get_store: {
+    evaluate_calibration: {
         parameters: {
             query?: never;
             header?: never;
             path?: never;
             cookie?: never;
         };
-        requestBody?: never;
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["EvaluationRequest"];
+            };
+        };
         responses: {
             /** @description Successful Response */
             200: {
@@ -9907,7 +10094,16 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["StorePlace"];
+                    "application/json": components["schemas"]["Evaluation"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description Unauthorized */
@@ -9930,71 +10126,6 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    get_backup: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/zip": unknown;
-                };
-            };
-            /** @description Unauthorized */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Forbidden */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            503: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -10774,101 +10905,6 @@ export interface operations {
             };
         };
     };
-    moment_of_fault: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                device_id: string;
-                fault_name: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["FaultMoment"];
-                };
-            };
-            /** @description Unauthorized */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Forbidden */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Not Found */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Conflict */
-            409: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description `object_damaged`: the ride's file is not as written */
-            500: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Gateway Timeout */
-            504: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
     clear_faults: {
         parameters: {
             query?: never;
@@ -10890,103 +10926,6 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["FaultList"];
-                };
-            };
-            /** @description Unauthorized */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Forbidden */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Not Found */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Conflict */
-            409: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Precondition Failed */
-            412: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Gateway Timeout */
-            504: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    mark_moment: {
-        parameters: {
-            query?: never;
-            header?: {
-                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
-                "spindle-unit"?: string | null;
-            };
-            path: {
-                device_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            201: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["RideMark"];
                 };
             };
             /** @description Unauthorized */
@@ -11375,6 +11314,198 @@ export interface operations {
                 };
                 content: {
                     "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Precondition Failed */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    moment_of_fault: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                device_id: string;
+                fault_name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FaultMoment"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description `object_damaged`: the ride's file is not as written */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    mark_moment: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
+                "spindle-unit"?: string | null;
+            };
+            path: {
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RideMark"];
                 };
             };
             /** @description Unauthorized */
@@ -15896,66 +16027,6 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Why"];
-                };
-            };
-            /** @description The body is not JSON */
-            400: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unauthorized */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Forbidden */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    evaluate_calibration: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["EvaluationRequest"];
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Evaluation"];
                 };
             };
             /** @description The body is not JSON */

@@ -12,7 +12,7 @@ from backend.device.capability import Capability
 from backend.device.configuration import Config, ConfigImage, ParameterRow, ParameterTable, Value
 from backend.device.conversation import Operation
 from backend.device.driver import Driver, LinkOpener, Listener
-from backend.device.live_values import LiveValues, named_values
+from backend.device.live_values import Snapshot, named_values
 from backend.device.unit import Unit
 from backend.errors import ConfigConflict, DeviceRefused, FieldError, NoAnswer, PeerProtocolError
 from tests.fakes.tiny.conversation import CHANNELS, TinyConversation, ask_values
@@ -137,10 +137,10 @@ class TinyUnit(Unit):
     def channels(self) -> tuple[ChannelSpec, ...]:
         return CHANNELS
 
-    def values(self) -> LiveValues:
+    def values(self) -> Snapshot:
         counts = self.run(ask_values(), ANSWER_S)
         # It has no clock: the moment is ours.
-        return LiveValues(time.monotonic_ns() // 1000, named_values(CHANNELS, counts))
+        return Snapshot(time.monotonic_ns() // 1000, named_values(CHANNELS, counts))
 
     def read_config(self) -> ConfigImage:
         return self.run(read_config(), ANSWER_S)

@@ -19,8 +19,8 @@ from backend.app import build_api
 from backend.services.tuning.certify import CertifiedRevisions, Certify, KeptCertificates
 from backend.services.tuning.library import Library
 from backend.services.tuning.tune import Tuning
-from backend.services.units.connect import Devices
 from backend.store import Store, open_store
+from backend.units.service import Devices
 from backend.web.app import WebSettings
 from firmware_protocol.parameters import default_config
 

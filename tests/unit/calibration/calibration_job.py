@@ -19,8 +19,8 @@ from backend.calibration.types import Job
 from backend.core.channels import ChannelSpec
 from backend.device.stream import StreamBlock
 from backend.services.tuning.tune import Tuning
-from backend.services.units.connect import Devices
 from backend.store import Store, open_store
+from backend.units.service import Devices
 from firmware_protocol.parameters import unpack_image
 from tests.fakes.unit import FakeUnit
 from tests.fakes.unit_link import UnitOpener

@@ -20,6 +20,7 @@ from backend.store import Store, backup_of, open_store
 from backend.store.named import calibration_key
 from backend.store.objects import Disk
 from backend.store.upkeep.check import check_store
+from backend.units.records import UnitStore
 from tests.unit.conftest import OpenStore
 from tests.unit.store.test_a_backup_is_a_store import unpacked
 
@@ -63,7 +64,7 @@ def test_a_unit_has_one_open_job_and_another_unit_its_own(store: Store) -> None:
     assert (was_new, is_new) == (True, False)
     assert again == first
     assert (first.author, first.author_proof, other.author_proof) == ("Ada", "stated", None)
-    assert first.bike_id == store.units.bike_of(UNIT) or first.bike_id is not None
+    assert first.bike_id == UnitStore(store.database).bike_of(UNIT) or first.bike_id is not None
     assert [job.id for job in CalibrationStore(store).list(model="SP mid")] == [other.id, first.id]
     assert [job.id for job in CalibrationStore(store).list(unit_key=UNIT)] == [first.id]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from backend.device.ebl.faults import KNOWN, fault_names
 from backend.device.ebl.operations.fault_frames import fault_frames
 from backend.device.ebl.session.operation import Question
-from backend.device.faults import UnitFault
+from backend.device.faults import Fault
 from firmware_protocol._generated import (
     EvtFaultFreezeRequest,
     EvtFaultListRequest,
@@ -29,7 +29,7 @@ def answer(asked: Question, active: int) -> Response:
     return Response(1, asked.message.MESSAGE_ID, Status.NOT_FOUND)
 
 
-def listed(active: int) -> list[UnitFault]:
+def listed(active: int) -> list[Fault]:
     operation = fault_frames()
     try:
         questions = next(operation)

@@ -21,9 +21,9 @@ from backend.formats.blocks import BLOCKS_SUFFIX
 from backend.formats.formats import read_file
 from backend.services.imports.collect import Collect, Download
 from backend.services.imports.upload import Uploads
-from backend.services.units.connect import Devices
-from backend.services.units.inspection import Inspection
 from backend.store import Store, open_store
+from backend.units.inspection import Inspection
+from backend.units.service import Devices
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.server import eventually
 from tests.fakes.unit_link import UnitOpener

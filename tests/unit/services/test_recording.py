@@ -23,13 +23,13 @@ from backend.core.ride_events import RideEvent
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import LostBy, StreamBlock
 from backend.errors import Conflict, NotFound, StoreError
-from backend.services.health import Health
+from backend.server.health import HealthCheck
 from backend.services.rides.mark import MarkMoment
 from backend.services.rides.missing_rows import LOST_BY_WORDS
 from backend.services.rides.record import Recorder, RecordSettings
 from backend.services.rides.running import RunningTotals
-from backend.services.units.connect import Devices
 from backend.store import Store, open_store
+from backend.units.service import Devices
 
 # A store for every test, or rides of minutes: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
@@ -418,7 +418,7 @@ def test_health_names_unit_and_cause_of_rows_that_never_came(
 ) -> None:
     none = cast(Devices, SimpleNamespace(list=list))
     parts = store.watch, store.database.ask, store.soundness, store.entries
-    health = Health("1.0", none, recorder, *parts)
+    health = HealthCheck("1.0", none, recorder, *parts)
     rows = blocks(riding(30))
     feed(recorder, *rows[:100], replace(rows[150], lost_by=LostBy.MACHINE))
 

@@ -17,8 +17,8 @@ import pytest
 
 from backend.core.channels import MISSING_INT16, ChannelSpec
 from backend.core.ride import RideContext
-from backend.device.faults import UnitFault
-from backend.device.live_values import LiveValues
+from backend.device.faults import Fault
+from backend.device.live_values import Snapshot
 from backend.device.stream import StreamBlock
 from backend.errors import NotFound
 from backend.services.rides.fault_moment import FaultMoments, RecentRows
@@ -57,11 +57,11 @@ class Bench:
         self.store: Store = open_store(f"sqlite:///{folder}/db", f"file://{folder}/objects")
         self.recent = RecentRows()
         self.boot_id = BOOT
-        self.frame: LiveValues | None = LiveValues(FAULT_US, {})
+        self.frame: Snapshot | None = Snapshot(FAULT_US, {})
         self.moment = FaultMoments(
             self.store.rides,
             self.recent,
-            lambda device: [UnitFault("torque_sensor", "", frozen=self.frame)],
+            lambda device: [Fault("torque_sensor", "", frozen=self.frame)],
             lambda device: self.context(None),
         )
 

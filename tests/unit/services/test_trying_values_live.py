@@ -15,8 +15,8 @@ import pytest
 from backend.errors import AccessDenied, Conflict, InvalidRequest, LimitViolation
 from backend.services.tuning.try_live import LiveTuning, LiveView
 from backend.services.tuning.tune import Tuning
-from backend.services.units.connect import Devices
-from backend.services.units.inspection import Inspection
+from backend.units.inspection import Inspection
+from backend.units.service import Devices
 from firmware_protocol.parameters import default_config
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.revisions import MemoryRevisions

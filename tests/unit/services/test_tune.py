@@ -27,7 +27,7 @@ from backend.errors import (
 from backend.services.tuning.config_view import etag
 from backend.services.tuning.revision_book import GIVEN_UP_REASON
 from backend.services.tuning.tune import Tuning
-from backend.services.units.connect import Devices
+from backend.units.service import Devices
 from firmware_protocol._generated import PARAMETER_BY_NAME, MessageId
 from firmware_protocol.parameters import default_config, pack_image, unpack_image
 from tests.fakes.revisions import MemoryRevisions

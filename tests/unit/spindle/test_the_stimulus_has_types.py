@@ -13,7 +13,7 @@ from typing import Any, Literal, Unpack, get_args, get_origin, get_type_hints
 import pytest
 from pydantic import BaseModel
 
-from backend.api.models.device import (
+from backend.units.simulation import (
     SimulationChange,
     SimulationFaults,
     SimulationRiderChange,

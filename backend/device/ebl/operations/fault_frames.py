@@ -5,7 +5,7 @@ from __future__ import annotations
 from backend.device.ebl.faults import FAULT_BITS, KNOWN, described, fault_name
 from backend.device.ebl.operations.live_values import values_of
 from backend.device.ebl.session.operation import Operation, ask, attempt, expect
-from backend.device.faults import UnitFault
+from backend.device.faults import Fault
 from firmware_protocol._generated import (
     EvtFaultClearRequest,
     EvtFaultClearResponse,
@@ -21,7 +21,7 @@ ALL_FAULTS = 0xFFFFFFFF
 SETTINGS_LOST = FaultFlags.CONFIG_DEFAULTED | FaultFlags.NOT_PROVISIONED
 
 
-def fault_frames() -> Operation[list[UnitFault]]:
+def fault_frames() -> Operation[list[Fault]]:
     """The faults that are active or were, by their bit. Raises NoAnswer, DeviceRefused."""
     listed = yield from ask(EvtFaultListRequest(), EvtFaultListResponse)
     found = []
@@ -48,7 +48,7 @@ def settings_are_lost() -> Operation[bool]:
     return bool(listed.fault_flags & SETTINGS_LOST)
 
 
-def clear_faults() -> Operation[list[UnitFault]]:
+def clear_faults() -> Operation[list[Fault]]:
     """Forget the faults that are over; those that are left."""
     yield from ask(EvtFaultClearRequest(ALL_FAULTS), EvtFaultClearResponse)
     return (yield from fault_frames())

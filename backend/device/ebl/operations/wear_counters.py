@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from typing import cast
+
 from backend.device.ebl.session.operation import Operation, ask
 from backend.device.wear_counters import ConfigSlot, WearCounters
+from backend.device.wear_counters import SlotState as SlotWord
 from firmware_protocol._generated import (
     CfgSlotsRequest,
     CfgSlotsResponse,
@@ -19,7 +22,9 @@ def read_wear_counters() -> Operation[WearCounters]:
     counters = yield from ask(CountersRequest(), CountersResponse)
     slots = yield from ask(CfgSlotsRequest(), CfgSlotsResponse)
     found = tuple(
-        ConfigSlot(_state_name(state), generation, erases, slots.active_slot == index)
+        ConfigSlot(
+            cast(SlotWord, _state_name(state)), generation, erases, slots.active_slot == index
+        )
         for index, (state, generation, erases) in enumerate(
             zip(slots.states, slots.generations, slots.erases, strict=True)
         )

@@ -1,0 +1,1 @@
+"""The server itself: its health, its store as a whole, its backup."""

@@ -1,0 +1,90 @@
+"""Units that were seen, and the bikes they are on. Which unit is which: backend/core/unit_key.py.
+
+A unit that is seen for the first time is on a bike of its own from then on. One that only its url
+is known of is on none: nobody can say which bike that is.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from sqlalchemy import Connection, Table, insert, select
+from sqlalchemy.dialects import postgresql, sqlite
+
+from backend.core.ride import RideContext
+from backend.core.unit_key import bike_name, tells_unit
+from backend.store.sql import tables as t
+
+
+@dataclass(frozen=True)
+class SeenUnit:
+    """A unit as it says it is. name: its owner's, None where nobody gave it one."""
+
+    key: str
+    serial_number: str | None = None
+    name: str | None = None
+    model: str | None = None
+    firmware_version: str | None = None
+
+
+def bike_of_ride(connection: Connection, context: RideContext, started_us: int) -> int | None:
+    """The bike a ride was made with, made like its unit where they are not known.
+
+    None where nobody knows which unit it was. What is older than a unit's first bike is its too.
+    """
+    key = context.unit_key
+    if key is None:
+        return None
+    unit = SeenUnit(key, context.device_serial, None, context.device_model)
+    known_unit(connection, key, unit, started_us)
+    columns = (t.bike_unit.c.bike_id, t.bike_unit.c.from_us, t.bike_unit.c.to_us)
+    mine = select(*columns).where(t.bike_unit.c.unit_key == key)
+    rows = connection.execute(mine.order_by(t.bike_unit.c.from_us)).all()
+    begun = [row for row in rows if row.from_us <= started_us] or rows[:1]
+    if not begun or (begun[-1].to_us is not None and begun[-1].to_us <= started_us):
+        return None
+    return int(begun[-1].bike_id)
+
+
+def known_unit(
+    connection: Connection, key: str, unit: SeenUnit | None = None, now_us: int | None = None
+) -> int | None:
+    """Add a unit that is new, on a bike of its own; returns the bike it is on now."""
+    unit = unit or SeenUnit(key)
+    now_us = time.time_ns() // 1000 if now_us is None else now_us
+    values = {
+        "key": key,
+        "serial_number": unit.serial_number,
+        "name": unit.name,
+        "model": unit.model,
+        "created_us": now_us,
+        "last_seen_us": now_us,
+    }
+    if is_inserted(connection, t.unit, values) and tells_unit(key):
+        name = bike_name(key, unit.name, unit.model)
+        made = insert(t.bike).values(name=name, created_us=now_us).returning(t.bike.c.id)
+        bike_id = int(connection.execute(made).scalar_one())
+        on_it = insert(t.bike_unit).values(bike_id=bike_id, unit_key=key, from_us=now_us)
+        connection.execute(on_it)
+    on_now = select(t.bike_unit.c.bike_id).where(
+        t.bike_unit.c.unit_key == key, t.bike_unit.c.to_us.is_(None)
+    )
+    return connection.execute(on_now).scalar()
+
+
+def is_inserted(connection: Connection, table: Table, values: Mapping[str, object]) -> bool:
+    """Whether a row was added: False where one with its key is there, whoever is adding it now."""
+    added: sqlite.Insert | postgresql.Insert
+    added = (
+        sqlite.insert(table) if connection.dialect.name == "sqlite" else postgresql.insert(table)
+    )
+    return connection.execute(added.values(values).on_conflict_do_nothing()).rowcount == 1
+
+
+def bikes_now(connection: Connection) -> dict[str, int]:
+    """The bike of every unit that is on one."""
+    columns = (t.bike_unit.c.unit_key, t.bike_unit.c.bike_id)
+    rows = connection.execute(select(*columns).where(t.bike_unit.c.to_us.is_(None)))
+    return {row.unit_key: int(row.bike_id) for row in rows}

@@ -1,0 +1,1 @@
+"""Units and their connections: which there are, what they report live, which bike each is on."""
