@@ -13,10 +13,7 @@ from fastapi import FastAPI
 from backend import __version__
 from backend.api.routes import (
     comparison,
-    config,
     insight,
-    law,
-    library,
     logbook,
     logs,
     moments,
@@ -33,6 +30,9 @@ from backend.core.person import Permission
 from backend.people.api import router as people_router
 from backend.people.service import PeopleService
 from backend.server import api as server
+from backend.tuning import api as config
+from backend.tuning import law_api as law
+from backend.tuning.library import api as library
 from backend.units import api as devices
 from backend.units import live
 from backend.web.app import Operations, WebSettings, create_app

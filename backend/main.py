@@ -58,16 +58,18 @@ from backend.services.rides.since_change import SinceChange
 from backend.services.rides.use_of_table import UseOfTable
 from backend.services.rides.why_ride import WhyRide
 from backend.services.rides.zeros import RideZeros
-from backend.services.tuning.certify import CertifiedRevisions, Certify, KeptCertificates
-from backend.services.tuning.compare import Compare
-from backend.services.tuning.library import Library
-from backend.services.tuning.preview import Preview
-from backend.services.tuning.try_live import LiveTuning
-from backend.services.tuning.tune import Tuning
-from backend.services.tuning.why import WhySteady
 from backend.settings import CHECKOUT, Settings
 from backend.store import Store, open_store
 from backend.store.schemas import SchemaFiles
+from backend.tuning.library.compare import Compare
+from backend.tuning.library.records import LibraryStore
+from backend.tuning.library.service import Library
+from backend.tuning.limit_proof import CertifiedRevisions, Certify, KeptCertificates
+from backend.tuning.live_set import LiveTuning
+from backend.tuning.preview import Preview
+from backend.tuning.records import CertificateStore, RevisionStore
+from backend.tuning.service import Tuning
+from backend.tuning.why import WhySteady
 from backend.units.dashboard import Dashboards
 from backend.units.inspection import Inspection
 from backend.units.last_seen import LastSeen
@@ -125,7 +127,7 @@ def open_services(
         closing.enter_context(upkeep(recorder, uploads, store, last_seen, devices))
         open_units(settings, devices)
         replay = RideReplay(Preview(), memory.ride_config)
-        library, inspection = Library(store.library), Inspection(devices)
+        library, inspection = Library(LibraryStore(store.database)), Inspection(devices)
         proposals = Proposals(store, memory.ride_config, certificates)
         closing.callback(proposals.close)
         yield Services(
@@ -166,8 +168,8 @@ def open_services(
 
 def make_revisions(store: Store) -> tuple[CertifiedRevisions, KeptCertificates]:
     """Every unit's configurations, each with the proof that it keeps the limits."""
-    certificates = KeptCertificates(store.certificates, __version__)
-    return CertifiedRevisions(store.revisions, certificates), certificates
+    certificates = KeptCertificates(CertificateStore(store.database), __version__)
+    return CertifiedRevisions(RevisionStore(store.database), certificates), certificates
 
 
 def make_health(devices: Devices, recorder: Recorder, store: Store) -> HealthCheck:

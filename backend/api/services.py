@@ -30,13 +30,13 @@ if TYPE_CHECKING:
     from backend.services.rides.since_change import SinceChange
     from backend.services.rides.use_of_table import UseOfTable
     from backend.services.rides.why_ride import WhyRide
-    from backend.services.tuning.certify import Certify
-    from backend.services.tuning.compare import Compare
-    from backend.services.tuning.library import Library
-    from backend.services.tuning.preview import Preview
-    from backend.services.tuning.try_live import LiveTuning
-    from backend.services.tuning.tune import Tuning
-    from backend.services.tuning.why import WhySteady
+    from backend.tuning.library.compare import Compare
+    from backend.tuning.library.service import Library
+    from backend.tuning.limit_proof import Certify
+    from backend.tuning.live_set import LiveTuning
+    from backend.tuning.preview import Preview
+    from backend.tuning.service import Tuning
+    from backend.tuning.why import WhySteady
     from backend.units.dashboard import Dashboards
     from backend.units.inspection import Inspection
     from backend.units.service import Devices

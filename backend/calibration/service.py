@@ -35,7 +35,7 @@ from backend.calibration.worked import Worked
 from backend.calibration.writing import CalibrationRecord
 from backend.core.canonical_json import canonical_text
 from backend.core.moments import utc_or_none
-from backend.services.tuning.tune import Tuning
+from backend.tuning.service import Tuning
 from backend.units.service import Devices
 
 EARLIER_MAX = 10

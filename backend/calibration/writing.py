@@ -28,7 +28,7 @@ from backend.calibration.plain import from_plain
 from backend.calibration.records import CalibrationStore
 from backend.calibration.unit_record import record_of, record_to_write
 from backend.errors import Conflict, NoAnswer, RequestRefused
-from backend.services.tuning.tune import Tuning
+from backend.tuning.service import Tuning
 
 
 class CalibrationRecord:

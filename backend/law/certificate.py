@@ -24,9 +24,9 @@ import numpy as np
 from backend.core.canonical_json import sha256_of
 from backend.core.energy import KMH_PER_MS
 from backend.core.fuzzy_table import FuzzyTable
-from backend.domain.certificate import Cell, Certificate, Claim
 from backend.errors import InvalidRequest
 from backend.law.corner_bounds import gain_most
+from backend.law.limit_proof import Cell, Certificate, Claim
 from backend.law.market import market_words
 from sim_device.firmware.python import law
 from sim_device.firmware.python import market as unit

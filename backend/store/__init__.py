@@ -2,7 +2,6 @@
 SQLAlchemy and pyarrow."""
 
 from backend.store.bikes import SeenUnit
-from backend.store.configurations import LibraryStore, RevisionLog
 from backend.store.logbook.book import Home, Logbook
 from backend.store.logbook.cards import CardStore
 from backend.store.logbook.find import RidePage, Sought
@@ -20,10 +19,8 @@ __all__ = [
     "ROW_DAMAGED",
     "CardStore",
     "Home",
-    "LibraryStore",
     "Logbook",
     "MarkStore",
-    "RevisionLog",
     "RidePage",
     "RideReader",
     "RideStore",

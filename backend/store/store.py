@@ -14,7 +14,6 @@ from types import TracebackType
 
 from backend.core.ride import Ride, iso_utc
 from backend.errors import StoreError
-from backend.store.configurations import CertificateStore, LibraryStore, RevisionLog
 from backend.store.deletion import SPOOL, Deletions
 from backend.store.entries import Entries
 from backend.store.identity import belonging, new_id, require, write_identity
@@ -42,8 +41,7 @@ NAMED_MAX = 10
 
 
 class Store:
-    """Everything that is kept: `rides`, `cards`, `zeros`, `logbook`, `marks`, `revisions`,
-    `library`, `certificates`, `uploads`.
+    """Everything that is kept: `rides`, `cards`, `zeros`, `logbook`, `marks`, `uploads`.
 
     closing: lets go of the locks.
     """
@@ -62,9 +60,6 @@ class Store:
             database, objects, self.deletions, self.soundness, self.entries, server_id
         )
         self.marks = MarkStore(database)
-        self.revisions = RevisionLog(database)
-        self.library = LibraryStore(database)
-        self.certificates = CertificateStore(database)
         self.cards = CardStore(database)
         self.zeros = ZeroStore(database)
         self.logbook = Logbook(database, objects)

@@ -13,11 +13,11 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
+from backend.core.revision import RevisionLog
 from backend.core.ride import Ride, RideContext
 from backend.device.capability import Capability
 from backend.device.configuration import ConfigImage
 from backend.device.states import CONNECTED, DeviceEvent, LinkState, Named, StateChanged, UnitEvent
-from backend.domain.revision import RevisionLog
 from backend.errors import NoAnswer, NotFound, SpindleError
 from backend.law import law_defaults
 from backend.store import SeenUnit

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from playwright.sync_api import expect
 
+from backend.core.revision import Revision
 from backend.domain.logbook.zero import RideZero, ZeroOfRide
-from backend.domain.revision import Revision
 from backend.services.rides.sensor_drift import SensorDrift
 from tests.browser.desk import Desk, sideways
 from tests.browser.judged import JUDGE

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from backend.domain.revision import Revision
+from backend.core.revision import Revision
 from backend.errors import StoreError
 
 

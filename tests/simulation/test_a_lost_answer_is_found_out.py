@@ -16,8 +16,8 @@ import pytest
 
 from backend.device.states import LinkState
 from backend.errors import Conflict, NoAnswer
-from backend.services.tuning.try_live import LiveTuning
-from backend.services.tuning.tune import Tuning
+from backend.tuning.live_set import LiveTuning
+from backend.tuning.service import Tuning
 from backend.units.service import Devices
 from firmware_protocol._generated import (
     CfgBeginRequest,

@@ -15,7 +15,7 @@ import pytest
 from backend.device.link.simulated import SimulatedLink
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock
-from backend.services.tuning.tune import Tuning
+from backend.tuning.service import Tuning
 from backend.units.service import Devices
 from tests.fakes.revisions import MemoryRevisions
 from tests.fakes.unit_link import Heard

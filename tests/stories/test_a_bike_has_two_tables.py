@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from backend.api.models.law import FuzzyTable
 from backend.errors import RequestRefused
+from backend.tuning.models.law import FuzzyTable
 from spindle.client import Spindle, Unit
 from tests.fakes.server import WRITES_EVERY_S, SpindleServer
 

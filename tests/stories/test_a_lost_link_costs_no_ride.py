@@ -22,6 +22,7 @@ from backend.services.imports.collect import Collect
 from backend.services.imports.upload import Uploads
 from backend.services.rides.record import Recorder, RecordSettings
 from backend.store import Store, open_store
+from backend.tuning.records import RevisionStore
 from backend.units.inspection import Inspection
 from backend.units.memory import UnitMemory
 from backend.units.records import UnitStore
@@ -118,7 +119,9 @@ def desk(tmp_path: Path) -> Iterator[Desk]:
     cable = UnitOpener(in_time, URL)
     devices = Devices(opener=lambda url: cable)
     with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as store:
-        memory = UnitMemory(devices, store.revisions, UnitStore(store.database), lambda unit: None)
+        memory = UnitMemory(
+            devices, RevisionStore(store.database), UnitStore(store.database), lambda unit: None
+        )
         recorder = Recorder(store.rides, memory.ride_context, RecordSettings())
         uploads = Uploads(store, reader=read_here)
         collect = Collect(devices, uploads, tmp_path / "collecting")

@@ -6,10 +6,10 @@ from typing import Literal
 
 from pydantic import Field
 
-from backend.api.models.config import ParameterChange
 from backend.api.models.insight import CrankTorque
-from backend.api.models.law import FuzzyTable
-from backend.api.models.library import CellChange
+from backend.tuning.library.models import CellChange
+from backend.tuning.models.config import ParameterChange
+from backend.tuning.models.law import FuzzyTable
 from backend.web.models import Answer
 
 NoFigure = Literal[

@@ -6,10 +6,10 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from backend.api.models.config import ParameterChange
-from backend.api.models.library import LibraryEntry
 from backend.core.parameter_value import Parameters
 from backend.core.request_body import RequestBody
+from backend.tuning.library.models import LibraryEntry
+from backend.tuning.models.config import ParameterChange
 from backend.web.models import Answer
 
 Objective = Literal["more_range", "gentler_start", "flatter_at_the_limit"]

@@ -21,10 +21,10 @@ from backend.api.models.replay import (
     TableUseRequest,
 )
 from backend.api.models.ride import Figure, Ride, RideList, RidePatch, Series, Track
-from backend.api.models.why import Cuts, Ledger, Why
 from backend.api.services import Provided
 from backend.core.channels import channel_names
 from backend.services.rides.export import Export
+from backend.tuning.models.why import Cuts, Ledger, Why
 from backend.web.problem import DAMAGED, refusals
 from backend.web.responses import in_pieces, while_asked, whole
 

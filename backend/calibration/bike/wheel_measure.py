@@ -22,8 +22,8 @@ from backend.core.ride import Ride
 from backend.errors import FieldError, InvalidRequest
 from backend.services.rides.insight.rows import Window, columns_from
 from backend.services.rides.settings_in_force import ConfigOf, all_through
-from backend.services.tuning.config_view import ParameterView
 from backend.store import Store
+from backend.tuning.types import ParameterView
 from backend.views.trace import row_window
 
 GAP_S_MAX = 2.5

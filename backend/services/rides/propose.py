@@ -31,8 +31,8 @@ from backend.law.front_search import GENERATIONS, POPULATION, Tried, front_of
 from backend.law.rider_and_bike import RiderAndBike
 from backend.services.rides.ride_again import twin_of
 from backend.services.rides.settings_in_force import ConfigOf, unchanged
-from backend.services.tuning.certify import KeptCertificates
 from backend.store import Store
+from backend.tuning.limit_proof import KeptCertificates
 
 JOBS_KEPT = 20
 WAITING_MAX = 4

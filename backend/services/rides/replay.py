@@ -23,8 +23,8 @@ from backend.core.energy import DELIVERED, KMH_PER_MS, RADIANS_PER_S_PER_RPM, SE
 from backend.core.ride import Ride, largest
 from backend.errors import InvalidRequest
 from backend.services.rides.settings_in_force import ConfigOf, Stretch, source_of, stretches
-from backend.services.tuning.preview import Preview
 from backend.store import RideReader
+from backend.tuning.preview import Preview
 from backend.views.trace import trace
 
 # The law steps every 10 ms; a ride sampled far slower than that is not what the law saw.

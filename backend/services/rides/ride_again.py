@@ -21,8 +21,8 @@ from backend.errors import InvalidRequest
 from backend.law.rider_and_bike import RiderAndBike
 from backend.services.rides.replay import FLAGS, read_columns
 from backend.services.rides.settings_in_force import ConfigOf, unchanged
-from backend.services.tuning.preview import changed_config
 from backend.store import RideReader, Store
+from backend.tuning.preview import changed_config
 
 WORK_ERROR_MAX = 0.01
 TIME_ERROR_MAX = 0.03

@@ -15,13 +15,13 @@ from typing import Any
 import numpy as np
 
 from backend.core.channels import Values
+from backend.core.revision import Revision
 from backend.core.ride import iso_utc
 from backend.domain.logbook.zero import METHOD, ZeroOfRide
-from backend.domain.revision import Revision
 from backend.services.rides.home import now_us
 from backend.services.rides.since_change import RevisionsOf
-from backend.services.tuning.revision_book import TRIED
 from backend.store import Store
+from backend.tuning.revisions import TRIED
 from backend.views.diagnosis.zero_trend import (
     ACT_NM,
     DAY_US,

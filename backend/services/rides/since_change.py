@@ -12,8 +12,8 @@ from typing import Any
 
 from backend.core._generated import STANDING_S
 from backend.core.energy import SECONDS_PER_HOUR
+from backend.core.revision import Revision
 from backend.core.ride import Ride
-from backend.domain.revision import Revision
 from backend.errors import NotFound
 from backend.store import Sought, Store
 

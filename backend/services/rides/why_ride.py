@@ -21,8 +21,8 @@ from backend.errors import Conflict, InvalidRequest
 from backend.law import law_defaults
 from backend.services.rides.replay import LIMITS, law_inputs, read_columns, warm_up_row
 from backend.services.rides.settings_in_force import ConfigOf
-from backend.services.tuning.why import number, told
 from backend.store import Store
+from backend.tuning.why import number, told
 
 HELD_BY = (
     "speed_cutoff",

@@ -11,12 +11,12 @@ from typing import Any
 
 import pytest
 
-from backend.api.models.law import AssistMode, FuzzyTable, UnitLimits
 from backend.app import build_api
 from backend.calibration.setup import CLASS_SHARE
 from backend.core.assist_mode import LAWS, TAPERS
 from backend.core.fuzzy_table import INFERENCES, THESIS_TABLE
 from backend.law import law_defaults
+from backend.tuning.models.law import AssistMode, FuzzyTable, UnitLimits
 from backend.web.app import WebSettings
 from firmware_protocol._generated import Inference, Law, Market, Taper
 from firmware_protocol.spelling import RULE_LABELS, words_of

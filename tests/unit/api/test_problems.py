@@ -11,7 +11,7 @@ from fastapi.testclient import TestClient
 from pydantic import BaseModel
 
 from backend import errors
-from backend.api.models.config import ConfigPatch
+from backend.tuning.models.config import ConfigPatch
 from backend.web import problem as api_errors
 
 

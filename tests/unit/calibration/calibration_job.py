@@ -18,8 +18,9 @@ from backend.calibration.service import open_calibrations
 from backend.calibration.types import Job
 from backend.core.channels import ChannelSpec
 from backend.device.stream import StreamBlock
-from backend.services.tuning.tune import Tuning
 from backend.store import Store, open_store
+from backend.tuning.records import RevisionStore
+from backend.tuning.service import Tuning
 from backend.units.service import Devices
 from firmware_protocol.parameters import unpack_image
 from tests.fakes.unit import FakeUnit
@@ -70,7 +71,7 @@ class Workshop:
         self.opener = UnitOpener(self.unit, URL)
         self.devices = Devices(opener=lambda url: self.opener, streaming=False)
         self.device = self.devices.add(URL).id
-        tuning = Tuning(self.devices, self.store.revisions)
+        tuning = Tuning(self.devices, RevisionStore(self.store.database))
         self.use = open_calibrations(
             self.devices,
             self.calibrations,

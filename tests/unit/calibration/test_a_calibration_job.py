@@ -22,6 +22,7 @@ from backend.calibration.unit_record import PARAMETER_OF, coefficients_of, recor
 from backend.cli import main
 from backend.device.states import LinkState, StateChanged
 from backend.errors import Conflict, InvalidRequest, NoAnswer, NotFound, NotStandingStill
+from backend.tuning.records import RevisionStore
 from tests.unit.calibration.calibration_job import LOADS_KG, SETUP, TRUE_GAIN, TRUE_OFFSET, Workshop
 
 pytestmark = pytest.mark.slow
@@ -70,7 +71,7 @@ def test_a_job_goes_from_its_setup_to_a_file_that_is_reproduced(bench: Workshop)
         )
     assert bench.held[GAIN] == pytest.approx(found.gain_nm_per_count, rel=1e-6)
     assert bench.held[OFFSET] == pytest.approx(found.offset_counts, rel=1e-6)
-    assert bench.store.revisions.list(job.unit_key, 1)[0].reason == "spring service"
+    assert RevisionStore(bench.store.database).list(job.unit_key, 1)[0].reason == "spring service"
     assert verified.worked is not None
     assert [entry.en < 1 and entry.unseen for entry in verified.worked.verifications] == [True]
     file = json.loads(bench.use.show.certificate(job.id))

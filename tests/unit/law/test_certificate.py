@@ -20,11 +20,11 @@ import numpy.typing as npt
 import pytest
 
 from backend.core.fuzzy_table import FuzzyTable
-from backend.domain.certificate import Certificate
 from backend.errors import InvalidRequest
 from backend.law import certificate as method
 from backend.law.certificate import certify
 from backend.law.corner_bounds import gain_most
+from backend.law.limit_proof import Certificate
 from firmware_protocol.parameters import default_config
 from sim_device.firmware.python import law
 from tests import counts

@@ -26,8 +26,8 @@ from backend.services.imports.upload import Uploads
 from backend.services.rides import ride_again
 from backend.services.rides.replay import RideReplay
 from backend.services.rides.ride_again import RideAgain
-from backend.services.tuning.preview import Preview
 from backend.store import Store, open_store
+from backend.tuning.preview import Preview
 from firmware_protocol._generated import CHANNELS, InputFlags
 from tests.fakes.known_roads import Outside, Ridden, road
 

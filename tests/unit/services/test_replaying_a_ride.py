@@ -23,8 +23,8 @@ from backend.formats import ImportedRide, Outcome
 from backend.law import law_defaults
 from backend.services.imports.upload import Uploads
 from backend.services.rides.replay import RideReplay
-from backend.services.tuning.preview import Preview
 from backend.store import Store, open_store
+from backend.tuning.preview import Preview
 from firmware_protocol._generated import CHANNELS, InputFlags, LimitFlags
 
 ROWS, PERIOD_US = 1000, 10_000

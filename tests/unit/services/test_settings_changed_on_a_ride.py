@@ -29,8 +29,8 @@ from backend.services.rides.replay import RideReplay
 from backend.services.rides.settings_in_force import all_through, unchanged
 from backend.services.rides.use_of_table import UseOfTable
 from backend.services.rides.why_ride import WhyRide
-from backend.services.tuning.preview import Preview
 from backend.store import Store, open_store
+from backend.tuning.preview import Preview
 from tests.unit.services.test_recording import SETTINGS as RECORDING
 from tests.unit.services.test_recording import blocks, riding
 from tests.unit.services.test_why_a_moment_was_as_it_was import PERIOD_US, PUSHING, SPECS

@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 
 from backend.core.channels import ChannelSpec
+from backend.core.revision import Revision
 from backend.core.ride import RideContext
 from backend.core.ride_events import SETTINGS, RideEvent
-from backend.domain.revision import Revision
 from backend.errors import NotFound
 from backend.services.rides.since_change import SinceChange
 from backend.store import Store, open_store

@@ -17,8 +17,8 @@ import numpy as np
 import pytest
 
 from backend.core.channels import ChannelSpec, Values
+from backend.core.revision import Revision
 from backend.core.ride import RideContext
-from backend.domain.revision import Revision
 from backend.rebuild import rebuild_store
 from backend.services.rides.sensor_drift import SensorDrift, calibrations_of
 from backend.services.rides.zeros import RideZeros

@@ -22,8 +22,8 @@ from backend.law import law_defaults
 from backend.services.imports.upload import Uploads
 from backend.services.rides.replay import WARM_UP_S, warm_up_row
 from backend.services.rides.why_ride import WhyRide, cuts_of
-from backend.services.tuning.why import WhySteady
 from backend.store import Store, open_store
+from backend.tuning.why import WhySteady
 from firmware_protocol._generated import CHANNELS, InputFlags, LimitFlags
 
 ROWS, PERIOD_US = 1000, 10_000

@@ -20,10 +20,11 @@ from sqlalchemy.dialects import postgresql
 from sqlalchemy.schema import CreateTable
 
 import backend.store
-from backend.domain.revision import Revision
+from backend.core.revision import Revision
 from backend.store import Store
 from backend.store.sql.database import HEAD_REVISION
 from backend.store.sql.tables import metadata
+from backend.tuning.records import RevisionStore
 
 MIGRATIONS = Path(backend.store.__file__).parent / "sql" / "migrations"
 
@@ -108,7 +109,7 @@ def test_the_database_keeps_what_a_commit_acknowledged(store: Store) -> None:
 
 
 def test_configurations_are_numbered_for_each_unit_and_newest_first(store: Store) -> None:
-    log = store.revisions
+    log = RevisionStore(store.database)
 
     log.append("ebl:SP-1", {"gear_ratio": 40.34}, reason="found", crc32=0xFFFFFFFF, generation=1)
     log.append("ebl:SP-2", {"gear_ratio": 36.744})
@@ -129,7 +130,7 @@ def test_configurations_are_numbered_for_each_unit_and_newest_first(store: Store
 
 def test_each_gets_the_configuration_it_added_whoever_adds_another_at_once(store: Store) -> None:
     """The memory of units notes what it finds while somebody writes."""
-    log, write = store.revisions, store.database.write
+    log, write = RevisionStore(store.database), store.database.write
     first: list[Revision] = []
 
     def write_with_another_behind(work: Callable[[Connection], Any]) -> Any:
@@ -147,7 +148,7 @@ def test_each_gets_the_configuration_it_added_whoever_adds_another_at_once(store
 
 
 def test_what_two_find_in_a_unit_at_once_is_kept_once(store: Store) -> None:
-    log = store.revisions
+    log = RevisionStore(store.database)
     found = log.append("ebl:SP-1", {"gear_ratio": 40.34}, crc32=7, only_if_changed=True)
 
     again = log.append("ebl:SP-1", {"gear_ratio": 40.34}, crc32=7, only_if_changed=True)

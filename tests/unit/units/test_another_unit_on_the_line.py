@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import pytest
 
 from backend.errors import NoAnswer, OtherUnit
-from backend.services.tuning.config_view import etag
-from backend.services.tuning.tune import Tuning
+from backend.tuning.service import Tuning
+from backend.tuning.types import etag
 from backend.units.outcome import find_outcome
 from backend.units.service import Devices
 from firmware_protocol._generated import MessageId

@@ -12,12 +12,12 @@ from typing import cast
 
 import pytest
 
+from backend.core.revision import Revision, RevisionLog
 from backend.device.configuration import ConfigImage
 from backend.device.states import UnitEvent
-from backend.domain.revision import Revision
-from backend.services.tuning.revision_book import GIVEN_UP_REASON, RevisionBook
-from backend.services.tuning.tune import Tuning
-from backend.store import RevisionLog, SeenUnit
+from backend.store import SeenUnit
+from backend.tuning.revisions import GIVEN_UP_REASON, RevisionBook
+from backend.tuning.service import Tuning
 from backend.units.memory import UnitMemory
 from backend.units.records import UnitStore
 from backend.units.service import Devices

@@ -21,6 +21,7 @@ from backend.core.unit_key import bike_name, ebl_key, tells_unit, unit_key
 from backend.rebuild import rebuild_store
 from backend.store import SeenUnit, Sought, Store, open_store
 from backend.store.sql import tables as t
+from backend.tuning.records import RevisionStore
 from backend.units.records import UnitStore
 from tests.unit.conftest import OpenStore
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
@@ -181,8 +182,8 @@ def test_a_database_of_before_has_every_ride_and_configuration_on_its_unit(
 
     with open_store(f"sqlite:///{tmp_path}/spindle.db", (tmp_path / "objects").as_uri()) as store:
         rides = {ride.id: ride for ride in store.rides.list().items}
-        revisions = store.revisions.list("ebl:SP-1")
-        added = store.revisions.append("ebl:SP-1", {"gear_ratio": 41.0})
+        revisions = RevisionStore(store.database).list("ebl:SP-1")
+        added = RevisionStore(store.database).append("ebl:SP-1", {"gear_ratio": 41.0})
         with store.database.engine.connect() as connection:
             on = connection.execute(t.bike_unit.select().order_by(t.bike_unit.c.bike_id)).all()
             bikes = list(connection.execute(t.bike.select().order_by(t.bike.c.id)).all())

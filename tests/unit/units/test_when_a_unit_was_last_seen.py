@@ -13,8 +13,9 @@ from pathlib import Path
 import pytest
 
 from backend.errors import NoAnswer, NotFound
-from backend.services.tuning.tune import Tuning
 from backend.store import SeenUnit, Store, open_store
+from backend.tuning.records import RevisionStore
+from backend.tuning.service import Tuning
 from backend.units.last_seen import LastSeen
 from backend.units.records import UnitStore
 from backend.units.service import Devices
@@ -52,7 +53,7 @@ def test_a_unit_that_is_away_after_a_restart_is_known_by_what_was_last_seen(stor
     units.seen(SeenUnit(KEY, b"FAKE-UNIT-01".hex()))
     last_seen.look(devices.list(), NOON_US)
     last_seen.look(devices.list(), NOON_US + 20_000_000)
-    tuning = Tuning(devices, store.revisions)
+    tuning = Tuning(devices, RevisionStore(store.database))
     device = devices.list()[0].id
     tuning.write_config(device, {"pedal_stop_ms": 200}, "softer")
     tuning.write_config(device, {"pedal_stop_ms": 180}, "tried", confirm_s=30)
@@ -62,7 +63,7 @@ def test_a_unit_that_is_away_after_a_restart_is_known_by_what_was_last_seen(stor
     opener.unplug()
     later = bench(opener, LastSeen(units))
     away = later.add(URL, wait_s=0.0)
-    known = Tuning(later, store.revisions).last_known(away.id)
+    known = Tuning(later, RevisionStore(store.database)).last_known(away.id)
 
     assert away.state not in ("ready", "read_only")
     assert (away.last_seen_at, away.unit_key) == (at(NOON_US + 20_000_000), KEY)
@@ -72,7 +73,7 @@ def test_a_unit_that_is_away_after_a_restart_is_known_by_what_was_last_seen(stor
     assert next(p.value for p in known.parameters if p.name == "pedal_stop_ms") == 200
     assert known.seen_at == away.last_seen_at
     with pytest.raises(NoAnswer):
-        Tuning(later, store.revisions).write_config(away.id, {"pedal_stop_ms": 150})
+        Tuning(later, RevisionStore(store.database)).write_config(away.id, {"pedal_stop_ms": 150})
     later.close()
 
 
@@ -123,5 +124,5 @@ def test_a_connection_that_never_had_a_unit_knows_nothing(store: Store) -> None:
 
     assert (device.last_seen_at, device.unit_key, device.identity) == (None, None, None)
     with pytest.raises((NoAnswer, NotFound)):
-        Tuning(devices, store.revisions).last_known(device.id)
+        Tuning(devices, RevisionStore(store.database)).last_known(device.id)
     devices.close()

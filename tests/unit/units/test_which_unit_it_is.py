@@ -19,9 +19,10 @@ from backend.device.snapshot import DeviceStatus
 from backend.errors import Conflict, NameFirst
 from backend.services.imports.collect import Collect, word_of
 from backend.services.imports.upload import Uploads
-from backend.services.tuning.try_live import LiveTuning
-from backend.services.tuning.tune import Tuning
 from backend.store import Store, open_store
+from backend.tuning.live_set import LiveTuning
+from backend.tuning.records import RevisionStore
+from backend.tuning.service import Tuning
 from backend.units.inspection import Inspection
 from backend.units.memory import UnitMemory
 from backend.units.records import UnitStore
@@ -72,8 +73,10 @@ class Desk:
             families={EblUnit.family: EblUnit, BareUnit.family: BareUnit},
             bike_of=seen.bike_of,
         )
-        self.tuning = Tuning(self.devices, store.revisions)
-        self.memory = UnitMemory(self.devices, store.revisions, seen, self.tuning.note_trial_end)
+        self.tuning = Tuning(self.devices, RevisionStore(store.database))
+        self.memory = UnitMemory(
+            self.devices, RevisionStore(store.database), seen, self.tuning.note_trial_end
+        )
         self.devices.watch(self.memory.follow)
         self.live = LiveTuning(self.devices)
         self.inspection = Inspection(self.devices)

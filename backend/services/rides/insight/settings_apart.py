@@ -9,7 +9,7 @@ from backend.core.fuzzy_table import PARAMETERS_OF, FuzzyTable
 from backend.core.ride import Ride
 from backend.law.comparison import cells_changed
 from backend.services.rides.settings_in_force import ConfigOf
-from backend.services.tuning.compare import Difference, differences
+from backend.tuning.library.compare import Difference, differences
 
 Part = tuple[Ride, float, float]
 """A ride, and a window of it from and to, s after its start."""

@@ -6,10 +6,10 @@ import logging
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 
+from backend.core.revision import Revision, RevisionLog
 from backend.device.configuration import ConfigImage, ParameterTable
-from backend.domain.revision import Revision, RevisionLog
 from backend.errors import StoreError
-from backend.services.tuning.config_view import Change
+from backend.tuning.types import Change
 
 LOG = logging.getLogger(__name__)
 

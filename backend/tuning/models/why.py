@@ -6,8 +6,8 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.api.models.law import AssistModes, FuzzyTable, Label, Law, Table, UnitLimits
 from backend.core.request_body import RequestBody
+from backend.tuning.models.law import AssistModes, FuzzyTable, Label, Law, Table, UnitLimits
 from backend.web.models import Answer
 
 CHANGES = {"fuzzy_table", "second_table", "assist_modes", "limits"}

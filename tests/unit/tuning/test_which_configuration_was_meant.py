@@ -7,7 +7,7 @@ import pytest
 
 from backend.device.configuration import ConfigImage
 from backend.errors import ConfigConflict, OtherUnit
-from backend.services.tuning.config_view import check_base, etag
+from backend.tuning.types import check_base, etag
 
 CONFIG = ConfigImage(7, 0xABCD, {})
 UNIT, OTHER = "ebl:SPD-000011", "ebl:SPD-000022"

@@ -19,7 +19,7 @@ class Revision:
     seq: counts the unit's configurations from 1. created_us: Unix time. state: `verified`,
     `provisional` or `found`. changed: [{name, old, new}] against the one before. parameters: the
     whole configuration by registry name, as plain JSON. unit_key: whose it is. author_proof: how
-    the author is known, as of domain.author.
+    the author is known, as of core.author.
     """
 
     seq: int
@@ -50,7 +50,7 @@ class Revision:
 
 
 class RevisionLog(Protocol):
-    """Where configurations are kept by unit; backend.store has one."""
+    """Where configurations are kept by unit; tuning.records has one."""
 
     def append(
         self,

@@ -18,7 +18,7 @@ from backend.core.fuzzy_table import PARAMETERS_OF, stored_json
 from backend.device.capability import Capability
 from backend.device.unit import Unit
 from backend.law import Why, law_defaults
-from backend.services.tuning.preview import changed_config
+from backend.tuning.preview import changed_config
 
 Config = Mapping[str, Any]
 Json = Mapping[str, Any]

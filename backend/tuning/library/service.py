@@ -1,11 +1,14 @@
 """The library: tables and configurations under a name, to look at and to put into a unit.
 
 What comes with Spindle is in it, read only, beside what its users keep there. Nothing here touches
-a unit. Whatever is changed or deleted stays among the versions of its item.
+a unit. Whatever is changed or deleted stays among the versions of its item. An entry is a file for
+other programs, too; reading such a file keeps nothing: what it holds is answered, for somebody to
+look at and to keep.
 """
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,11 +16,13 @@ from datetime import datetime
 from typing import Any, Literal, Protocol
 
 from backend.core.canonical_json import sha256_of
-from backend.domain.library_item import LibraryVersion
+from backend.core.fuzzy_table import LABELS, PARAMETERS_OF, FuzzyTable
 from backend.errors import AccessDenied, ConfigConflict, Conflict, NotFound
-from backend.formats.library_document import library_document
+from backend.formats.library_document import NAME_MAX, library_document, table_document
 from backend.law import presets
-from backend.services.tuning.config_view import is_match
+from backend.law.fis import Deviation, deviation, read_fis, table_of, write_fis
+from backend.tuning.library.types import LibraryVersion
+from backend.tuning.types import is_match
 
 FORMAT_START = "spindle-"
 # Own items are told from presets by their id alone.
@@ -207,3 +212,82 @@ def preset_etag(document: Document) -> str:
 def item_etag(item: LibraryVersion) -> str:
     """Names one state of an item: it changes with every change."""
     return f'"{item.seq}-{item.sha256[:8]}"'
+
+
+MEDIA_TYPES = {
+    "json": "application/json",
+    "fis": "text/plain; charset=utf-8",
+    "csv": "text/csv; charset=utf-8",
+}
+FIS_COMMENT = "Read from a .fis file."
+
+
+@dataclass(frozen=True)
+class LibraryFile:
+    """A file's text, what it is called, and what kind it is."""
+
+    text: str
+    file_name: str
+    media_type: str
+
+
+@dataclass(frozen=True)
+class ReadFis:
+    """A document made of a `.fis` file, and how far the unit is from what the file says."""
+
+    document: dict[str, Any]
+    fuzzy_table: dict[str, Any]
+    deviation: Deviation
+
+
+def library_file(
+    entry_id: str, document: Mapping[str, Any], file_format: str, which: str = "first"
+) -> LibraryFile:
+    """An entry as `json`, `fis` or `csv`; the last two are of one table.
+
+    which: `first` or `second` table of a configuration. Raises Conflict where there is no table.
+    """
+    if file_format == "json":
+        text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
+    else:
+        table = document_table(entry_id, document, which)
+        text = write_fis(table) if file_format == "fis" else table_csv(table)
+    return LibraryFile(text, f"{entry_id}.{file_format}", MEDIA_TYPES[file_format])
+
+
+def document_table(entry_id: str, document: Mapping[str, Any], which: str = "first") -> FuzzyTable:
+    """The table in a document. Raises Conflict where it has none."""
+    values = {name: entry["value"] for name, entry in document["parameters"].items()}
+    missing = [name for name in PARAMETERS_OF[which].values() if name not in values]
+    if missing:
+        message = f"{entry_id} has no {which} table: it says nothing of {', '.join(missing)}."
+        raise Conflict(message, "entry_has_no_table")
+    return FuzzyTable.from_parameters(values, which)
+
+
+def table_csv(table: FuzzyTable) -> str:
+    """The rules as a spreadsheet shows them, then what each label gains."""
+    rows = [
+        ["speed_kmh \\ torque_rate", *map(repr, table.torque_rate_points)],
+        *(
+            [repr(speed), *row]
+            for speed, row in zip(table.speed_points_kmh, table.rules, strict=True)
+        ),
+        [],
+        ["label", *LABELS],
+        ["gain", *map(repr, table.gain_points)],
+        ["inference", table.inference],
+    ]
+    return "".join(",".join(row) + "\r\n" for row in rows)
+
+
+def read_fis_file(text: str, name: str = "") -> ReadFis:
+    """A table from the text of a `.fis` file, compared with the file over a grid.
+
+    name: what the document is to be called, the file's own word if empty. Raises InvalidRequest
+    that names the line which no unit can do.
+    """
+    system = read_fis(text)
+    table = table_of(system)
+    document = table_document(name[:NAME_MAX] or table.name, FIS_COMMENT, table)
+    return ReadFis(document, table.to_json(), deviation(system, table))

@@ -15,10 +15,10 @@ from sqlalchemy import Connection, Row, Select, func, insert, select, update
 
 from backend.core.author import proof_of
 from backend.core.canonical_json import sha256_of
-from backend.domain.library_item import LibraryVersion
 from backend.errors import Conflict
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
+from backend.tuning.library.types import LibraryVersion
 
 Body = Mapping[str, Any]
 # Called with what an item is now, before it is changed; raises to refuse the change.

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any, cast
+from typing import Annotated, Any, cast
 
 from fastapi import APIRouter
 
-from backend.api.models.certificate import Certificate, CertificateRequest
-from backend.api.models.curves import (
+from backend.tuning.limit_proof import Certified, Certify
+from backend.tuning.models.certificate import Certificate, CertificateRequest
+from backend.tuning.models.curves import (
     ModeCurves,
     ModeCurvesRequest,
     TorqueSurface,
     TorqueSurfaceRequest,
 )
-from backend.api.models.law import (
+from backend.tuning.models.law import (
     LintReport,
     LintRequest,
     PointGains,
@@ -21,49 +22,51 @@ from backend.api.models.law import (
     Surface,
     SurfaceRequest,
 )
-from backend.api.models.why import Why, WhyRequest
-from backend.api.services import Provided
-from backend.services.tuning.certify import Certified
+from backend.tuning.models.why import Why, WhyRequest
+from backend.tuning.preview import Preview
+from backend.tuning.why import WhySteady
 from backend.web.problem import refusals
+from backend.web.services import provided
 
 router = APIRouter(tags=["law"], responses=refusals())
+TheCertify = Annotated[Certify, provided("certify")]
+ThePreview = Annotated[Preview, provided("preview")]
+TheWhySteady = Annotated[WhySteady, provided("why_steady")]
 
 
 @router.post("/surface", operation_id="compute_surface", response_model=Surface)
-def compute_surface(body: SurfaceRequest, services: Provided) -> Any:
+def compute_surface(body: SurfaceRequest, preview: ThePreview) -> Any:
     """The gain over a grid of speeds and torque rates, by the unit's own C law."""
-    return services.preview.surface(
-        body.fuzzy_table.model_dump(), body.speeds_kmh, body.torque_rates
-    )
+    return preview.surface(body.fuzzy_table.model_dump(), body.speeds_kmh, body.torque_rates)
 
 
 @router.post("/surface/points", operation_id="compute_points", response_model=PointGains)
-def compute_points(body: PointsRequest, services: Provided) -> Any:
+def compute_points(body: PointsRequest, preview: ThePreview) -> Any:
     """The gain at single points, by the unit's own C law."""
-    return services.preview.points(body.fuzzy_table.model_dump(), body.points)
+    return preview.points(body.fuzzy_table.model_dump(), body.points)
 
 
 @router.post("/surface/torque", operation_id="compute_torque_surface", response_model=TorqueSurface)
-def compute_torque_surface(body: TorqueSurfaceRequest, services: Provided) -> Any:
+def compute_torque_surface(body: TorqueSurfaceRequest, preview: ThePreview) -> Any:
     """What a steady push gets of a table for long, as motor, battery and market leave it."""
     parameters = cast("dict[str, Any]", body.parameters)
-    return services.preview.torque_surface(
+    return preview.torque_surface(
         parameters, body.mode, body.rider_torque_nm, body.speeds_kmh, body.torque_rates
     )
 
 
 @router.post("/modes/curves", operation_id="compute_mode_curves", response_model=ModeCurves)
-def compute_mode_curves(body: ModeCurvesRequest, services: Provided) -> Any:
+def compute_mode_curves(body: ModeCurvesRequest, preview: ThePreview) -> Any:
     """What each of the five modes gives for a steady push, by the unit's own C law."""
     parameters = cast("dict[str, Any]", body.parameters)
-    return services.preview.mode_curves(parameters, body.rider_torque_nm, body.speeds_kmh)
+    return preview.mode_curves(parameters, body.rider_torque_nm, body.speeds_kmh)
 
 
 @router.post("/lint", operation_id="lint_table", response_model=LintReport)
-def lint_table(body: LintRequest, services: Provided) -> Any:
+def lint_table(body: LintRequest, preview: ThePreview) -> Any:
     """What is wrong, doubtful or notable about a table before a rider finds out."""
     question = body.model_dump()
-    return services.preview.lint(
+    return preview.lint(
         question["fuzzy_table"],
         question["assist_modes"],
         question["limits"],
@@ -79,14 +82,14 @@ def lint_table(body: LintRequest, services: Provided) -> Any:
     response_model=Certificate,
     responses=refusals(404, 409, 503, 504),
 )
-def certify(body: CertificateRequest, services: Provided) -> Any:
+def certify(body: CertificateRequest, certifier: TheCertify) -> Any:
     """What is proven of every ride with a configuration, against the law of its market."""
     parameters = cast("dict[str, Any]", body.parameters)
     asked = Certified(body.device_id, body.revision, body.library, body.changes(), parameters)
-    return services.certify(asked)
+    return certifier(asked)
 
 
 @router.post("/why", operation_id="why_steady", response_model=Why)
-def why_steady(body: WhyRequest, services: Provided) -> Any:
+def why_steady(body: WhyRequest, why: TheWhySteady) -> Any:
     """Why the law gives what it gives in a steady state, on the law's defaults and these."""
-    return services.why_steady(*body.parts())
+    return why(*body.parts())

@@ -24,9 +24,9 @@ from backend.errors import (
     PeerProtocolError,
     StoreError,
 )
-from backend.services.tuning.config_view import etag
-from backend.services.tuning.revision_book import GIVEN_UP_REASON
-from backend.services.tuning.tune import Tuning
+from backend.tuning.revisions import GIVEN_UP_REASON
+from backend.tuning.service import Tuning
+from backend.tuning.types import etag
 from backend.units.service import Devices
 from firmware_protocol._generated import PARAMETER_BY_NAME, MessageId
 from firmware_protocol.parameters import default_config, pack_image, unpack_image

@@ -7,10 +7,10 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.api.models.config import ParameterChange
-from backend.api.models.law import FuzzyTable, Label, Table
 from backend.core.parameter_value import ParameterValue
 from backend.core.request_body import RequestBody
+from backend.tuning.models.config import ParameterChange
+from backend.tuning.models.law import FuzzyTable, Label, Table
 from backend.web.models import Answer
 
 PARAMETERS_MAX = 400

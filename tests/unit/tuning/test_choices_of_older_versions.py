@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import pytest
 
-from backend.services.tuning.tune import Tuning
+from backend.tuning.service import Tuning
 from backend.units.service import Devices
 from firmware_protocol.parameters import default_config, unpack_image
 from tests.fakes.revisions import MemoryRevisions

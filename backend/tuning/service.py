@@ -14,12 +14,14 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import asdict
 from datetime import UTC, datetime
 
+from backend.core.revision import Revision, RevisionLog
 from backend.device.capability import Capability
 from backend.device.configuration import NO_TRIAL, ConfigImage, ParameterTable, Value
 from backend.device.unit import Unit
-from backend.domain.revision import Revision, RevisionLog
 from backend.errors import Conflict, FieldError, InvalidRequest, LimitViolation, NoAnswer, NotFound
-from backend.services.tuning.config_view import (
+from backend.tuning.parts import PARTS, ConfigPart
+from backend.tuning.revisions import KEPT, TRIED, Meant, RevisionBook
+from backend.tuning.types import (
     Change,
     ConfigChange,
     ConfigView,
@@ -29,8 +31,6 @@ from backend.services.tuning.config_view import (
     check_base,
     differences,
 )
-from backend.services.tuning.revision_book import KEPT, TRIED, Meant, RevisionBook
-from backend.services.tuning.typed_views import PARTS, ConfigPart
 from backend.units.outcome import find_outcome, telling
 from backend.units.service import Devices
 

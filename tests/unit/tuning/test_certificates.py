@@ -16,10 +16,12 @@ from fastapi.testclient import TestClient
 
 from backend.api.services import Services
 from backend.app import build_api
-from backend.services.tuning.certify import CertifiedRevisions, Certify, KeptCertificates
-from backend.services.tuning.library import Library
-from backend.services.tuning.tune import Tuning
 from backend.store import Store, open_store
+from backend.tuning.library.records import LibraryStore
+from backend.tuning.library.service import Library
+from backend.tuning.limit_proof import CertifiedRevisions, Certify, KeptCertificates
+from backend.tuning.records import CertificateStore, RevisionStore
+from backend.tuning.service import Tuning
 from backend.units.service import Devices
 from backend.web.app import WebSettings
 from firmware_protocol.parameters import default_config
@@ -37,8 +39,8 @@ def store(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Store]:
 
 @pytest.fixture(scope="module")
 def client(store: Store) -> TestClient:
-    kept = KeptCertificates(store.certificates, FIRMWARE)
-    library = Library(store.library)
+    kept = KeptCertificates(CertificateStore(store.database), FIRMWARE)
+    library = Library(LibraryStore(store.database))
     certify = Certify(kept, cast(Devices, None), cast(Tuning, None), library)
     services = cast(Services, SimpleNamespace(certify=certify))
     return TestClient(build_api(WebSettings("test"), services), base_url="http://127.0.0.1")
@@ -96,8 +98,8 @@ def test_what_no_unit_takes_is_refused_with_its_reason(
 
 def test_each_revision_is_kept_with_its_certificate(store: Store, client: TestClient) -> None:
     config = {**default_config(), "market": "china"}
-    kept = KeptCertificates(store.certificates, FIRMWARE)
-    log = CertifiedRevisions(store.revisions, kept)
+    kept = KeptCertificates(CertificateStore(store.database), FIRMWARE)
+    log = CertifiedRevisions(RevisionStore(store.database), kept)
 
     revision = log.append("ebl:test", config, reason="first")
     other_make = log.append("bbsfw:test", {"assist_cutoff_kmh": 25.0})

@@ -14,8 +14,8 @@ from backend.core.fuzzy_table import PARAMETERS_OF, FuzzyTable
 from backend.errors import Conflict, FieldError, InvalidRequest, NotFound
 from backend.law.comparison import TableComparison, compare_tables
 from backend.law.feel import Feel, feel_of
-from backend.services.tuning.library import Library
-from backend.services.tuning.tune import Tuning
+from backend.tuning.library.service import Library
+from backend.tuning.service import Tuning
 
 # Figures that are kept in memory; measuring anew takes an eighth of a second.
 MEASURED_MAX = 500

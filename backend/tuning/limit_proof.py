@@ -12,13 +12,13 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
 from backend import law
+from backend.core.revision import Revision, RevisionLog
 from backend.device.capability import Capability
-from backend.domain.certificate import Certificate
-from backend.domain.revision import Revision, RevisionLog
 from backend.errors import FieldError, InvalidRequest, NotFound, SpindleError
-from backend.services.tuning.library import Library
-from backend.services.tuning.preview import changed_config
-from backend.services.tuning.tune import Tuning
+from backend.law.limit_proof import Certificate
+from backend.tuning.library.service import Library
+from backend.tuning.preview import changed_config
+from backend.tuning.service import Tuning
 from backend.units.service import Devices
 
 LOG = logging.getLogger(__name__)

@@ -8,7 +8,7 @@ import pytest
 from backend.core.assist_mode import AssistModes
 from backend.core.fuzzy_table import THESIS_TABLE
 from backend.errors import InvalidRequest
-from backend.services.tuning.preview import Preview
+from backend.tuning.preview import Preview
 from firmware_protocol.parameters import default_config
 
 TABLE = THESIS_TABLE.to_json()

@@ -13,8 +13,8 @@ from datetime import UTC, datetime
 import pytest
 
 from backend.errors import AccessDenied, Conflict, InvalidRequest, LimitViolation
-from backend.services.tuning.try_live import LiveTuning, LiveView
-from backend.services.tuning.tune import Tuning
+from backend.tuning.live_set import LiveTuning, LiveView
+from backend.tuning.service import Tuning
 from backend.units.inspection import Inspection
 from backend.units.service import Devices
 from firmware_protocol.parameters import default_config

@@ -6,7 +6,9 @@ from typing import Annotated, Any, Literal, cast
 
 from fastapi import APIRouter, Header, Query, Response
 
-from backend.api.models.config import (
+from backend.core.parameter_value import TOKEN, TOKEN_PATTERN
+from backend.tuning.live_set import LiveTuning
+from backend.tuning.models.config import (
     CONFIRM_S,
     CONFIRM_S_MAX,
     Config,
@@ -17,16 +19,16 @@ from backend.api.models.config import (
     LiveRequest,
     ParameterList,
     RevisionList,
-    SinceChange,
 )
-from backend.api.models.law import AssistModes, Calibration, FuzzyTable, Table, UnitLimits
-from backend.api.models.why import Why, WhyRequest
-from backend.api.services import Provided
-from backend.core.parameter_value import TOKEN, TOKEN_PATTERN
-from backend.services.tuning.config_view import etag
+from backend.tuning.models.law import AssistModes, Calibration, FuzzyTable, Table, UnitLimits
+from backend.tuning.models.why import Why, WhyRequest
+from backend.tuning.service import Tuning
+from backend.tuning.types import etag
+from backend.tuning.why import WhySteady
 from backend.units.precondition import FOR_ONE_UNIT
 from backend.web.authentication import Author
 from backend.web.problem import refusals
+from backend.web.services import provided
 
 router = APIRouter(
     prefix="/devices/{device_id}",
@@ -34,6 +36,9 @@ router = APIRouter(
     dependencies=FOR_ONE_UNIT,
     responses=refusals(403, 404, 409, 412, 503, 504),
 )
+TheLiveTuning = Annotated[LiveTuning, provided("live")]
+TheTuning = Annotated[Tuning, provided("tuning")]
+TheWhySteady = Annotated[WhySteady, provided("why_steady")]
 IfMatch = Annotated[
     str | None,
     Header(
@@ -58,43 +63,41 @@ Bank = Annotated[
 
 
 @router.get("/parameters", operation_id="list_parameters", response_model=ParameterList)
-def list_parameters(device_id: str, services: Provided) -> dict[str, Any]:
+def list_parameters(device_id: str, tuning: TheTuning) -> dict[str, Any]:
     """Every parameter with its bounds, its meaning and its value in the unit now."""
-    return {"items": services.tuning.parameters(device_id)}
+    return {"items": tuning.parameters(device_id)}
 
 
 @router.get("/config", operation_id="get_config", response_model=Config)
-def get_config(
-    device_id: str, services: Provided, response: Response, bank: Bank = "active"
-) -> Any:
+def get_config(device_id: str, tuning: TheTuning, response: Response, bank: Bank = "active") -> Any:
     """The whole configuration, read from the unit; 404 where it never had a previous one."""
-    config = services.tuning.read_config(device_id, bank)
+    config = tuning.read_config(device_id, bank)
     if bank == "active":
         response.headers["etag"] = etag(config.unit_key, config.generation, config.crc32)
     return config
 
 
 @router.get("/last-known", operation_id="get_last_known", response_model=LastKnown)
-def get_last_known(device_id: str, services: Provided) -> Any:
+def get_last_known(device_id: str, tuning: TheTuning) -> Any:
     """What the unit was last known to be set to, connected or not, over a restart too.
 
     For reading: what is written goes to a connected unit only. What was on trial is left out. 404
     `never_read` where no configuration is kept.
     """
-    return services.tuning.last_known(device_id)
+    return tuning.last_known(device_id)
 
 
 @router.patch("/config", operation_id="patch_config", response_model=ConfigChange)
 def patch_config(
     device_id: str,
     body: ConfigPatch,
-    services: Provided,
+    tuning: TheTuning,
     response: Response,
     author: Author,
     if_match: IfMatch = None,
 ) -> Any:
     """Writes all the named parameters or none, reads them back and compares field by field."""
-    change = services.tuning.write_config(
+    change = tuning.write_config(
         device_id,
         cast("dict[str, Any]", body.parameters),
         body.reason,
@@ -109,68 +112,60 @@ def patch_config(
 
 
 @router.post("/config/confirm", operation_id="confirm_config", response_model=ConfigChange)
-def confirm_config(device_id: str, services: Provided, response: Response, author: Author) -> Any:
+def confirm_config(device_id: str, tuning: TheTuning, response: Response, author: Author) -> Any:
     """Keeps the change on trial, once it was read back and compared field by field."""
-    return _stamped(services.tuning.confirm_config(device_id, author), response)
+    return _stamped(tuning.confirm_config(device_id, author), response)
 
 
 @router.post("/config/rollback", operation_id="rollback_config", response_model=ConfigChange)
-def rollback_config(device_id: str, services: Provided, response: Response, author: Author) -> Any:
+def rollback_config(device_id: str, tuning: TheTuning, response: Response, author: Author) -> Any:
     """Gives up the change on trial: the unit has what it had before."""
-    return _stamped(services.tuning.rollback_config(device_id, author), response)
+    return _stamped(tuning.rollback_config(device_id, author), response)
 
 
 @router.get("/config/revisions", operation_id="list_revisions", response_model=RevisionList)
-def list_revisions(device_id: str, services: Provided) -> dict[str, Any]:
+def list_revisions(device_id: str, tuning: TheTuning) -> dict[str, Any]:
     """Who changed what, when and why, newest first."""
-    return {"items": services.tuning.revisions(device_id)}
-
-
-@router.get(
-    "/config/revisions/{seq}/since", operation_id="since_revision", response_model=SinceChange
-)
-def since_revision(device_id: str, seq: int, services: Provided) -> Any:
-    """The unit's rides since this configuration beside those before it."""
-    return services.since_change(device_id, seq)
+    return {"items": tuning.revisions(device_id)}
 
 
 @router.post("/why", operation_id="why_of_device", response_model=Why)
-def why_of_device(device_id: str, body: WhyRequest, services: Provided) -> Any:
+def why_of_device(device_id: str, body: WhyRequest, why: TheWhySteady) -> Any:
     """Why this unit would give what it gives in a steady state, with what it is set to now."""
-    return services.why_steady(*body.parts(), device_id)
+    return why(*body.parts(), device_id)
 
 
 @router.get("/live", operation_id="get_live", response_model=Live)
-def get_live(device_id: str, services: Provided) -> Any:
+def get_live(device_id: str, live: TheLiveTuning) -> Any:
     """What is tried in the unit's memory now, and until when."""
-    return services.live.read(device_id)
+    return live.read(device_id)
 
 
 @router.post("/live", operation_id="set_live", response_model=Live)
-def set_live(device_id: str, body: LiveRequest, services: Provided) -> Any:
+def set_live(device_id: str, body: LiveRequest, live: TheLiveTuning) -> Any:
     """Tries values at once, standing or moving; a restart, a commit or the time ends it."""
-    return services.live.set(device_id, cast("dict[str, Any]", body.parameters), body.ttl_s)
+    return live.set(device_id, cast("dict[str, Any]", body.parameters), body.ttl_s)
 
 
 @router.delete("/live", operation_id="end_live", response_model=Live)
-def end_live(device_id: str, services: Provided) -> Any:
+def end_live(device_id: str, live: TheLiveTuning) -> Any:
     """Ends what is tried: the law runs on the configuration again."""
-    return services.live.end(device_id)
+    return live.end(device_id)
 
 
 @router.get("/fuzzy-table", operation_id="get_fuzzy_table", response_model=FuzzyTable)
 def get_fuzzy_table(
-    device_id: str, services: Provided, response: Response, table: WhichTable = "first"
+    device_id: str, tuning: TheTuning, response: Response, table: WhichTable = "first"
 ) -> Any:
     """A rule table and its points, as the surface and the linter take them."""
-    return _tagged(services.tuning.read_part(device_id, TABLES[table]), response)
+    return _tagged(tuning.read_part(device_id, TABLES[table]), response)
 
 
 @router.put("/fuzzy-table", operation_id="put_fuzzy_table", response_model=ConfigChange)
 def put_fuzzy_table(
     device_id: str,
     body: FuzzyTable,
-    services: Provided,
+    tuning: TheTuning,
     response: Response,
     author: Author,
     if_match: IfMatch = None,
@@ -183,23 +178,23 @@ def put_fuzzy_table(
 
     Both tables share the points of speed and torque rate: those of the second are not changed here.
     """
-    change = services.tuning.write_part(
+    change = tuning.write_part(
         device_id, TABLES[table], body.model_dump(), reason, if_match, confirm_s, token, author
     )
     return _stamped(change, response)
 
 
 @router.get("/assist-modes", operation_id="get_assist_modes", response_model=AssistModes)
-def get_assist_modes(device_id: str, services: Provided, response: Response) -> Any:
+def get_assist_modes(device_id: str, tuning: TheTuning, response: Response) -> Any:
     """The five slots of the rider's switch."""
-    return _tagged(services.tuning.read_part(device_id, "assist_modes"), response)
+    return _tagged(tuning.read_part(device_id, "assist_modes"), response)
 
 
 @router.put("/assist-modes", operation_id="put_assist_modes", response_model=ConfigChange)
 def put_assist_modes(
     device_id: str,
     body: AssistModes,
-    services: Provided,
+    tuning: TheTuning,
     response: Response,
     author: Author,
     if_match: IfMatch = None,
@@ -208,23 +203,23 @@ def put_assist_modes(
     token: Token = None,
 ) -> Any:
     """Writes all five slots in one transaction."""
-    change = services.tuning.write_part(
+    change = tuning.write_part(
         device_id, "assist_modes", body.model_dump(), reason, if_match, confirm_s, token, author
     )
     return _stamped(change, response)
 
 
 @router.get("/calibration", operation_id="get_calibration", response_model=Calibration)
-def get_calibration(device_id: str, services: Provided, response: Response) -> Any:
+def get_calibration(device_id: str, tuning: TheTuning, response: Response) -> Any:
     """How raw counts become newton metres in this unit."""
-    return _tagged(services.tuning.read_part(device_id, "calibration"), response)
+    return _tagged(tuning.read_part(device_id, "calibration"), response)
 
 
 @router.put("/calibration", operation_id="put_calibration", response_model=ConfigChange)
 def put_calibration(
     device_id: str,
     body: Calibration,
-    services: Provided,
+    tuning: TheTuning,
     response: Response,
     author: Author,
     if_match: IfMatch = None,
@@ -234,23 +229,23 @@ def put_calibration(
 ) -> Any:
     """Writes sensor, filters and the record of a calibration in one transaction."""
     written = body.model_dump(exclude_unset=True)
-    change = services.tuning.write_part(
+    change = tuning.write_part(
         device_id, "calibration", written, reason, if_match, confirm_s, token, author
     )
     return _stamped(change, response)
 
 
 @router.get("/limits", operation_id="get_limits", response_model=UnitLimits)
-def get_limits(device_id: str, services: Provided, response: Response) -> Any:
+def get_limits(device_id: str, tuning: TheTuning, response: Response) -> Any:
     """What the unit enforces whatever the table says, and where assist ends because of it."""
-    return _tagged(services.tuning.read_part(device_id, "limits"), response)
+    return _tagged(tuning.read_part(device_id, "limits"), response)
 
 
 @router.put("/limits", operation_id="put_limits", response_model=ConfigChange)
 def put_limits(
     device_id: str,
     body: UnitLimits,
-    services: Provided,
+    tuning: TheTuning,
     response: Response,
     author: Author,
     if_match: IfMatch = None,
@@ -260,7 +255,7 @@ def put_limits(
 ) -> Any:
     """Writes the limits in one transaction; the unit refuses what its market forbids."""
     written = body.model_dump(exclude_none=True)
-    change = services.tuning.write_part(
+    change = tuning.write_part(
         device_id, "limits", written, reason, if_match, confirm_s, token, author
     )
     return _stamped(change, response)

@@ -24,10 +24,11 @@ from fastapi.testclient import TestClient
 from backend.api.services import Services
 from backend.app import build_api
 from backend.core.fuzzy_table import FuzzyTable
-from backend.services.tuning.compare import Compare
-from backend.services.tuning.library import Library, preset_etag
-from backend.services.tuning.tune import Tuning
 from backend.store import open_store
+from backend.tuning.library.compare import Compare
+from backend.tuning.library.records import LibraryStore
+from backend.tuning.library.service import Library, preset_etag
+from backend.tuning.service import Tuning
 from backend.web.app import WebSettings
 from firmware_protocol.configuration_file import read
 
@@ -42,7 +43,7 @@ Document = dict[str, Any]
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     tmp_path = tmp_path_factory.mktemp("library")
     with open_store(f"sqlite:///{tmp_path}/spindle.db", f"file://{tmp_path}/objects") as store:
-        library = Library(store.library)
+        library = Library(LibraryStore(store.database))
         compare = Compare(library, cast(Tuning, None))
         services = cast(Services, SimpleNamespace(library=library, compare=compare))
         app = build_api(WebSettings("test", author="workshop"), services)

@@ -6,7 +6,7 @@ Method: the registry's groups beside the models of the parts that are made of th
 import pytest
 from pydantic import BaseModel
 
-from backend.api.models.law import Calibration, UnitLimits
+from backend.tuning.models.law import Calibration, UnitLimits
 from firmware_protocol._generated import PARAMETERS
 
 
@@ -18,4 +18,4 @@ def test_every_parameter_of_the_part_has_a_field(groups: set[str], model: type[B
 
     missing = sorted(names - model.model_fields.keys())
 
-    assert missing == [], f"backend/api/models/law.py: {model.__name__} lacks {missing}"
+    assert missing == [], f"backend/tuning/models/law.py: {model.__name__} lacks {missing}"

@@ -7,9 +7,9 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.api.models.law import AssistModes, FuzzyTable, UnitLimits
 from backend.core.parameter_value import Parameters
 from backend.core.request_body import RequestBody
+from backend.tuning.models.law import AssistModes, FuzzyTable, UnitLimits
 from backend.web.models import Answer
 
 CHANGES = {"fuzzy_table", "second_table", "assist_modes", "limits"}

@@ -6,8 +6,8 @@ from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Header, Path, Query, Response
 
-from backend.api.models.law import Table
-from backend.api.models.library import (
+from backend.tuning.library.compare import Compare, Side
+from backend.tuning.library.models import (
     CompareRequest,
     Comparison,
     Feel,
@@ -18,13 +18,15 @@ from backend.api.models.library import (
     LibraryRow,
     ReadFis,
 )
-from backend.api.services import Provided
-from backend.services.tuning.compare import Side
-from backend.services.tuning.library_files import library_file, read_fis_file
+from backend.tuning.library.service import Library, library_file, read_fis_file
+from backend.tuning.models.law import Table
 from backend.web.authentication import Author
 from backend.web.problem import refusals
+from backend.web.services import provided
 
 router = APIRouter(prefix="/library", tags=["library"], responses=refusals())
+TheCompare = Annotated[Compare, provided("compare")]
+TheLibrary = Annotated[Library, provided("library")]
 EntryId = Annotated[str, Path(max_length=80)]
 Version = Annotated[
     int | None, Query(ge=1, le=2**31 - 1, description="Of an own item: as it was in this version.")
@@ -37,11 +39,11 @@ IfMatch = Annotated[
 
 @router.get("", operation_id="list_library", response_model=LibraryList)
 def list_library(
-    services: Provided,
+    library: TheLibrary,
     deleted: Annotated[bool, Query(description="Deleted own items, too.")] = False,
 ) -> dict[str, Any]:
     """Every table and configuration there is under a name, without its values."""
-    return {"items": services.library.rows(deleted)}
+    return {"items": library.rows(deleted)}
 
 
 @router.post(
@@ -52,10 +54,10 @@ def list_library(
     responses=refusals(409),
 )
 def add_library_item(
-    body: LibraryDocument, services: Provided, response: Response, author: Author
+    body: LibraryDocument, library: TheLibrary, response: Response, author: Author
 ) -> Any:
     """Keeps a document under its name. It is checked as a unit would; nothing goes to a unit."""
-    row = services.library.add(body.model_dump(exclude_unset=True), author)
+    row = library.add(body.model_dump(exclude_unset=True), author)
     response.headers["location"] = f"/api/v1/library/{row.id}"
     return _stamped(row, response)
 
@@ -66,14 +68,14 @@ def add_library_item(
     response_model=Comparison,
     responses=refusals(404, 409, 503, 504),
 )
-def compare(body: CompareRequest, services: Provided) -> Any:
+def compare(body: CompareRequest, comparer: TheCompare) -> Any:
     """Any two side by side: presets, own items, what a unit has or had, a draft. Changes nothing.
 
     The cells and parameters that differ, the surfaces with their largest difference and its place,
     and how both feel.
     """
     left, right = (Side(**side.model_dump()) for side in (body.left, body.right))
-    return services.compare.compare(left, right, body.feel)
+    return comparer.compare(left, right, body.feel)
 
 
 @router.post("/fis", operation_id="read_fis", response_model=ReadFis)
@@ -90,10 +92,10 @@ def read_fis(body: FisText) -> Any:
     responses=refusals(404),
 )
 def get_library_entry(
-    entry_id: EntryId, services: Provided, response: Response, version: Version = None
+    entry_id: EntryId, library: TheLibrary, response: Response, version: Version = None
 ) -> Any:
     """One of them whole, as the file that `spindle device restore` takes."""
-    entry = services.library.entry(entry_id, version)
+    entry = library.entry(entry_id, version)
     response.headers["etag"] = entry.etag
     return entry.document
 
@@ -107,7 +109,7 @@ def get_library_entry(
 def change_library_item(
     entry_id: EntryId,
     body: LibraryDocument,
-    services: Provided,
+    library: TheLibrary,
     response: Response,
     author: Author,
     if_match: IfMatch = None,
@@ -115,7 +117,7 @@ def change_library_item(
     """Gives an own item another content or name; brings a deleted one back. What it was stays among
     its versions."""
     document = body.model_dump(exclude_unset=True)
-    return _stamped(services.library.change(entry_id, document, if_match, author), response)
+    return _stamped(library.change(entry_id, document, if_match, author), response)
 
 
 @router.delete(
@@ -126,13 +128,13 @@ def change_library_item(
 )
 def remove_library_item(
     entry_id: EntryId,
-    services: Provided,
+    library: TheLibrary,
     response: Response,
     author: Author,
     if_match: IfMatch = None,
 ) -> Any:
     """Takes an own item out of the library. Its versions stay, and a PUT brings it back."""
-    return _stamped(services.library.remove(entry_id, if_match, author), response)
+    return _stamped(library.remove(entry_id, if_match, author), response)
 
 
 @router.get(
@@ -143,7 +145,7 @@ def remove_library_item(
 )
 def export_library_entry(
     entry_id: EntryId,
-    services: Provided,
+    library: TheLibrary,
     file_format: Annotated[Literal["json", "fis", "csv"], Query(alias="format")] = "json",
     table: Annotated[
         Table, Query(description="Of a configuration, for `fis` and `csv`.")
@@ -151,7 +153,7 @@ def export_library_entry(
     version: Version = None,
 ) -> Response:
     """A file: the document as JSON, or one table for MATLAB and others, or for a spreadsheet."""
-    document = services.library.entry(entry_id, version).document
+    document = library.entry(entry_id, version).document
     file = library_file(entry_id, document, file_format, table)
     headers = {"content-disposition": f'attachment; filename="{file.file_name}"'}
     return Response(file.text, media_type=file.media_type, headers=headers)
@@ -163,9 +165,9 @@ def export_library_entry(
     response_model=Feel,
     responses=refusals(404, 409),
 )
-def get_library_feel(entry_id: EntryId, services: Provided) -> Any:
+def get_library_feel(entry_id: EntryId, comparer: TheCompare) -> Any:
     """How an entry feels on the simulated bike: an eighth of a second, once for what it holds."""
-    return services.compare.feel(entry_id)
+    return comparer.feel(entry_id)
 
 
 @router.get(
@@ -174,9 +176,9 @@ def get_library_feel(entry_id: EntryId, services: Provided) -> Any:
     response_model=LibraryList,
     responses=refusals(404),
 )
-def list_library_versions(entry_id: EntryId, services: Provided) -> dict[str, Any]:
+def list_library_versions(entry_id: EntryId, library: TheLibrary) -> dict[str, Any]:
     """Every state an own item was in, newest first: who made it, and when."""
-    return {"items": services.library.versions(entry_id)}
+    return {"items": library.versions(entry_id)}
 
 
 def _stamped(row: Any, response: Response) -> Any:

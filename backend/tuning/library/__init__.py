@@ -1,0 +1,1 @@
+"""Named tables and configurations, with or without a unit; any two of them compared."""

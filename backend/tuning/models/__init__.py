@@ -1,0 +1,1 @@
+"""What routes of tuning take and give."""
