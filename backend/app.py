@@ -11,22 +11,14 @@ import sys
 from fastapi import FastAPI
 
 from backend import __version__
-from backend.api.routes import (
-    comparison,
-    insight,
-    logbook,
-    logs,
-    moments,
-    proposals,
-    rides,
-    sensor_drift,
-    tables,
-    uploads,
-)
+from backend.api.routes import comparison, insight, logbook, moments, proposals, rides, sensor_drift
 from backend.api.services import Services
 from backend.calibration import api as calibrations
 from backend.calibration.bike import api as bike_numbers
 from backend.core.person import Permission
+from backend.imports import api as uploads
+from backend.imports import logs_api as logs
+from backend.imports import tables_api as tables
 from backend.people.api import router as people_router
 from backend.people.service import PeopleService
 from backend.server import api as server

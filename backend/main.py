@@ -34,13 +34,13 @@ from backend.device.families import FAMILIES, Families
 from backend.device.link import kind_of
 from backend.errors import LinkError, SpindleError, StoreError
 from backend.formats import Readers
+from backend.imports.mapping import TableMapping
+from backend.imports.sample import sample_ride
+from backend.imports.service import QUICK_S, Uploads, UploadSettings
+from backend.imports.unit_logs import Collect
 from backend.people.service import PeopleService
 from backend.server.backup import StoreService
 from backend.server.health import HealthCheck
-from backend.services.imports.collect import Collect
-from backend.services.imports.mapping import TableMapping
-from backend.services.imports.sample import sample_ride
-from backend.services.imports.upload import QUICK_S, Uploads, UploadSettings
 from backend.services.rides.cards import RideCards
 from backend.services.rides.fault_moment import FaultMoments, RecentRows
 from backend.services.rides.home import RiderHome

@@ -12,12 +12,12 @@ from starlette.requests import HTTPConnection
 if TYPE_CHECKING:
     from backend.calibration.bike.service import BikeNumbers
     from backend.calibration.service import Calibrations
+    from backend.imports.mapping import TableMapping
+    from backend.imports.service import Uploads
+    from backend.imports.unit_logs import Collect
     from backend.people.service import PeopleService
     from backend.server.backup import StoreService
     from backend.server.health import HealthCheck
-    from backend.services.imports.collect import Collect
-    from backend.services.imports.mapping import TableMapping
-    from backend.services.imports.upload import Uploads
     from backend.services.rides.fault_moment import FaultMoments
     from backend.services.rides.home import RiderHome
     from backend.services.rides.insight.questions import Insight

@@ -18,8 +18,8 @@ from backend.core.intake import Intake
 from backend.core.noted import noted_from_json, noted_to_json
 from backend.core.ride import RideContext, RideRows
 from backend.core.ride_events import RideEvent
-from backend.domain.table_answer import question_from_json
 from backend.formats.outcome import ImportedRide, Outcome, rejected
+from backend.formats.questions import question_from_json
 
 
 def encode(outcome: Outcome) -> bytes:

@@ -6,7 +6,6 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
-from backend.domain.table_answer import TableAnswer
 from backend.formats.blocks import BLOCKS_SUFFIX, looks_like_blocks
 from backend.formats.containers.gz import (
     GZIP,
@@ -19,6 +18,7 @@ from backend.formats.containers.gz import (
 from backend.formats.fit import HEADER_SIZES, MAGIC, read_fit
 from backend.formats.mahle import looks_like_mahle, read_mahle
 from backend.formats.outcome import PARTIAL, REJECTED, Outcome, rejected
+from backend.formats.questions import TableAnswer
 from backend.formats.ride_logs import read_blocks
 from backend.formats.tables import looks_like_table, read_table
 from backend.formats.tables.layouts import only_times

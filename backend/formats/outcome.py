@@ -17,7 +17,7 @@ from backend.core.intake import Intake
 from backend.core.noted import Noted
 from backend.core.ride import RideContext, RideRows
 from backend.core.ride_events import RideEvent
-from backend.domain.table_answer import TableQuestion
+from backend.formats.questions import TableQuestion
 
 COMPLETE = "complete"
 PARTIAL = "partial"

@@ -17,12 +17,12 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from backend.domain.table_answer import TableAnswer, answer_to_json
 from backend.formats.answer import decode
 from backend.formats.containers.archive import BrokenArchive, Entry, Left
 from backend.formats.containers.frames import decode_frame
 from backend.formats.formats import SNIFFED_BYTES, refused_by_head
 from backend.formats.outcome import TOO_SLOW, Outcome, rejected
+from backend.formats.questions import TableAnswer, answer_to_json
 from backend.formats.worker import (
     CPU_S,
     DATA_BYTES,

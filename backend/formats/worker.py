@@ -101,10 +101,10 @@ def requests() -> bool:
 def answers(asked: dict[str, Any]) -> Iterator[tuple[tuple[bytes, ...], bool]]:
     """What a request is answered with, in pieces, and whether it is the last: one answer for a
     file, one a file for an archive."""
-    from backend.domain.table_answer import answer_from_json
     from backend.formats.answer import encode
     from backend.formats.containers.frames import frames
     from backend.formats.formats import read_file
+    from backend.formats.questions import answer_from_json
 
     path = Path(asked["path"])
     if asked.get("unpack"):

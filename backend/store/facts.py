@@ -18,8 +18,8 @@ from backend.core.intake import Intake
 from backend.core.noted import noted_from_json, noted_to_json
 from backend.core.ride import ORIGINS, Gap, Ride, RideContext
 from backend.core.ride_events import RideEvent
+from backend.core.ride_tags import clean_tags
 from backend.core.unit_key import ebl_key
-from backend.domain.logbook.tags import clean_tags
 
 Item = TypeVar("Item", Filled, Gap, Intake, RideContext, RideEvent)
 

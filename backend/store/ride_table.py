@@ -27,8 +27,8 @@ from backend.core.ride import (
     iso_utc,
     readable_name,
 )
+from backend.core.ride_card import line_kmh
 from backend.core.ride_events import KINDS, RideEvent
-from backend.domain.logbook.card import line_kmh
 from backend.errors import FieldError, InvalidRequest
 from backend.store.bikes import bike_of_ride
 from backend.store.discard import take_back, with_sidecar

@@ -25,7 +25,7 @@ from backend.core.channels import ChannelSpec
 from backend.core.pyramid import Level
 from backend.core.ride import BAD, DONE, LIVE, Ride, RideContext, RideRows
 from backend.core.ride_events import RideEvent
-from backend.domain.logbook.tags import clean_tags
+from backend.core.ride_tags import clean_tags
 from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
 from backend.store.deletion import (
     FILLED,

@@ -30,7 +30,6 @@ from backend.store.soundness import Soundness
 from backend.store.sql.advisory import fence
 from backend.store.sql.database import Database, is_postgresql, shown
 from backend.store.sql.database_url import check_url
-from backend.store.table_answers import TableAnswers
 from backend.store.trouble import DISK_FULL, WORDS, code_of
 from backend.store.uploads import UploadStore
 
@@ -64,7 +63,6 @@ class Store:
         self.zeros = ZeroStore(database)
         self.logbook = Logbook(database, objects)
         self.uploads = UploadStore(database, objects, objects.root / SPOOL, self.deletions)
-        self.table_answers = TableAnswers(objects)
         # Rides that the start could not finish.
         self.unfinished: list[int] = []
         # Held by what decides which rides an upload becomes, and by what deletes either.

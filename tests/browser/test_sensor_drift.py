@@ -15,7 +15,7 @@ import numpy as np
 from playwright.sync_api import expect
 
 from backend.core.revision import Revision
-from backend.domain.logbook.zero import RideZero, ZeroOfRide
+from backend.core.ride_zero import RideZero, ZeroOfRide
 from backend.services.rides.sensor_drift import SensorDrift
 from tests.browser.desk import Desk, sideways
 from tests.browser.judged import JUDGE

@@ -14,11 +14,11 @@ from contextlib import suppress
 import atheris
 
 with atheris.instrument_imports(include=["firmware_protocol", "backend"]):
-    from backend.domain.table_answer import TableAnswer
     from backend.formats.blocks import Block, put_block, scan
     from backend.formats.containers.archive import BrokenArchive, Entry, entries
     from backend.formats.formats import SNIFFED_BYTES, read_file, refused_by_head
     from backend.formats.mahle import read_mahle
+    from backend.formats.questions import TableAnswer
     from backend.formats.ride_logs import read_blocks
     from firmware_protocol.codec import Malformed, decode, encode
     from firmware_protocol.framing import FrameDecoder, encode_frame

@@ -18,8 +18,8 @@ import pytest
 from backend.core.ride import Ride
 from backend.formats import ImportedRide, Outcome
 from backend.formats.formats import read_file
-from backend.services.imports.collect import Collect
-from backend.services.imports.upload import Uploads
+from backend.imports.service import Uploads
+from backend.imports.unit_logs import Collect
 from backend.services.rides.record import Recorder, RecordSettings
 from backend.store import Store, open_store
 from backend.tuning.records import RevisionStore

@@ -26,12 +26,12 @@ import numpy as np
 from backend.core.channels import Values
 from backend.core.noted import PAUSES_MAX, Instrument, Noted, Pause, Stated, Statement, within
 from backend.core.zones import zone_of
-from backend.domain.table_answer import TableAnswer, TableQuestion, lacking
 from backend.formats.cells import Growing, as_written, iso_moment, number, step_of, unix_seconds
 from backend.formats.columns import FIT_FIELDS, FieldRule, rides_of_columns
 from backend.formats.mahle.walk import TIME
 from backend.formats.outcome import ImportedRide
 from backend.formats.own_channels import Column, rule
+from backend.formats.questions import TableAnswer, TableQuestion, lacking
 
 BATTERY, WARNING, PAUSED = "bt", "aw", "PAUSE"
 RULES = {rule.channel.name: rule for rule in FIT_FIELDS}

@@ -6,7 +6,6 @@ import re
 from dataclasses import replace
 from math import floor
 
-from backend.domain.table_answer import TableAnswer
 from backend.formats.mahle.document import KIND, QUESTION, Document
 from backend.formats.mahle.walk import TRUNCATED, Listener, Walk, Walked
 from backend.formats.outcome import (
@@ -17,6 +16,7 @@ from backend.formats.outcome import (
     Outcome,
     rejected,
 )
+from backend.formats.questions import TableAnswer
 
 POINTS_MAX = 2_000_000
 MEMBERS = re.compile(

@@ -11,7 +11,6 @@ import numpy as np
 
 from backend.core.channels import ChannelSpec, Values
 from backend.core.zones import zone_of
-from backend.domain.table_answer import TableAnswer, TableColumn, TableQuestion, lacking
 from backend.formats.cells import COLUMNS_MAX, as_written, number, step_of
 from backend.formats.columns import LATITUDE, LONGITUDE, FieldRule, rides_of_columns
 from backend.formats.outcome import (
@@ -23,6 +22,7 @@ from backend.formats.outcome import (
     rejected,
 )
 from backend.formats.own_channels import Column, rules_of
+from backend.formats.questions import TableAnswer, TableColumn, TableQuestion, lacking
 from backend.formats.tables.layouts import Layout, layout_of, since_column, time_column
 from backend.formats.tables.measures import RULES, Measure, measure_in, measure_of, own_rule, words
 from backend.formats.tables.text import cells_of, decoded

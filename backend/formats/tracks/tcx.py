@@ -17,9 +17,9 @@ import numpy as np
 
 from backend.core.noted import LAPS_MAX, Instrument, Lap, Noted
 from backend.core.zones import zone_of
-from backend.domain.table_answer import TableAnswer, TableQuestion
 from backend.formats.cells import number
 from backend.formats.outcome import NEEDS_MAPPING, Outcome, rejected
+from backend.formats.questions import TableAnswer, TableQuestion
 from backend.formats.tracks.rides import Clock, Track, outcome_of, refused
 from backend.formats.tracks.walk import Listener, Shape, Texts, UnsafeXml, as_utf8, walk
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from backend.core.energy import RIDER_POWER
 from backend.core.ride import Ride, RidePlace
+from backend.core.ride_card import BEST_S, RideCard, ends_of, speed_line
 from backend.core.ride_events import FAULT_SET, MARK
-from backend.domain.logbook.card import BEST_S, RideCard, ends_of, speed_line
 from backend.gazetteer import Gazetteer
 from backend.services.rides.derived import DueRides, made_or
 from backend.services.rides.insight.rows import WAY, RideColumns, columns_of

@@ -6,9 +6,9 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 
+from backend.core.calendar import MONDAY, Period, asked_zone, last_months, last_weeks
 from backend.core.ride import iso_utc
-from backend.domain.logbook.calendar import MONDAY, Period, asked_zone, last_months, last_weeks
-from backend.domain.logbook.tags import clean_tags
+from backend.core.ride_tags import clean_tags
 from backend.store import Store, Totals
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from backend.core.channels import Values
 from backend.core.revision import Revision
 from backend.core.ride import iso_utc
-from backend.domain.logbook.zero import METHOD, ZeroOfRide
+from backend.core.ride_zero import METHOD, ZeroOfRide
 from backend.services.rides.home import now_us
 from backend.services.rides.since_change import RevisionsOf
 from backend.store import Store

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from backend.core.ride import Ride
-from backend.domain.logbook.zero import RideZero
+from backend.core.ride_zero import RideZero
 from backend.services.rides.derived import DueRides, made_or
 from backend.services.rides.insight.diagnosis import evidence_of, limits_of
 from backend.services.rides.insight.rows import columns_of

@@ -8,8 +8,8 @@ from functools import partial
 
 from sqlalchemy import Connection, delete, func, insert, select
 
-from backend.domain.logbook.calendar import Period
-from backend.domain.logbook.tags import clean_tags
+from backend.core.calendar import Period
+from backend.core.ride_tags import clean_tags
 from backend.errors import NotFound
 from backend.store.logbook import totals
 from backend.store.logbook.cards import note_words

@@ -5,7 +5,7 @@ from __future__ import annotations
 from sqlalchemy import Connection, select, update
 
 from backend.core.ride import Ride, RidePlace
-from backend.domain.logbook.card import BEST_S, METHOD, RideCard
+from backend.core.ride_card import BEST_S, METHOD, RideCard
 from backend.store.logbook.derived import due_rides, keep_row
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database

@@ -12,9 +12,9 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, Select, case, func, or_, select
 
+from backend.core.calendar import Period
+from backend.core.ride_card import BEST_S
 from backend.core.ride_events import FAULT_SET
-from backend.domain.logbook.calendar import Period
-from backend.domain.logbook.card import BEST_S
 from backend.store.sql import tables as t
 
 # A mean over less is a sprint, not a ride.

@@ -7,7 +7,7 @@ from dataclasses import asdict, fields
 from sqlalchemy import Connection, select
 
 from backend.core.ride import Ride
-from backend.domain.logbook.zero import METHOD, RideZero, ZeroOfRide
+from backend.core.ride_zero import METHOD, RideZero, ZeroOfRide
 from backend.store.logbook.derived import due_rides, keep_row
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database

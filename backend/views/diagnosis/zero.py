@@ -13,8 +13,8 @@ import numpy as np
 
 from backend.core._generated import MOVING_KMH
 from backend.core.channels import Values
+from backend.core.ride_zero import RideZero
 from backend.core.statistics import MEDIAN_TO_MEAN, robust_deviation
-from backend.domain.logbook.zero import RideZero
 from backend.views.diagnosis.finding import Evidence
 from backend.views.diagnosis.torque import (
     CADENCE,

@@ -26,8 +26,8 @@ from backend.core.channels import ChannelSpec, Values
 from backend.core.ride import Ride, RideRows
 from backend.errors import InvalidRequest
 from backend.formats import ImportedRide, Outcome
+from backend.imports.service import Uploads
 from backend.law import law_defaults
-from backend.services.imports.upload import Uploads
 from backend.services.rides.insight.rows import Window
 from backend.store import Store, open_store
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from backend.domain.table_answer import TableAnswer
 from backend.formats.formats import read_file
 from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide
+from backend.formats.questions import TableAnswer
 from backend.formats.tables import read_table
 
 

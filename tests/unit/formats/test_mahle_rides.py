@@ -13,9 +13,9 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 
-from backend.domain.table_answer import TableAnswer
 from backend.formats.formats import SNIFFED_BYTES, read_file, refused_by_head
 from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide
+from backend.formats.questions import TableAnswer
 from tests.fakes.mahle_file import AHEAD, EVERY_S, STARTED, mahle_file, mahle_ride
 
 RIDE = mahle_ride()

@@ -11,9 +11,9 @@ import random
 import numpy as np
 import pytest
 
-from backend.domain.table_answer import TableAnswer
 from backend.formats.formats import read_file
 from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide
+from backend.formats.questions import TableAnswer
 
 POWERTAP = "Minutes, Torq (N-m),Km/h,Watts,Km,Cadence,Hrate,ID\r\n" + "".join(
     f"{(row + 1) * 0.021:.3f},{8.1 + row * 0.1:.1f},25.2,{180 + row},{row * 0.0088:.4f},"

@@ -18,9 +18,9 @@ import pytest
 from tcxreader.tcxreader import TCXReader
 
 from backend.core.noted import Instrument, Pause
-from backend.domain.table_answer import TableAnswer
 from backend.formats.formats import read_file
 from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide
+from backend.formats.questions import TableAnswer
 from tests.fakes.track_files import (
     GPX_HEAD,
     START_S,

@@ -20,9 +20,9 @@ from backend.core.channels import ChannelSpec, Values
 from backend.core.ride import Ride, RideRows
 from backend.errors import InvalidRequest, RequestRefused
 from backend.formats import ImportedRide, Outcome
+from backend.imports.service import Uploads
 from backend.law import law_defaults
 from backend.law.rider_and_bike import RiderAndBike
-from backend.services.imports.upload import Uploads
 from backend.services.rides import ride_again
 from backend.services.rides.replay import RideReplay
 from backend.services.rides.ride_again import RideAgain

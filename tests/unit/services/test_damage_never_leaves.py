@@ -19,8 +19,8 @@ from backend.core.channels import ChannelSpec
 from backend.core.ride import RideRows
 from backend.errors import ObjectDamaged
 from backend.formats import ImportedRide, Outcome
+from backend.imports.service import Uploads
 from backend.main import open_services
-from backend.services.imports.upload import Uploads
 from backend.services.rides.review import Rides
 from backend.settings import load
 from backend.store import RideReader, open_store

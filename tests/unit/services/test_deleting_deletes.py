@@ -18,7 +18,7 @@ from backend.core.ride import RideContext, RideRows
 from backend.errors import Conflict, NotFound, StoreError
 from backend.formats import ImportedRide, Outcome
 from backend.formats.outcome import rejected
-from backend.services.imports.upload import Uploads, UploadSettings
+from backend.imports.service import Uploads, UploadSettings
 from backend.services.rides.cards import RideCards
 from backend.services.rides.review import Rides
 from backend.store import open_store

@@ -20,8 +20,8 @@ from backend.core.fuzzy_table import THESIS_TABLE
 from backend.core.ride import Ride, RideRows
 from backend.errors import InvalidRequest
 from backend.formats import ImportedRide, Outcome
+from backend.imports.service import Uploads
 from backend.law import law_defaults
-from backend.services.imports.upload import Uploads
 from backend.services.rides.replay import RideReplay
 from backend.store import Store, open_store
 from backend.tuning.preview import Preview

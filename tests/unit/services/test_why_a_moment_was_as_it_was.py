@@ -18,8 +18,8 @@ from backend.core.channels import ChannelSpec, Values
 from backend.core.ride import Gap, Ride, RideRows
 from backend.errors import Conflict, InvalidRequest
 from backend.formats import ImportedRide, Outcome
+from backend.imports.service import Uploads
 from backend.law import law_defaults
-from backend.services.imports.upload import Uploads
 from backend.services.rides.replay import WARM_UP_S, warm_up_row
 from backend.services.rides.why_ride import WhyRide, cuts_of
 from backend.store import Store, open_store

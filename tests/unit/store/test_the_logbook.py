@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 from sqlalchemy import Connection
 
+from backend.core.calendar import last_months, last_weeks
 from backend.core.channels import ChannelSpec
 from backend.core.ride import Ride, RideContext, RideRows
-from backend.domain.logbook.calendar import last_months, last_weeks
-from backend.domain.logbook.card import RideCard
+from backend.core.ride_card import RideCard
 from backend.errors import InvalidRequest, NotFound
 from backend.rebuild import rebuild_store
 from backend.services.rides.cards import RideCards, card_of

@@ -17,8 +17,8 @@ import pytest
 from backend.device.ebl.unit import EblUnit
 from backend.device.snapshot import DeviceStatus
 from backend.errors import Conflict, NameFirst
-from backend.services.imports.collect import Collect, word_of
-from backend.services.imports.upload import Uploads
+from backend.imports.service import Uploads
+from backend.imports.unit_logs import Collect, word_of
 from backend.store import Store, open_store
 from backend.tuning.live_set import LiveTuning
 from backend.tuning.records import RevisionStore

@@ -1,1 +1,0 @@
-"""The vocabulary, pure: modes, fuzzy table, calibration figures, ride, energy, quantities."""

@@ -1,1 +1,0 @@
-"""What a rider keeps of all rides: cards, weeks and months, tags."""

@@ -1,0 +1,84 @@
+"""What a table does not say is asked once, and what its owner says is kept for its like."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from concurrent.futures import Future, wait
+from dataclasses import asdict
+from functools import partial
+from typing import Any
+
+from backend.errors import FieldError, InvalidRequest
+from backend.formats import NEEDS_MAPPING
+from backend.formats.questions import TableAnswer, answer_from_json, answer_to_json, lacking
+from backend.imports.container import PART_ASKS
+from backend.imports.records import TableAnswers
+from backend.imports.service import Uploads
+from backend.store import Store, Upload
+
+
+class TableMapping:
+    """The use cases; safe to call from any thread."""
+
+    def __init__(self, store: Store, uploads: Uploads) -> None:
+        self._store = store
+        self._answers = TableAnswers(store.objects)
+        self._uploads = uploads
+
+    def question(self, upload_id: str) -> dict[str, object]:
+        """What must be said of an upload's table: the question and what is known already.
+
+        Raises NotFound; Conflict when nothing is asked of it.
+        """
+        question = self._uploads.question(upload_id)
+        known = self._answers.get(question.header_sha256)
+        answer = answer_to_json(known.answer) if known else None
+        return {**asdict(question), "answer": answer}
+
+    def say(self, upload_id: str, said: Mapping[str, Any]) -> Upload:
+        """Keep an answer and read the file by it; what became of it.
+
+        All others that wait for the same are read behind it, and each tells for itself what became
+        of it; then the containers they are within are judged anew. said: the members of
+        TableAnswer.
+        Raises NotFound, Conflict; InvalidRequest for an answer that lacks something.
+        """
+        answer = answer_from_json(said) or TableAnswer()
+        question = self._uploads.question(upload_id)
+        if missing := lacking(question, answer):
+            told = f"Not said, or not one of what can be said: {', '.join(missing)}."
+            fields = [FieldError(name, "not_said", told) for name in missing]
+            raise InvalidRequest(told, code="answer_incomplete", fields=fields)
+        self._answers.keep(question, answer)
+        others = self._store.uploads.asking(NEEDS_MAPPING, question.header_sha256)
+        wholes = {one: self._uploads.get(one).part_of for one in (upload_id, *others)}
+        read = {one: self._uploads.read_anew(one) for one in wholes}
+        own = wholes[upload_id]
+        for one, whole in wholes.items():
+            if whole is not None and whole != own:
+                read[one].add_done_callback(partial(self._judge_behind, whole))
+        became = read[upload_id].result()
+        if own is not None:
+            wait([read[one] for one, whole in wholes.items() if whole == own])
+            self._judge_anew(own)
+        return became
+
+    def _judge_behind(self, whole: str, _: Future[Upload]) -> None:
+        self._judge_anew(whole)
+
+    def _judge_anew(self, whole: str) -> None:
+        """Look at a container again when the last file within is read; new rides get their names.
+
+        Not before: it would have a file read once more that is concluded meanwhile.
+        """
+        waits = any(part.state == "queued" for part in self._store.uploads.parts(whole))
+        if not waits and self._uploads.get(whole).code == PART_ASKS:
+            self._uploads.read_anew(whole)
+
+    def known(self) -> dict[str, object]:
+        """What was said of which tables."""
+        return {"items": [asdict(table) for table in self._answers.all()]}
+
+    def forget(self, header_sha256: str) -> None:
+        """Ask again from now on; rides that were read stay as they are. Raises NotFound."""
+        self._answers.forget(header_sha256)

@@ -1,0 +1,141 @@
+"""What routes of imports take and give."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Literal
+
+from pydantic import Field
+
+from backend.core.request_body import RequestBody
+from backend.web.models import Answer
+
+
+class UploadParts(Answer):
+    """How many of the files within a container are in which state."""
+
+    waiting: int
+    complete: int
+    partial: int
+    rejected: int
+    here: int = Field(description="Rides that were known before the container came.")
+
+
+class Upload(Answer):
+    """Where a file stands. `code` and `detail` say why it is not a whole ride.
+
+    A file that rides came from lives as long as one of them; any other can be removed.
+    """
+
+    id: str
+    name: str
+    length: int
+    received: int
+    state: Literal["receiving", "queued", "complete", "partial", "rejected"]
+    code: str | None
+    detail: str | None
+    ride_ids: list[int]
+    completeness: float | None
+    duplicate_of: int | None = Field(description="The ride the same bytes became before.")
+    expires_at: datetime | None = Field(
+        description="When it goes by itself; null while a ride lives on it or it waits to be read."
+    )
+    part_of: str | None = Field(description="The upload of the container it came within.")
+    parts: UploadParts | None = Field(description="Of a container; null for any other file.")
+
+
+class UploadList(Answer):
+    items: list[Upload]
+    next: str | None
+
+
+class TableColumn(Answer):
+    """One column of a table."""
+
+    name: str
+    channel: str | None = Field(description="What it becomes, or `time`; null for nothing known.")
+    unit: str | None = Field(description="As the table says it; null where it must be said.")
+    units: list[str] = Field(description="What may be said; empty where nothing is asked.")
+    samples: list[str] = Field(description="Of the first rows.")
+
+
+class SaidOfTable(RequestBody):
+    """What an owner says of a table. It is kept for every file with the same header."""
+
+    time_zone: str | None = Field(
+        default=None, max_length=64, description="An IANA name: `Europe/Dublin`, `UTC`."
+    )
+    units: dict[str, str] = Field(default_factory=dict, description="By the column's name.")
+    rows_per_second: float | None = Field(default=None, gt=0, le=1000)
+
+
+class KnownAnswer(Answer):
+    """What was said before."""
+
+    time_zone: str | None
+    units: dict[str, str]
+    rows_per_second: float | None
+
+
+class TableQuestion(Answer):
+    """What must be said before a table is read."""
+
+    header_sha256: str
+    kind: str
+    time_zone: bool = Field(description="Its times have no zone.")
+    rows_per_second: bool = Field(description="Its rows have no time.")
+    columns: list[TableColumn]
+    answer: KnownAnswer | None
+
+
+class KnownTable(Answer):
+    """A kind of table that was answered for."""
+
+    header_sha256: str
+    kind: str
+    columns: list[str]
+    answer: KnownAnswer
+
+
+class KnownTables(Answer):
+    items: list[KnownTable]
+
+
+class LogDownload(Answer):
+    """From `waiting` to `done` or `failed`; only then the unit may free the log."""
+
+    state: Literal["waiting", "fetching", "checking", "keeping", "done", "failed"]
+    received: int
+    length: int
+    bytes_per_s: float | None
+    detail: str | None
+    upload_id: str | None
+    ride_id: int | None = Field(description="The ride it became or was already.")
+    duplicate_of: int | None = Field(description="The ride that was here before; null if new.")
+    confirmed: bool = Field(description="Whether the unit knows that the log is safe.")
+
+
+class UnitLog(Answer):
+    log_id: int
+    generation: int = Field(description="Tells a log from another of the same number.")
+    state: Literal["recording", "closed", "cut_off"]
+    started_at: datetime | None = Field(description="Null when the unit was restarted since.")
+    duration_s: float
+    length: int
+    confirmed: bool
+    download: LogDownload | None
+
+
+class ErasedLog(Answer):
+    log_id: int
+    erases: int | None = Field(
+        description="Blocks of the flash for logs erased in its life; null if its answer was lost."
+    )
+
+
+class UnitLogs(Answer):
+    """The oldest first. overwritten: given up by the unit before anybody fetched them."""
+
+    items: list[UnitLog]
+    overwritten: int
+    next: str | None = None

@@ -1,0 +1,23 @@
+"""A sample ride, for who has none yet: simulated, named so, and deleted as any ride."""
+
+from __future__ import annotations
+
+from backend.errors import StoreError
+from backend.formats.blocks import BLOCKS_SUFFIX
+from backend.imports.service import Uploads
+from backend.law.sample_ride import sample_log
+from backend.store import Store
+
+NAME = "Sample ride, simulated"
+NOTES = "Simulated by Spindle to look round with: nobody rode it."
+
+
+def sample_ride(store: Store, uploads: Uploads) -> int:
+    """Id of the sample ride: made where it is not here, else as it is. Raises StoreError."""
+    upload = uploads.receive_file(NAME + BLOCKS_SUFFIX, sample_log())
+    if upload.duplicate_of is not None:
+        return upload.duplicate_of
+    if not upload.ride_ids:
+        raise StoreError(f"The sample ride was not kept: {upload.detail}")
+    store.rides.patch(upload.ride_ids[0], notes=NOTES)
+    return upload.ride_ids[0]

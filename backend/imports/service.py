@@ -1,0 +1,395 @@
+"""Files become rides: whole ones, resumable ones, damaged ones; the same bytes only once.
+
+A file arrives piece by piece (`create`, `append`), or at once (`receive_file`). With its last byte
+it is kept under its hash, looked at in a child process, and concluded: `complete`, `partial` or
+`rejected`, with a stable code, a sentence, and the rides it became. It is kept as long as one of
+these rides; without any it can be removed, and goes by itself when its time is over. Reading has
+threads of its own (`reading.Lanes`): `begin` and `add` never wait for it.
+"""
+
+from __future__ import annotations
+
+import io
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import NamedTuple, Protocol
+
+from backend.core.ride import Ride, iso_utc
+from backend.errors import BadFile, Conflict, InvalidRequest
+from backend.formats import (
+    NEEDS_MAPPING,
+    SNIFFED_BYTES,
+    ImportedRide,
+    Outcome,
+    entries,
+    is_archive,
+    read_in_child,
+    refused_by_head,
+)
+from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED, TOO_SLOW
+from backend.formats.questions import TableAnswer, TableQuestion
+from backend.imports.container import Container, Unpacker
+from backend.imports.duplicates import Kind, kin_of, same_rides
+from backend.imports.gap_filling import fill
+from backend.imports.outcome import Came, told_of
+from backend.imports.reading import SLOW, UNPACKING, GoesElsewhere, Lanes, ride_name
+from backend.imports.records import TableAnswers
+from backend.store import Store, Upload, Verdict
+from backend.store.soundness import Expected, damaged_upload
+
+# A ride of a day is 10 MB in any format; the bound keeps one client from filling the disk.
+UPLOAD_BYTES_MAX = 256 * 1024 * 1024
+NAME_LENGTH_MAX = 255
+PIECE_BYTES = 1 << 20
+# How long a reader may take before its file is put into the slow lane.
+QUICK_S = 5.0
+# Code of a file whose ride is still being recorded.
+WAITS = "ride_is_live"
+CONCLUDED = (COMPLETE, PARTIAL, REJECTED)
+
+
+class Reader(Protocol):
+    """Reads a file into an outcome, whatever its bytes."""
+
+    def __call__(self, path: Path, name: str, *, said: TableAnswer | None = None) -> Outcome: ...
+
+
+@dataclass(frozen=True)
+class UploadSettings:
+    """length_max: largest file in bytes. expires_s: how long an upload without rides is kept."""
+
+    length_max: int = UPLOAD_BYTES_MAX
+    expires_s: int = 7 * 86_400
+
+
+class Arrival(NamedTuple):
+    """How far an upload is, and with its last byte the promise of what becomes of it."""
+
+    offset: int
+    reading: Future[Upload] | None
+
+
+class Uploads:
+    """The uploads' use cases; safe to call from any thread.
+
+    reader: has little time, and says `too_slow` when it was not enough; then slow_reader (the same,
+    if none is given) reads the file. stop_readers: ends both at once, wherever they are.
+    unpack: the files within an archive.
+    """
+
+    def __init__(
+        self,
+        store: Store,
+        settings: UploadSettings | None = None,
+        reader: Reader = read_in_child,
+        slow_reader: Reader | None = None,
+        stop_readers: Callable[[], None] = lambda: None,
+        unpack: Unpacker = entries,
+    ) -> None:
+        self._store = store
+        self._answers = TableAnswers(store.objects)
+        self._settings = settings or UploadSettings()
+        self._reader = reader
+        self._slow_reader = slow_reader or reader
+        self._stop_readers = stop_readers
+        self._unpack = unpack
+        self._lanes = Lanes(self._process, self.get)
+
+    def close(self) -> None:
+        """Stop reading. What was not concluded stays queued and is read at the next start."""
+        self._lanes.close(self._stop_readers)
+
+    def create(self, name: str, length: int, sha256: str | None = None) -> Upload:
+        """`begin`; a file without bytes has arrived with it and is concluded."""
+        upload = self.begin(name, length, sha256)
+        return self._look(upload.id).result() if length == 0 else upload
+
+    def begin(
+        self, name: str, length: int, sha256: str | None = None, part_of: str | None = None
+    ) -> Upload:
+        """Begin an upload of `length` bytes. Raises InvalidRequest when it is too large.
+
+        sha256: what the whole file will hash to, if the client knows; it is checked at the end.
+        part_of: the container it is within.
+        """
+        if not 0 <= length <= self._settings.length_max:
+            raise InvalidRequest(
+                f"The file has {length} bytes; at most {self._settings.length_max} are taken.",
+                code="too_large",
+            )
+        told = name.replace("\0", "")[:NAME_LENGTH_MAX] or "upload"
+        return self._store.uploads.create(told, length, sha256, self._settings.expires_s, part_of)
+
+    def append(self, upload_id: str, offset: int, data: bytes) -> int:
+        """Add bytes at `offset`; returns the new offset, which is safe on the disk.
+
+        With the last byte the file is read; returns when it is concluded or Spindle stops. Raises
+        NotFound, Conflict, StoreError.
+        """
+        arrival = self.add(upload_id, offset, data)
+        if arrival.reading is not None:
+            arrival.reading.result()
+        return arrival.offset
+
+    def add(self, upload_id: str, offset: int, data: bytes) -> Arrival:
+        """Add bytes at `offset` without waiting for the file to be read.
+
+        Raises NotFound, Conflict, StoreError; so may the promise. BadFile when what has arrived
+        shows that it is no ride: the upload is rejected, and the rest need not be sent.
+        """
+        upload = self._store.uploads.append(upload_id, offset, data)
+        if upload.received == upload.length:
+            return Arrival(upload.received, self._look(upload_id))
+        if offset < SNIFFED_BYTES <= upload.received:
+            self._refuse_early(upload)
+        return Arrival(upload.received, None)
+
+    def resume(self, upload: Upload, data: bytes) -> Future[Upload]:
+        """All bytes of an upload, of which some may be here; the promise of what becomes of it."""
+        if upload.received < upload.length:
+            left = data[upload.received :]
+            self._store.uploads.append(upload.id, upload.received, left)
+        return self._look(upload.id)
+
+    def _refuse_early(self, upload: Upload) -> None:
+        head = self._store.uploads.head(upload.id, SNIFFED_BYTES)
+        if (refused := refused_by_head(upload.name, head)) is not None:
+            self._conclude(upload.id, REJECTED, refused.code, refused.detail, 0.0)
+            raise BadFile(refused.detail or "", code=refused.code)
+
+    def receive_file(self, name: str, source: bytes | Path) -> Upload:
+        """A whole file at once -> what became of it."""
+        length = len(source) if isinstance(source, bytes) else source.stat().st_size
+        upload = self.create(name, length)
+        offset = 0
+        with (
+            suppress(BadFile),
+            io.BytesIO(source) if isinstance(source, bytes) else source.open("rb") as file,
+        ):
+            while piece := file.read(PIECE_BYTES):
+                offset = self.append(upload.id, offset, piece)
+        return self.get(upload.id)
+
+    def get(self, upload_id: str) -> Upload:
+        """Where an upload stands. Raises NotFound."""
+        return self._store.uploads.get(upload_id)
+
+    def list(
+        self,
+        limit: int = 50,
+        before: str | None = None,
+        part_of: str | None = None,
+        sha256: str | None = None,
+    ) -> dict[str, object]:
+        """One page, the latest first: {items, next}. before: `next` of the page before.
+
+        part_of: of the files within this upload, else of those that are in none. sha256: of these
+        bytes only.
+        """
+        found = self._store.uploads.list(limit + 1, before, part_of, sha256)
+        more = len(found) > limit
+        return {"items": found[:limit], "next": found[limit - 1].id if more else None}
+
+    def question(self, upload_id: str) -> TableQuestion:
+        """What must be said of an upload's table before it is read.
+
+        Raises NotFound; Conflict when it waits for no answer.
+        """
+        upload = self.get(upload_id)
+        if upload.code == NEEDS_MAPPING:
+            outcome = self._slow_reader(self._path(upload), upload.name)
+            if outcome.question is not None:
+                return outcome.question
+        raise Conflict(f"Upload {upload_id} waits for no answer.", code="nothing_asked")
+
+    def read_anew(self, upload_id: str) -> Future[Upload]:
+        """Have a file read again that waited for an answer; the promise of what becomes of it."""
+        self._store.uploads.wait_again(upload_id)
+        return self._look(upload_id)
+
+    def remove(self, upload_id: str) -> None:
+        """Give an upload up and free its space, whatever became of it but rides.
+
+        Raises NotFound; Conflict, naming the rides, when some came from it, or while it is read.
+        """
+        with self._store.deciding, self._lanes.idle(upload_id):
+            self._store.uploads.remove(upload_id, now_us())
+
+    def recover(self) -> Sequence[Upload]:
+        """Look at the files a crash or a stop left waiting; what became of those that were read."""
+        promises = [self._look(upload.id) for upload in self._store.uploads.waiting()]
+        return [promise.result() for promise in promises if promise.exception() is None]
+
+    def look_again(self) -> Sequence[Future[Upload]]:
+        """Have the files looked at that waited for a ride that is over now; does not wait."""
+        live = set(self._store.rides.live_ids())
+        return [
+            self._look(upload.id)
+            for upload in self._store.uploads.waiting()
+            if upload.code == WAITS and upload.duplicate_of not in live
+        ]
+
+    def _look(self, upload_id: str) -> Future[Upload]:
+        """Keep a whole file, and have it read in its turn."""
+        return self._lanes.begin(upload_id, self._store.uploads.keep_original)
+
+    def _process(self, upload_id: str, lane: str) -> Upload:
+        upload = self.get(upload_id)
+        return upload if upload.state in CONCLUDED else self._process_next(upload, lane)
+
+    def _process_next(self, upload: Upload, lane: str) -> Upload:
+        if upload.declared_sha256 and upload.declared_sha256 != upload.sha256:
+            told = f"The bytes that arrived hash to {upload.sha256}, not to what was declared."
+            return self._conclude(upload.id, REJECTED, "hash_mismatch", told, 0.0)
+        with self._store.deciding:
+            if (twin := self._twin(upload)) is not None:
+                return twin
+        path = self._path(upload)
+        with path.open("rb") as file:
+            holds_files = is_archive(file.read(SNIFFED_BYTES))
+        if holds_files:
+            return self._unpacked(upload, path, lane)
+        outcome = self._read(upload, path, lane)
+        # Where this fails the original is kept and the upload waits for the next start.
+        with self._store.deciding:
+            # The same bytes may have become a ride while these were read.
+            if (twin := self._twin(upload)) is not None:
+                return twin
+            return self._keep(self.get(upload.id), outcome)
+
+    def _keep(self, upload: Upload, outcome: Outcome) -> Upload:
+        """Make rides of what was read, or fill, replace or leave those that are here; say so."""
+        came = Came()
+        for imported in outcome.rides:
+            twins = same_rides(self._store.rides, imported, upload.id)
+            if live := next((ride for ride in twins if ride.state == "live"), None):
+                return self._wait_for(upload, live)
+            if twins:
+                came.rows_filled += fill(self._store.rides, twins, imported, upload.id)
+                came.known += twins
+            else:
+                self._settle(upload, imported, outcome, came)
+        for number, (imported, beside) in enumerate(came.fresh):
+            if number < len(upload.ride_ids):
+                # A crash came between this ride and the conclusion.
+                continue
+            ride = ride_of(upload, imported, number, len(came.fresh), outcome.completeness)
+            same_as = None if beside is None else beside.id
+            self._store.rides.add(replace(ride, same_ride_as=same_as), imported.rows, upload.id)
+        code, detail = told_of(came, outcome)
+        only_known = came.known and not (came.fresh or came.made_whole)
+        return self._conclude(
+            upload.id,
+            outcome.state,
+            code,
+            detail,
+            outcome.completeness,
+            came.known[0].id if only_known else None,
+            [ride.id for ride in came.known],
+            outcome.question.header_sha256 if outcome.question else None,
+        )
+
+    def _settle(self, upload: Upload, imported: ImportedRide, outcome: Outcome, came: Came) -> None:
+        """A ride that no unit's clock tells from others: whether its recording is here already."""
+        kin = kin_of(self._store.rides, imported, outcome.state == COMPLETE, upload.id)
+        if kin is None:
+            came.fresh.append((imported, None))
+        elif kin.kind is Kind.KNOWN:
+            came.known.append(kin.ride)
+        elif kin.kind is Kind.FULLER:
+            fuller = ride_of(upload, imported, 0, 1, outcome.completeness)
+            self._store.rides.replace(kin.ride, fuller, imported.rows, upload.id)
+            came.made_whole.append(kin.ride)
+        else:
+            came.fresh.append((imported, kin.ride))
+
+    def _conclude(
+        self,
+        upload_id: str,
+        state: str,
+        code: str | None,
+        detail: str | None,
+        completeness: float | None,
+        duplicate_of: int | None = None,
+        beside: Sequence[int] = (),
+        asks_sha256: str | None = None,
+    ) -> Upload:
+        over_us = now_us() + self._settings.expires_s * 1_000_000
+        verdict = Verdict(state, code, detail, completeness, duplicate_of, over_us, asks_sha256)
+        return self._store.uploads.conclude(upload_id, verdict, beside)
+
+    def _wait_for(self, upload: Upload, live: Ride) -> Upload:
+        """Leave a file until the ride it belongs to is over: only then is known what it lacks."""
+        detail = f"This is ride {live.id}, which is being recorded; what it lacks is filled later."
+        return self._conclude(upload.id, "queued", WAITS, detail, None, live.id)
+
+    def _unpacked(self, upload: Upload, path: Path, lane: str) -> Upload:
+        if lane != UNPACKING:
+            raise GoesElsewhere(UNPACKING)
+        over_us = now_us() + self._settings.expires_s * 1_000_000
+        return Container(self._store, self, upload, over_us).read(self._unpack(path))
+
+    def _path(self, upload: Upload) -> Path:
+        if upload.object_key is None:
+            raise Conflict(f"Upload {upload.id} has not arrived.")
+        expected = Expected(upload.object_key, upload.received)
+        if found := self._store.soundness.damage(expected):
+            raise damaged_upload(upload.name, upload.object_key, found)
+        return self._store.objects.local_path(upload.object_key)
+
+    def _read(self, upload: Upload, path: Path, lane: str) -> Outcome:
+        read = self._slow_reader if lane == SLOW else self._reader
+        outcome = read(path, upload.name)
+        if outcome.question is not None:
+            known = self._answers.get(outcome.question.header_sha256)
+            outcome = read(path, upload.name, said=known.answer) if known else outcome
+        if outcome.code == TOO_SLOW and lane != SLOW:
+            raise GoesElsewhere(SLOW)
+        return outcome
+
+    def _twin(self, upload: Upload) -> Upload | None:
+        """Conclude an upload of bytes that are here already, naming the ride they became."""
+        first = self._store.uploads.first_with(upload.sha256 or "")
+        if first is None or first.id == upload.id:
+            return None
+        ride = self._store.rides.get(first.ride_ids[0])
+        told = f"The same file is here already: ride {ride.id} of {iso_utc(ride.started_us)[:10]}."
+        return self._conclude(
+            upload.id, first.state, "duplicate", told, first.completeness, ride.id
+        )
+
+
+def now_us() -> int:
+    """Wall time in microseconds since 1970."""
+    return time.time_ns() // 1000
+
+
+def ride_of(
+    upload: Upload, imported: ImportedRide, number: int, count: int, completeness: float | None
+) -> Ride:
+    """The ride of one part of a file, not yet in the store."""
+    name = ride_name(upload.name)
+    # A unit without a clock: the ride was over when its log came.
+    over_us = upload.created_us - int(imported.rows.times_us[-1])
+    return Ride(
+        id=0,
+        state="live",
+        origin="imported",
+        name=name if count == 1 else f"{name} ({number + 1} of {count})",
+        notes="; ".join(imported.notes),
+        started_us=imported.started_us if imported.start_known else over_us,
+        row_count=len(imported.rows.times_us),
+        period_us=imported.period_us,
+        channels=imported.rows.channels,
+        derived=(),
+        context=imported.context,
+        completeness=completeness,
+        events=imported.events,
+        sport=imported.sport,
+        intake=imported.intake,
+        noted=imported.noted,
+    )

@@ -1,0 +1,43 @@
+"""Tables whose units or zone nobody knows but their owner: asked, answered, remembered."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Response
+from fastapi.concurrency import run_in_threadpool
+
+from backend.imports.mapping import TableMapping
+from backend.imports.models import KnownTables, SaidOfTable, TableQuestion, Upload
+from backend.web.problem import refusals
+from backend.web.services import provided
+
+router = APIRouter(tags=["uploads"], responses=refusals(400, 404, 409))
+TheTableMapping = Annotated[TableMapping, provided("tables")]
+
+
+@router.get(
+    "/uploads/{upload_id}/mapping", operation_id="get_mapping", response_model=TableQuestion
+)
+def get_mapping(upload_id: str, tables: TheTableMapping) -> Any:
+    """What must be said of a file that was rejected with `needs_mapping`, with its first rows."""
+    return tables.question(upload_id)
+
+
+@router.put("/uploads/{upload_id}/mapping", operation_id="put_mapping", response_model=Upload)
+async def put_mapping(upload_id: str, body: SaidOfTable, tables: TheTableMapping) -> Any:
+    """Says it; the file is read, as is every other that waits for the same answer."""
+    return await run_in_threadpool(tables.say, upload_id, body.model_dump())
+
+
+@router.get("/tables", operation_id="list_tables", response_model=KnownTables)
+def list_tables(tables: TheTableMapping) -> Any:
+    """What was said of which tables, by the hash of their header."""
+    return tables.known()
+
+
+@router.delete("/tables/{header_sha256}", operation_id="forget_table", status_code=204)
+def forget_table(header_sha256: str, tables: TheTableMapping) -> Response:
+    """Forgets what was said: the next file with this header is asked about again."""
+    tables.forget(header_sha256)
+    return Response(status_code=204)

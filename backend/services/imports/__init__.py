@@ -1,1 +1,0 @@
-"""Imports: files and ride logs that become rides, or fill those that are there."""
