@@ -11,8 +11,6 @@ import sys
 from fastapi import FastAPI
 
 from backend import __version__
-from backend.api.routes import comparison, insight, logbook, moments, proposals, rides, sensor_drift
-from backend.api.services import Services
 from backend.calibration import api as calibrations
 from backend.calibration.bike import api as bike_numbers
 from backend.core.person import Permission
@@ -21,7 +19,15 @@ from backend.imports import logs_api as logs
 from backend.imports import tables_api as tables
 from backend.people.api import router as people_router
 from backend.people.service import PeopleService
+from backend.rides import api as rides
+from backend.rides.comparison import api as comparison
+from backend.rides.diagnosis import api as sensor_drift
+from backend.rides.insight import api as insight
+from backend.rides.logbook import api as logbook
+from backend.rides.recording import api as moments
+from backend.rides.replay import api as proposals
 from backend.server import api as server
+from backend.services import Services
 from backend.tuning import api as config
 from backend.tuning import law_api as law
 from backend.tuning.library import api as library
@@ -87,6 +93,7 @@ ROUTERS = [
     server.router,
     people_router,
     calibrations.figures,
+    comparison.of_units,
     *(part.router for part in (*OF_UNITS, law, library, *OF_RIDES, uploads, tables, live)),
 ]
 

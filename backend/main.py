@@ -22,7 +22,6 @@ import uvicorn
 from fastapi import FastAPI
 
 from backend import __version__
-from backend.api.services import Services
 from backend.app import build_api
 from backend.calibration.bike.service import BikeNumbers
 from backend.calibration.certified_torque import CertifiedTorque
@@ -39,25 +38,26 @@ from backend.imports.sample import sample_ride
 from backend.imports.service import QUICK_S, Uploads, UploadSettings
 from backend.imports.unit_logs import Collect
 from backend.people.service import PeopleService
+from backend.rides.comparison.since_change import SinceChange
+from backend.rides.diagnosis.sensor_drift import SensorDriftService
+from backend.rides.diagnosis.service import RideZeros
+from backend.rides.insight.ledger import EnergyLedger
+from backend.rides.insight.table_use import UseOfTable
+from backend.rides.logbook.cards import RideCards
+from backend.rides.logbook.home import RiderHomeService
+from backend.rides.questions import Insight
+from backend.rides.recording.fault_moment import FaultMoments, RecentRows
+from backend.rides.recording.marks import MarkMoment
+from backend.rides.recording.recorder import Recorder
+from backend.rides.replay.propose import Proposals
+from backend.rides.replay.ride_again import RideAgain
+from backend.rides.replay.service import RideReplay
+from backend.rides.replay.why_ride import WhyRide
+from backend.rides.service import Rides
+from backend.rides.settings_in_force import all_through
 from backend.server.backup import StoreService
 from backend.server.health import HealthCheck
-from backend.services.rides.cards import RideCards
-from backend.services.rides.fault_moment import FaultMoments, RecentRows
-from backend.services.rides.home import RiderHome
-from backend.services.rides.insight.questions import Insight
-from backend.services.rides.ledger import EnergyLedger
-from backend.services.rides.mark import MarkMoment
-from backend.services.rides.propose import Proposals
-from backend.services.rides.record import Recorder
-from backend.services.rides.replay import RideReplay
-from backend.services.rides.review import Rides
-from backend.services.rides.ride_again import RideAgain
-from backend.services.rides.sensor_drift import SensorDrift
-from backend.services.rides.settings_in_force import all_through
-from backend.services.rides.since_change import SinceChange
-from backend.services.rides.use_of_table import UseOfTable
-from backend.services.rides.why_ride import WhyRide
-from backend.services.rides.zeros import RideZeros
+from backend.services import Services
 from backend.settings import CHECKOUT, Settings
 from backend.store import Store, open_store
 from backend.store.schemas import SchemaFiles
@@ -148,12 +148,12 @@ def open_services(
             compare=Compare(library, tuning),
             certify=Certify(certificates, devices, tuning, library),
             rides=Rides(store, replay, devices.unit_at, recorder.running),
-            home=RiderHome(store),
+            home=RiderHomeService(store),
             ride_again=RideAgain(store, memory.ride_config),
             proposals=proposals,
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
             since_change=SinceChange(store, tuning.revisions),
-            sensor_drift=SensorDrift(store, devices.known_key, tuning.revisions),
+            sensor_drift=SensorDriftService(store, devices.known_key, tuning.revisions),
             why_steady=WhySteady(devices.writable),
             why_ride=WhyRide(store, memory.ride_config),
             ledger=EnergyLedger(store, memory.ride_config),

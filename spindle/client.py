@@ -18,11 +18,11 @@ from typing import Any, TypeVar, Unpack
 
 from pydantic import TypeAdapter
 
-from backend.api.models.ride import Ride, RideList, Series
 from backend.cli.client import Server, default_key, default_server
 from backend.device.faults import Fault
 from backend.device.live_values import Snapshot
 from backend.errors import NoAnswer, RequestRefused
+from backend.rides.models import Ride, RideList, Series
 from backend.server.health import Health
 from backend.tuning.models.config import Config, ConfigChange, Parameter, ParameterList
 from backend.tuning.models.law import FuzzyTable, Table, UnitLimits

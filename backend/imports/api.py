@@ -22,11 +22,11 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Header, HTTPException, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
 
-from backend.api.models.ride import Ride
 from backend.errors import BadFile, InvalidRequest
 from backend.imports.models import Upload, UploadList
 from backend.imports.service import Uploads
-from backend.services.rides.review import Rides
+from backend.rides.models import Ride
+from backend.rides.service import Rides
 from backend.web.problem import problem_response, refusals
 from backend.web.services import provided
 

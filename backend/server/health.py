@@ -11,9 +11,9 @@ from collections.abc import Callable, Collection
 from typing import Literal, cast
 
 from backend.core.described import described
-from backend.services.rides.missing_rows import LOST_BY_WORDS
-from backend.services.rides.record import Recorder
-from backend.services.rides.ride_tail import RecorderHealth
+from backend.rides.recording.bounds import LOST_BY_WORDS
+from backend.rides.recording.recorder import Recorder
+from backend.rides.recording.ride_tail import RecorderHealth
 from backend.store import WriteWatch
 from backend.store.entries import Entries
 from backend.store.soundness import Soundness

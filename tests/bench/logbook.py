@@ -16,9 +16,9 @@ from sqlalchemy import Connection, insert, select
 
 from backend.core.channels import ChannelSpec
 from backend.core.ride import Ride, RideContext, RideRows
-from backend.services.rides.cards import RideCards
-from backend.services.rides.home import RiderHome
-from backend.services.rides.review import Rides
+from backend.rides.logbook.cards import RideCards
+from backend.rides.logbook.home import RiderHomeService
+from backend.rides.service import Rides
 from backend.store import Store, open_store
 from backend.store.sql import tables as t
 from firmware_protocol._generated import CHANNELS
@@ -79,7 +79,7 @@ def measure(store: Store) -> list[Figure]:
 
 def questions(store: Store) -> list[tuple[str, Callable[[], object]]]:
     """What is asked for, in words and as a call."""
-    rides, home = Rides(store), RiderHome(store, lambda: NOW_US)
+    rides, home = Rides(store), RiderHomeService(store, lambda: NOW_US)
     middle = NOW_US - RIDES // 2 * APART_US
     return [
         ("50 rides, newest first", lambda: rides.list()),

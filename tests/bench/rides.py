@@ -10,8 +10,8 @@ import numpy as np
 
 from backend.core.channels import ChannelSpec
 from backend.core.ride import RideContext
+from backend.rides.traces.trace import trace
 from backend.store import Store, open_store
-from backend.views.trace import trace
 from firmware_protocol._generated import CHANNELS
 from tests.bench.figures import Figure, median_of
 from tests.bench.ride import HZ, SAMPLES, two_hours

@@ -16,7 +16,7 @@ from playwright.sync_api import expect
 
 from backend.core.revision import Revision
 from backend.core.ride_zero import RideZero, ZeroOfRide
-from backend.services.rides.sensor_drift import SensorDrift
+from backend.rides.diagnosis.sensor_drift import SensorDriftService
 from tests.browser.desk import Desk, sideways
 from tests.browser.judged import JUDGE
 from tests.fakes.server import SpindleServer
@@ -56,7 +56,8 @@ class Rides:
 
 def told() -> dict[str, Any]:
     rides = Rides(time.time_ns() // 1000)
-    watch = SensorDrift(rides, lambda device_id: "ebl:1", rides.history)  # type: ignore[arg-type]
+    store: Any = rides
+    watch = SensorDriftService(store, lambda device_id: "ebl:1", rides.history)
     answer = watch("dev1")
     for one in answer["calibrations"]:
         one["created_at"] = one["created_at"].isoformat()

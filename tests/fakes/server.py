@@ -13,9 +13,9 @@ from typing import Any, Self, TypeVar
 import httpx
 import uvicorn
 
-from backend.api.services import Services
 from backend.device.families import FAMILIES, Families
 from backend.main import build_app, listening_socket, open_services, server_config
+from backend.services import Services
 from backend.settings import load
 from spindle.client import Spindle
 from spindle.testing.server import PATIENCE_S, RunningServer

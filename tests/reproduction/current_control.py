@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from backend import law
-from backend.services.rides.replay import law_inputs, read_columns
+from backend.rides.replay.service import law_inputs, read_columns
 from backend.store import open_store
 from sim_device.scenario_file import load, names
 from tests.fakes.server import ServerProcess, SpindleServer, eventually

@@ -13,7 +13,7 @@ import numpy as np
 from backend.core.energy import SECONDS_PER_HOUR
 from backend.law import feel
 from backend.law.feel import SPORT, STEP_S, Numbers, assisted, seconds_of
-from backend.views.table_use import table_use
+from backend.rides.insight.table_use import table_use
 from sim_device.preset import load
 from sim_device.preset_unit import preset_unit
 from sim_device.scenario_file import load as load_scenario

@@ -20,7 +20,7 @@ from backend.formats import ImportedRide, Outcome
 from backend.formats.formats import read_file
 from backend.imports.service import Uploads
 from backend.imports.unit_logs import Collect
-from backend.services.rides.record import Recorder, RecordSettings
+from backend.rides.recording.recorder import Recorder, RecordSettings
 from backend.store import Store, open_store
 from backend.tuning.records import RevisionStore
 from backend.units.inspection import Inspection

@@ -25,7 +25,7 @@ from backend.calibration.bike.wheel import ROOT_3
 from backend.calibration.bike.wheel_measure import TrackQuestion
 from backend.calibration.setup import ANYWHERE_LIMIT_MS2, ANYWHERE_MS2, gravity_at
 from backend.calibration.types import GravityAt, GravityGiven
-from backend.services.rides.insight.rows import Window
+from backend.rides.rows import Window
 from backend.web.problem import DAMAGED, refusals
 from backend.web.services import provided
 

@@ -18,7 +18,7 @@ from backend.calibration.bike.wheel_measure import Rows, refusal, rows_of
 from backend.core.channels import Values
 from backend.core.energy import KMH_PER_MS, MOTOR_POWER, MOTOR_TORQUE, MOTOR_TORQUE_DEMANDED
 from backend.core.ride import Ride
-from backend.services.rides.insight.rows import Window
+from backend.rides.rows import Window
 from backend.store import Store
 
 SPEED, TORQUE, CADENCE, ALTITUDE = "speed_kmh", "rider_torque_nm", "cadence_rpm", "altitude_m"

@@ -21,8 +21,8 @@ from backend.calibration.bike.wheel_measure import (
     rows_of,
 )
 from backend.core.energy import KMH_PER_MS
-from backend.services.rides.insight.rows import Window
-from backend.services.rides.settings_in_force import ConfigOf, all_through
+from backend.rides.rows import Window
+from backend.rides.settings_in_force import ConfigOf, all_through
 from backend.store import Store
 
 CADENCE, ANGLE = "cadence_rpm", "crank_angle_deg"

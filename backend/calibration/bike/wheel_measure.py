@@ -20,11 +20,11 @@ from backend.core.channels import Values
 from backend.core.energy import KMH_PER_MS
 from backend.core.ride import Ride
 from backend.errors import FieldError, InvalidRequest
-from backend.services.rides.insight.rows import Window, columns_from
-from backend.services.rides.settings_in_force import ConfigOf, all_through
+from backend.rides.rows import Window, columns_from
+from backend.rides.settings_in_force import ConfigOf, all_through
+from backend.rides.traces.trace import row_window
 from backend.store import Store
 from backend.tuning.types import ParameterView
-from backend.views.trace import row_window
 
 GAP_S_MAX = 2.5
 """Over a longer silence nobody knows what the bike did; a head unit tells one row a second."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from backend.api.models.ride import RideSummary
+from backend.rides.models import RideSummary
 
 SAMPLE_RIDE: dict[str, Any] = {
     "id": 1,

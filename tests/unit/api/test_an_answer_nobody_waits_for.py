@@ -14,9 +14,9 @@ from typing import Any, cast
 
 import pytest
 
-from backend.api.services import Services
 from backend.app import build_api
 from backend.errors import NotFound, RequestRefused
+from backend.services import Services
 from backend.web.app import WebSettings
 from backend.web.connections import PatientProtocol
 from tests.unit.api.test_connections import PATIENCE_S, serving

@@ -8,7 +8,7 @@ from __future__ import annotations
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
-from backend.api.routes.rides import Moment
+from backend.rides.api import Moment
 
 MOMENT: TypeAdapter[object] = TypeAdapter(Moment)
 

@@ -68,7 +68,7 @@ def test_while_rides_are_read_others_are_answered(
         made_on.append(threading.current_thread().name)
         return make(model, answer)
 
-    monkeypatch.setattr("backend.api.routes.rides.whole", noted)
+    monkeypatch.setattr("backend.rides.api.whole", noted)
 
     async def story() -> tuple[int, Any]:
         transport = httpx.ASGITransport(app=app)

@@ -28,7 +28,7 @@ from backend.errors import InvalidRequest
 from backend.formats import ImportedRide, Outcome
 from backend.imports.service import Uploads
 from backend.law import law_defaults
-from backend.services.rides.insight.rows import Window
+from backend.rides.rows import Window
 from backend.store import Store, open_store
 
 SPECS = {

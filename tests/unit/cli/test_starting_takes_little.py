@@ -12,7 +12,14 @@ import sys
 import pytest
 
 HEAVY = {"numpy", "pydantic", "cryptography", "fastapi", "sqlalchemy", "pyarrow", "reportlab"}
-ROOMS = {"backend.law", "backend.formats", "backend.store", "backend.services", "backend.api"}
+ROOMS = {
+    "backend.law",
+    "backend.formats",
+    "backend.store",
+    "backend.rides",
+    "backend.tuning",
+    "backend.web",
+}
 LOADED = """
 import json, sys
 from backend.cli import main

@@ -18,7 +18,7 @@ from backend.formats.containers.archive import entries
 from backend.formats.formats import read_file
 from backend.imports.service import Uploads, UploadSettings
 from backend.rebuild import rebuild_store
-from backend.services.rides.review import Rides
+from backend.rides.service import Rides
 from backend.store import Store, open_store
 from backend.store.named import named_keys
 from tests.fakes.fit_file import START_S, commute, fit_file

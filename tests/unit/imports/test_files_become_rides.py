@@ -14,8 +14,8 @@ import pytest
 from backend.errors import Conflict, InvalidRequest, NotFound
 from backend.formats import Outcome
 from backend.imports.service import Uploads, UploadSettings
-from backend.services.rides.export import safe_name
-from backend.services.rides.review import Rides
+from backend.rides.files import safe_name
+from backend.rides.service import Rides
 from backend.store import Store, open_store
 from tests.fakes.fit_file import START_S, commute, fit_file
 

@@ -22,7 +22,7 @@ from backend.device.stream import StreamBlock
 from backend.errors import StoreError
 from backend.formats import ImportedRide, Outcome
 from backend.imports.service import Uploads
-from backend.services.rides.record import Recorder, RecordSettings
+from backend.rides.recording.recorder import Recorder, RecordSettings
 from backend.store import Store, open_store, rides
 from backend.store.named import named_keys
 from backend.store.objects import Disk

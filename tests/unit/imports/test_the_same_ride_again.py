@@ -20,7 +20,7 @@ from backend.formats import Outcome
 from backend.formats.formats import read_file
 from backend.imports.service import Uploads
 from backend.rebuild import rebuild_store
-from backend.services.rides.review import Rides
+from backend.rides.service import Rides
 from backend.store import Store, Upload, open_store
 from tests.fakes.fit_file import START_S, commute, fit_file
 

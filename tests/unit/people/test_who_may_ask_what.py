@@ -20,10 +20,10 @@ import pytest
 from fastapi.testclient import TestClient
 from starlette.testclient import WebSocketDenialResponse
 
-from backend.api.services import Services
 from backend.app import NEEDED, STRANGERS, build_api
 from backend.core.person import ROLES, Permission, RoleName
 from backend.people.service import PeopleService
+from backend.services import Services
 from backend.store import open_store
 from backend.web.app import WebSettings
 from backend.web.permissions import Anyone

@@ -22,7 +22,7 @@ import backend.store
 from backend.core.channels import ChannelSpec
 from backend.core.ride import Ride, RideContext
 from backend.formats.tables import read_table
-from backend.services.rides.review import Rides
+from backend.rides.service import Rides
 from backend.store import Store
 from tests.unit.conftest import OpenStore
 from tests.unit.store.ride_data import PERIOD_US, STARTED_US

@@ -14,8 +14,8 @@ import pytest
 from backend.core.channels import MISSING_INT16
 from backend.core.ride import Ride, RideContext
 from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
+from backend.rides.traces.trace import trace
 from backend.store import Sought, Store
-from backend.views.trace import trace
 from tests.unit.conftest import OpenStore
 from tests.unit.store.ride_data import (
     CHANNELS,

@@ -21,8 +21,8 @@ from backend.core.ride import Ride, RideContext, RideRows
 from backend.core.ride_card import RideCard
 from backend.errors import InvalidRequest, NotFound
 from backend.rebuild import rebuild_store
-from backend.services.rides.cards import RideCards, card_of
-from backend.services.rides.insight.rows import RideColumns
+from backend.rides.logbook.cards import RideCards, card_of
+from backend.rides.rows import RideColumns
 from backend.store import Sought, Store
 
 pytestmark = pytest.mark.slow
@@ -151,7 +151,7 @@ def test_a_ride_of_which_no_card_can_be_made_stops_no_other(
             raise MemoryError
         return card_of(rows)
 
-    monkeypatch.setattr("backend.services.rides.cards.card_of", unless_bad)
+    monkeypatch.setattr("backend.rides.logbook.cards.card_of", unless_bad)
     made(store)
 
     assert [store.rides.get(ride).speed_line_kmh != () for ride in (bad, good)] == [False, True]

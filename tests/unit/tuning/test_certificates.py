@@ -14,8 +14,8 @@ from typing import Any, cast
 import pytest
 from fastapi.testclient import TestClient
 
-from backend.api.services import Services
 from backend.app import build_api
+from backend.services import Services
 from backend.store import Store, open_store
 from backend.tuning.library.records import LibraryStore
 from backend.tuning.library.service import Library

@@ -21,9 +21,9 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from backend.api.services import Services
 from backend.app import build_api
 from backend.core.fuzzy_table import FuzzyTable
+from backend.services import Services
 from backend.store import open_store
 from backend.tuning.library.compare import Compare
 from backend.tuning.library.records import LibraryStore

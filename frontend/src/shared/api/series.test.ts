@@ -1,5 +1,5 @@
-/* Goal: the binary series is read as backend/views/trace.py describes it. The bytes are laid out
-   here by hand from that description. */
+/* Goal: the binary series is read as backend/rides/traces/trace.py describes it. The bytes are laid
+   out here by hand from that description. */
 import { expect, it } from 'vitest'
 import { coarser, readSeries, seriesOf } from './series'
 

@@ -1,5 +1,5 @@
 // Traces of a ride as the server sends them: least and greatest count per bin ("SPV1", described
-// in backend/views/trace.py).
+// in backend/rides/traces/trace.py).
 import type { components } from '$generated/api'
 
 export interface SeriesChannel {

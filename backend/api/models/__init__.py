@@ -1,1 +1,0 @@
-"""What goes in and out over HTTP, one file per subject. The browser's types come from here."""

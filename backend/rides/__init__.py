@@ -1,0 +1,1 @@
+"""Rides: recorded, read, exported, explained, compared."""

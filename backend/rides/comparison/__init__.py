@@ -1,0 +1,1 @@
+"""Two rides, or two windows, on one axis, in figures and on the map."""

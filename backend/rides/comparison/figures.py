@@ -1,0 +1,141 @@
+"""What two stretches of riding come to, each for itself, and by how much they differ.
+
+Rider, motor and battery stand apart and are never added. A figure that cannot be told says why, and
+energies say how much time they leave out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from backend.core.channels import Values
+from backend.core.energy import DEMANDED
+from backend.core.ride import RideSummary, TimesUs, summarise
+from backend.rides.insight.distance import climb_of, way_of
+from backend.rides.insight.energy_split import energy_shares
+
+WAY_KM_MIN = 0.01
+"""Below that, work by distance is the work of a start."""
+SOURCES = ("rider", "motor", "battery")
+UNITS = {
+    "duration_s": "s",
+    "moving_s": "s",
+    "distance_km": "km",
+    "speed_kmh_mean": "km/h",
+    "rider_wh": "Wh",
+    "motor_wh": "Wh",
+    "battery_wh": "Wh",
+    "rider_wh_per_km": "Wh/km",
+    "motor_wh_per_km": "Wh/km",
+    "battery_wh_per_km": "Wh/km",
+    "motor_per_rider": "",
+    "ascent_m": "m",
+}
+"""The figures in the order in which they are told."""
+
+
+@dataclass(frozen=True)
+class Told:
+    """A figure of one side. missing: a code of why there is no value. unknown_s: time that an
+    energy leaves out because its samples are missing; None for what is no energy."""
+
+    value: float | None
+    missing: str | None = None
+    unknown_s: float | None = None
+
+
+@dataclass(frozen=True)
+class Figure:
+    """difference: B's value less A's; None where one of them is missing."""
+
+    name: str
+    unit: str
+    a: Told
+    b: Told
+    difference: float | None
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Rows (n,) of a window. values: channels by name, missing as NaN; meaning: of the ride's motor
+    torque, as of domain.energy."""
+
+    values: Mapping[str, Values]
+    times_us: TimesUs
+    period_us: int | None
+    seconds: Values
+    meaning: str | None
+
+
+def compared(a: Stretch, b: Stretch) -> list[Figure]:
+    """Every figure of both."""
+    one, other = told_of(a), told_of(b)
+    return [
+        Figure(name, unit, one[name], other[name], less(other[name].value, one[name].value))
+        for name, unit in UNITS.items()
+    ]
+
+
+def less(value: float | None, than: float | None) -> float | None:
+    """The difference; None where one of both is not known."""
+    return None if value is None or than is None else value - than
+
+
+def told_of(rows: Stretch) -> dict[str, Told]:
+    """The figures of one side by name."""
+    summary = summarise(rows.values, rows.times_us, rows.period_us, rows.seconds)
+    told = {
+        "duration_s": Told(summary.duration_s),
+        "moving_s": said(summary.moving_s, "no_speed"),
+        "distance_km": said(summary.distance_km, "no_way"),
+        "speed_kmh_mean": said(
+            summary.speed_kmh_mean, "no_motion" if summary.moving_s is not None else "no_speed"
+        ),
+    }
+    for source in SOURCES:
+        energy = energy_told(source, summary, rows.meaning)
+        told[f"{source}_wh"] = energy
+        told[f"{source}_wh_per_km"] = per_km(energy, told["distance_km"])
+    return told | on_the_way(rows, told)
+
+
+def said(value: float | None, why: str) -> Told:
+    """A value, or why there is none."""
+    return Told(value, None if value is not None else why)
+
+
+def energy_told(source: str, summary: RideSummary, meaning: str | None) -> Told:
+    """An energy; a motor whose torque was only asked of it has none."""
+    value: float | None = getattr(summary, f"{source}_wh")
+    if value is not None:
+        return Told(value, unknown_s=getattr(summary, f"{source}_excluded_s"))
+    asked = source == "motor" and meaning == DEMANDED
+    return Told(None, "only_asked" if asked else f"no_{source}_power")
+
+
+def per_km(energy: Told, distance: Told) -> Told:
+    """An energy for a kilometre, or what it lacks."""
+    if energy.value is None or distance.value is None:
+        return Told(None, energy.missing or distance.missing)
+    if distance.value < WAY_KM_MIN:
+        return Told(None, "no_motion")
+    return Told(energy.value / distance.value, unknown_s=energy.unknown_s)
+
+
+def on_the_way(rows: Stretch, told: Mapping[str, Told]) -> dict[str, Told]:
+    """Ascent, and the motor's work over the rider's of the moments in which both are known."""
+    start_s = rows.times_us / 1e6
+    way = way_of(rows.values, start_s, rows.seconds)
+    altitude = rows.values.get("altitude_m")
+    climb = climb_of(altitude, way, start_s) if way and altitude is not None else None
+    everything = np.zeros(len(start_s), np.intp)
+    (share,) = energy_shares(rows.values, rows.seconds, None, everything, 1)
+    lacking: Sequence[str | None] = [told[f"{source}_wh"].missing for source in ("motor", "rider")]
+    why = next((reason for reason in lacking if reason), "no_rider_work")
+    return {
+        "ascent_m": said(climb.ascent_m if climb else None, "no_height" if way else "no_way"),
+        "motor_per_rider": said(share.motor_per_rider, why),
+    }

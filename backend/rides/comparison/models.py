@@ -1,0 +1,172 @@
+"""Two rides, or two windows of one, side by side."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from backend.rides.insight.models import CrankTorque
+from backend.tuning.library.models import CellChange
+from backend.tuning.models.config import ParameterChange
+from backend.tuning.models.law import FuzzyTable
+from backend.web.models import Answer
+
+NoFigure = Literal[
+    "no_speed",
+    "no_way",
+    "no_motion",
+    "no_rider_power",
+    "no_motor_power",
+    "no_battery_power",
+    "only_asked",
+    "no_height",
+    "no_rider_work",
+]
+NoCrank = Literal["no_angle", "no_torque", "slow_rows", "few_turns"]
+
+
+class ComparedSide(Answer):
+    """A window of a ride; places on an axis count from its start."""
+
+    ride_id: int
+    from_s: float
+    to_s: float
+    rows: int
+    motor_torque_meaning: Literal["demanded", "delivered"] | None
+    length_s: float
+    length_m: float | None = Field(description="Null where nothing tells its way.")
+
+
+class ToldFigure(Answer):
+    value: float | None
+    missing: NoFigure | None = Field(description="Why there is no value; null with one.")
+    unknown_s: float | None = Field(
+        description="Time that an energy leaves out because its samples are missing."
+    )
+
+
+class ComparedFigure(Answer):
+    name: str
+    unit: str
+    a: ToldFigure
+    b: ToldFigure
+    difference: float | None = Field(description="B less A; null where one is missing.")
+
+
+class ComparedChannel(Answer):
+    """A channel under the name of what it is: the torque of a ride that tells only what was asked
+    of its motor is `motor_torque_demanded_nm`, whatever the file calls it."""
+
+    name: str
+    unit: str
+    a: bool
+    b: bool
+
+
+class SameWay(Answer):
+    """Shares, 0 to 1, of tracks walked in steps of 10 m."""
+
+    near_m: float
+    a_near_b: float = Field(description="Of A's track, so near to B's, whenever B was there.")
+    b_near_a: float
+    in_step: float | None = Field(
+        description="Of the way that both have, where they are so near at the same distance from "
+        "their starts: how well they line up by distance. Null without a way."
+    )
+
+
+class SideSettings(Answer):
+    known: bool
+    why: Literal["imported", "not_told", "not_kept"] | None = Field(
+        description="Why the configuration is not known: a file brought the ride, its unit told "
+        "none, or nobody kept what it told. Null where it is known."
+    )
+    unit_key: str | None
+    generation: int | None = Field(description="Null where the settings were changed before.")
+    changed_at_s: list[float] = Field(
+        description="When they changed within the window: the rest of it was ridden by others."
+    )
+
+
+class TablesApart(Answer):
+    which: Literal["first", "second"]
+    left: FuzzyTable
+    right: FuzzyTable
+    cells: list[CellChange]
+
+
+class SettingsApart(Answer):
+    a: SideSettings
+    b: SideSettings
+    differences: list[ParameterChange] | None = Field(
+        description="From A to B by parameter; null unless both are known."
+    )
+    tables: list[TablesApart] = Field(description="Those of which anything differs.")
+
+
+class RideComparison(Answer):
+    a: ComparedSide
+    b: ComparedSide
+    figures: list[ComparedFigure]
+    motor_torque: Literal["alike", "apart"] = Field(
+        description="`apart`: one ride tells what the motor gave, the other what was asked of it."
+    )
+    channels: list[ComparedChannel]
+    same_way: SameWay | None
+    no_way: Literal["a", "b", "neither", "too_few"] | None = Field(
+        description="Who has no positions, or too few of them; null with `same_way`."
+    )
+    settings: SettingsApart
+
+
+class BinExtremes(Answer):
+    min: list[float | None]
+    max: list[float | None]
+
+
+class SeriesBeside(Answer):
+    name: str
+    unit: str
+    a: BinExtremes | None = Field(description="Null where the ride has no such channel.")
+    b: BinExtremes | None
+    difference: list[float | None] | None = Field(
+        description="Of the means over time of each bin, B less A, where both have one."
+    )
+
+
+class AxisGap(Answer):
+    """A stretch without samples; one in which the bike stood has no length on the way."""
+
+    from_x: float
+    to_x: float
+
+
+class ComparedSeries(Answer):
+    """Both rides in bins of equal length. A bin has the least and greatest value of the rows that
+    begin in it, else of the row that still holds; in a gap null."""
+
+    by: Literal["time", "distance"]
+    unit: Literal["s", "m"]
+    end_x: float = Field(description="Of the axis: where the longer of both ends.")
+    x: list[float] = Field(description="Edges of the bins, one more than there are bins.")
+    channels: list[SeriesBeside]
+    a_gaps: list[AxisGap]
+    b_gaps: list[AxisGap]
+
+
+class CrankApart(Answer):
+    """B less A, bin by bin; null unless both are known."""
+
+    rider_nm: list[float] | None
+    motor_nm: list[float] | None
+
+
+class ComparedCrank(Answer):
+    """Torque over the crank's angle of both; the motor's only as delivered."""
+
+    a: CrankTorque | None
+    b: CrankTorque | None
+    a_refused: NoCrank | None
+    b_refused: NoCrank | None
+    difference: CrankApart

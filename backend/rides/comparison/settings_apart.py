@@ -1,0 +1,82 @@
+"""By which settings two rides were ridden, and what differs between them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from backend.core.fuzzy_table import PARAMETERS_OF, FuzzyTable
+from backend.core.ride import Ride
+from backend.law.comparison import cells_changed
+from backend.rides.settings_in_force import ConfigOf
+from backend.tuning.library.compare import Difference, differences
+
+Part = tuple[Ride, float, float]
+"""A ride, and a window of it from and to, s after its start."""
+
+
+def settings_apart(config_of: ConfigOf, a: Part, b: Part) -> dict[str, Any]:
+    """The configurations in force where two windows begin, as the API tells them, and when they
+    changed within; no difference unless both are known.
+
+    A table is among `tables` if anything of it differs and both have it whole.
+    """
+    sides = [config_of(ride, from_s) for ride, from_s, _ in (a, b)]
+    known = [source == "ride" for _, source in sides]
+    told = [side_of(a, known[0]), side_of(b, known[1])]
+    answer: dict[str, Any] = {"a": told[0], "b": told[1], "differences": None, "tables": []}
+    if all(known):
+        old, new = (
+            {name: of_today(name, value) for name, value in config.items()} for config, _ in sides
+        )
+        answer["differences"] = differences(old, new)
+        answer["tables"] = [
+            table
+            for which in PARAMETERS_OF
+            if (table := tables_apart(old, new, which, answer["differences"]))
+        ]
+    return answer
+
+
+def side_of(part: Part, known: bool) -> dict[str, Any]:
+    """Whose configuration it is, or why nobody knows it."""
+    ride, from_s, to_s = part
+    spans, why = ride.settings_spans(), None
+    in_force = [crc32 for since_s, crc32 in spans if since_s <= from_s]
+    if not known:
+        why = "not_told" if in_force[-1] is None else "not_kept"
+        if why == "not_told" and ride.origin == "imported":
+            why = "imported"
+    return {
+        "known": known,
+        "why": why,
+        "unit_key": ride.context.unit_key,
+        "generation": ride.context.config_generation if len(in_force) == 1 else None,
+        "changed_at_s": [since_s for since_s, _ in spans if from_s < since_s <= to_s],
+    }
+
+
+def of_today(name: str, value: Any) -> Any:
+    """A parameter with its choices as they are spelled today; versions up to 0.2 kept them in
+    capital letters. Names and the labels of rules stay as they are."""
+    if name.endswith(("_name", "_names", "_rules")):
+        return value
+    if isinstance(value, list | tuple):
+        return [of_today(name, one) for one in value]
+    return value.lower() if isinstance(value, str) else value
+
+
+def tables_apart(
+    old: Mapping[str, Any], new: Mapping[str, Any], which: str, changed: Sequence[Difference]
+) -> dict[str, Any] | None:
+    """One of the two tables of both sides with the rules that differ; None if nothing does."""
+    names = set(PARAMETERS_OF[which].values())
+    if not names & {one.name for one in changed} or not names <= old.keys() & new.keys():
+        return None
+    left, right = (FuzzyTable.from_parameters(side, which) for side in (old, new))
+    return {
+        "which": which,
+        "left": left.to_json(),
+        "right": right.to_json(),
+        "cells": cells_changed(left, right),
+    }

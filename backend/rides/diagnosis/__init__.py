@@ -1,0 +1,1 @@
+"""What a ride, and many, show of their bike's health, with evidence."""

@@ -1,0 +1,1 @@
+"""What a ride comes to: energy apart, gradient, effort, pedalling, use of the table."""

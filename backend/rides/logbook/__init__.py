@@ -1,0 +1,1 @@
+"""All rides of a rider: cards, weeks and months, tags, places."""

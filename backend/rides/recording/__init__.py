@@ -1,0 +1,1 @@
+"""Recording: what a connected unit streams becomes a ride."""

@@ -1,0 +1,1 @@
+"""A ride replayed and ridden again by the unit's own law, explained, and improved upon."""

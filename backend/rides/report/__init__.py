@@ -1,0 +1,1 @@
+"""One ride as one HTML file."""

@@ -1,1 +1,0 @@
-"""Rides: recorded while a bike is ridden, shown and replayed afterwards."""

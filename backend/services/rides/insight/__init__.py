@@ -1,1 +1,0 @@
-"""What a ride tells: energy, effort, pedalling, diagnosis, comparison, report."""

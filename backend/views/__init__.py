@@ -1,1 +1,0 @@
-"""What a person looks at: min/max traces to pixel width, figures, reports."""

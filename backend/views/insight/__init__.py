@@ -1,1 +1,0 @@
-"""What a ride's samples come to: energy by group, effort, gradient. Arrays in, values out."""

@@ -1,1 +1,0 @@
-"""One ride as one HTML file that needs nothing else, to be kept, sent or printed."""
