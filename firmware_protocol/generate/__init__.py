@@ -1,1 +1,1 @@
-"""Turns registry.toml into C, Python, TypeScript, Lua, A2L and the tables of SPEC.md."""
+"""Turns registry.toml into C, Python, TypeScript, Lua and the tables of SPEC.md."""

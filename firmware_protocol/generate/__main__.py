@@ -5,7 +5,6 @@ import sys
 from pathlib import Path
 
 from firmware_protocol.generate import (
-    a2l,
     c_header,
     c_source,
     python,
@@ -43,7 +42,6 @@ def outputs(root: Path) -> dict[Path, str]:
         root / "backend/core/_generated.py": python.domain_module(registry),
         root / "frontend/src/generated/registry.ts": typescript.module(registry),
         folder / "wireshark" / "ebl.lua": wireshark.dissector(registry, logic),
-        folder / "a2l" / "ebl.a2l": a2l.description(registry, digest),
         spec_file: spec.filled(spec_file.read_text(encoding="utf-8"), registry),
         **vectors.files(registry, folder / "vectors", released.new_names(release, registry)),
     }

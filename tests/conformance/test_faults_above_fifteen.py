@@ -15,7 +15,7 @@ import pytest
 from backend.formats.blocks import EVENT, Block
 from backend.formats.ride_logs import events_in
 from firmware_protocol._generated import EvtFaultClearRequest, FaultSetEvent, LogEvent
-from firmware_protocol.generate import a2l, c_header, c_source, typescript, wireshark
+from firmware_protocol.generate import c_header, c_source, typescript, wireshark
 from firmware_protocol.generate.registry import BadRegistry, Registry, load
 from tests.conformance.test_wire_sanitized import STRICT, compiler
 
@@ -120,14 +120,9 @@ def test_an_older_host_s_clear_concerns_the_low_bits() -> None:
 
 
 def test_every_tool_is_told_which_bit_of_which_channel_it_is(made: Registry) -> None:
-    calibration = a2l.description(made, bytes(8))
     dissector = wireshark.dissector(made, "")
     browser = typescript.module(made)
 
-    measurement = calibration.partition("MEASUREMENT fault_flags.MADE_UP_WARNING")[2]
-    address = calibration.partition("MEASUREMENT fault_flags_high ")[2].partition("ECU_ADDRESS ")[2]
-    assert "BIT_MASK 0x4000" in measurement[:120]
-    assert f"ECU_ADDRESS {address.split()[0]}" in measurement[:160]
     table = dissector.partition('["fault_flags_high"] = {')[2].partition("}")[0]
     assert '[13] = "MADE_UP_LATCHED", [14] = "MADE_UP_WARNING"' in table
     assert "made_up_warning: 30," in browser
