@@ -153,7 +153,7 @@ reproduction: $(STAMP)/native ## the thesis beside what the simulator does, tabl
 	$(BIN)/python -m tests.reproduction.current_control
 
 .PHONY: release-data
-release-data: setup ## what a version leaves on a disk, kept for every later one to open: VERSION=0.3.0
+release-data: setup ## what a version leaves on a disk, kept for every later one to open: VERSION=0.6.0
 	$(BIN)/python -m tests.releases.make $(VERSION) $(CODE)
 
 .PHONY: lock

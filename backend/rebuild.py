@@ -45,10 +45,10 @@ class Rebuilt:
     """What a rebuild did.
 
     rides, calibrations, calibrations_open: added now. rides_before: there already. rides_mended:
-    those of them whose rows were damaged; rides_damaged: whose rows still are. lacking: what
-    older files do not tell, by key. not_taken: files that are not whole, with the reason; stay:
-    those of them that no start moves away. superseded: rides of
-    which there is a fuller version. set_aside: files of the destroyed database, under their new
+    those of them whose rows were damaged; rides_damaged: whose rows still are. lost_words: rides
+    whose name, notes and tags are not known, by key. not_taken: files that are not whole, with the
+    reason; stay: those of them that no start moves away. superseded: rides of which there is a
+    fuller version. set_aside: files of the destroyed database, under their new
     names.
     """
 
@@ -59,7 +59,7 @@ class Rebuilt:
     rides_damaged: tuple[int, ...] = ()
     calibrations: int = 0
     calibrations_open: int = 0
-    lacking: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    lost_words: dict[str, str] = field(default_factory=dict)
     not_taken: dict[str, str] = field(default_factory=dict)
     stay: dict[str, str] = field(default_factory=dict)
     superseded: list[str] = field(default_factory=list)
@@ -170,13 +170,13 @@ def bring_back(
             report.rides_before += 1
         else:
             try:
-                lacks = add_kept(database, objects, one)
+                add_kept(database, objects, one)
             except NOT_AS_WRITTEN as error:
                 report.not_taken[key] = f"{key} tells no ride: {error!r}."
                 continue
             report.rides += 1
-            if lacks:
-                report.lacking[key] = lacks
+            if one.lost_words is not None:
+                report.lost_words[key] = one.lost_words
     named = {one.sha256 for ride in kept for one in files_of(ride)}
     here = {PurePosixPath(key).name: key for key in keys if key.startswith("originals/")}
     known = {key for key in here.values() if key in view.known_keys}
@@ -218,8 +218,8 @@ def told(report: Rebuilt) -> Iterable[str]:
         yield f"{report.calibrations_open} open calibrations brought back: go on with them."
     for name in report.set_aside:
         yield f"The destroyed database is kept as {name}."
-    for key, lacks in report.lacking.items():
-        yield f"{key}: an older file; not known: {', '.join(lacks)}."
+    for key, reason in report.lost_words.items():
+        yield f"{key}: without its name, notes and tags. {reason}"
     for key, reason in (report.not_taken | report.stay).items():
         yield f"{key}: not taken. {reason}"
     for key in report.superseded:

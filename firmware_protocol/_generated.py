@@ -12,7 +12,6 @@ from firmware_protocol.layout import (
     Message,
     Order,
     Parameter,
-    Retired,
 )
 
 MAJOR = 1
@@ -27,7 +26,7 @@ STANDING_S = 20
 RESTING_KMH = 0.5
 RESTING_MOTOR_RPM = 30.0
 IMAGE_LENGTH = 455
-SCHEMA_HASH = bytes.fromhex("07c54983914e937c")
+SCHEMA_HASH = bytes.fromhex("b7b4b27657637aaf")
 
 
 class Status(IntEnum):
@@ -2484,10 +2483,6 @@ BANDS: tuple[Band, ...] = (
     ),
 )
 BAND_BY_NAME = {band.parameter: band for band in BANDS}
-
-RETIRED: tuple[Retired, ...] = (
-    Retired(0x0503, "wheel_radius_m", "f32", "wheel_circumference_m", 6.283185307179586),
-)
 
 CHANNELS: tuple[Channel, ...] = (
     Channel(1, "speed_kmh", "km/h", 0.01, "Bike speed."),

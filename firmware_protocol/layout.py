@@ -209,14 +209,3 @@ class Band:
     within: float | None
     times: str | None
     unit: str
-
-
-@dataclass(frozen=True, slots=True)
-class Retired:
-    """A parameter of older units: its value times `factor` is that of `becomes`."""
-
-    id: int
-    name: str
-    type: ParameterType
-    becomes: str
-    factor: float

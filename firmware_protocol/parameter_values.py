@@ -5,11 +5,12 @@ The host's half of the check in SPEC.md 3; numbers are compared as the float32 t
 
 import math
 import struct
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from firmware_protocol._generated import ENUM_BY_NAME
+from firmware_protocol._generated import ENUM_BY_NAME, PARAMETER_BY_NAME
 from firmware_protocol.layout import Parameter, Value
 from firmware_protocol.spelling import member_of, word_of, words_of
 
@@ -87,6 +88,14 @@ def respelled(row: Parameter, value: Value) -> Value:
         return [respelled(row, element) for element in value]
     number = choice_number(row, value)
     return value if number is None else word_of(ENUM_BY_NAME[row.enum](number).name)
+
+
+def in_one_spelling(config: Mapping[str, Value]) -> dict[str, Value]:
+    """A configuration with every choice in its one spelling; nothing else is looked at."""
+    return {
+        name: respelled(PARAMETER_BY_NAME[name], value) if name in PARAMETER_BY_NAME else value
+        for name, value in config.items()
+    }
 
 
 def _problem_of_text(row: Parameter, element: Value) -> tuple[str, str] | None:

@@ -128,7 +128,7 @@ def restore(options: Namespace) -> int:
     require_same_kind(backup, options.file.name, device["family"], items)
     saved = backup.parameters
     if not options.json:
-        notes = [*backup.notes, *unknown_here(saved, items)]
+        notes = unknown_here(saved, items)
         for note in [*notes, *second_table_moves(backup, items)]:
             print(note)
     differing = [p for p in items if p["name"] in saved and saved[p["name"]] != p["value"]]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from datetime import datetime
 from typing import Any, Protocol, TypeAlias
 
@@ -33,15 +33,6 @@ class Revision:
     parameters: Parameters
     unit_key: str
     author_proof: str | None = None
-
-    def respelled(self, respell: Callable[[Parameters], Parameters]) -> Revision:
-        """The same revision with its choices as they are spelled today."""
-        old, new = (
-            respell({change["name"]: change[side] for change in self.changed})
-            for side in ("old", "new")
-        )
-        changed = [{"name": name, "old": old[name], "new": new[name]} for name in old]
-        return replace(self, changed=changed, parameters=respell(self.parameters))
 
     @property
     def created_at(self) -> datetime:

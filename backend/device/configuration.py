@@ -95,20 +95,16 @@ class ParameterTable:
     """The parameters of one kind of unit, and the checks of a whole configuration of it.
 
     rows: in the order they are shown. free_of: a parameter's band in a configuration, None for one
-    without. not_a_parameter: what is said of a name nothing is called. faults_of: everything that
-    is wrong with a whole configuration, each element named. rounded: a checked configuration as the
-    unit will hold it. crc32_of: the checksum a unit gives for it. respelled: any part of a
-    configuration with its choices in their one spelling, in whatever case they were kept. factory:
-    the maker's names.
+    without. faults_of: everything that is wrong with a whole configuration, each element named.
+    rounded: a checked configuration as the unit will hold it. crc32_of: the checksum a unit gives
+    for it. factory: the maker's names.
     """
 
     rows: Sequence[ParameterRow]
     free_of: Callable[[str, Config], Free | None]
-    not_a_parameter: Callable[[str], str]
     faults_of: Callable[[Config], list[FieldError]]
     rounded: Callable[[Config], dict[str, Value]]
     crc32_of: Callable[[Config], int]
-    respelled: Callable[[Config], dict[str, Value]]
     factory: frozenset[str] = frozenset()
 
     def group(self, name: str) -> tuple[str, ...]:
@@ -119,7 +115,7 @@ class ParameterTable:
         """A fault for each name that is no parameter."""
         known = {row.name for row in self.rows}
         return [
-            FieldError(name, "unknown_parameter", self.not_a_parameter(name))
+            FieldError(name, "unknown_parameter", f"{name} is not a parameter of this unit.")
             for name in changes
             if name not in known
         ]

@@ -19,23 +19,21 @@ from firmware_protocol.configuration_file import (
     is_configuration_file,
     read,
 )
-from firmware_protocol.retired import brought_forward
+from firmware_protocol.parameter_values import in_one_spelling
 
 __all__ = ["Backup", "backup_json", "backup_of", "of_the_unit", "read_backup"]
 
 
 @dataclass(frozen=True)
 class Backup:
-    """Parameters by their names and spelling of today.
+    """Parameters by name, each choice in its one spelling.
 
-    notes: what was made of those of an older unit, in words. family: of the unit it is for, None
-    where an old file does not say. units: of each value, empty for an old file. is_table: it is one
-    fuzzy table and says nothing of the rest. unit_key: of the unit it was made of; None where the
-    file does not say, or is of none.
+    family: of the unit it is for, None where the file does not say. units: of each value, empty
+    where the file has none. is_table: it is one fuzzy table and says nothing of the rest. unit_key:
+    of the unit it was made of; None where the file does not say, or is of none.
     """
 
     parameters: dict[str, Any]
-    notes: list[str] = field(default_factory=list)
     family: str | None = None
     units: dict[str, str] = field(default_factory=dict)
     is_table: bool = False
@@ -55,7 +53,7 @@ def read_backup(saved: object, name: str) -> Backup:
     parameters = saved.get("parameters") if isinstance(saved, dict) else None
     if not isinstance(parameters, dict):
         raise InvalidRequest(f"{name} is not a backup: it has no `parameters`.")
-    return replace(Backup(*brought_forward(parameters)), unit_key=key_of(saved))
+    return replace(Backup(in_one_spelling(parameters)), unit_key=key_of(saved))
 
 
 def of_the_unit(names: Iterable[str]) -> list[str]:
@@ -84,9 +82,9 @@ def key_of(saved: object) -> str | None:
 
 def backup_of(file: ConfigurationFile) -> Backup:
     """What a file of the format of today holds, a preset for one."""
-    values, notes = brought_forward(file.values) if file.family == EBL else (file.values, [])
+    values = in_one_spelling(file.values) if file.family == EBL else file.values
     units = {name: entry.unit for name, entry in file.parameters.items() if name in values}
-    return Backup(values, notes, file.family, units, file.format == TABLE)
+    return Backup(values, file.family, units, file.format == TABLE)
 
 
 def backup_json(

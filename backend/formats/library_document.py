@@ -1,4 +1,4 @@
-"""A document that is to be kept in the library: read whole, brought to today's names, or refused.
+"""A document that is to be kept in the library: read whole, or refused.
 
 It is the file that `spindle device backup` and the presets are. What a file does not know is
 refused rather than dropped, so that nobody believes that it was kept; only what a backup says of
@@ -24,7 +24,7 @@ from firmware_protocol.configuration_file import (
     Entry,
     read,
 )
-from firmware_protocol.retired import brought_forward
+from firmware_protocol.parameter_values import in_one_spelling
 
 NAME_MAX = 80
 COMMENT_MAX = 2000
@@ -42,7 +42,7 @@ def library_document(saved: object) -> dict[str, Any]:
     except BadConfigurationFile as error:
         raise InvalidRequest(f"The document cannot be kept: {error}.", "bad_document") from None
     assert isinstance(saved, dict)
-    file = replace(of_today(file), name=tidy_name(file.name))
+    file = replace(in_our_spelling(file), name=tidy_name(file.name))
     faults = [*faults_of_words(file), *unknown_fields(saved)]
     faults += [FieldError(fault.field, fault.code, fault.message) for fault in faults_of(file)]
     if faults:
@@ -77,16 +77,12 @@ def tidy_name(name: str) -> str:
     return unicodedata.normalize("NFC", name).strip()
 
 
-def of_today(file: ConfigurationFile) -> ConfigurationFile:
-    """The file with names and choices as they are called today."""
+def in_our_spelling(file: ConfigurationFile) -> ConfigurationFile:
+    """The file with every choice in its one spelling."""
     if file.family != FAMILY:
         return file
-    values, _ = brought_forward(file.values)
-    entries = {}
-    for name, value in values.items():
-        old, row = file.parameters.get(name), PARAMETER_BY_NAME.get(name)
-        unit = row.unit if row is not None else ""
-        entries[name] = Entry(value, unit) if old is None else replace(old, value=value)
+    values = in_one_spelling(file.values)
+    entries = {name: replace(old, value=values[name]) for name, old in file.parameters.items()}
     return replace(file, parameters=entries)
 
 

@@ -1,14 +1,12 @@
 """What a ride's file says of the ride beside its rows, so that a lost database can be made again.
 
-Version 2 says everything that is not in the rows or in a sidecar. Version 1 had the start, the
-period, the gear ratio, the serial number and what was filled; the channels it has always had in
-its columns. A sidecar may hold the facts that a file of version 1 lacks.
+Everything that is not in the rows or in a sidecar. Schema version 2 is the only one there is.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import asdict, dataclass, fields
 from typing import Any, TypeVar
 
 from backend.core.channels import ChannelSpec, channel_to_json
@@ -19,13 +17,9 @@ from backend.core.noted import noted_from_json, noted_to_json
 from backend.core.ride import ORIGINS, Gap, Ride, RideContext
 from backend.core.ride_events import RideEvent
 from backend.core.ride_tags import clean_tags
-from backend.core.unit_key import ebl_key
 
 Item = TypeVar("Item", Filled, Gap, Intake, RideContext, RideEvent)
 
-# What every file of version 2 says, and what else only such a one can: a ride that was recorded
-# here came from no file and has no words but those of its sidecar.
-SAID = ("origin", "context", "gaps", "events", "completeness", "cut_short")
 WORDS = ("name", "notes")
 
 
@@ -42,18 +36,19 @@ class Original:
 class KeptRide:
     """A ride as its file and sidecar tell it.
 
-    lacks: what neither says. filled_from: files that filled it. earlier: files it was made of
-    before a fuller one came. replaces: hashes of the objects it is a fuller version of.
+    lost_words: why what a person wrote is not known, None where it is. filled_from: files that
+    filled it. earlier: files it was made of before a fuller one came. replaces: hashes of the
+    objects it is a fuller version of.
     """
 
     ride: Ride
-    lacks: tuple[str, ...]
-    gaps: tuple[Gap, ...] | None
-    events: tuple[RideEvent, ...] | None
+    gaps: tuple[Gap, ...]
+    events: tuple[RideEvent, ...]
     original: Original | None
     filled_from: tuple[Original, ...]
     earlier: tuple[Original, ...]
     replaces: tuple[str, ...]
+    lost_words: str | None = None
 
 
 def facts_of(ride: Ride) -> dict[str, object]:
@@ -93,52 +88,42 @@ def kept_ride(
     row_count: int,
     key: str,
 ) -> KeptRide:
-    """A ride from the facts of its file, completed by its sidecar.
+    """A ride from the facts of its file, with the words of its sidecar.
 
     channels: as the file's columns have them. Raises KeyError, TypeError or ValueError when the
     facts make no sense.
     """
-    known = {**sidecar.get("facts", {}), **facts}
-    words = {**known, **{name: sidecar[name] for name in WORDS if name in sidecar}}
-    lacks = [name for name in SAID if name not in known]
-    if "origin" in lacks:
-        lacks += [name for name in (*WORDS, "original") if name not in words]
-        # What has a unit's number was nearly always recorded here.
-        known["origin"] = ORIGINS[known.get("device_serial") is None]
-    context = known_fields(RideContext, known.get("context") or known)
-    if context.unit_key is None:
-        # A file of before units had keys.
-        context = replace(context, unit_key=ebl_key(context.device_serial))
+    words = {**facts, **{name: sidecar[name] for name in WORDS if name in sidecar}}
+    context = known_fields(RideContext, facts["context"])
     ride = Ride(
         id=0,
         state="done",
-        origin=ORIGINS[ORIGINS.index(known["origin"])],
+        origin=ORIGINS[ORIGINS.index(facts["origin"])],
         name=str(words.get("name", "")),
         notes=str(words.get("notes", "")),
-        started_us=int(known["started_us"]),
+        started_us=int(facts["started_us"]),
         row_count=row_count,
-        period_us=None if known.get("period_us") is None else int(known["period_us"]),
+        period_us=None if facts.get("period_us") is None else int(facts["period_us"]),
         channels=channels,
         derived=derivable([channel.name for channel in channels], context.gear_ratio),
         context=context,
-        filled=tuple(known_fields(Filled, span) for span in known.get("filled", ())),
-        completeness=known.get("completeness"),
+        filled=tuple(known_fields(Filled, span) for span in facts.get("filled", ())),
+        completeness=facts.get("completeness"),
         object_key=key,
-        cut_short=bool(known.get("cut_short", False)),
-        sport=known.get("sport"),
-        intake=known_fields(Intake, known["intake"]) if known.get("intake") else None,
-        noted=noted_from_json(known.get("noted")),
+        cut_short=bool(facts.get("cut_short", False)),
+        sport=facts.get("sport"),
+        intake=known_fields(Intake, facts["intake"]) if facts.get("intake") else None,
+        noted=noted_from_json(facts.get("noted")),
         tags=clean_tags(sidecar.get("tags", ())),
     )
     return KeptRide(
         ride=ride,
-        lacks=tuple(lacks),
-        gaps=items(Gap, known.get("gaps")),
-        events=items(RideEvent, known.get("events")),
-        original=original_of(known.get("original")),
-        filled_from=originals_of(known.get("filled_from", ())),
-        earlier=originals_of(known.get("earlier", ())),
-        replaces=tuple(str(sha256) for sha256 in known.get("replaces", ())),
+        gaps=tuple(known_fields(Gap, body) for body in facts["gaps"]),
+        events=tuple(known_fields(RideEvent, body) for body in facts["events"]),
+        original=original_of(facts.get("original")),
+        filled_from=originals_of(facts.get("filled_from", ())),
+        earlier=originals_of(facts.get("earlier", ())),
+        replaces=tuple(str(sha256) for sha256 in facts.get("replaces", ())),
     )
 
 
@@ -146,10 +131,6 @@ def known_fields(kind: type[Item], body: Mapping[str, Any]) -> Item:
     """A dataclass from the members it has; a newer version's file may tell more."""
     names = {field.name for field in fields(kind)}
     return kind(**{name: value for name, value in body.items() if name in names})
-
-
-def items(kind: type[Item], bodies: Any) -> tuple[Item, ...] | None:
-    return None if bodies is None else tuple(known_fields(kind, body) for body in bodies)
 
 
 def originals_of(bodies: Iterable[Mapping[str, Any]]) -> tuple[Original, ...]:

@@ -76,12 +76,11 @@ def read_kept(objects: FileObjects, key: str) -> KeptRide:
         kept = kept_ride(facts, {}, channels, row_count, key)
     except NOT_AS_WRITTEN as error:
         raise StoreError(f"{key} tells no ride: {error!r}.") from error
-    lost = f"what {sidecar_key(key)} said, which is damaged"
-    return replace(kept, lacks=(*kept.lacks, lost))
+    return replace(kept, lost_words=f"{sidecar_key(key)} is damaged.")
 
 
-def add_kept(database: Database, objects: FileObjects, kept: KeptRide) -> tuple[str, ...]:
-    """Add one ride with its overview, figures and uploads; returns what it lacks."""
+def add_kept(database: Database, objects: FileObjects, kept: KeptRide) -> None:
+    """Add one ride with its overview, figures and uploads."""
     ride, written = kept.ride, digested(objects, kept)
     completeness = written.completeness
     state = "complete" if completeness in (None, 1.0) else "partial"
@@ -101,7 +100,6 @@ def add_kept(database: Database, objects: FileObjects, kept: KeptRide) -> tuple[
             join_source(connection, ride_id, log_id, FILLED)
 
     database.write(work)
-    return kept.lacks
 
 
 def mend_row(database: Database, objects: FileObjects, soundness: Soundness, ride_id: int) -> bool:
@@ -138,13 +136,10 @@ def digested(objects: FileObjects, kept: KeptRide) -> WrittenObject:
     """A ride's object as if it had just been written, its overview and figures worked out anew."""
     ride, key = kept.ride, str(kept.ride.object_key)
     path = objects.local_path(key)
-    found = digest(RideFile(path, ride.channels), ride)
-    if kept.gaps is not None and kept.events is not None:
-        found = replace(found, gaps=kept.gaps, events=kept.events)
-    completeness = ride.completeness
-    if "completeness" in kept.lacks and ride.period_us is not None and ride.row_count:
-        completeness = 1.0 - found.rows_empty / ride.row_count
-    return WrittenObject(key, path.stem, path.stat().st_size, ride.row_count, found, completeness)
+    worked_out = digest(RideFile(path, ride.channels), ride)
+    found = replace(worked_out, gaps=kept.gaps, events=kept.events)
+    size = path.stat().st_size
+    return WrittenObject(key, path.stem, size, ride.row_count, found, ride.completeness)
 
 
 def upload_of(

@@ -28,10 +28,8 @@ MISSING, EMPTY, DAMAGED, FOREIGN, OK = "missing", "empty", "damaged", "foreign",
 TIME_MAX_US = 253_402_300_800_000_000
 # Every schema has these.
 OURS = frozenset({"ride", "upload"})
-# Tables whose rows somebody would miss, of every schema.
-MISSED = frozenset(
-    {"ride", "upload", "device", "config_revision", "unit", "revision", "calibration", "account"}
-)
+# Tables whose rows somebody would miss.
+MISSED = frozenset({"ride", "upload", "unit", "revision", "calibration", "account"})
 
 
 @dataclass(frozen=True)
@@ -154,7 +152,6 @@ def view_of(connection: Connection) -> DatabaseView:
     def values(query: str) -> list[str]:
         return [str(value) for value in connection.execute(text(query)).scalars()]
 
-    names = {column["name"] for column in inspector.get_columns("ride")}
     rides = values("SELECT object_key FROM ride WHERE object_key IS NOT NULL")
     originals = values("SELECT object_key FROM upload WHERE object_key IS NOT NULL")
     objects = frozenset(rides) | frozenset(originals)
@@ -163,17 +160,13 @@ def view_of(connection: Connection) -> DatabaseView:
         objects |= {calibration_key(sha256) for sha256 in closed}
     arrived = values("SELECT sha256 FROM upload WHERE sha256 IS NOT NULL")
     known = objects | {content_key("originals", sha256) for sha256 in arrived}
-    if "object_sha256" in names:
-        # Named twice: a row whose key is damaged still has its object.
-        hashes = values("SELECT object_sha256 FROM ride WHERE object_sha256 IS NOT NULL")
-        rides += [content_key("rides", sha256, RIDE_SUFFIX) for sha256 in hashes]
-        known |= frozenset(rides)
-    discarded: list[str] = []
-    identity, rebuilding = None, False
-    if "store_identity" in tables:
-        row = connection.execute(text("SELECT store_id, rebuilding FROM store_identity")).first()
-        identity, rebuilding = (row.store_id, bool(row.rebuilding)) if row else (None, False)
-        discarded = values("SELECT key FROM discarded_object")
+    # Named twice: a row whose key is damaged still has its object.
+    hashes = values("SELECT object_sha256 FROM ride WHERE object_sha256 IS NOT NULL")
+    rides += [content_key("rides", sha256, RIDE_SUFFIX) for sha256 in hashes]
+    known |= frozenset(rides)
+    row = connection.execute(text("SELECT store_id, rebuilding FROM store_identity")).first()
+    identity, rebuilding = (row.store_id, bool(row.rebuilding)) if row else (None, False)
+    discarded = values("SELECT key FROM discarded_object")
     holds = any(
         connection.execute(text(f"SELECT 1 FROM {name} LIMIT 1")).first()
         for name in sorted(tables & MISSED)
@@ -185,14 +178,15 @@ def view_of(connection: Connection) -> DatabaseView:
         rides=int(connection.execute(text("SELECT count(*) FROM ride")).scalar_one()),
         object_keys=objects,
         known_keys=known | {sidecar_key(key) for key in rides} | frozenset(discarded),
-        live=live_recordings(connection, "heartbeat_us" in names),
+        live=live_recordings(connection),
     )
 
 
-def live_recordings(connection: Connection, with_servers: bool) -> tuple[LiveRecording, ...]:
+def live_recordings(connection: Connection) -> tuple[LiveRecording, ...]:
     """The rides that have no object yet; of a damaged row what is a number."""
-    extra = "server_id, heartbeat_us" if with_servers else "NULL AS server_id, NULL AS heartbeat_us"
-    query = f"SELECT id, row_count, {extra} FROM ride WHERE state = 'live' ORDER BY id"
+    query = (
+        "SELECT id, row_count, server_id, heartbeat_us FROM ride WHERE state = 'live' ORDER BY id"
+    )
     rows = connection.execute(text(query)).all()
     return tuple(
         LiveRecording(row.id, number(row.row_count) or 0, row.server_id, number(row.heartbeat_us))

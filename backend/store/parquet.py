@@ -27,7 +27,6 @@ ROW_GROUP_ROWS = 16384
 COMPRESSION_LEVEL = 9
 ENCODINGS = ("DELTA_BINARY_PACKED", "PLAIN", "BYTE_STREAM_SPLIT")
 TIME_COLUMN = "t_us"
-# 1: start, period, gear ratio, serial number. 2: everything of `facts.facts_of`.
 SCHEMA_VERSION = 2
 FACTS_KEY = b"spindle"
 EXPORT_KEY = b"spindle-export"

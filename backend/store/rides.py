@@ -16,7 +16,6 @@ from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from sqlalchemy import Connection, case, delete, insert, select, update
@@ -60,7 +59,7 @@ from backend.store.ride_table import (
     upload_file,
     upload_key,
 )
-from backend.store.sidecar import keep_words, tell_for_old_file
+from backend.store.sidecar import keep_words
 from backend.store.soundness import Soundness
 from backend.store.sql import tables as t
 from backend.store.sql.blobs import Rows16, decode_level, encode_tail
@@ -416,17 +415,6 @@ class RideStore:
         reader = self._readers.get(ride_id, lambda: self._open_reader(self.get(ride_id)))
         self._soundness.require(reader.ride)
         return reader
-
-    def tell_for_old_files(self) -> None:
-        """Write beside every object of an older version what only the database knows of its ride.
-
-        Raises StoreError; safe to repeat.
-        """
-        query = select(t.ride.c.id).where(t.ride.c.object_key.is_not(None)).order_by(t.ride.c.id)
-        for ride_id in self._database.read(lambda c: c.execute(query).scalars().all()):
-            ride = self.get(ride_id)
-            original = self._database.read(partial(upload_file, token=ride.upload_id))
-            tell_for_old_file(self._objects, ride, original)
 
     def _open_reader(self, ride: Ride) -> RideReader:
         self._soundness.require(ride)

@@ -1,9 +1,9 @@
 """What a person wrote about a ride, beside its object: `rides/ab/<sha256>.json`.
 
-    {"schema_version": 1, "name": "...", "notes": "...", "tags": ["..."], "facts": {...}}
+    {"schema_version": 1, "name": "...", "notes": "...", "tags": ["..."]}
 
 It is written in the transaction that changes the ride, so that SQL and file say the same, and only
-for rides that have something to say. `facts` is there for an object from before files told them.
+for rides that have something to say.
 """
 
 from __future__ import annotations
@@ -14,29 +14,23 @@ from typing import Any
 
 from sqlalchemy import Connection, select
 
-from backend.core.ride import Ride
 from backend.errors import StoreError
-from backend.store.facts import WORDS, facts_of
+from backend.store.facts import WORDS
 from backend.store.objects import Objects, sidecar_key
-from backend.store.parquet import read_facts
 from backend.store.ride_table import tags_of
 from backend.store.sql import tables as t
 
 LOG = logging.getLogger(__name__)
 
 SIDECAR_VERSION = 1
-# From this version on an object's file tells everything itself.
-FACTS_VERSION = 2
 
 
 def read_sidecar(objects: Objects, ride_key: str) -> dict[str, Any]:
     """The sidecar of a ride's object, empty if it has none. Raises StoreError if it is damaged."""
     key = sidecar_key(ride_key)
     body = objects.read_json(key) or {}
-    if (
-        not isinstance(body.get("facts", {}), dict)
-        or not all(is_text(body[name]) for name in WORDS if name in body)
-        or not (isinstance(tags := body.get("tags", []), list) and all(map(is_text, tags)))
+    if not all(is_text(body[name]) for name in WORDS if name in body) or not (
+        isinstance(tags := body.get("tags", []), list) and all(map(is_text, tags))
     ):
         raise StoreError(f"{key} cannot be read: it is no sidecar of a ride.")
     return body
@@ -56,37 +50,15 @@ def write_sidecar(
     name: str,
     notes: str,
     tags: Sequence[str],
-    facts: dict[str, Any] | None = None,
 ) -> None:
-    """Write what a person wrote; facts that are there stay. Raises StoreError."""
+    """Write what a person wrote; what else is there stays. Raises StoreError."""
     try:
         body = read_sidecar(objects, ride_key)
     except StoreError as error:
         LOG.warning("%s It is written anew.", error.message)
         body = {}
     body |= {"schema_version": SIDECAR_VERSION, "name": name, "notes": notes, "tags": list(tags)}
-    if facts is not None:
-        body["facts"] = facts
     objects.publish_json(sidecar_key(ride_key), body)
-
-
-def tell_for_old_file(objects: Objects, ride: Ride, original: dict[str, object] | None) -> None:
-    """Write what the database knows of a finished ride and its object, of version 1, does not tell.
-
-    A damaged row, and an object that is newer, gone or damaged, are left alone. Raises StoreError.
-    """
-    key = ride.object_key
-    if key is None:
-        return
-    try:
-        version = int(read_facts(objects.local_path(key))[0].get("schema_version", 1))
-        is_told = "facts" in read_sidecar(objects, key)
-    except StoreError as error:
-        LOG.warning("%s", error.message)
-        return
-    if version < FACTS_VERSION and not is_told:
-        facts = facts_of(ride) | ({"original": original} if original else {})
-        write_sidecar(objects, key, ride.name, ride.notes, ride.tags, facts)
 
 
 def keep_words(

@@ -213,7 +213,6 @@ def opened_store(db_url: str, objects: FileObjects) -> Store:
         store = Store(database, objects, closing, server_id)
         closing.callback(store.rides.close)
         if found.adopted:
-            store.rides.tell_for_old_files()
             objects.set_identity(store_id)
         database.write(lambda c: write_identity(c, store_id, server_id, rebuilding=False))
         if is_postgresql(db_url):

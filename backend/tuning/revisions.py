@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 
 from backend.core.revision import Revision, RevisionLog
-from backend.device.configuration import ConfigImage, ParameterTable
+from backend.device.configuration import ConfigImage
 from backend.errors import StoreError
 from backend.tuning.types import Change
 
@@ -38,16 +38,14 @@ class RevisionBook:
         self._revisions = revisions
         self._open: dict[str, Meant] = {}
 
-    def list(self, unit: str, table: ParameterTable) -> Sequence[Revision]:
-        """Every configuration of a unit, newest first, as its table spells choices today."""
-        return [revision.respelled(table.respelled) for revision in self._revisions.list(unit)]
+    def list(self, unit: str) -> Sequence[Revision]:
+        """Every configuration of a unit, newest first."""
+        return self._revisions.list(unit)
 
-    def known(self, unit: str, crc32: int, table: ParameterTable) -> Revision | None:
-        """The newest configuration of a unit, if it is the one with this checksum; as `list`."""
+    def known(self, unit: str, crc32: int) -> Revision | None:
+        """The newest configuration of a unit, if it is the one with this checksum."""
         newest = self._newest(unit)
-        if newest is None or newest.crc32 != crc32:
-            return None
-        return newest.respelled(table.respelled)
+        return newest if newest is not None and newest.crc32 == crc32 else None
 
     def may_have_ended(self, unit: str) -> bool:
         """Whether the newest is on trial, or a change may have been made that nobody answered."""

@@ -89,8 +89,7 @@ class Tuning:
 
     def revisions(self, device_id: str) -> Sequence[Revision]:
         """Every configuration the unit is known to have had, newest first."""
-        table = self._devices.unit(device_id).parameters
-        return self._book.list(self._devices.known_key(device_id), table)
+        return self._book.list(self._devices.known_key(device_id))
 
     def last_known(self, device_id: str) -> LastKnown:
         """What the unit was last known to be set to, whether it is connected or not.
@@ -103,14 +102,13 @@ class Tuning:
         kept = next((one for one in self.revisions(device_id) if one.state != TRIED), None)
         if kept is None:
             raise NotFound(f"No configuration of the unit at {device.url} is kept.", "never_read")
-        table = self._devices.unit(device_id).parameters
         return LastKnown(
             kept.unit_key,
             device.last_seen_at,
             kept.created_at,
             kept.generation,
             kept.crc32,
-            tuple(_views(table, kept.parameters)),
+            tuple(_views(self._devices.unit(device_id).parameters, kept.parameters)),
         )
 
     # ------------------------------------------------------------------ writing
@@ -228,7 +226,7 @@ class Tuning:
             trial = unit.trial()
             if not trial.on_trial:
                 raise Conflict(NO_TRIAL, "no_trial")
-            meant = self._book.known(key, trial.crc32, unit.parameters)
+            meant = self._book.known(key, trial.crc32)
             if meant is None:
                 raise Conflict(
                     "What is on trial was not written by this Spindle, so it does not know what "

@@ -197,10 +197,6 @@ const ebl_band ebl_bands[EBL_BAND_COUNT] = {
      0.0f, 5.0f},
 };
 
-const ebl_retired_row ebl_retired[EBL_RETIRED_COUNT] = {
-    {0x0503, EBL_TYPE_F32, 0x0504, 6.283185307179586f},
-};
-
 const ebl_channel ebl_channels[EBL_CHANNEL_COUNT] = {
     {1, 0.01f},
     {2, 0.01f},

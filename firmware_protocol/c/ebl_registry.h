@@ -18,13 +18,12 @@
 #define EBL_PARAMETER_COUNT 57
 #define EBL_ORDER_COUNT 1
 #define EBL_BAND_COUNT 3
-#define EBL_RETIRED_COUNT 1
 #define EBL_CHANNEL_COUNT 26
 #define EBL_FAULT_BITS 20
 #define EBL_FAULTS_ASSIST_OFF 1015807
 #define EBL_FAULTS_LATCHED 488443
 #define EBL_SCHEMA_HASH_LENGTH 8
-#define EBL_SCHEMA_LENGTH 5249
+#define EBL_SCHEMA_LENGTH 5199
 #define EBL_MOVING_KMH 1.0f
 #define EBL_MOVING_RPM 5.0f
 #define EBL_STANDING_S 20u
@@ -503,14 +502,6 @@ typedef struct {
 } ebl_band;
 #define EBL_BAND_NO_SCALE 0xffff
 
-/* A parameter of older units: its value times `factor` is that of `becomes_id`. */
-typedef struct {
-    uint16_t id;
-    uint8_t type; /* ebl_type */
-    uint16_t becomes_id;
-    float factor;
-} ebl_retired_row;
-
 typedef struct {
     uint8_t id;
     float scale; /* value = count * scale */
@@ -581,7 +572,6 @@ extern const ebl_event_row ebl_event_rows[EBL_EVENT_COUNT];
 extern const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT]; /* in the order of their ids */
 extern const ebl_order ebl_orders[EBL_ORDER_COUNT];
 extern const ebl_band ebl_bands[EBL_BAND_COUNT];
-extern const ebl_retired_row ebl_retired[EBL_RETIRED_COUNT];
 extern const ebl_channel ebl_channels[EBL_CHANNEL_COUNT];       /* in the order of their ids */
 
 extern const uint8_t ebl_schema_hash[EBL_SCHEMA_HASH_LENGTH];

@@ -79,14 +79,6 @@ typedef struct {
 } ebl_band;
 #define EBL_BAND_NO_SCALE 0xffff
 
-/* A parameter of older units: its value times `factor` is that of `becomes_id`. */
-typedef struct {
-    uint16_t id;
-    uint8_t type; /* ebl_type */
-    uint16_t becomes_id;
-    float factor;
-} ebl_retired_row;
-
 typedef struct {
     uint8_t id;
     float scale; /* value = count * scale */
@@ -99,7 +91,6 @@ extern const ebl_event_row ebl_event_rows[EBL_EVENT_COUNT];
 extern const ebl_parameter ebl_parameters[EBL_PARAMETER_COUNT]; /* in the order of their ids */
 extern const ebl_order ebl_orders[EBL_ORDER_COUNT];
 extern const ebl_band ebl_bands[EBL_BAND_COUNT];
-extern const ebl_retired_row ebl_retired[EBL_RETIRED_COUNT];
 extern const ebl_channel ebl_channels[EBL_CHANNEL_COUNT];       /* in the order of their ids */
 
 extern const uint8_t ebl_schema_hash[EBL_SCHEMA_HASH_LENGTH];
@@ -157,7 +148,6 @@ def _numbers(registry: Registry, schema_length: int) -> list[str]:
         "PARAMETER_COUNT": len(registry.parameters),
         "ORDER_COUNT": len(registry.orders),
         "BAND_COUNT": len(registry.bands),
-        "RETIRED_COUNT": len(registry.retired),
         "CHANNEL_COUNT": len(registry.channels),
         "FAULT_BITS": max(fault.bit for fault in registry.faults) + 1,
         "FAULTS_ASSIST_OFF": _fault_mask(registry, "ASSIST_OFF"),

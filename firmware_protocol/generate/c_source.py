@@ -43,7 +43,7 @@ def registry_source(registry: Registry) -> str:
             f"    {{{low.image_offset}, {high.image_offset}, 0x{high.id:04x},"
             f" EBL_VIOLATION_{order.violation}}},"
         ]
-    lines += ["};", "", *_bands(registry), *_retired(registry)]
+    lines += ["};", "", *_bands(registry)]
     lines += ["const ebl_channel ebl_channels[EBL_CHANNEL_COUNT] = {"]
     lines += [f"    {{{row.id}, {float_literal(row.scale)}}}," for row in registry.channels]
     lines += ["};", ""]
@@ -86,17 +86,6 @@ def _bands(registry: Registry) -> list[str]:
             f"     {float_literal((band.within_pct or 0.0) / 100)},"
             f" {float_literal(band.within or 0.0)}}},",
         ]
-    return [*lines, "};", ""]
-
-
-def _retired(registry: Registry) -> list[str]:
-    rows = {parameter.name: parameter for parameter in registry.parameters}
-    lines = ["const ebl_retired_row ebl_retired[EBL_RETIRED_COUNT] = {"]
-    lines += [
-        f"    {{0x{row.id:04x}, EBL_TYPE_{row.type.upper()}, 0x{rows[row.becomes].id:04x},"
-        f" {float_literal(row.factor)}}},"
-        for row in registry.retired
-    ]
     return [*lines, "};", ""]
 
 

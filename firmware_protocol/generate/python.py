@@ -14,7 +14,6 @@ LAYOUT_NAMES = (
     "Message",
     "Order",
     "Parameter",
-    "Retired",
 )
 
 
@@ -152,12 +151,7 @@ def _tables(registry: Registry) -> list[str]:
     lines += [")", "", "BANDS: tuple[Band, ...] = ("]
     lines += [line for band in registry.bands for line in _band(band)]
     lines += [")", "BAND_BY_NAME = {band.parameter: band for band in BANDS}", ""]
-    lines += ["RETIRED: tuple[Retired, ...] = ("]
-    lines += [
-        f'    Retired(0x{r.id:04X}, "{r.name}", "{r.type}", "{r.becomes}", {r.factor!r}),'
-        for r in registry.retired
-    ]
-    lines += [")", "", "CHANNELS: tuple[Channel, ...] = ("]
+    lines += ["CHANNELS: tuple[Channel, ...] = ("]
     lines += [f"    {_channel(channel)}," for channel in registry.channels]
     lines += [")", "CHANNEL_BY_NAME = {channel.name: channel for channel in CHANNELS}"]
     lines += ["CHANNEL_BY_ID = {channel.id: channel for channel in CHANNELS}", ""]

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from firmware_protocol.generate.registry import Registry, load
-from firmware_protocol.generate.tables import SIZES, BadRegistry
+from firmware_protocol.generate.tables import BadRegistry
 
 FOLDER = Path(__file__).resolve().parents[1]
 PROJECT = FOLDER.parent / "pyproject.toml"
@@ -73,41 +73,17 @@ def check(released: Raw, registry: Registry) -> None:
 
 def _check_parameters(version: str, old: Raw, registry: Registry, raw: Raw) -> None:
     now = {row["id"]: row for row in raw["parameter"]}
-    retired = {row.id for row in registry.retired}
-    greatest = max(row["id"] for row in [*old["parameter"], *old.get("retired", [])])
     known = {row["id"] for row in old["parameter"]}
-    successors = {row.becomes for row in registry.retired}
-    for row in registry.parameters:
-        if row.id not in known and row.id <= greatest and row.name not in successors:
+    greatest = max(known)
+    for parameter in registry.parameters:
+        if parameter.id not in known and parameter.id <= greatest:
             raise BadRegistry(
-                f"{row.name}: its id 0x{row.id:04X} must be above 0x{greatest:04X}, the greatest "
-                f"of release {version}; ids only grow, so that an image of that release stays the "
-                "beginning of a later one"
+                f"{parameter.name}: its id 0x{parameter.id:04X} must be above 0x{greatest:04X}, "
+                f"the greatest of release {version}; ids only grow, so that an image of that "
+                "release stays the beginning of a later one"
             )
-    for row in old.get("retired", []):
-        if row["id"] not in retired:
-            raise BadRegistry(f"{row['name']}: retired before release {version}, and stays so")
     for row in old["parameter"]:
-        if row["id"] not in retired:
-            _check_same("parameter", PARAMETER_KEEPS, row, now.get(row["id"]), version)
-    _check_places(version, old, registry, retired)
-
-
-def _check_places(version: str, old: Raw, registry: Registry, retired: set[int]) -> None:
-    """That a retired parameter's place was taken by one of its size."""
-    offset = 0
-    places = {row.id: row.image_offset for row in registry.parameters}
-    for row in old["parameter"]:
-        count = 1
-        for size in row.get("shape", []):
-            count *= size
-        if row["id"] not in retired and places[row["id"]] != offset:
-            raise BadRegistry(
-                f"{row['name']}: it was at byte {offset} of the image in release {version}, and is "
-                f"at {places[row['id']]}; what follows a retired parameter takes its id plus one "
-                "and its size"
-            )
-        offset += count * (row.get("length") or SIZES[row["type"]])
+        _check_same("parameter", PARAMETER_KEEPS, row, now.get(row["id"]), version)
 
 
 def _check_messages(version: str, old: Raw, raw: Raw) -> None:

@@ -16,7 +16,6 @@ def filled(text: str, registry: Registry) -> str:
         "messages": _messages(registry),
         "events": _events(registry),
         "parameters": _parameters(registry),
-        "retired": _retired(registry),
         "channels": _channels(registry),
         "faults": _faults(registry),
     }
@@ -92,14 +91,6 @@ def _band(band: Band) -> str:
         return f", band of {band.within_pct:g} % around {band.around}"
     through = f" through {band.times}" if band.times else ""
     return f", band of {band.within:g} {band.unit} around {band.around}{through}"
-
-
-def _retired(registry: Registry) -> list[str]:
-    lines = ["| id | parameter | type | is now | times |", "|---|---|---|---|---|"]
-    return lines + [
-        f"| 0x{row.id:04X} | {row.name} | {row.type} | {row.becomes} | {row.factor:.9g} |"
-        for row in registry.retired
-    ]
 
 
 def _channels(registry: Registry) -> list[str]:

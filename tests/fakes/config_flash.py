@@ -1,19 +1,14 @@
 """The configuration in a unit's flash, read and written by hand: what SPEC.md says of slots.
 
-EBL3: a header twice, three state words, four records of items by parameter id. EBL2, of earlier
-firmware: one image under one check value.
+EBL3: a header twice, three state words, four records of items by parameter id.
 """
 
 from __future__ import annotations
 
-import base64
-import json
 import struct
 import zlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
 
 from firmware_protocol import parameters
 from firmware_protocol._generated import PARAMETER_BY_ID, PARAMETERS
@@ -26,9 +21,6 @@ AT_CONFIRMED, AT_VOID, AT_TABLE, AT_COPY, AT_RECORDS = 28, 32, 36, 68, 124
 AT_PROVISIONAL = 24
 HEADER_BYTES = 24
 WRITTEN, ERASED = bytes(4), b"\xff" * 4
-
-OLD_FILES = Path(__file__).parents[1] / "unit/sim_device_app/flash_files/ebl2.json"
-AT_OLD_IMAGE = 36
 
 
 @dataclass(frozen=True)
@@ -101,13 +93,3 @@ def image_at(flash: bytes, at: int) -> bytes:
 def is_written(word: bytes) -> bool:
     """Whether a state word counts: two of its bits are cleared."""
     return (~int.from_bytes(word, "little") & 0xFFFFFFFF).bit_count() > 1
-
-
-def old_files() -> dict[str, dict[str, Any]]:
-    """Flash of units of the time of EBL2, and what they read in it: `flash`, `generation`, `values`
-    (id -> bytes as in their image), `distance_m`, `operating_s`."""
-    files = json.loads(OLD_FILES.read_text(encoding="utf-8"))
-    for file in files.values():
-        file["flash"] = zlib.decompress(base64.b64decode(file["flash"]))
-        file["values"] = {int(i, 16): bytes.fromhex(v) for i, v in file["values"].items()}
-    return dict(files)

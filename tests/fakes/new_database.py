@@ -1,6 +1,6 @@
 """A new SQLite database as a copy of one that the migrations made, once in each test process.
 
-Hundreds of tests open a store of their own; nineteen migrations for each take longer than most of
+Hundreds of tests open a store of their own; making the tables for each takes longer than most of
 them. Databases that are not new, and those of other engines, are migrated as ever.
 """
 

@@ -16,7 +16,6 @@ import pytest
 
 from backend.store import open_store
 from backend.store.upkeep.check import check_store
-from firmware_protocol.retired import with_words_of_today
 from tests.fakes.server import ServerHere
 from tests.releases.make import BYTES_MAX, CHANGED, NAME, REASON, UNIT, lived, zeros
 
@@ -111,12 +110,9 @@ def test_the_server_starts_on_it_and_the_unit_keeps_its_settings(
         # Releases up to 0.5 had no calibrations and did not watch the zero.
         jobs = [server.get(f"/calibrations/{one['id']}") for one in told.get("calibrations", ())]
         seen = zeros(server, device)
-        # Releases up to 0.4 had no library of one's own.
-        own = {one["id"]: server.get(f"/library/{one['id']}") for one in told.get("library", ())}
+        own = {one["id"]: server.get(f"/library/{one['id']}") for one in told["library"]}
 
-    # Versions up to 0.2 spelled choices in upper case: read as today, they are the same.
-    today = with_words_of_today(told["parameters"])
-    kept = {name: value for name, value in today.items() if name in parameters}
+    kept = {name: value for name, value in told["parameters"].items() if name in parameters}
     assert set(CHANGED) <= set(kept)
     assert {name: parameters[name] for name in kept} == kept
     assert parameters["fuzzy_inference"] == "mamdani_centroid"
@@ -137,4 +133,4 @@ def test_the_server_starts_on_it_and_the_unit_keeps_its_settings(
     assert [one for one in told.get("zeros", ()) if one not in seen] == []
     for one in series:
         assert one["channels"][0]["max"]
-    assert own == {one["id"]: one["document"] for one in told.get("library", ())}
+    assert own == {one["id"]: one["document"] for one in told["library"]}

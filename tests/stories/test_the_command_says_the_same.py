@@ -6,7 +6,6 @@ Exit 0 done, 1 refused with the reason, 2 wrong usage (contract, Commands).
 from __future__ import annotations
 
 import json
-import math
 import signal
 import subprocess
 import sys
@@ -155,23 +154,6 @@ def test_a_file_for_another_unit_changes_nothing_and_says_why(
     assert restore.returncode != 0
     assert says in restore.stderr
     assert server.get(f"/devices/{device}/config") == before
-
-
-def test_a_backup_of_an_older_unit_is_restored_and_says_what_became_of_the_wheel(
-    server: SpindleServer, device: str, tmp_path: Path
-) -> None:
-    kept = tmp_path / "old.json"
-    identity = server.get(f"/devices/{device}")["identity"]
-    values = {"wheel_radius_m": 0.34, "gear_ratio": 40.34}
-    kept.write_text(json.dumps({"identity": identity, "parameters": values}))
-
-    restore = spindle(server, "device", "restore", kept)
-    value = spindle(server, "device", "get", "wheel_circumference_m", "--json")
-
-    assert restore.returncode == 0, restore.stderr
-    assert "wheel_radius_m 0.34 is wheel_circumference_m 2.13628 now" in restore.stdout
-    found = json.loads(value.stdout)["parameters"]["wheel_circumference_m"]
-    assert found == pytest.approx(2 * math.pi * 0.34, rel=1e-6)
 
 
 def test_a_refused_value_is_named_and_ends_with_one(server: SpindleServer, device: str) -> None:

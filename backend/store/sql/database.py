@@ -37,6 +37,8 @@ Result = TypeVar("Result")
 
 # The newest migration; a test holds it against the files in migrations/versions.
 HEAD_REVISION = "0019"
+# What is opened beside it: nothing yet, and the schema of release 0.5.
+OLDER_REVISIONS = (None, "0011")
 # Bounds the memory of writes that wait for a slow disk: about 256 one-second tails.
 WRITES_WAITING_MAX = 256
 BUSY_TIMEOUT_MS = 10_000
@@ -293,9 +295,20 @@ def outside_transaction(engine: Engine, statement: str) -> object:
 
 
 def migrate(engine: Engine, url: str) -> None:
-    """Bring the schema to `HEAD_REVISION`; alembic is loaded only when there is work to do."""
-    if current_revision(engine) == HEAD_REVISION:
+    """Bring the schema to `HEAD_REVISION`; alembic is loaded only when there is work to do.
+
+    Raises StoreError for a schema of a newer version, and of one before 0.5.
+    """
+    found = current_revision(engine)
+    if found == HEAD_REVISION:
         return
+    if found not in OLDER_REVISIONS:
+        raise StoreError(
+            f"The database {shown(url)} has schema {found}, which this Spindle does not know: a "
+            "newer version wrote it, or one before 0.5. Nothing was changed. Open it with the "
+            "version that wrote it, or bring its rides into a new database with `spindle store "
+            "rebuild`."
+        )
     from alembic import command
     from alembic.config import Config
 

@@ -92,13 +92,11 @@ def _value_of(row: ParameterRow, count: int) -> Value:
 TABLE = ParameterTable(
     rows=ROWS,
     free_of=lambda name, config: None,
-    not_a_parameter=lambda name: f"{name} is not a parameter of this unit.",
     faults_of=_faults_of,
     rounded=lambda config: {
         row.name: _value_of(row, _count_of(row, config[row.name])) for row in ROWS
     },
     crc32_of=_crc32_of,
-    respelled=dict,
 )
 
 

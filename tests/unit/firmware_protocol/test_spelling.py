@@ -17,7 +17,7 @@ from firmware_protocol._generated import (
     LimitFlags,
     Market,
 )
-from firmware_protocol.parameter_values import choices_of
+from firmware_protocol.parameter_values import choices_of, in_one_spelling
 from firmware_protocol.parameters import (
     default_config,
     pack_image,
@@ -25,7 +25,6 @@ from firmware_protocol.parameters import (
     unpack_image,
     violations,
 )
-from firmware_protocol.retired import brought_forward
 from firmware_protocol.spelling import RULE_LABELS, member_of, word_of, words_of
 
 OLD = {
@@ -79,13 +78,13 @@ def test_the_old_spelling_is_the_same_value_for_the_unit() -> None:
 
 
 def test_an_old_backup_becomes_today_s_and_nothing_is_said_of_it() -> None:
-    assert brought_forward(configured(OLD)) == (configured(NEW), [])
+    assert in_one_spelling(configured(OLD)) == configured(NEW)
 
 
 def test_a_text_is_left_as_it_was_typed() -> None:
     typed = configured({"mode_names": ["OFF", "Eco", "FUZZY", "", "NB"]})
 
-    assert brought_forward(typed)[0]["mode_names"] == ["OFF", "Eco", "FUZZY", "", "NB"]
+    assert in_one_spelling(typed)["mode_names"] == ["OFF", "Eco", "FUZZY", "", "NB"]
     assert unpack_image(pack_image(typed))["mode_names"] == ["OFF", "Eco", "FUZZY", "", "NB"]
 
 
@@ -93,7 +92,7 @@ def test_a_text_is_left_as_it_was_typed() -> None:
 def test_what_is_no_choice_stays_as_it_is_and_is_refused_with_the_words_of_today(
     wrong: Any,
 ) -> None:
-    kept, _ = brought_forward({"fuzzy_inference": wrong})
+    kept = in_one_spelling({"fuzzy_inference": wrong})
     (violation,) = violations(configured({"fuzzy_inference": wrong}))
 
     assert kept["fuzzy_inference"] in (wrong, ["mamdani_centroid"])

@@ -6,7 +6,6 @@ single bit of it flipped (of which `make test` flips every eleventh). A unit is 
 configuration, its faults and what its motor does at a speed above a walking pace.
 """
 
-import math
 import struct
 
 import numpy as np
@@ -15,10 +14,8 @@ from sim_device.firmware.python._native import lib
 
 from firmware_protocol import parameters
 from firmware_protocol._generated import (
-    PARAMETER_BY_ID,
     PARAMETER_BY_NAME,
     Access,
-    CountersRequest,
     Event,
     EvtFaultClearRequest,
     FaultFlags,
@@ -26,19 +23,11 @@ from firmware_protocol._generated import (
 )
 from tests import counts
 from tests.fakes.bench_unit import FLASH_BLOCK_BYTES, BenchUnit
-from tests.fakes.config_flash import (
-    AT_RECORDS,
-    Item,
-    items_of,
-    old_files,
-    records_at,
-    slot,
-)
+from tests.fakes.config_flash import AT_RECORDS, Item, items_of, records_at, slot
 from tests.fakes.maker import Maker, challenged, commit, provision, respond, staged
 
 JAPAN = {"market": "japan", "assist_cutoff_kmh": 18.0, "sensor_offset_counts": 120.0}
 UNKNOWN_ID = 0x7F00
-WHEEL_RADIUS = 0x0503
 NOTCHED = 400.0
 WALKING_KMH = 6.0
 ENOUGH_S = 1.5
@@ -157,47 +146,6 @@ def test_a_market_this_firmware_does_not_know_is_not_taken_for_another() -> None
     assert assist_at(unit, 3.0) == 0.0
 
 
-@pytest.mark.parametrize("name", list(old_files()))
-def test_flash_of_earlier_firmware_is_read(name: str) -> None:
-    old = old_files()[name]
-    unit = BenchUnit(provisioned=False)
-    unit.flash()[:] = np.frombuffer(old["flash"], np.uint8)
-    assert lib.bench_provision(unit.board) == 0
-    unit.boot()
-
-    generation, image = unit.read_image()
-
-    counters = unit.ask(CountersRequest()).message
-    assert generation == old["generation"]
-    assert (counters.distance_m, counters.operating_s) == (old["distance_m"], old["operating_s"])
-    assert unit.faults() == 0
-    config, radius_m = unit.config(), struct.unpack("<f", old["values"].pop(WHEEL_RADIUS))[0]
-    assert config["wheel_circumference_m"] == pytest.approx(2 * math.pi * radius_m, rel=1e-6)
-    # What the bike had is what its factory measured, for all that anybody knows.
-    for name in ("wheel_circumference_m", "sensor_gain_nm_per_count", "sensor_offset_counts"):
-        assert config[f"{name}_factory"] == config[name]
-    for number, values in old["values"].items():
-        parameter = PARAMETER_BY_ID[number]
-        assert image[parameter.image_offset :][: parameter.size] == values, parameter.name
-    assert unit.write({"mode_ratios": (0.0, 0.25, 0.5, 1.0, 1.5)}).status == Status.OK
-    before = unit.read_image()
-    unit.boot()
-    assert unit.read_image() == before
-
-
-def test_the_lock_of_earlier_firmware_still_knows_its_maker() -> None:
-    old = old_files()["second_older"]
-    unit = BenchUnit(provisioned=False)
-    unit.flash()[:] = np.frombuffer(old["flash"], np.uint8)
-    unit.boot()
-
-    transaction, image = staged(unit, {"assist_cutoff_kmh": 24.0})
-    token = Maker().sign(challenged(unit, Access.DEALER, image))
-
-    assert respond(unit, transaction, token).status == Status.OK
-    assert commit(unit, transaction, image).status == Status.OK
-
-
 def told_or_same(unit: BenchUnit, before: tuple[int, bytes]) -> bool:
     """The configuration is what it was, or the unit says that it is not and holds back."""
     if unit.read_image() == before and unit.faults() == 0:
@@ -231,26 +179,6 @@ def test_no_flipped_bit_of_a_slot_changes_anything_without_a_word(copies: int) -
     assert flips_felt
     assert min(flips_felt) >= AT_RECORDS
     assert max(flips_felt) < len(new)
-
-
-@pytest.mark.large_count
-@pytest.mark.board_long
-@pytest.mark.parametrize("name", ["new", "second_newer", "second_older"])
-@pytest.mark.slow
-def test_no_flipped_bit_of_an_old_slot_changes_anything_without_a_word(name: str) -> None:
-    flash = np.frombuffer(old_files()[name]["flash"], np.uint8)
-    unit = BenchUnit(provisioned=False)
-    unit.flash()[:] = flash
-    unit.boot()
-    before = unit.read_image()
-    used = [at for at in range(2 * FLASH_BLOCK_BYTES) if flash[at] != 0xFF]
-
-    for nth in range(0, 8 * len(used), counts.stride()):
-        place, bit = used[nth // 8], nth % 8
-        unit.flash()[:] = flash
-        unit.flash()[place] ^= np.uint8(1 << bit)
-        unit.boot()
-        assert told_or_same(unit, before), (place, bit)
 
 
 @pytest.mark.parametrize("record", ["MARKET", "FACTORY", "CALIBRATION", "TUNABLE"])

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import json
 import os
-import sqlite3
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -192,7 +191,7 @@ def test_a_hundred_rides_come_back_whatever_happened_to_the_database(
 
     report = rebuild_store(*urls(folder))
 
-    assert (report.rides, report.lacking, report.not_taken) == (100, {}, {})
+    assert (report.rides, report.lost_words, report.not_taken) == (100, {}, {})
     assert report.originals_without_ride == []
     assert report.store_id == identity
     assert check_store(*urls(folder)).is_fine
@@ -279,8 +278,6 @@ def test_damaged_rides_are_told_and_the_others_come_back(hundred: Path, tmp_path
     "damage",
     [
         b"{",
-        b'{"facts": null}',
-        b'{"facts": [1]}',
         b'{"name": null}',
         b'{"notes": 5}',
         b'{"name": "\\ud800"}',
@@ -300,80 +297,9 @@ def test_a_damaged_sidecar_costs_the_words_and_says_so(tmp_path: Path, damage: b
     report: Rebuilt = rebuild_store(*urls(tmp_path))
 
     assert report.rides == 1
-    assert sidecar_key(key) in report.lacking[key][0]
+    assert sidecar_key(key) in report.lost_words[key]
     with open_store(*urls(tmp_path)) as store:
         assert store.rides.patch(1, name="Alps").name == "Alps"
-
-
-def make_old(folder: Path, keys: list[str]) -> None:
-    """Rewrites rides' files as version 1 had them, and the database as of then."""
-    import hashlib
-
-    import pyarrow.parquet as pq
-
-    with sqlite3.connect(folder / "spindle.db") as database:
-        for key in keys:
-            path = folder / "objects" / key
-            table = pq.read_table(path)
-            facts = json.loads(table.schema.metadata[b"spindle"])
-            old_names = ("started_us", "period_us", "gear_ratio", "device_serial")
-            old = {"schema_version": 1, **{name: facts[name] for name in old_names}}
-            path.unlink()
-            (folder / "objects" / sidecar_key(key)).unlink(missing_ok=True)
-            table = table.replace_schema_metadata({"spindle": json.dumps(old)})
-            pq.write_table(table, folder / "old", row_group_size=16384)
-            data = (folder / "old").read_bytes()
-            sha256 = hashlib.sha256(data).hexdigest()
-            new = f"rides/{sha256[:2]}/{sha256}.parquet"
-            (folder / "objects" / new).parent.mkdir(parents=True, exist_ok=True)
-            (folder / "objects" / new).write_bytes(data)
-            database.execute(
-                "UPDATE ride SET object_key = ?, object_sha256 = ?, object_bytes = ? "
-                "WHERE object_key = ?",
-                (new, sha256, len(data), key),
-            )
-        database.execute("DELETE FROM store_identity")
-    database.close()
-    (folder / "objects" / IDENTITY).unlink()
-
-
-def two_old_rides(folder: Path) -> None:
-    with open_store(*urls(folder)) as store:
-        keys = [str(add_recorded(store, 1).object_key), str(add_imported(store, 2).object_key)]
-        store.rides.patch(1, name="Alps")
-    make_old(folder, keys)
-
-
-def test_rides_of_older_files_come_back_with_what_they_have_and_the_rest_is_named(
-    tmp_path: Path,
-) -> None:
-    two_old_rides(tmp_path)
-    (tmp_path / "spindle.db").unlink()
-
-    report = rebuild_store(*urls(tmp_path))
-
-    assert report.rides == 2
-    for lacks in report.lacking.values():
-        assert {"origin", "context", "events", "completeness", "name", "original"} <= set(lacks)
-    with open_store(*urls(tmp_path)) as store:
-        imported, recorded = store.rides.list().items
-        assert (recorded.origin, recorded.context.device_serial) == ("recorded", "SP-1")
-        assert (recorded.context.unit_key, recorded.bike_id) == ("ebl:SP-1", 1)
-        assert (imported.context.unit_key, imported.bike_id) == (None, None)
-        assert recorded.completeness == pytest.approx(1 - 1 / ROWS)
-        assert (imported.origin, imported.period_us) == ("imported", None)
-        assert recorded.summary is not None
-
-
-def test_adopting_an_older_store_writes_down_what_its_files_do_not_tell(tmp_path: Path) -> None:
-    two_old_rides(tmp_path)
-    before = all_rides(tmp_path)
-    (tmp_path / "spindle.db").unlink()
-
-    report = rebuild_store(*urls(tmp_path))
-
-    assert (report.rides, report.lacking) == (2, {})
-    assert all_rides(tmp_path) == before
 
 
 def test_an_original_that_no_ride_names_is_listed(tmp_path: Path) -> None:

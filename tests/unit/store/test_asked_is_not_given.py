@@ -14,17 +14,12 @@ from pathlib import Path
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
-from alembic import command
-from alembic.config import Config
-from sqlalchemy import create_engine
 
-import backend.store
 from backend.core.channels import ChannelSpec
 from backend.core.ride import Ride, RideContext
 from backend.formats.tables import read_table
 from backend.rides.service import Rides
 from backend.store import Store
-from tests.unit.conftest import OpenStore
 from tests.unit.store.ride_data import PERIOD_US, STARTED_US
 
 ROWS = 1000
@@ -66,32 +61,6 @@ def test_what_a_unit_of_before_asked_is_no_energy_and_what_one_of_now_gave_is(
     assert motor_figures(before) == (None, None, None, None)
     assert motor_figures(now)[0] == pytest.approx(MOTOR_WH, rel=1e-3)
     assert "motor_power_w" not in [channel.name for channel in before.offered]
-
-
-def test_a_database_of_before_loses_the_energy_that_was_only_asked(
-    tmp_path: Path, reopen: OpenStore
-) -> None:
-    store = reopen()
-    rides = [ridden(store, NM, RPM), ridden(store, NM, RPM, ASKED), ridden(store, NM, TOLD_W)]
-    kept = motor_figures(rides[2])
-    store.close()
-    config = Config()
-    migrations = Path(backend.store.__file__).parent / "sql" / "migrations"
-    config.set_main_option("script_location", str(migrations))
-    engine = create_engine(f"sqlite:///{tmp_path}/spindle.db")
-    with engine.begin() as connection:
-        config.attributes["connection"] = connection
-        command.downgrade(config, "0006")
-        connection.exec_driver_sql(
-            "UPDATE ride_summary SET motor_wh = 9, motor_excluded_s = 0, motor_power_w_mean = 9, "
-            f"motor_power_w_max = 9 WHERE ride_id IN ({rides[0].id}, {rides[1].id})"
-        )
-    engine.dispose()
-
-    again = reopen()
-    figures = [motor_figures(again.rides.get(ride.id)) for ride in rides]
-
-    assert figures == [(None, None, None, None), (9.0, 0.0, 9.0, 9.0), kept]
 
 
 def test_an_export_names_what_its_motor_torque_is(store: Store, tmp_path: Path) -> None:

@@ -6,10 +6,12 @@ compiled, not run.
 
 from __future__ import annotations
 
+import sqlite3
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
 from alembic import command
 from alembic.autogenerate import compare_metadata
 from alembic.config import Config
@@ -21,7 +23,8 @@ from sqlalchemy.schema import CreateTable
 
 import backend.store
 from backend.core.revision import Revision
-from backend.store import Store
+from backend.errors import StoreError
+from backend.store import Store, open_store
 from backend.store.sql.database import HEAD_REVISION
 from backend.store.sql.tables import metadata
 from backend.tuning.records import RevisionStore
@@ -47,45 +50,18 @@ def test_migrations_and_tables_agree_both_ways(tmp_path: Path) -> None:
     assert ScriptDirectory.from_config(config).get_current_head() == HEAD_REVISION
 
 
-def test_a_store_of_before_learns_which_originals_its_rides_live_on(tmp_path: Path) -> None:
-    config = Config()
-    config.set_main_option("script_location", str(MIGRATIONS))
-    engine = create_engine(f"sqlite:///{tmp_path}/schema.db")
-    ride = "(id, state, origin, name, notes, started_us, row_count, channels, context, gaps, "
-    upload = "(id, token, name, length, received, state, code, duplicate_of, object_key, "
-    with engine.begin() as connection:
-        config.attributes["connection"] = connection
-        command.upgrade(config, "0002")
-        for row in ("1, 'done', 'imported'", "2, 'done', 'recorded'"):
-            connection.exec_driver_sql(
-                f"INSERT INTO ride {ride} created_us) VALUES "
-                f"({row}, '', '', 0, 1, '[]', '{{}}', '[]', 0)"
-            )
-        for row in (
-            "1, 'made', 'a', 9, 9, 'complete', NULL, NULL, 'originals/a'",
-            "2, 'copy', 'a', 9, 9, 'complete', 'duplicate', 1, 'originals/a'",
-            "3, 'log', 'l', 9, 9, 'complete', 'filled', 2, 'originals/l'",
-            "4, 'beside', 'm', 9, 9, 'complete', 'duplicate', 2, 'originals/m'",
-            "5, 'refused', 'r', 9, 9, 'rejected', 'no_records', NULL, 'originals/r'",
-        ):
-            connection.exec_driver_sql(
-                f"INSERT INTO upload {upload} created_us, expires_us) VALUES ({row}, 0, 1)"
-            )
+def test_a_schema_that_is_not_known_is_refused_and_left_as_it_is(tmp_path: Path) -> None:
+    urls = (f"sqlite:///{tmp_path}/spindle.db", (tmp_path / "objects").as_uri())
+    open_store(*urls).close()
+    with sqlite3.connect(tmp_path / "spindle.db") as database:
+        database.execute("UPDATE alembic_version SET version_num = '0099'")
+    database.close()
+    before = (tmp_path / "spindle.db").read_bytes()
 
-        connection.exec_driver_sql("UPDATE ride SET upload_id = 1 WHERE id = 1")
-        command.upgrade(config, "head")
+    with pytest.raises(StoreError, match=r"schema 0099.*Nothing was changed.*store rebuild"):
+        open_store(*urls)
 
-        links = connection.exec_driver_sql("SELECT upload_id, ride_id, part FROM ride_source")
-        found = sorted(tuple(link) for link in links)
-        staying = connection.exec_driver_sql("SELECT id FROM upload WHERE expires_us IS NULL")
-        kept = sorted(staying.scalars())
-        going = connection.exec_driver_sql("SELECT min(expires_us) FROM upload").scalar_one()
-        last = connection.exec_driver_sql("SELECT last FROM ride_number").scalar_one()
-
-    assert found == [(1, 1, "made"), (3, 2, "filled"), (4, 2, "beside")]
-    assert kept == [1, 3, 4]
-    assert last == 2
-    assert going > 1_000_000_000_000_000
+    assert (tmp_path / "spindle.db").read_bytes() == before
 
 
 def test_every_table_can_be_made_on_postgresql() -> None:

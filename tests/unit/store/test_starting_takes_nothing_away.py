@@ -14,9 +14,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from alembic import command
-from alembic.config import Config
-from sqlalchemy import create_engine
 
 import backend.store
 from backend.core.ride import RideContext
@@ -245,18 +242,16 @@ def test_a_deletion_that_a_crash_cut_in_two_is_completed_and_not_put_aside(
 
 
 def without_identity(folder: Path) -> None:
-    """The store as a version before the identity left it: schema 2, no file in the folder."""
+    """Neither the folder nor the database says which store it is."""
     (folder / "objects" / IDENTITY).unlink()
-    config = Config()
-    config.set_main_option("script_location", str(MIGRATIONS))
-    engine = create_engine(f"sqlite:///{folder}/spindle.db")
-    with engine.begin() as connection:
-        config.attributes["connection"] = connection
-        command.downgrade(config, "0002")
-    engine.dispose()
+    with sqlite3.connect(folder / "spindle.db") as database:
+        database.execute("DELETE FROM store_identity")
+    database.close()
 
 
-def test_a_store_from_before_is_adopted_when_its_database_knows_every_object(used: Path) -> None:
+def test_a_store_without_identity_is_adopted_when_its_database_knows_every_object(
+    used: Path,
+) -> None:
     without_identity(used)
 
     with opened(used) as store:
@@ -268,7 +263,7 @@ def test_a_store_from_before_is_adopted_when_its_database_knows_every_object(use
         assert store.objects.identity() == identity
 
 
-def test_a_store_from_before_with_an_unknown_object_is_refused(used: Path) -> None:
+def test_a_store_without_identity_with_an_unknown_object_is_refused(used: Path) -> None:
     without_identity(used)
     stranger = used / "objects" / "originals" / "ff" / ("f" * 64)
     stranger.parent.mkdir(parents=True)

@@ -11,9 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from alembic import command
-from alembic.config import Config
-from sqlalchemy import create_engine, insert, update
+from sqlalchemy import insert, update
 
 import backend.store
 from backend.core.ride import Ride, RideContext
@@ -21,7 +19,6 @@ from backend.core.unit_key import bike_name, ebl_key, tells_unit, unit_key
 from backend.rebuild import rebuild_store
 from backend.store import SeenUnit, Sought, Store, open_store
 from backend.store.sql import tables as t
-from backend.tuning.records import RevisionStore
 from backend.units.records import UnitStore
 from tests.unit.conftest import OpenStore
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
@@ -164,69 +161,3 @@ def test_a_rebuilt_store_has_its_rides_on_their_units_and_bikes(tmp_path: Path) 
         after = [(ride.context.unit_key, ride.bike_id) for ride in store.rides.list().items]
         assert UnitStore(store.database).bike_of("bafang:name:Commuter") == 2
     assert after == before == [("ebl:SP-1", 1), (None, None), (named.unit_key, 2), ("ebl:SP-1", 1)]
-
-
-@pytest.mark.slow
-def test_a_database_of_before_has_every_ride_and_configuration_on_its_unit(
-    tmp_path: Path,
-) -> None:
-    config = Config()
-    config.set_main_option("script_location", str(MIGRATIONS))
-    engine = create_engine(f"sqlite:///{tmp_path}/spindle.db")
-    with engine.begin() as connection:
-        config.attributes["connection"] = connection
-        command.upgrade(config, "0005")
-        for statement in OLDER:
-            connection.exec_driver_sql(statement)
-    engine.dispose()
-
-    with open_store(f"sqlite:///{tmp_path}/spindle.db", (tmp_path / "objects").as_uri()) as store:
-        rides = {ride.id: ride for ride in store.rides.list().items}
-        revisions = RevisionStore(store.database).list("ebl:SP-1")
-        added = RevisionStore(store.database).append("ebl:SP-1", {"gear_ratio": 41.0})
-        with store.database.engine.connect() as connection:
-            on = connection.execute(t.bike_unit.select().order_by(t.bike_unit.c.bike_id)).all()
-            bikes = list(connection.execute(t.bike.select().order_by(t.bike.c.id)).all())
-            broken = connection.exec_driver_sql("PRAGMA foreign_key_check").all()
-
-    assert [(key, rides[key].context.unit_key, rides[key].bike_id) for key in sorted(rides)] == [
-        (1, "ebl:SP-1", 2),
-        (2, "ebl:SP-9", 1),
-        (3, None, None),
-    ]
-    assert rides[1].summary is not None
-    assert [(one.seq, one.reason, one.unit_key) for one in revisions] == [
-        (2, "teeth", "ebl:SP-1"),
-        (1, "found", "ebl:SP-1"),
-    ]
-    assert added.seq == 3
-    assert [(bike.id, bike.name) for bike in bikes] == [(1, "SP-9"), (2, "mid drive SP-1")]
-    # Nothing is older than the first ride or sight of a unit, and all are still on their bikes.
-    assert [(row.bike_id, row.unit_key, row.from_us, row.to_us) for row in on] == [
-        (1, "ebl:SP-9", 20, None),
-        (2, "ebl:SP-1", 10, None),
-    ]
-    assert broken == []
-
-
-RIDE = (
-    "INSERT INTO ride (id, device_serial, started_us, context, state, origin, name, notes, "
-    "row_count, channels, gaps, created_us, object_key) VALUES "
-)
-REVISION = (
-    "INSERT INTO config_revision (id, device_id, parent_id, seq, reason, body, sha256, changed, "
-    "author, state, created_us) VALUES "
-)
-OLDER = (
-    "INSERT INTO device VALUES (5, 'SP-1', 'mid drive', '1.2.0', 50, 60)",
-    f"{REVISION} (3, 5, NULL, 1, 'found', '{{}}', '', '[]', '', 'verified', 50)",
-    f"{REVISION} (4, 5, 3, 2, 'teeth', '{{}}', '', '[]', '', 'verified', 60)",
-    f"{RIDE} (1, 'SP-1', 10, '{{\"device_serial\": \"SP-1\"}}', 'done', 'recorded', 'Alps', '', 1, "
-    "'[]', '[]', 0, NULL)",
-    f"{RIDE} (2, 'SP-9', 20, '{{\"device_serial\": \"SP-9\"}}', 'done', 'imported', '', '', 1, "
-    "'[]', '[]', 0, NULL)",
-    f"{RIDE} (3, NULL, 30, '{{}}', 'done', 'imported', '', '', 1, '[]', '[]', 0, NULL)",
-    "INSERT INTO ride_summary (ride_id, duration_s) VALUES (1, 3.0)",
-    "INSERT INTO ride_lod (ride_id, step, payload) VALUES (1, 128, x'00')",
-    "UPDATE ride_number SET last = 3",
-)

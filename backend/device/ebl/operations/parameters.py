@@ -8,12 +8,11 @@ from collections.abc import Mapping
 from backend.device.configuration import Free, ParameterRow, ParameterTable, Value
 from backend.device.ebl.operations.violations import host_violations
 from backend.errors import FieldError
-from firmware_protocol._generated import BAND_BY_NAME, PARAMETERS, RETIRED, Access
+from firmware_protocol._generated import BAND_BY_NAME, PARAMETERS, Access
 from firmware_protocol.bands import band_limits
 from firmware_protocol.layout import Parameter
 from firmware_protocol.parameter_values import choices_of
 from firmware_protocol.parameters import default_config, pack_image, unpack_image
-from firmware_protocol.retired import with_words_of_today
 from firmware_protocol.spelling import word_of
 
 FACTORY = word_of(Access.FACTORY.name)
@@ -48,13 +47,6 @@ def free_of(name: str, config: Mapping[str, Value]) -> Free | None:
 PARAMETER_ROWS = tuple(_row(row, default_config()[row.name]) for row in PARAMETERS)
 
 
-def not_a_parameter(name: str) -> str:
-    """What is said of a name nothing is called; one of an older unit is told its name of today."""
-    said = f"{name} is not a parameter of this unit."
-    now = next((row for row in RETIRED if row.name == name), None)
-    return said if now is None else f"{said} It is {now.becomes} now: times {now.factor:.6g}."
-
-
 def faults_of(config: Mapping[str, Value]) -> list[FieldError]:
     """Everything that is wrong with a whole configuration, each element named."""
     return host_violations(config)
@@ -73,10 +65,8 @@ def image_crc32(config: Mapping[str, Value]) -> int:
 TABLE = ParameterTable(
     rows=PARAMETER_ROWS,
     free_of=free_of,
-    not_a_parameter=not_a_parameter,
     faults_of=faults_of,
     rounded=rounded,
     crc32_of=image_crc32,
-    respelled=with_words_of_today,
     factory=frozenset(row.name for row in PARAMETER_ROWS if row.access == FACTORY),
 )

@@ -15,6 +15,14 @@
 
 #define MAKERS ((1u << EBL_RECORD_MARKET) | (1u << EBL_RECORD_FACTORY))
 
+/* An item's elements, in flash at `address`. */
+typedef struct {
+    uint16_t id;
+    uint8_t count;
+    uint8_t length; /* of one */
+    size_t address;
+} config_item;
+
 static void count_up(uint8_t *counter)
 {
     if (*counter < UINT8_MAX) (*counter)++;
@@ -62,32 +70,9 @@ static int is_found(const config_tally *tally, uint16_t id)
     return (tally->found[row / 8] >> row % 8 & 1u) != 0;
 }
 
-/* Becomes another parameter's value, unless that is there itself. All of them are single floats. */
-static int retired_read(const hal *board, const config_item *item, uint8_t *image,
-                        config_tally *tally)
-{
-    uint8_t element[sizeof(float)];
-
-    for (size_t i = 0; i < EBL_RETIRED_COUNT; i++) {
-        const ebl_retired_row *row = &ebl_retired[i];
-        const ebl_parameter *parameter = ebl_parameter_find(row->becomes_id);
-
-        if (row->id != item->id || row->type != EBL_TYPE_F32) continue;
-        if (item->count != 1 || item->length != sizeof element || parameter == NULL) break;
-        if (is_found(tally, row->becomes_id)) return 0;
-        if (board->flash_read(board->context, item->address, element, sizeof element) < 0) {
-            return -1;
-        }
-        ebl_put_f32(element, ebl_get_f32(element) * row->factor);
-        found_note(tally, parameter);
-        element_take(parameter, element, image + parameter->image_offset, tally);
-        return 0;
-    }
-    count_up(&tally->dropped);
-    return 0;
-}
-
-int config_value_read(const hal *board, const config_item *item, uint8_t *image,
+/* Its value becomes the image's, as near as this firmware allows. Negative where the flash cannot
+ * be read. */
+static int value_read(const hal *board, const config_item *item, uint8_t *image,
                       config_tally *tally)
 {
     const ebl_parameter *parameter = ebl_parameter_find(item->id);
@@ -95,7 +80,8 @@ int config_value_read(const hal *board, const config_item *item, uint8_t *image,
 
     if (parameter == NULL || parameter->length != item->length ||
         parameter->length > sizeof element) {
-        return retired_read(board, item, image, tally);
+        count_up(&tally->dropped);
+        return 0;
     }
     found_note(tally, parameter);
     if (item->count != parameter->count) count_up(&tally->clamped);
@@ -129,7 +115,7 @@ int config_items_read(const hal *board, size_t address, size_t length, uint8_t *
         item.count = head[2];
         item.length = head[3];
         item.address = address + at;
-        if (config_value_read(board, &item, image, tally) < 0) return -1;
+        if (value_read(board, &item, image, tally) < 0) return -1;
         at += values_length;
     }
     return 0;

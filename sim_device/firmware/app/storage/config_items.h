@@ -28,19 +28,6 @@ typedef struct {
 int config_items_read(const hal *board, size_t address, size_t length, uint8_t *image,
                       config_tally *tally);
 
-/* An item's elements, in flash at `address`. */
-typedef struct {
-    uint16_t id;
-    uint8_t count;
-    uint8_t length; /* of one */
-    size_t address;
-} config_item;
-
-/* Its value becomes the image's, as near as this firmware allows; of a retired parameter, the value
- * of what it became. Negative where the flash cannot be read. */
-int config_value_read(const hal *board, const config_item *item, uint8_t *image,
-                      config_tally *tally);
-
 /* How the readings of a sensor as drawn move with its temperature: what its maker knows of every
  * one before it is calibrated. */
 void config_sensor_as_drawn(ebl_config *config);

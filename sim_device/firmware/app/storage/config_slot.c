@@ -2,10 +2,9 @@
 
 #include <string.h>
 
-#include "config_slot_ebl2.h" // ebl2_is_whole, ebl2_image_read
-#include "ebl_bytes.h"        // ebl_get_u32, ebl_put_u32
-#include "ebl_frame.h"        // ebl_crc32
-#include "flash_verify.h"     // STORAGE_OK, flash_program_verified, flash_crc32
+#include "ebl_bytes.h"    // ebl_get_u32, ebl_put_u32
+#include "ebl_frame.h"    // ebl_crc32
+#include "flash_verify.h" // STORAGE_OK, flash_program_verified, flash_crc32
 
 #define SLOT_MAGIC 0x334C4245u /* "EBL3" */
 #define SLOT_VERSION 1
@@ -126,12 +125,6 @@ void config_slot_look(const hal *board, uint8_t slot_index, config_slot *slot)
     }
     if (summary_find(board, address, head, slot)) {
         slot->state = slot_state(head);
-    } else if (ebl2_is_whole(board, address, head)) {
-        slot->is_old = 1;
-        slot->generation = ebl2_generation(head);
-        slot->erases = ebl2_erases(head);
-        slot->image_length = ebl2_image_length(head);
-        slot->state = slot_state(head);
     } else {
         slot->is_lost = slot_state(head) == EBL_SLOT_STATE_CONFIRMED;
     }
@@ -154,7 +147,7 @@ static size_t record_find(const hal *board, uint8_t slot_index, const config_slo
     size_t address = record_address(board, slot_index, slot, record);
     uint32_t crc = 0;
 
-    if (slot->state == EBL_SLOT_STATE_EMPTY || slot->is_lost || slot->is_old) return 0;
+    if (slot->state == EBL_SLOT_STATE_EMPTY || slot->is_lost) return 0;
     if (own->crc32 != wanted->crc32 || own->length != wanted->length) return 0;
     if (wanted->version != RECORD_VERSION) return 0;
     if (address + wanted->length > slot_address(board, slot_index) + config_slot_stride(board)) {
@@ -170,13 +163,6 @@ uint8_t config_slot_read(const hal *board, uint8_t slot_index, const config_slot
     uint8_t twin_index = slot_index == 0 ? 1 : 0;
     uint8_t lost = 0;
 
-    if (slot->is_old) {
-        size_t address = slot_address(board, slot_index);
-
-        return ebl2_image_read(board, address, slot->image_length, image, tally) < 0
-                   ? CONFIG_RECORDS_ALL
-                   : 0;
-    }
     for (size_t i = 0; i < CONFIG_RECORDS; i++) {
         const config_record *wanted = &slot->records[i];
         size_t address = record_find(board, slot_index, slot, i, wanted);

@@ -9,9 +9,7 @@
  *
  * A state word counts as written when two of its bits are: a bit that flips changes nothing, and
  * one that was cut in half is what its writer meant. A bit that flips in one copy of the header
- * leaves the other; one in a record leaves the twin slot's, if that is the same.
- *
- * "EBL2" of earlier firmware is read too: one image, one crc32 (config_slot_ebl2.h). */
+ * leaves the other; one in a record leaves the twin slot's, if that is the same. */
 #ifndef SPINDLE_CONFIG_SLOT_H
 #define SPINDLE_CONFIG_SLOT_H
 
@@ -35,12 +33,10 @@ typedef struct {
 typedef struct {
     uint8_t state;   /* ebl_slot_state */
     uint8_t is_lost; /* it counted, and nothing of it can be read */
-    uint8_t is_old;  /* written by firmware that kept one image instead of records */
     uint32_t generation;
     uint32_t erases;
     uint32_t worn_until_s; /* config/wear.h */
     config_record records[CONFIG_RECORDS];
-    uint16_t image_length; /* of an old one */
 } config_slot;
 
 /* Bytes from one slot to the next: whole blocks. 0 where the flash cannot hold two slots. */
