@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TypeVar, dataclass_transform
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from typing import Any, TypeVar, dataclass_transform
 
 Described = TypeVar("Described")
+Made = TypeVar("Made")
 
 # Every field is sent, missing is null: so each is required of an answer, also one with a default.
 CONFIG = {"use_attribute_docstrings": True, "json_schema_serialization_defaults_required": True}
@@ -20,3 +22,12 @@ def described(cls: type[Described]) -> type[Described]:
     """
     cls.__pydantic_config__ = CONFIG  # type: ignore[attr-defined]
     return dataclass(frozen=True)(cls)
+
+
+def from_members(kind: Callable[..., Made], body: Mapping[str, Any]) -> Made:
+    """A dataclass from the members it has; what a newer version wrote may have more.
+
+    Raises TypeError where one without a default is missing.
+    """
+    names = {field.name for field in fields(kind)}  # type: ignore[arg-type]
+    return kind(**{name: value for name, value in body.items() if name in names})

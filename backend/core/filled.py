@@ -7,30 +7,33 @@ nothing is made up between them. So a ride says of every stretch where its rows 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import Final, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from backend.core.channels import Values
+from backend.core.described import described
 
-UNIT_LOG = "unit_log"
+UNIT_LOG: Final = "unit_log"
 
 
-@dataclass(frozen=True, slots=True)
+@described
 class Filled:
-    """A stretch from another source, seconds since the ride's start.
+    """A stretch the recording lacked, filled from the unit's own log at the log's rate.
 
-    rows_lost: rows of the ride that lie in it; rows_filled: so many of them have samples now.
-    period_us: the source's own spacing. source: `unit_log`.
+    Of the `rows_lost` rows in it `rows_filled` have samples now; nothing was interpolated.
     """
 
     from_s: float
     to_s: float
     rows_lost: int
+    """Rows of the ride that lie in it."""
     rows_filled: int
+    """So many of them have samples now."""
     period_us: int
-    source: str = UNIT_LOG
+    """Spacing of the source's rows."""
+    source: Literal["unit_log"] = UNIT_LOG
 
     def rows(self, ride_period_us: int) -> tuple[int, int]:
         """First row and the one behind the last, of a ride with this spacing."""

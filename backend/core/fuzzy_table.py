@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
 from backend.errors import FieldError, InvalidRequest
 
-LABELS = ("NB", "NS", "ZO", "PS", "PB")
+Label = Literal["NB", "NS", "ZO", "PS", "PB"]
+LABELS: tuple[Label, ...] = ("NB", "NS", "ZO", "PS", "PB")
 """The five sets of every variable, from least to most; `NB` is the least gain, not a negative."""
 
 INFERENCES = ("mamdani_centroid", "weighted_average")
@@ -40,7 +41,8 @@ STEP_SHARE = np.float32(0.99)
 
 NAME_BYTES_MAX = 24
 
-POINT_FIELDS = tuple(RANGES)
+PointField = Literal["speed_points_kmh", "torque_rate_points", "gain_points"]
+POINT_FIELDS: tuple[PointField, ...] = ("speed_points_kmh", "torque_rate_points", "gain_points")
 PARAMETER_NAMES = {
     "name": "fuzzy_table_name",
     "inference": "fuzzy_inference",
@@ -80,7 +82,7 @@ class FuzzyTable:
     speed_points_kmh: tuple[float, ...]
     torque_rate_points: tuple[float, ...]
     gain_points: tuple[float, ...]
-    rules: tuple[tuple[str, ...], ...]
+    rules: tuple[tuple[Label, ...], ...]
 
     def __post_init__(self) -> None:
         faults = [

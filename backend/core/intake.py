@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
+
+from backend.core.described import described
 
 # Why a row is not in the ride.
 NO_TIME = "no_time"
@@ -12,25 +14,28 @@ CLOCK_JUMPED = "clock_jumped"
 NO_VALUE = "no_value"
 
 
-@dataclass(frozen=True)
+@described
 class Intake:
-    """Counts of one ride of a file: rows_read = rows_kept + rows_joined + all that was dropped.
+    """What became of every row and field of the file: kept, or counted here with the reason.
 
-    rows_joined: of one time, each with a part of the values. rows_spread: of one time with values
-    of their own, which stand evenly within it. rows_moved: how often the clock went back, and
-    rows were put in order. rows_dropped: by reason. values_dropped: by channel,
-    what no bike can do. fields_unread: by name, in how many rows: text, bytes and lists of numbers.
-    taken_as: what the file does not say, and was taken as: `time_zone`, `rows_per_second`, a
-    column's unit, as `start` where the date is from: `file_name`, or `none`, and as `clock` the
-    zone that its two clocks, one of UTC, are apart.
+    rows_read = rows_kept + rows_joined + the sum of rows_dropped.
     """
 
     rows_read: int = 0
     rows_kept: int = 0
     rows_joined: int = 0
+    """Of one time, each with a part of the values."""
     rows_spread: int = 0
+    """Of one time with values of their own; they stand evenly within it."""
     rows_moved: int = 0
+    """How often the clock went back."""
     rows_dropped: Mapping[str, int] = field(default_factory=dict)
+    """By reason: no_time, clock_not_set, clock_jumped, no_value."""
     values_dropped: Mapping[str, int] = field(default_factory=dict)
+    """By channel: what no bike can do, and single samples far from both neighbours."""
     fields_unread: Mapping[str, int] = field(default_factory=dict)
+    """By name, in how many rows: text, bytes and lists of numbers."""
     taken_as: Mapping[str, str] = field(default_factory=dict)
+    """What the file does not say, and what it was taken as: `time_zone`, `rows_per_second`, a
+    column's unit. `start`: where its date is from. `clock`: the zone that its two clocks, one of
+    UTC, are apart."""

@@ -10,6 +10,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from backend.core.described import described, from_members
+
 # More than any ride has; a file may say anything.
 LAPS_MAX, PAUSES_MAX, INSTRUMENTS_MAX = 1000, 2000, 64
 STATEMENTS_MAX, STATED_MAX = 16, 200
@@ -17,64 +19,62 @@ STATEMENTS_MAX, STATED_MAX = 16, 200
 LEAST_S = 1.0
 
 
-@dataclass(frozen=True, slots=True)
+@described
 class Lap:
-    """A part of the ride that was marked off.
-
-    trigger: `manual`, `time`, `distance`, `position`, `session_end`, `other`, None for untold.
-    timer_s, distance_m, calories_kcal: as the device counted them, None where it did not.
-    """
+    """A part of the ride that was marked off, in seconds after its start; null for untold."""
 
     from_s: float
     to_s: float
     trigger: str | None = None
+    """manual, time, distance, position, session_end, other; null for untold."""
     timer_s: float | None = None
+    """Time the device's timer ran."""
     distance_m: float | None = None
+    """As the device counted it; null where it did not."""
     calories_kcal: float | None = None
+    """As the device counted them; null where it did not."""
 
 
-@dataclass(frozen=True, slots=True)
+@described
 class Pause:
-    """The device's timer stood. by_rider: False for a device that stops by itself at a standstill,
-    None where the file does not tell."""
+    """The timer of the device that recorded stood."""
 
     from_s: float
     to_s: float
     by_rider: bool | None = None
+    """False when the device stopped by itself."""
 
 
-@dataclass(frozen=True, slots=True)
+@described
 class Instrument:
-    """The device that recorded, or one that it heard; None for what the file does not tell.
-
-    kind: `recorder`, or what it measures (`bike_power`, `heart_rate`, `light_electric_vehicle`).
-    battery_v, battery_status: of the instrument's own battery, the last that was told.
-    """
+    """The device that recorded, or one that it heard; null for what the file does not tell."""
 
     kind: str | None = None
+    """`recorder`, or what it measures: `bike_power`."""
     maker: str | None = None
     product: str | None = None
     serial_number: str | None = None
     software_version: str | None = None
     battery_v: float | None = None
+    """Of its own battery."""
     battery_status: str | None = None
+    """The last that was reported."""
 
 
-@dataclass(frozen=True, slots=True)
+@described
 class Stated:
-    """A figure as the device stated it: never one of ours, which are of the ride's own rows.
-
-    name: of FIT's profile or of the file. unit: "" for none, and where nothing tells it.
-    """
+    """A figure as the device that recorded stated it, by its own rules: none of `summary`."""
 
     name: str
+    """Of FIT's profile or of the file: `lev_battery_consumption`, `unknown_177`."""
     value: float
     unit: str = ""
+    """Empty for none, and where nothing tells it."""
 
 
-@dataclass(frozen=True, slots=True)
+@described
 class Statement:
-    """What the device stated of a whole session, which may reach beyond the ride."""
+    """What the device stated of one whole session, which may reach beyond the ride."""
 
     from_s: float
     to_s: float
@@ -111,7 +111,7 @@ def noted_from_json(body: Mapping[str, Any] | None) -> Noted:
 
 
 def _items(kind: type[Any], bodies: Sequence[Mapping[str, Any]]) -> tuple[Any, ...]:
-    return tuple(kind(**{n: body[n] for n in kind.__slots__ if n in body}) for body in bodies)
+    return tuple(from_members(kind, body) for body in bodies)
 
 
 def within(noted: Noted, started_s: float, duration_s: float) -> Noted:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any, Protocol, TypeAlias
 
+from backend.core.author import AuthorProof
 from backend.core.moments import utc
 
 Parameters: TypeAlias = Mapping[str, Any]
@@ -32,7 +33,7 @@ class Revision:
     changed: Sequence[Mapping[str, Any]]
     parameters: Parameters
     unit_key: str
-    author_proof: str | None = None
+    author_proof: AuthorProof | None = None
 
     @property
     def created_at(self) -> datetime:

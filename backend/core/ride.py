@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from backend.core._generated import MOVING_KMH
 from backend.core.channels import ChannelSpec, Counts, Values, channel_to_json
+from backend.core.described import described
 from backend.core.energy import (
     BATTERY_POWER,
     MOTOR_POWER,
@@ -49,21 +50,22 @@ class RideRows:
     counts: Mapping[str, Counts]
 
 
-@dataclass(frozen=True, slots=True)
+@described
 class Gap:
-    """A stretch without samples, seconds since the ride's start; rows_lost where it is known."""
+    """A stretch without samples; `rows_lost` where it is known."""
 
     from_s: float
     to_s: float
     rows_lost: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@described
 class RideSummary:
-    """The figures of a ride; None where the ride lacks the channel.
+    """What a ride comes to; null where the ride lacks the channel.
 
-    Energies are sums over the samples that are there; the `*_excluded_s` beside them say how much
-    time was left out. Means of cadence and torque count turning cranks only, power counts all.
+    Rider and motor energy are never added up. `*_excluded_s` is time without the channel. The
+    motor's energy and power are of the torque it delivered: null where the ride's
+    `motor_torque_meaning` is `demanded`, unless a file told the power itself.
     """
 
     duration_s: float
@@ -111,17 +113,18 @@ class RideContext:
     unit_key: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@described
 class RidePlace:
-    """Where a ride began. name: the nearest town's, country: ISO 3166 code of two letters.
-
-    zone: of the IANA database. is_loop: it ended where it began. None for what nobody knows.
-    """
+    """Where a ride began: the nearest town of GeoNames. Null for what nobody knows."""
 
     name: str | None = None
+    """The nearest town's."""
     country: str | None = None
+    """ISO 3166 code of two letters."""
     zone: str | None = None
+    """Of the IANA database: a local time is told by it."""
     is_loop: bool | None = None
+    """It ended where it began."""
 
 
 @dataclass(frozen=True)

@@ -9,18 +9,20 @@ tells their change. Nor is the clock: who recorded the ride tells that.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import Final, Literal
 
 import numpy as np
 
 from backend.core.channels import ChannelSpec, Counts
+from backend.core.described import described
 
-FAULT_SET = "fault_set"
-FAULT_CLEARED = "fault_cleared"
-ASSIST_MODE = "assist_mode"
-MARK = "mark"
-SETTINGS = "settings"
-CLOCK_SET = "clock_set"
+EventKind = Literal["fault_set", "fault_cleared", "assist_mode", "settings", "mark", "clock_set"]
+FAULT_SET: Final = "fault_set"
+FAULT_CLEARED: Final = "fault_cleared"
+ASSIST_MODE: Final = "assist_mode"
+MARK: Final = "mark"
+SETTINGS: Final = "settings"
+CLOCK_SET: Final = "clock_set"
 TOLD_ONLY = (MARK, SETTINGS, CLOCK_SET)
 KINDS = frozenset({FAULT_SET, FAULT_CLEARED, ASSIST_MODE, *TOLD_ONLY})
 # A loose plug makes thousands; they are in the rows all the same.
@@ -31,19 +33,16 @@ FAULTS_CHANNELS = {"fault_flags": 0, "fault_flags_high": 16}
 MODE_CHANNEL = "assist_mode"
 
 
-@dataclass(frozen=True, slots=True)
+@described
 class RideEvent:
-    """Something that happened, t_s seconds after the ride's start.
-
-    kind: `fault_set` or `fault_cleared` with the faults' bits as value, `assist_mode` with the
-    slot of the rider's switch; the first of these is the mode the ride began in. `mark` with its
-    number in the ride, from 1: somebody watched, and wanted to find this moment again. `settings`
-    with the CRC-32 of the configuration that is in force from then on. `clock_set` with how many
-    milliseconds the clock was set forward by, negative for back: it dates the ride from its start.
-    """
+    """A fault that came or went (value: bits of `fault_flags`), the mode chosen (its slot),
+    settings that came into force (CRC-32 of the configuration), a moment that somebody marked (its
+    number), or the host's clock set in mid-ride (by how many milliseconds, negative for back; the
+    ride is dated by the clock as it was set)."""
 
     t_s: float
-    kind: str
+    kind: EventKind
+    """The first `assist_mode` is the mode the ride began in."""
     value: int
 
 
@@ -107,7 +106,7 @@ def _time(event: RideEvent) -> float:
 
 def _one_a_moment(events: Sequence[RideEvent]) -> list[RideEvent]:
     """Faults that both channels show in the same row are one event."""
-    together: dict[tuple[float, str], RideEvent] = {}
+    together: dict[tuple[float, EventKind], RideEvent] = {}
     modes = []
     for event in events:
         if event.kind == ASSIST_MODE:
@@ -125,7 +124,10 @@ def _between(name: str, time_us: int, before: int | None, after: int) -> list[Ri
     if name == MODE_CHANNEL:
         return [RideEvent(t_s, ASSIST_MODE, after)]
     was, lowest = before or 0, FAULTS_CHANNELS[name]
-    pairs = ((FAULT_SET, (after & ~was) << lowest), (FAULT_CLEARED, (was & ~after) << lowest))
+    pairs: tuple[tuple[EventKind, int], ...] = (
+        (FAULT_SET, (after & ~was) << lowest),
+        (FAULT_CLEARED, (was & ~after) << lowest),
+    )
     return [RideEvent(t_s, kind, bits) for kind, bits in pairs if bits]
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from backend.core.described import described
 from backend.errors import FieldError
 
 Value: TypeAlias = "float | int | str | list[Value] | None"
@@ -81,13 +82,14 @@ class ParameterRow:
     of_the_unit: bool = False
 
 
-@dataclass(frozen=True)
+@described
 class Free:
-    """From where to where a value may be set without the maker's token, around the factory's."""
+    """Without the maker's token a value may be set from here to there."""
 
     min: float
     max: float
     around: str
+    """The parameter that holds what the factory measured."""
 
 
 @dataclass(frozen=True)

@@ -10,24 +10,25 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from backend.core.described import described
 from backend.core.zones import zone_of
 
 ROWS_PER_SECOND_MAX = 1000.0
 
 
-@dataclass(frozen=True)
+@described
 class TableColumn:
-    """One column of a table. channel: what it becomes, `time`, None for nothing known.
-
-    unit: as the header says it or the format defines it, None where it must be said. units: what
-    may be said then. samples: of the first rows.
-    """
+    """One column of a table."""
 
     name: str
     channel: str | None = None
+    """What it becomes, or `time`; null for nothing known."""
     unit: str | None = None
+    """As the table says it; null where it must be said."""
     units: tuple[str, ...] = ()
+    """What may be said; empty where nothing is asked."""
     samples: tuple[str, ...] = ()
+    """Of the first rows."""
 
 
 @dataclass(frozen=True)
@@ -45,14 +46,16 @@ class TableQuestion:
     columns: tuple[TableColumn, ...] = ()
 
 
-@dataclass(frozen=True)
+@described
 class TableAnswer:
-    """What was said. time_zone: an IANA name. units: by column. rows_per_second: of rows that
-    tell no time."""
+    """What was said before."""
 
     time_zone: str | None = None
+    """A name of the IANA database."""
     units: Mapping[str, str] = field(default_factory=dict)
+    """By column."""
     rows_per_second: float | None = None
+    """Of rows without a time."""
 
 
 def question_from_json(body: Mapping[str, Any]) -> TableQuestion:

@@ -27,6 +27,7 @@ from backend.core.ride_events import (
     FAULT_CLEARED,
     FAULT_SET,
     SETTINGS,
+    EventKind,
     RideEvent,
     settings_changes,
 )
@@ -69,7 +70,7 @@ LOGS_MAX = 64
 SPAN_S_MAX = 7 * 86_400
 PERIOD_US_MIN = 1_000
 PERIOD_US_MAX = 60_000_000
-EVENT_KINDS: dict[int, str] = {
+EVENT_KINDS: dict[int, EventKind] = {
     LogEvent.FAULT_SET: FAULT_SET,
     LogEvent.FAULT_CLEARED: FAULT_CLEARED,
     LogEvent.ASSIST_MODE: ASSIST_MODE,

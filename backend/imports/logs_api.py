@@ -6,8 +6,8 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Response, status
 
-from backend.imports.models import ErasedLog, LogDownload, UnitLogs
-from backend.imports.unit_logs import Collect
+from backend.imports.models import LogDownload, UnitLogs
+from backend.imports.unit_logs import Collect, ErasedLog
 from backend.units.precondition import FOR_ONE_UNIT
 from backend.web.problem import refusals
 from backend.web.services import provided

@@ -8,17 +8,10 @@ from typing import Literal
 from pydantic import Field
 
 from backend.core.request_body import RequestBody
+from backend.formats.questions import TableAnswer, TableColumn
+from backend.imports.records import KnownTable
+from backend.store.uploads import UploadParts
 from backend.web.models import Answer
-
-
-class UploadParts(Answer):
-    """How many of the files within a container are in which state."""
-
-    waiting: int
-    complete: int
-    partial: int
-    rejected: int
-    here: int = Field(description="Rides that were known before the container came.")
 
 
 class Upload(Answer):
@@ -49,16 +42,6 @@ class UploadList(Answer):
     next: str | None
 
 
-class TableColumn(Answer):
-    """One column of a table."""
-
-    name: str
-    channel: str | None = Field(description="What it becomes, or `time`; null for nothing known.")
-    unit: str | None = Field(description="As the table says it; null where it must be said.")
-    units: list[str] = Field(description="What may be said; empty where nothing is asked.")
-    samples: list[str] = Field(description="Of the first rows.")
-
-
 class SaidOfTable(RequestBody):
     """What an owner says of a table. It is kept for every file with the same header."""
 
@@ -69,14 +52,6 @@ class SaidOfTable(RequestBody):
     rows_per_second: float | None = Field(default=None, gt=0, le=1000)
 
 
-class KnownAnswer(Answer):
-    """What was said before."""
-
-    time_zone: str | None
-    units: dict[str, str]
-    rows_per_second: float | None
-
-
 class TableQuestion(Answer):
     """What must be said before a table is read."""
 
@@ -85,16 +60,7 @@ class TableQuestion(Answer):
     time_zone: bool = Field(description="Its times have no zone.")
     rows_per_second: bool = Field(description="Its rows have no time.")
     columns: list[TableColumn]
-    answer: KnownAnswer | None
-
-
-class KnownTable(Answer):
-    """A kind of table that was answered for."""
-
-    header_sha256: str
-    kind: str
-    columns: list[str]
-    answer: KnownAnswer
+    answer: TableAnswer | None
 
 
 class KnownTables(Answer):
@@ -124,13 +90,6 @@ class UnitLog(Answer):
     length: int
     confirmed: bool
     download: LogDownload | None
-
-
-class ErasedLog(Answer):
-    log_id: int
-    erases: int | None = Field(
-        description="Blocks of the flash for logs erased in its life; null if its answer was lost."
-    )
 
 
 class UnitLogs(Answer):

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+from backend.core.described import described
 from backend.errors import NotFound, StoreError
 from backend.formats.questions import TableAnswer, TableQuestion, answer_from_json, answer_to_json
 from backend.store.objects import TABLES, Objects
@@ -16,13 +16,14 @@ from backend.store.objects import TABLES, Objects
 HEADER = re.compile(r"[0-9a-f]{64}")
 
 
-@dataclass(frozen=True)
+@described
 class KnownTable:
-    """A kind of table that was answered for. columns: their names."""
+    """A kind of table that was answered for."""
 
     header_sha256: str
     kind: str
     columns: tuple[str, ...]
+    """Their names."""
     answer: TableAnswer
 
 

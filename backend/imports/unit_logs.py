@@ -25,6 +25,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import BinaryIO
 
+from backend.core.described import described
 from backend.core.ride import iso_utc
 from backend.core.unit_key import EBL, serial_of
 from backend.device.ride_logs import LogPieces, RideLog, RideLogs
@@ -98,8 +99,8 @@ class UnitLogs:
     overwritten: int
 
 
-@dataclass(frozen=True)
-class Erased:
+@described
+class ErasedLog:
     """A log that was freed.
 
     erases: blocks of the unit's flash for logs erased in its life; None where the unit's answer was
@@ -108,6 +109,7 @@ class Erased:
 
     log_id: int
     erases: int | None
+    """Blocks of the flash for logs erased in its life; null if its answer was lost."""
 
 
 @dataclass(frozen=True)
@@ -207,7 +209,7 @@ class Collect:
             raise NotFound(f"Nobody has begun to fetch ride log {log_id} of {key}.")
         return found
 
-    def erase(self, device_id: str, log_id: int) -> Erased:
+    def erase(self, device_id: str, log_id: int) -> ErasedLog:
         """Have the unit free a log that is safe here. Raises NotFound, Conflict, NoAnswer that says
         whether it is erased as far as could be found out.
 
@@ -239,7 +241,7 @@ class Collect:
             erases = None
         with self._lock:
             self._downloads.pop((key, log_id), None)
-        return Erased(log_id, erases)
+        return ErasedLog(log_id, erases)
 
     def close(self) -> None:
         """Break off; what has come stays on the disk."""

@@ -2,51 +2,56 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from backend.core.fuzzy_table import LABELS, POINT_FIELDS, FuzzyTable
+from backend.core.described import described
+from backend.core.fuzzy_table import LABELS, POINT_FIELDS, FuzzyTable, Label, PointField
 from backend.law.gain import surface
 
 # What a page draws, and how finely the largest difference is looked for beside every point.
 DRAWN, LOOKED = 41, 201
 
 
-@dataclass(frozen=True)
+@described
 class CellChange:
     """A rule with another label. row: of the speed; column: of the torque rate."""
 
     row: int
+    """Of the speed, from 0."""
     column: int
-    left: str
-    right: str
+    """Of the torque rate, from 0."""
+    left: Label
+    right: Label
 
 
-@dataclass(frozen=True)
+@described
 class LargestDifference:
-    """Where two surfaces are furthest apart; gain: right less left."""
+    """Where two surfaces are furthest apart."""
 
     gain: float
+    """Right less left."""
     speed_kmh: float
     torque_rate: float
     left: float
     right: float
 
 
-@dataclass(frozen=True)
+@described
 class TableComparison:
-    """Two tables. points_changed: which of the three rows of points differ. left, right: the gains
-    over the grid, [n][m], rows = speeds."""
+    """Two tables, point by point and by what the unit computes of them."""
 
     cells: tuple[CellChange, ...]
-    points_changed: tuple[str, ...]
+    points_changed: tuple[PointField, ...]
+    """Which of the three rows of points differ."""
     inference_changed: bool
     speeds_kmh: list[float]
     torque_rates: list[float]
     left: list[list[float]]
+    """Gain, `[speed][torque rate]`."""
     right: list[list[float]]
+    """As `left`."""
     largest: LargestDifference
+    """Looked for over a finer grid and at every point of both."""
 
 
 def compare_tables(left: FuzzyTable, right: FuzzyTable) -> TableComparison:

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from backend.core.described import described
 from backend.errors import Conflict
 from sim_device.configure import ConfigureError
 from sim_device.firmware.python.law import STEP_S
@@ -48,24 +48,25 @@ LIMIT_SEED, LIMIT_FROM_KMH, LIMIT_NM, LIMIT_CADENCE_RPM = 5, 24.0, 16.0, 140.0
 LIMIT_SETTLED_S, LIMIT_LOOKED_S = 40.0, 30.0
 
 
-@dataclass(frozen=True)
+@described
 class Feel:
-    """Figures of one table or configuration; None where it never came to that.
-
-    start_s: from rest to 15 km/h under legs. rise_nm_per_s: the steepest rise of the motor's torque
-    on the way. ripple_pct: rms of the motor's torque about its mean over half a turn, as a share of
-    it, under even legs at 15 km/h. lag_ms: until 63 % of what a sudden push changes. toggles_hz:
-    how often a second the motor goes on or off under legs that hold 25 km/h. market: the unit was
-    made for. seconds: what measuring took.
-    """
+    """Measured on the simulated bike, 100 kg on the level; null where it never came to that."""
 
     start_s: float | None
+    """From rest to 15 km/h under legs."""
     rise_nm_per_s: float
+    """Steepest rise of the motor's torque on the way."""
     ripple_pct: float | None
+    """Rms of the motor's torque about its mean over half a turn of the crank, as a share of it,
+    under even legs."""
     lag_ms: float | None
+    """To 63 % of what a sudden push changes."""
     toggles_hz: float
+    """On and off a second under legs that hold 25 km/h."""
     market: str
+    """That the simulated unit was made for."""
     seconds: float
+    """What measuring took."""
 
 
 def feel_of(values: Mapping[str, Any]) -> Feel:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
+
+from backend.core.described import described
 
 
-@dataclass(frozen=True, slots=True)
+@described
 class Finding:
     """code: for programs. message: for people. where: the cell, point or field; None for all.
 
@@ -14,15 +16,22 @@ class Finding:
     """
 
     code: str
+    """For programs."""
     message: str
+    """For people."""
     where: str | None
+    """The cell, point or field; null for all."""
     values: Mapping[str, float | str] = field(default_factory=dict)
+    """What the message tells, by name, for a text in another language."""
 
 
-@dataclass(frozen=True, slots=True)
+@described
 class LintReport:
     """errors: cannot be written. warnings: need a reason. notes: good to know."""
 
     errors: tuple[Finding, ...]
+    """Cannot be written."""
     warnings: tuple[Finding, ...]
+    """Need a reason."""
     notes: tuple[Finding, ...]
+    """Good to know."""

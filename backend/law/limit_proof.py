@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from datetime import datetime
 from typing import Any
 
+from backend.core.described import described
 from backend.core.moments import utc
 
 NOT_COVERED = (
@@ -61,10 +62,10 @@ ROUNDING = 5e-7
 """Of a limit, as a share: it is a float32 in the unit and a decimal in the law."""
 
 
-@dataclass(frozen=True, slots=True)
+@described
 class Cell:
-    """Between two speed points of the tables: assist per rider torque that any mode asks for at
-    most, and what the market allows there at least; None where it names none."""
+    """Between two speed points: the assist per rider torque that any mode asks for at most, and
+    what the market allows there at least."""
 
     from_kmh: float
     to_kmh: float

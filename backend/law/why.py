@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from backend.core.described import described
 from backend.core.energy import RADIANS_PER_S_PER_RPM
-from backend.core.fuzzy_table import LABELS
+from backend.core.fuzzy_table import LABELS, Label
 from backend.errors import InvalidRequest
 from backend.law.ride_replay import law_readings
 from sim_device.firmware.python import law
@@ -44,28 +45,28 @@ STEP_OF: Mapping[str, tuple[str, str | None]] = {
 OF_THE_LAW = ("rider", "ratio", "shaped", "threshold", "fresh")
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
-    """A rule that fired: its row (speed) and column (torque rate), label and weight, to 1."""
+@described
+class FiredRule:
+    """Its cell, `[row][column]` of the table's rules, and how much it had to say."""
 
     row: int
     column: int
-    label: str
+    label: Label
     weight: float
+    """Above 0, to 1: the lesser of the two memberships under `mamdani_centroid`, their product
+    under `weighted_average`."""
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
-    """What a step of the pipeline added to the torque at the crank, or took from it.
-
-    limit: the word of the limit it is, where it took something. power_w: at the speed with which
-    the crank turns, or would where the motor alone pushes; None where that is not known.
-    """
+@described
+class WhyStep:
+    """What one step of the pipeline added to the torque at the crank, or took from it."""
 
     name: str
     torque_nm: float
     power_w: float | None
+    """At the crank's speed; null where it is not known."""
     limit: str | None
+    """The limit it is, where it took or gave something."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,13 +80,13 @@ class Why:
 
     result: str
     law: str
-    rules: tuple[Rule, ...]
+    rules: tuple[FiredRule, ...]
     gain: float | None
     assist_ratio: float | None
     torque_rate: float | None
     rider_torque_nm: float | None
     crank_rad_per_s: float | None
-    steps: tuple[Step, ...]
+    steps: tuple[WhyStep, ...]
     commanded_nm: float
     available_nm: float | None
     delivered_nm: float | None
@@ -163,7 +164,8 @@ def _told(
         result=traced.result,
         law=law_name,
         rules=tuple(
-            Rule(rule.row, rule.column, LABELS[rule.label], rule.weight) for rule in traced.rules
+            FiredRule(rule.row, rule.column, LABELS[rule.label], rule.weight)
+            for rule in traced.rules
         ),
         gain=_known(output["fuzzy_gain"]) if ok else None,
         assist_ratio=output["assist_ratio"] if ok and not traced.walk else None,
@@ -171,7 +173,7 @@ def _told(
         rider_torque_nm=output["rider_torque_filtered_nm"] if ok else None,
         crank_rad_per_s=rad_per_s,
         steps=tuple(
-            Step(name, change, None if rad_per_s is None else change * rad_per_s, limit)
+            WhyStep(name, change, None if rad_per_s is None else change * rad_per_s, limit)
             for name, change, limit in changes
         ),
         commanded_nm=commanded_nm,

@@ -7,153 +7,13 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from backend.core.filled import Filled
+from backend.core.intake import Intake
+from backend.core.noted import Instrument, Lap, Pause, Statement
 from backend.core.request_body import RequestBody
+from backend.core.ride import Gap, RidePlace, RideSummary
+from backend.core.ride_events import RideEvent
 from backend.web.models import Answer
-
-
-class RideSummary(Answer):
-    """What a ride comes to; null where the ride lacks the channel.
-
-    Rider and motor energy are never added up. `*_excluded_s` is time without the channel. The
-    motor's energy and power are of the torque it delivered: null where the ride's
-    `motor_torque_meaning` is `demanded`, unless a file told the power itself.
-    """
-
-    duration_s: float
-    moving_s: float | None
-    distance_km: float | None
-    rider_wh: float | None
-    rider_excluded_s: float | None
-    motor_wh: float | None
-    motor_excluded_s: float | None
-    battery_wh: float | None
-    battery_excluded_s: float | None
-    speed_kmh_mean: float | None
-    speed_kmh_max: float | None
-    cadence_rpm_mean: float | None
-    cadence_rpm_max: float | None
-    rider_torque_nm_mean: float | None
-    rider_torque_nm_max: float | None
-    rider_power_w_mean: float | None
-    rider_power_w_max: float | None
-    motor_torque_nm_max: float | None
-    motor_power_w_mean: float | None
-    motor_power_w_max: float | None
-    battery_soc_pct_used: float | None
-    motor_temperature_degc_max: float | None
-
-
-class Gap(Answer):
-    """A stretch without samples; `rows_lost` where it is known."""
-
-    from_s: float
-    to_s: float
-    rows_lost: int | None
-
-
-class Filled(Answer):
-    """A stretch the recording lacked, filled from the unit's own log at the log's rate.
-
-    Of the `rows_lost` rows in it `rows_filled` have samples now; nothing was interpolated.
-    """
-
-    from_s: float
-    to_s: float
-    rows_lost: int
-    rows_filled: int
-    period_us: int = Field(description="Spacing of the source's rows.")
-    source: Literal["unit_log"]
-
-
-class Intake(Answer):
-    """What became of every row and field of the file: kept, or counted here with the reason.
-
-    rows_read = rows_kept + rows_joined + the sum of rows_dropped.
-    """
-
-    rows_read: int
-    rows_kept: int
-    rows_joined: int = Field(description="Of one time, each with a part of the values.")
-    rows_spread: int = Field(
-        description="Of one time with values of their own; they stand evenly within it."
-    )
-    rows_moved: int = Field(description="How often the clock went back.")
-    rows_dropped: dict[str, int] = Field(
-        description="By reason: no_time, clock_not_set, clock_jumped, no_value."
-    )
-    values_dropped: dict[str, int] = Field(
-        description="By channel: what no bike can do, and single samples far from both neighbours."
-    )
-    fields_unread: dict[str, int] = Field(
-        description="By name, in how many rows: text, bytes and lists of numbers."
-    )
-    taken_as: dict[str, str] = Field(
-        description="What the file does not say, and what it was taken as: `time_zone`, "
-        "`rows_per_second`, a column's unit. `start`: where its date is from. `clock`: the zone "
-        "that its two clocks, one of UTC, are apart."
-    )
-
-
-class Lap(Answer):
-    """A part of the ride that was marked off, in seconds after its start; null for untold."""
-
-    from_s: float
-    to_s: float
-    trigger: str | None = Field(
-        description="manual, time, distance, position, session_end, other; null for untold."
-    )
-    timer_s: float | None = Field(description="Time the device's timer ran.")
-    distance_m: float | None
-    calories_kcal: float | None
-
-
-class Pause(Answer):
-    """The timer of the device that recorded stood."""
-
-    from_s: float
-    to_s: float
-    by_rider: bool | None = Field(description="False when the device stopped by itself.")
-
-
-class Instrument(Answer):
-    """The device that recorded, or one that it heard; null for what the file does not tell."""
-
-    kind: str | None = Field(description="`recorder`, or what it measures: `bike_power`.")
-    maker: str | None
-    product: str | None
-    serial_number: str | None
-    software_version: str | None
-    battery_v: float | None = Field(description="Of its own battery.")
-    battery_status: str | None
-
-
-class Stated(Answer):
-    """A figure as the device that recorded stated it, by its own rules: none of `summary`."""
-
-    name: str = Field(
-        description="Of FIT's profile or of the file: `lev_battery_consumption`, `unknown_177`."
-    )
-    value: float
-    unit: str = Field(description="Empty for none, and where nothing tells it.")
-
-
-class Statement(Answer):
-    """What the device stated of one whole session, which may reach beyond the ride."""
-
-    from_s: float
-    to_s: float
-    figures: list[Stated]
-
-
-class RideEvent(Answer):
-    """A fault that came or went (value: bits of `fault_flags`), the mode chosen (its slot),
-    settings that came into force (CRC-32 of the configuration), a moment that somebody marked (its
-    number), or the host's clock set in mid-ride (by how many milliseconds, negative for back; the
-    ride is dated by the clock as it was set)."""
-
-    t_s: float
-    kind: Literal["fault_set", "fault_cleared", "assist_mode", "settings", "mark", "clock_set"]
-    value: int
 
 
 class RideChannel(Answer):
@@ -175,15 +35,6 @@ class RideDevice(Answer):
     config_generation: int | None
     config_crc32: int | None
     gear_ratio: float | None
-
-
-class RidePlace(Answer):
-    """Where a ride began: the nearest town of GeoNames. Null for what nobody knows."""
-
-    name: str | None
-    country: str | None = Field(description="ISO 3166 code of two letters.")
-    zone: str | None = Field(description="Of the IANA database: a local time is told by it.")
-    is_loop: bool | None = Field(description="It ended where it began.")
 
 
 class Ride(Answer):

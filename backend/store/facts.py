@@ -6,10 +6,11 @@ Everything that is not in the rows or in a sidecar. Schema version 2 is the only
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, fields
-from typing import Any, TypeVar
+from dataclasses import asdict, dataclass
+from typing import Any
 
 from backend.core.channels import ChannelSpec, channel_to_json
+from backend.core.described import from_members
 from backend.core.energy import derivable
 from backend.core.filled import Filled
 from backend.core.intake import Intake
@@ -17,8 +18,6 @@ from backend.core.noted import noted_from_json, noted_to_json
 from backend.core.ride import ORIGINS, Gap, Ride, RideContext
 from backend.core.ride_events import RideEvent
 from backend.core.ride_tags import clean_tags
-
-Item = TypeVar("Item", Filled, Gap, Intake, RideContext, RideEvent)
 
 WORDS = ("name", "notes")
 
@@ -94,7 +93,7 @@ def kept_ride(
     facts make no sense.
     """
     words = {**facts, **{name: sidecar[name] for name in WORDS if name in sidecar}}
-    context = known_fields(RideContext, facts["context"])
+    context = from_members(RideContext, facts["context"])
     ride = Ride(
         id=0,
         state="done",
@@ -107,30 +106,24 @@ def kept_ride(
         channels=channels,
         derived=derivable([channel.name for channel in channels], context.gear_ratio),
         context=context,
-        filled=tuple(known_fields(Filled, span) for span in facts.get("filled", ())),
+        filled=tuple(from_members(Filled, span) for span in facts.get("filled", ())),
         completeness=facts.get("completeness"),
         object_key=key,
         cut_short=bool(facts.get("cut_short", False)),
         sport=facts.get("sport"),
-        intake=known_fields(Intake, facts["intake"]) if facts.get("intake") else None,
+        intake=from_members(Intake, facts["intake"]) if facts.get("intake") else None,
         noted=noted_from_json(facts.get("noted")),
         tags=clean_tags(sidecar.get("tags", ())),
     )
     return KeptRide(
         ride=ride,
-        gaps=tuple(known_fields(Gap, body) for body in facts["gaps"]),
-        events=tuple(known_fields(RideEvent, body) for body in facts["events"]),
+        gaps=tuple(from_members(Gap, body) for body in facts["gaps"]),
+        events=tuple(from_members(RideEvent, body) for body in facts["events"]),
         original=original_of(facts.get("original")),
         filled_from=originals_of(facts.get("filled_from", ())),
         earlier=originals_of(facts.get("earlier", ())),
         replaces=tuple(str(sha256) for sha256 in facts.get("replaces", ())),
     )
-
-
-def known_fields(kind: type[Item], body: Mapping[str, Any]) -> Item:
-    """A dataclass from the members it has; a newer version's file may tell more."""
-    names = {field.name for field in fields(kind)}
-    return kind(**{name: value for name, value in body.items() if name in names})
 
 
 def originals_of(bodies: Iterable[Mapping[str, Any]]) -> tuple[Original, ...]:

@@ -20,6 +20,7 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, Select, func, insert, select, union_all, update
 
+from backend.core.described import described
 from backend.core.ride import iso_utc
 from backend.errors import BadFile, Conflict, NotFound, StoreError
 from backend.store.deletion import BESIDE, MADE, Deletions, forget_upload, join_source
@@ -35,15 +36,16 @@ TOKEN = re.compile(r"[0-9a-f]{32}")
 ROWS_AT_ONCE = 500
 
 
-@dataclass(frozen=True)
-class Parts:
-    """How many files within a container are in which state; `here`: known before it came."""
+@described
+class UploadParts:
+    """How many of the files within a container are in which state."""
 
     waiting: int = 0
     complete: int = 0
     partial: int = 0
     rejected: int = 0
     here: int = 0
+    """Rides that were known before the container came."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +72,7 @@ class Upload:
     expires_us: int | None
     ride_ids: tuple[int, ...]
     part_of: str | None = None
-    parts: Parts | None = None
+    parts: UploadParts | None = None
 
     @property
     def expires_at(self) -> str | None:
@@ -431,7 +433,7 @@ def rides_by(connection: Connection, rows: Sequence[Row[Any]]) -> dict[int, set[
     return found
 
 
-def parts_by(connection: Connection, keys: Sequence[int]) -> dict[int, Parts]:
+def parts_by(connection: Connection, keys: Sequence[int]) -> dict[int, UploadParts]:
     """What became of the files within those uploads that have some, by the upload's row id."""
     here = t.upload.c.code.in_(("duplicate", "filled"))
     whole, state = t.upload.c.part_of, t.upload.c.state
@@ -442,11 +444,11 @@ def parts_by(connection: Connection, keys: Sequence[int]) -> dict[int, Parts]:
         name = "here" if is_here else judged
         mine = counted.setdefault(key, {})
         mine[name] = mine.get(name, 0) + count
-    return {key: Parts(**mine) for key, mine in counted.items()}
+    return {key: UploadParts(**mine) for key, mine in counted.items()}
 
 
 def upload_from_row(
-    row: Row[Any], ride_ids: tuple[int, ...], part_of: str | None, parts: Parts | None
+    row: Row[Any], ride_ids: tuple[int, ...], part_of: str | None, parts: UploadParts | None
 ) -> Upload:
     """A row of the table, its rides, and what is within -> upload."""
     return Upload(

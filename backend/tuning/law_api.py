@@ -6,6 +6,7 @@ from typing import Annotated, Any, cast
 
 from fastapi import APIRouter
 
+from backend.law.finding import LintReport
 from backend.tuning.limit_proof import Certified, Certify
 from backend.tuning.models.certificate import Certificate, CertificateRequest
 from backend.tuning.models.curves import (
@@ -15,7 +16,6 @@ from backend.tuning.models.curves import (
     TorqueSurfaceRequest,
 )
 from backend.tuning.models.law import (
-    LintReport,
     LintRequest,
     PointGains,
     PointsRequest,

@@ -7,11 +7,11 @@ included. Of the thesis's table that alone is 0.002 from the unit's exact centro
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
+from backend.core.described import described
 from backend.core.fuzzy_table import FuzzyTable
 from backend.law.fis.mapping import is_speed_second
 from backend.law.fis.reading import FisSet, FisSystem, FisVariable
@@ -23,13 +23,9 @@ GRID = 81
 Numbers = npt.NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@described
 class Deviation:
-    """The largest difference between a file and the unit over a grid, and where it is.
-
-    samples: of the output, with which the file was evaluated; None for Sugeno, which has none.
-    points: compared ones, all within the file's universe.
-    """
+    """The largest difference between the file and the unit over a grid, and where it is."""
 
     gain: float
     speed_kmh: float
@@ -37,7 +33,10 @@ class Deviation:
     gain_of_file: float
     gain_of_unit: float
     samples: int | None
+    """Of the output, ends included, with which the file was evaluated, as MATLAB does; the unit's
+    centroid is exact. Null for a Sugeno system, which has none."""
     points: int
+    """So many were compared."""
 
 
 def deviation(system: FisSystem, table: FuzzyTable) -> Deviation:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
-from backend.core.fuzzy_table import LABELS, NAME_BYTES_MAX, RANGES, FuzzyTable
+from backend.core.fuzzy_table import LABELS, NAME_BYTES_MAX, RANGES, FuzzyTable, Label
 from backend.errors import InvalidRequest
 from backend.law.fis.reading import FisRule, FisSet, FisSystem, FisVariable, refuse
 
@@ -50,7 +50,7 @@ def table_of(system: FisSystem) -> FuzzyTable:
     speed_order, speeds = input_points(speed)
     rate_order, rates = input_points(rate)
     gain_order, gains = constants(output) if kind == "sugeno" else gain_points(output)
-    rules = [["" for _ in LABELS] for _ in LABELS]
+    rules: list[list[Label | None]] = [[None for _ in LABELS] for _ in LABELS]
     for rule in system.rules:
         first, second, result = checked(rule)
         row, column = (first, second) if speed_first else (second, first)
@@ -58,8 +58,8 @@ def table_of(system: FisSystem) -> FuzzyTable:
         if rules[row][column]:
             refuse(rule.line, "Another rule is for the same two sets.")
         rules[row][column] = LABELS[gain_order[result - 1]]
-    missing = sum(cell == "" for row in rules for cell in row)
-    if missing:
+    complete = [[cell for cell in row if cell is not None] for row in rules]
+    if missing := sum(len(row) - len(known) for row, known in zip(rules, complete, strict=True)):
         refuse(0, f"{missing} of the 25 pairs of sets have no rule.")
     try:
         return FuzzyTable(
@@ -68,7 +68,7 @@ def table_of(system: FisSystem) -> FuzzyTable:
             tuple(speeds),
             tuple(rates),
             tuple(gains),
-            tuple(tuple(row) for row in rules),
+            tuple(tuple(row) for row in complete),
         )
     except InvalidRequest as error:
         message = f"The .fis file cannot be used: {error.message}."

@@ -6,12 +6,14 @@ energies say how much time they leave out.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from backend.core.channels import Values
+from backend.core.described import described
 from backend.core.energy import DEMANDED
 from backend.core.ride import RideSummary, TimesUs, summarise
 from backend.rides.insight.distance import climb_of, way_of
@@ -19,7 +21,23 @@ from backend.rides.insight.energy_split import energy_shares
 
 WAY_KM_MIN = 0.01
 """Below that, work by distance is the work of a start."""
+NoFigure = Literal[
+    "no_speed",
+    "no_way",
+    "no_motion",
+    "no_rider_power",
+    "no_motor_power",
+    "no_battery_power",
+    "only_asked",
+    "no_height",
+    "no_rider_work",
+]
 SOURCES = ("rider", "motor", "battery")
+NO_POWER: dict[str, NoFigure] = {
+    "rider": "no_rider_power",
+    "motor": "no_motor_power",
+    "battery": "no_battery_power",
+}
 UNITS = {
     "duration_s": "s",
     "moving_s": "s",
@@ -37,14 +55,15 @@ UNITS = {
 """The figures in the order in which they are told."""
 
 
-@dataclass(frozen=True)
-class Told:
-    """A figure of one side. missing: a code of why there is no value. unknown_s: time that an
-    energy leaves out because its samples are missing; None for what is no energy."""
+@described
+class FigureValue:
+    """A figure of one side."""
 
     value: float | None
-    missing: str | None = None
+    missing: NoFigure | None = None
+    """Why there is no value; null with one."""
     unknown_s: float | None = None
+    """Time that an energy leaves out because its samples are missing."""
 
 
 @dataclass(frozen=True)
@@ -53,8 +72,8 @@ class Figure:
 
     name: str
     unit: str
-    a: Told
-    b: Told
+    a: FigureValue
+    b: FigureValue
     difference: float | None
 
 
@@ -84,11 +103,11 @@ def less(value: float | None, than: float | None) -> float | None:
     return None if value is None or than is None else value - than
 
 
-def told_of(rows: Stretch) -> dict[str, Told]:
+def told_of(rows: Stretch) -> dict[str, FigureValue]:
     """The figures of one side by name."""
     summary = summarise(rows.values, rows.times_us, rows.period_us, rows.seconds)
     told = {
-        "duration_s": Told(summary.duration_s),
+        "duration_s": FigureValue(summary.duration_s),
         "moving_s": said(summary.moving_s, "no_speed"),
         "distance_km": said(summary.distance_km, "no_way"),
         "speed_kmh_mean": said(
@@ -102,30 +121,30 @@ def told_of(rows: Stretch) -> dict[str, Told]:
     return told | on_the_way(rows, told)
 
 
-def said(value: float | None, why: str) -> Told:
+def said(value: float | None, why: NoFigure) -> FigureValue:
     """A value, or why there is none."""
-    return Told(value, None if value is not None else why)
+    return FigureValue(value, None if value is not None else why)
 
 
-def energy_told(source: str, summary: RideSummary, meaning: str | None) -> Told:
+def energy_told(source: str, summary: RideSummary, meaning: str | None) -> FigureValue:
     """An energy; a motor whose torque was only asked of it has none."""
     value: float | None = getattr(summary, f"{source}_wh")
     if value is not None:
-        return Told(value, unknown_s=getattr(summary, f"{source}_excluded_s"))
+        return FigureValue(value, unknown_s=getattr(summary, f"{source}_excluded_s"))
     asked = source == "motor" and meaning == DEMANDED
-    return Told(None, "only_asked" if asked else f"no_{source}_power")
+    return FigureValue(None, "only_asked" if asked else NO_POWER[source])
 
 
-def per_km(energy: Told, distance: Told) -> Told:
+def per_km(energy: FigureValue, distance: FigureValue) -> FigureValue:
     """An energy for a kilometre, or what it lacks."""
     if energy.value is None or distance.value is None:
-        return Told(None, energy.missing or distance.missing)
+        return FigureValue(None, energy.missing or distance.missing)
     if distance.value < WAY_KM_MIN:
-        return Told(None, "no_motion")
-    return Told(energy.value / distance.value, unknown_s=energy.unknown_s)
+        return FigureValue(None, "no_motion")
+    return FigureValue(energy.value / distance.value, unknown_s=energy.unknown_s)
 
 
-def on_the_way(rows: Stretch, told: Mapping[str, Told]) -> dict[str, Told]:
+def on_the_way(rows: Stretch, told: Mapping[str, FigureValue]) -> dict[str, FigureValue]:
     """Ascent, and the motor's work over the rider's of the moments in which both are known."""
     start_s = rows.times_us / 1e6
     way = way_of(rows.values, start_s, rows.seconds)
@@ -133,8 +152,8 @@ def on_the_way(rows: Stretch, told: Mapping[str, Told]) -> dict[str, Told]:
     climb = climb_of(altitude, way, start_s) if way and altitude is not None else None
     everything = np.zeros(len(start_s), np.intp)
     (share,) = energy_shares(rows.values, rows.seconds, None, everything, 1)
-    lacking: Sequence[str | None] = [told[f"{source}_wh"].missing for source in ("motor", "rider")]
-    why = next((reason for reason in lacking if reason), "no_rider_work")
+    lacking = [told[f"{source}_wh"].missing for source in ("motor", "rider")]
+    why: NoFigure = next((reason for reason in lacking if reason), "no_rider_work")
     return {
         "ascent_m": said(climb.ascent_m if climb else None, "no_height" if way else "no_way"),
         "motor_per_rider": said(share.motor_per_rider, why),

@@ -6,23 +6,14 @@ from typing import Literal
 
 from pydantic import Field
 
+from backend.law.comparison import CellChange
+from backend.rides.comparison.figures import FigureValue
+from backend.rides.comparison.same_way import SameWay
 from backend.rides.insight.models import CrankTorque
-from backend.tuning.library.models import CellChange
 from backend.tuning.models.config import ParameterChange
 from backend.tuning.models.law import FuzzyTable
 from backend.web.models import Answer
 
-NoFigure = Literal[
-    "no_speed",
-    "no_way",
-    "no_motion",
-    "no_rider_power",
-    "no_motor_power",
-    "no_battery_power",
-    "only_asked",
-    "no_height",
-    "no_rider_work",
-]
 NoCrank = Literal["no_angle", "no_torque", "slow_rows", "few_turns"]
 
 
@@ -38,19 +29,11 @@ class ComparedSide(Answer):
     length_m: float | None = Field(description="Null where nothing tells its way.")
 
 
-class ToldFigure(Answer):
-    value: float | None
-    missing: NoFigure | None = Field(description="Why there is no value; null with one.")
-    unknown_s: float | None = Field(
-        description="Time that an energy leaves out because its samples are missing."
-    )
-
-
 class ComparedFigure(Answer):
     name: str
     unit: str
-    a: ToldFigure
-    b: ToldFigure
+    a: FigureValue
+    b: FigureValue
     difference: float | None = Field(description="B less A; null where one is missing.")
 
 
@@ -62,18 +45,6 @@ class ComparedChannel(Answer):
     unit: str
     a: bool
     b: bool
-
-
-class SameWay(Answer):
-    """Shares, 0 to 1, of tracks walked in steps of 10 m."""
-
-    near_m: float
-    a_near_b: float = Field(description="Of A's track, so near to B's, whenever B was there.")
-    b_near_a: float
-    in_step: float | None = Field(
-        description="Of the way that both have, where they are so near at the same distance from "
-        "their starts: how well they line up by distance. Null without a way."
-    )
 
 
 class SideSettings(Answer):

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from backend.core.channels import Values
+from backend.core.described import described
 from backend.core.ride import PAUSE_MIN_US
 from backend.core.sphere import EARTH_M
 
@@ -31,16 +32,18 @@ class Positions:
     at_m: Values | None
 
 
-@dataclass(frozen=True)
+@described
 class SameWay:
-    """Shares, 0 to 1. a_near_b: of A's track within NEAR_M of B's, whenever; b_near_a: likewise.
-    in_step: of the way that both have, where they are so near at the same distance from their
-    starts; None where a way is not known."""
+    """Shares, 0 to 1, of tracks walked in steps of 10 m."""
 
     near_m: float
     a_near_b: float
+    """Of A's track, so near to B's, whenever B was there."""
     b_near_a: float
+    """As `a_near_b`."""
     in_step: float | None
+    """Of the way that both have, where they are so near at the same distance from their starts: how
+    well they line up by distance. Null without a way."""
 
 
 @dataclass(frozen=True)

@@ -4,46 +4,74 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Final, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from backend.core.channels import Values
+from backend.core.described import described
 
 Mask = npt.NDArray[np.bool_]
 Span = tuple[float, float]
 
-NOTE, WARNING, SERIOUS = "note", "warning", "serious"
-SEVERITIES = (NOTE, WARNING, SERIOUS)
-CLEAN, FOUND, IMPOSSIBLE = "clean", "found", "impossible"
+Severity = Literal["note", "warning", "serious"]
+State = Literal["clean", "found", "impossible"]
+FindingKind = Literal[
+    "zero_drift",
+    "saturation",
+    "rows_lost",
+    "sensor_silent",
+    "torque_late",
+    "brown_out",
+    "derating",
+    "speed_jump",
+    "speed_silent",
+    "wheel",
+]
+CheckName = Literal[
+    "zero_drift",
+    "saturation",
+    "drop_outs",
+    "brown_out",
+    "derating",
+    "implausible_speed",
+    "wheel",
+]
+NOTE: Final = "note"
+WARNING: Final = "warning"
+SERIOUS: Final = "serious"
+SEVERITIES: tuple[Severity, ...] = (NOTE, WARNING, SERIOUS)
+CLEAN: Final = "clean"
+FOUND: Final = "found"
+IMPOSSIBLE: Final = "impossible"
 
 
-@dataclass(frozen=True)
-class Finding:
-    """Something that is not as it should be.
+@described
+class DiagnosisFinding:
+    """Something that is not as it should be, with its evidence."""
 
-    kind: which check found it, with what it found. from_s, to_s: where to look first. numbers: the
-    evidence, by name with unit, the threshold among it. channel: what it is about, if it is one.
-    """
-
-    kind: str
-    severity: str
+    kind: FindingKind
+    """Which check found it, with what it found."""
+    severity: Severity
     from_s: float
+    """Where to look first."""
     to_s: float
+    """With `from_s`: where to look first."""
     numbers: Mapping[str, float]
+    """By name with its unit, the threshold with it."""
     channel: str | None = None
+    """What it is about, if it is one."""
 
 
-@dataclass(frozen=True)
-class Check:
-    """One question of the diagnosis.
+@described
+class DiagnosisCheck:
+    """One question; `impossible` where the ride lacks what it needs, named in `missing`: channels,
+    values of the configuration, or a rest, fast rows, a straight way."""
 
-    state: `clean`, `found`, or `impossible` where the ride lacks what it needs, named in missing.
-    """
-
-    name: str
-    state: str
-    findings: tuple[Finding, ...] = ()
+    name: CheckName
+    state: State
+    findings: tuple[DiagnosisFinding, ...] = ()
     missing: tuple[str, ...] = ()
 
 

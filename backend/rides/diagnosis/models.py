@@ -7,6 +7,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from backend.rides.diagnosis.zero_trend import Share
 from backend.web.models import Answer
 
 NoZero = Literal[
@@ -53,15 +54,6 @@ class CalibrationMark(Answer):
     author: str
     reason: str
     changed: list[ScaleChange]
-
-
-class Share(Answer):
-    """A coefficient: its value, standard uncertainty, and interval of 95 %."""
-
-    value: float
-    uncertainty: float
-    low: float
-    high: float
 
 
 class BandPoint(Answer):

@@ -18,9 +18,10 @@ from backend.rides.diagnosis.finding import (
     FOUND,
     IMPOSSIBLE,
     SEVERITIES,
-    Check,
+    CheckName,
+    DiagnosisCheck,
+    DiagnosisFinding,
     Evidence,
-    Finding,
     Limits,
 )
 from backend.rides.diagnosis.speed import implausible_speed, wheel
@@ -40,8 +41,8 @@ class Question:
     """needs: of each of these at least one channel. config: a limit that has to be known. lacks:
     what is missing where `ask` has no answer although the channels are there."""
 
-    name: str
-    ask: Callable[[Evidence], list[Finding] | None]
+    name: CheckName
+    ask: Callable[[Evidence], list[DiagnosisFinding] | None]
     needs: tuple[tuple[str, ...], ...] = ()
     config: str | None = None
     lacks: str = ""
@@ -79,22 +80,22 @@ NEEDED = (
 """Every channel that any of them looks at."""
 
 
-def diagnose(ride: Evidence) -> list[Check]:
+def diagnose(ride: Evidence) -> list[DiagnosisCheck]:
     """Every question, asked where it can be."""
     return [checked(question, ride) for question in QUESTIONS]
 
 
-def checked(question: Question, ride: Evidence) -> Check:
+def checked(question: Question, ride: Evidence) -> DiagnosisCheck:
     """One question's answer."""
     missing = [names[0] for names in question.needs if not any(map(ride.has, names))]
     if question.config is not None and getattr(ride.limits, question.config) is None:
         missing.append(question.config)
     if missing or not len(ride.start_s):
-        return Check(question.name, IMPOSSIBLE, missing=tuple(missing))
+        return DiagnosisCheck(question.name, IMPOSSIBLE, missing=tuple(missing))
     findings = question.ask(ride)
     if findings is None:
-        return Check(question.name, IMPOSSIBLE, missing=(question.lacks,))
-    return Check(question.name, FOUND if findings else CLEAN, tuple(findings))
+        return DiagnosisCheck(question.name, IMPOSSIBLE, missing=(question.lacks,))
+    return DiagnosisCheck(question.name, FOUND if findings else CLEAN, tuple(findings))
 
 
 class Diagnosis:

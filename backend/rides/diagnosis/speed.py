@@ -8,7 +8,7 @@ from backend.core.channels import Values
 from backend.core.energy import KMH_PER_MS, rate_hz
 from backend.core.sphere import EARTH_M
 from backend.core.statistics import MEDIAN_TO_MEAN, robust_deviation
-from backend.rides.diagnosis.finding import WARNING, Evidence, Finding
+from backend.rides.diagnosis.finding import WARNING, DiagnosisFinding, Evidence
 from backend.rides.insight.distance import way_of
 
 SPEED, CADENCE, TORQUE, ODOMETER = "speed_kmh", "cadence_rpm", "rider_torque_nm", "distance_m"
@@ -28,7 +28,7 @@ WHEEL_SHARE = 0.02
 by its outer diameter, some 2 % less under load)."""
 
 
-def implausible_speed(ride: Evidence) -> list[Finding]:
+def implausible_speed(ride: Evidence) -> list[DiagnosisFinding]:
     """Changes that no tyre can make, and a standing wheel under turning cranks."""
     speed = ride.values[SPEED]
     found = []
@@ -39,7 +39,7 @@ def implausible_speed(ride: Evidence) -> list[Finding]:
             "acceleration_ms2": greatest,
             "threshold_ms2": JUMP_MS2,
         }
-        found.append(Finding("speed_jump", WARNING, *jumps[0], numbers, SPEED))
+        found.append(DiagnosisFinding("speed_jump", WARNING, *jumps[0], numbers, SPEED))
     if ride.has(CADENCE, TORQUE):
         driven = (ride.values[CADENCE] > SILENT_RPM) & (ride.values[TORQUE] > SILENT_NM)
         still = driven_without_speed(ride, speed, driven)
@@ -50,7 +50,7 @@ def implausible_speed(ride: Evidence) -> list[Finding]:
                 "seconds": sum(stop - start for start, stop in still),
                 "threshold_s": SILENT_S,
             }
-            found.append(Finding("speed_silent", WARNING, begin, end, numbers, SPEED))
+            found.append(DiagnosisFinding("speed_silent", WARNING, begin, end, numbers, SPEED))
     return found
 
 
@@ -88,7 +88,7 @@ def window_rows(ride: Evidence) -> int:
     return max(1, min(round(min(rate_hz(ride.seconds) or 1.0, 1000.0)), len(ride.start_s)))
 
 
-def wheel(ride: Evidence) -> list[Finding] | None:
+def wheel(ride: Evidence) -> list[DiagnosisFinding] | None:
     """The way by the wheel against the way by positions, over straight stretches.
 
     A stretch takes CHORD_S and is straight where its halves are no longer than the whole. The
@@ -128,7 +128,7 @@ def wheel(ride: Evidence) -> list[Finding] | None:
         numbers["wheel_circumference_m"] = ride.limits.wheel_circumference_m
         numbers["wheel_circumference_m_by_positions"] = ride.limits.wheel_circumference_m * median
     where = float(ride.start_s[0]), float(ride.end_s[-1])
-    return [Finding("wheel", WARNING, *where, numbers)]
+    return [DiagnosisFinding("wheel", WARNING, *where, numbers)]
 
 
 def chord_ends(at_s: Values) -> np.ndarray[tuple[int], np.dtype[np.intp]]:

@@ -6,7 +6,17 @@ from __future__ import annotations
 import numpy as np
 
 from backend.core._generated import MOVING_KMH
-from backend.rides.diagnosis.finding import NOTE, SERIOUS, WARNING, Evidence, Finding, Mask, Span
+from backend.rides.diagnosis.finding import (
+    NOTE,
+    SERIOUS,
+    WARNING,
+    DiagnosisFinding,
+    Evidence,
+    FindingKind,
+    Mask,
+    Severity,
+    Span,
+)
 
 VOLTAGE, CURRENT, FLAGS = "battery_voltage_v", "battery_current_a", "limit_flags"
 MOTOR_HOT, CONTROLLER_HOT = "motor_temperature_degc", "controller_temperature_degc"
@@ -23,7 +33,7 @@ DERATED_SHARE = 0.05
 """Of the ride: from here on the rider feels it on every climb."""
 
 
-def brown_out(ride: Evidence) -> list[Finding]:
+def brown_out(ride: Evidence) -> list[DiagnosisFinding]:
     """Voltage below the least that the configuration allows, and rows that end with it."""
     voltage = ride.values[VOLTAGE]
     least_v = ride.limits.battery_voltage_v_min or 0.0
@@ -49,13 +59,13 @@ def brown_out(ride: Evidence) -> list[Finding]:
         numbers["resting_v"] = float(np.median(resting))
     if np.isfinite(current[lowest]):
         numbers["current_a"] = float(current[lowest])
-    severity = SERIOUS if under or cut else WARNING
+    severity: Severity = SERIOUS if under or cut else WARNING
     at_s = ride.start_s[lowest]
     begin, end = max(spans or times, key=lambda span: span[1] - span[0], default=(at_s, at_s))
-    return [Finding("brown_out", severity, float(begin), float(end), numbers, VOLTAGE)]
+    return [DiagnosisFinding("brown_out", severity, float(begin), float(end), numbers, VOLTAGE)]
 
 
-def derating(ride: Evidence) -> list[Finding]:
+def derating(ride: Evidence) -> list[DiagnosisFinding]:
     """Time in which heat lowered the assist: as the unit told it, else by its temperatures."""
     hot = too_hot(ride)
     spans = list(ride.spans(hot))
@@ -69,8 +79,8 @@ def derating(ride: Evidence) -> list[Finding]:
         if ride.has(name):
             numbers[f"{name}_max"] = float(np.nanmax(ride.values[name]))
             numbers[f"{name}_threshold"] = threshold
-    severity = WARNING if share >= DERATED_SHARE else NOTE
-    return [Finding("derating", severity, *ride.time(longest), numbers)]
+    severity: Severity = WARNING if share >= DERATED_SHARE else NOTE
+    return [DiagnosisFinding("derating", severity, *ride.time(longest), numbers)]
 
 
 def too_hot(ride: Evidence) -> Mask:
@@ -98,7 +108,7 @@ WARNING_SHARE, SERIOUS_SHARE = 0.01, 0.10
 """Of the ride: a hundredth moves a mean by as much; a tenth makes its figures another ride's."""
 
 
-def drop_outs(ride: Evidence) -> list[Finding]:
+def drop_outs(ride: Evidence) -> list[DiagnosisFinding]:
     """Rows lost while the bike moved, and each sensor that fell silent and came back."""
     whole_s = float(ride.end_s[-1] - ride.start_s[0])
     found = []
@@ -152,12 +162,14 @@ def sensor_holes(ride: Evidence, name: str) -> list[Span]:
     ]
 
 
-def finding(kind: str, spans: list[Span], whole_s: float, channel: str | None) -> Finding:
+def finding(
+    kind: FindingKind, spans: list[Span], whole_s: float, channel: str | None
+) -> DiagnosisFinding:
     """All of one kind as one finding; it shows the longest."""
     seconds = sum(end - begin for begin, end in spans)
     begin, end = max(spans, key=lambda span: span[1] - span[0])
     share = seconds / max(whole_s, 1e-9)
-    severity = WARNING if share >= WARNING_SHARE else NOTE
+    severity: Severity = WARNING if share >= WARNING_SHARE else NOTE
     numbers = {
         "times": float(len(spans)),
         "seconds": seconds,
@@ -165,4 +177,4 @@ def finding(kind: str, spans: list[Span], whole_s: float, channel: str | None) -
         "share": share,
     }
     severity = SERIOUS if share >= SERIOUS_SHARE else severity
-    return Finding(kind, severity, begin, end, numbers, channel)
+    return DiagnosisFinding(kind, severity, begin, end, numbers, channel)

@@ -9,7 +9,14 @@ import numpy as np
 from backend.core._generated import RESTING_KMH
 from backend.core.channels import Values
 from backend.core.energy import rate_hz
-from backend.rides.diagnosis.finding import SERIOUS, WARNING, Evidence, Finding, Mask
+from backend.rides.diagnosis.finding import (
+    SERIOUS,
+    WARNING,
+    DiagnosisFinding,
+    Evidence,
+    Mask,
+    Severity,
+)
 from backend.rides.insight.crank import RATE_HZ_MIN
 
 TORQUE, RAW, CADENCE, SPEED = "rider_torque_nm", "rider_torque_raw", "cadence_rpm", "speed_kmh"
@@ -42,7 +49,7 @@ class Piece:
         return self.is_still and abs(self.torque_nm) <= FOOT_NM
 
 
-def zero_drift(ride: Evidence) -> list[Finding] | None:
+def zero_drift(ride: Evidence) -> list[DiagnosisFinding] | None:
     """The zero at rest, from pieces of STILL_S without a foot on the pedals; None without any."""
     resting = np.abs(ride.values[SPEED]) < RESTING_KMH
     resting &= np.abs(ride.values[CADENCE]) < REST_RPM
@@ -62,13 +69,14 @@ def zero_drift(ride: Evidence) -> list[Finding] | None:
         "rest_s": float(STILL_S * len(zeros)),
         "threshold_nm": ZERO_NM,
     }
+    severity: Severity
     if abs(zeros[worst]) > DRIFT_NM:
         severity, numbers["threshold_nm"] = SERIOUS, DRIFT_NM
     elif max(abs(typical), abs(moved)) > ZERO_NM:
         severity = WARNING
     else:
         return []
-    return [Finding("zero_drift", severity, at_s[worst], at_s[worst] + STILL_S, numbers)]
+    return [DiagnosisFinding("zero_drift", severity, at_s[worst], at_s[worst] + STILL_S, numbers)]
 
 
 def unloaded_pieces(ride: Evidence, unloaded: Mask) -> list[Piece]:
@@ -96,7 +104,7 @@ def whole_pieces(start_s: Values, torque_nm: Values) -> list[tuple[float, Values
     return pieces
 
 
-def saturation(ride: Evidence) -> list[Finding] | None:
+def saturation(ride: Evidence) -> list[DiagnosisFinding] | None:
     """Readings at the end of the converter, else flat tops; None where rows are too rare."""
     if ride.has(RAW):
         return at_the_end(ride)
@@ -110,10 +118,10 @@ def saturation(ride: Evidence) -> list[Finding] | None:
     if len(tops) < FLAT_STROKES:
         return []
     numbers = {"torque_nm": greatest, "strokes": float(len(tops))}
-    return [Finding("saturation", WARNING, *ride.time(tops[0]), numbers, TORQUE)]
+    return [DiagnosisFinding("saturation", WARNING, *ride.time(tops[0]), numbers, TORQUE)]
 
 
-def at_the_end(ride: Evidence) -> list[Finding]:
+def at_the_end(ride: Evidence) -> list[DiagnosisFinding]:
     """Counts at the end of the converter's range."""
     raw = ride.values[RAW]
     ends = list(ride.spans(np.abs(raw) >= FULL_SCALE_COUNTS))
@@ -122,4 +130,4 @@ def at_the_end(ride: Evidence) -> list[Finding]:
     longest = max(ends, key=lambda rows: float(ride.seconds[rows].sum()))
     seconds = sum(float(ride.seconds[rows].sum()) for rows in ends)
     numbers = {"seconds": seconds, "times": float(len(ends)), "threshold_counts": FULL_SCALE_COUNTS}
-    return [Finding("saturation", SERIOUS, *ride.time(longest), numbers, RAW)]
+    return [DiagnosisFinding("saturation", SERIOUS, *ride.time(longest), numbers, RAW)]

@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.core.channels import Values
+from backend.core.described import described
 from backend.core.statistics import MAD_TO_DEVIATION, NORMAL_90, NORMAL_95, student
 from backend.rides.diagnosis.torque import DRIFT_NM, ZERO_NM
 
@@ -65,9 +66,9 @@ class Zeros:
         return np.isfinite(self.temperature_degc)
 
 
-@dataclass(frozen=True)
+@described
 class Share:
-    """A coefficient with its standard uncertainty and its interval of 95 % (GUM 6)."""
+    """A coefficient: its value, standard uncertainty, and interval of 95 %."""
 
     value: float
     uncertainty: float

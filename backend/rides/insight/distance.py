@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.core.channels import Values
+from backend.core.described import described
 from backend.core.energy import KMH_PER_MS
 
 CELL_M = 5.0
@@ -56,14 +57,16 @@ class Heights:
     cell_of_row: npt.NDArray[np.intp]
 
 
-@dataclass(frozen=True)
+@described
 class Climb:
-    """ascent_m and descent_m by CLIMB_M; lowest_m, highest_m: of the averaged heights."""
+    """By heights averaged over 5 m of way; a climb counts once it is 3 m high."""
 
     ascent_m: float
     descent_m: float
     lowest_m: float
+    """Of the averaged heights."""
     highest_m: float
+    """Of the averaged heights."""
 
 
 def way_of(columns: Mapping[str, Values], start_s: Values, seconds: Values) -> Way | None:

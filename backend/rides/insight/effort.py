@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.core.channels import Values
+from backend.core.described import described
 from backend.core.energy import MOTOR_POWER, RADIANS_PER_S_PER_RPM, RIDER_POWER
 
 POWER_ZONE_SHARES = (0.55, 0.75, 0.90, 1.05, 1.20, 1.50)
@@ -27,29 +28,31 @@ POWER, TORQUE, CADENCE, HEART = RIDER_POWER.name, "rider_torque_nm", "cadence_rp
 NEEDED = (POWER, TORQUE, CADENCE, HEART)
 
 
-@dataclass(frozen=True)
+@described
 class Band:
-    """Time from `low` up to `high`, None for no end."""
+    """Time from `low` up to `high`; null for no end."""
 
     low: float | None
     high: float | None
     seconds: float
 
 
-@dataclass(frozen=True)
+@described
 class Distribution:
-    """Time of a quantity by bands. zones: whether they are zones of `reference` (threshold power,
-    greatest heart rate), else plain bands. mean, most: of what is counted, most of a second.
-    unknown_s: time without the quantity."""
+    """Time of a quantity, in means of a second."""
 
     channel: str
     zones: bool
+    """Zones of `reference`; else plain bands."""
     reference: float | None
     bands: tuple[Band, ...]
     mean: float
+    """Of what is counted."""
     most: float
+    """The greatest mean of a second."""
     known_s: float
     unknown_s: float
+    """Time without the quantity."""
 
 
 @dataclass(frozen=True)
@@ -182,13 +185,14 @@ HEART = "heart_rate_bpm"
 MEANS = (RIDER_POWER.name, MOTOR_POWER.name, HEART)
 
 
-@dataclass(frozen=True)
+@described
 class LapFigures:
-    """Means over the time with a sample; None without any. seconds: of the rows in the lap."""
+    """A lap of the device that recorded the ride."""
 
     from_s: float
     to_s: float
     seconds: float
+    """Of the rows in the lap."""
     distance_km: float | None
     rider_power_w_mean: float | None
     motor_power_w_mean: float | None

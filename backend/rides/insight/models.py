@@ -6,9 +6,12 @@ from typing import Literal
 
 from pydantic import Field
 
+from backend.rides.diagnosis.finding import DiagnosisCheck, Severity
+from backend.rides.insight.distance import Climb
+from backend.rides.insight.effort import Distribution, LapFigures
+from backend.rides.insight.power_curve import BestMean
 from backend.web.models import Answer
 
-Severity = Literal["note", "warning", "serious"]
 NoRange = Literal["no_charge", "no_distance", "short_way", "charged", "little_used"]
 
 
@@ -35,15 +38,6 @@ class GradientEnergy(EnergyShare):
 
     from_pct: float | None
     to_pct: float | None
-
-
-class Climb(Answer):
-    """By heights averaged over 5 m of way; a climb counts once it is 3 m high."""
-
-    ascent_m: float
-    descent_m: float
-    lowest_m: float
-    highest_m: float
 
 
 class Charge(Answer):
@@ -76,47 +70,6 @@ class RideEnergy(Answer):
     range_refused: NoRange | None = Field(description="Why there is no range; null with one.")
 
 
-class Band(Answer):
-    """Time from `low` up to `high`; null for no end."""
-
-    low: float | None
-    high: float | None
-    seconds: float
-
-
-class Distribution(Answer):
-    """Time of a quantity, in means of a second."""
-
-    channel: str
-    zones: bool = Field(description="Zones of `reference`; else plain bands.")
-    reference: float | None
-    bands: list[Band]
-    mean: float
-    most: float = Field(description="The greatest mean of a second.")
-    known_s: float
-    unknown_s: float
-
-
-class BestMean(Answer):
-    """The greatest mean over this long, in the stretch that begins at `from_s`."""
-
-    duration_s: float
-    power_w: float
-    from_s: float
-
-
-class LapFigures(Answer):
-    """A lap of the device that recorded the ride."""
-
-    from_s: float
-    to_s: float
-    seconds: float
-    distance_km: float | None
-    rider_power_w_mean: float | None
-    motor_power_w_mean: float | None
-    heart_rate_bpm_mean: float | None
-
-
 class RideEffort(Answer):
     """What the rider gave; null without the channel."""
 
@@ -132,46 +85,6 @@ class RideEffort(Answer):
         description="A stretch with a gap in it does not count; the last is the longest without."
     )
     laps: list[LapFigures]
-
-
-class DiagnosisFinding(Answer):
-    """Something that is not as it should be, with its evidence."""
-
-    kind: Literal[
-        "zero_drift",
-        "saturation",
-        "rows_lost",
-        "sensor_silent",
-        "torque_late",
-        "brown_out",
-        "derating",
-        "speed_jump",
-        "speed_silent",
-        "wheel",
-    ]
-    severity: Severity
-    from_s: float = Field(description="Where to look first.")
-    to_s: float
-    numbers: dict[str, float] = Field(description="By name with its unit, the threshold with it.")
-    channel: str | None
-
-
-class DiagnosisCheck(Answer):
-    """One question; `impossible` where the ride lacks what it needs, named in `missing`: channels,
-    values of the configuration, or a rest, fast rows, a straight way."""
-
-    name: Literal[
-        "zero_drift",
-        "saturation",
-        "drop_outs",
-        "brown_out",
-        "derating",
-        "implausible_speed",
-        "wheel",
-    ]
-    state: Literal["clean", "found", "impossible"]
-    findings: list[DiagnosisFinding]
-    missing: list[str]
 
 
 class RideDiagnosis(Answer):

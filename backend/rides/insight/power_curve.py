@@ -8,11 +8,11 @@ A stretch with a missing sample or a pause in it does not count.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from backend.core.channels import Values
+from backend.core.described import described
 
 MINUTE_S, HOUR_S = 60, 3600
 DURATIONS_S = (
@@ -24,9 +24,9 @@ MISSING_S = 1e-6
 """Less than a clock's microsecond is no gap."""
 
 
-@dataclass(frozen=True)
+@described
 class BestMean:
-    """The best stretch of duration_s begins at from_s."""
+    """The greatest mean over this long, in the stretch that begins at `from_s`."""
 
     duration_s: float
     power_w: float

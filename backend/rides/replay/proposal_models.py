@@ -8,6 +8,7 @@ from pydantic import Field
 
 from backend.core.parameter_value import Parameters
 from backend.core.request_body import RequestBody
+from backend.rides.replay.propose import ProposalFigure
 from backend.tuning.library.models import LibraryEntry
 from backend.tuning.models.config import ParameterChange
 from backend.web.models import Answer
@@ -38,16 +39,6 @@ class ProposalRequest(RequestBody):
     )
     mass_kg: float | None = Field(default=None, ge=30.0, le=400.0)
     drag_area_m2: float | None = Field(default=None, ge=0.1, le=2.0)
-
-
-class ProposalFigure(Answer):
-    """Of all rides, as recorded and with the settings, as `POST /rides/{id}/again` tells them; nine
-    of ten simulated rides lay between `low` and `high`."""
-
-    before: float
-    after: float
-    low: float
-    high: float
 
 
 class ProposalCandidate(Answer):

@@ -22,6 +22,7 @@ import numpy as np
 
 from backend import law
 from backend.core.assist_mode import AssistModes
+from backend.core.described import described
 from backend.core.energy import SECONDS_PER_HOUR
 from backend.core.fuzzy_table import FuzzyTable
 from backend.errors import Conflict, InvalidRequest, NotFound, SpindleError
@@ -52,9 +53,10 @@ WORDS = {
 RUNNING = ("waiting", "riding", "proving")
 
 
-@dataclass(frozen=True, slots=True)
-class Figure:
-    """Of all rides, as recorded and with the change, and where nine of ten lie."""
+@described
+class ProposalFigure:
+    """Of all rides, as recorded and with the settings, as `POST /rides/{id}/again` tells them; nine
+    of ten simulated rides lay between `low` and `high`."""
 
     before: float
     after: float
@@ -70,8 +72,8 @@ class Candidate:
     gained_pct: float
     meets_target: bool
     recommended: bool
-    battery_wh_per_km: Figure
-    duration_s: Figure
+    battery_wh_per_km: ProposalFigure
+    duration_s: ProposalFigure
     parameters: dict[str, Any]
     changed: tuple[dict[str, Any], ...]
     certificate_sha256: str
@@ -331,7 +333,7 @@ def plain(work: _Work, found: Tried) -> Tried:
     return found
 
 
-def figures(work: _Work, config: Mapping[str, Any]) -> tuple[Figure, Figure]:
+def figures(work: _Work, config: Mapping[str, Any]) -> tuple[ProposalFigure, ProposalFigure]:
     """Energy of the battery for a kilometre, and time, as the same road again tells them. Energy
     that was not measured is the twin's own, in the band of the motor's work."""
     after = work.road.ridden(config)
@@ -339,18 +341,18 @@ def figures(work: _Work, config: Mapping[str, Any]) -> tuple[Figure, Figure]:
     told = [twin.corrected(totals) for twin, totals in zip(work.twins, after.totals, strict=True)]
     bands = [twin.band(config) for twin in work.twins]
 
-    def summed(name: str, factor: float = 1.0) -> Figure:
+    def summed(name: str, factor: float = 1.0) -> ProposalFigure:
         now = factor * sum(one[name] for one in told)
         low, high = (factor * sum(band[name][end] for band in bands) for end in (0, 1))
         before = factor * sum(twin.recorded[name] for twin in work.twins)
-        return Figure(before, now, min(low, now), max(high, now))
+        return ProposalFigure(before, now, min(low, now), max(high, now))
 
     per_km = 1.0 / SECONDS_PER_HOUR / work.road.distance_km
     battery = summed("battery_j", per_km)
     if math.isnan(battery.after):
         now, of_work = after.battery_j * per_km, summed("motor_work_j")
         low, high = (end / max(of_work.after, 1.0) for end in (of_work.low, of_work.high))
-        battery = Figure(work.road.before.battery_j * per_km, now, low * now, high * now)
+        battery = ProposalFigure(work.road.before.battery_j * per_km, now, low * now, high * now)
     return battery, summed("duration_s")
 
 

@@ -6,19 +6,18 @@ from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Header, Path, Query, Response
 
+from backend.law.feel import Feel
 from backend.tuning.library.compare import Compare, Side
 from backend.tuning.library.models import (
     CompareRequest,
     Comparison,
-    Feel,
     FisText,
     LibraryDocument,
     LibraryEntry,
     LibraryList,
-    LibraryRow,
     ReadFis,
 )
-from backend.tuning.library.service import Library, library_file, read_fis_file
+from backend.tuning.library.service import Library, LibraryRow, library_file, read_fis_file
 from backend.tuning.models.law import Table
 from backend.web.authentication import Author
 from backend.web.problem import refusals

@@ -16,6 +16,7 @@ from datetime import datetime
 from typing import Any, Literal, Protocol
 
 from backend.core.canonical_json import sha256_of
+from backend.core.described import described
 from backend.core.fuzzy_table import LABELS, PARAMETERS_OF, FuzzyTable
 from backend.errors import AccessDenied, ConfigConflict, Conflict, NotFound
 from backend.formats.library_document import NAME_MAX, library_document, table_document
@@ -31,27 +32,32 @@ OWN = re.compile(r"own-([1-9][0-9]{0,17})")
 Document = dict[str, Any]
 
 
-@dataclass(frozen=True, slots=True)
+@described
 class LibraryRow:
-    """One entry without its values. id: what it is asked for by. family: of the unit it is for.
-
-    kind: `table` or `configuration`. source: `preset` or `own`. The rest is of own ones: which
-    version this is, when it became that and by whom; author_proof as of domain.author.
-    """
+    """One entry without its values."""
 
     id: str
+    """What the entry is requested by."""
     name: str
-    kind: str
+    kind: Literal["table", "configuration"]
     comment: str
+    """What it is good for."""
     family: str
+    """Of the units it is for."""
     source: Literal["preset", "own"]
+    """`preset`: it comes with Spindle, read only. `own`: a user keeps it here."""
     etag: str
+    """Of what it is; `If-Match` of a change."""
     deleted: bool = False
     version: int | None = None
+    """Counts the states of an own item from 1."""
     created_at: datetime | None = None
     changed_at: datetime | None = None
     author: str | None = None
-    author_proof: str | None = None
+    """Who gave it this state."""
+    author_proof: Literal["stated", "signed_in"] | None = None
+    """How the author is known: `stated` is by their own word, `signed_in` by an account or a
+    key."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,7 +188,12 @@ def preset_row(name: str) -> LibraryRow:
     """The row of what comes with Spindle."""
     one = presets.load(name)
     tag = preset_etag(one.to_json())
-    return LibraryRow(name, one.name, one.kind, one.comment, one.family, "preset", tag)
+    return LibraryRow(name, one.name, kind_of(one.kind), one.comment, one.family, "preset", tag)
+
+
+def kind_of(word: str) -> Literal["table", "configuration"]:
+    """The word of a document's kind."""
+    return "table" if word == "table" else "configuration"
 
 
 def row_of(item: LibraryVersion) -> LibraryRow:
@@ -190,7 +201,7 @@ def row_of(item: LibraryVersion) -> LibraryRow:
     return LibraryRow(
         id=f"own-{item.item_id}",
         name=item.name,
-        kind=item.body["format"].removeprefix(FORMAT_START),
+        kind=kind_of(item.body["format"].removeprefix(FORMAT_START)),
         comment=item.body["comment"],
         family=item.body["family"],
         source="own",

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
+from backend.core.author import AuthorProof
 from backend.core.moments import utc
 
 
@@ -15,7 +16,7 @@ class LibraryVersion:
     """One state of an item, as it is kept; the newest is what the item is.
 
     seq: counts an item's states from 1. deleted: the item was taken out of the library here; body
-    is what it held. body: the whole document. author_proof: as of domain.author.
+    is what it held. body: the whole document. author_proof: as of core.author.
     """
 
     item_id: int
@@ -24,7 +25,7 @@ class LibraryVersion:
     body: Mapping[str, Any]
     sha256: str
     author: str
-    author_proof: str | None
+    author_proof: AuthorProof | None
     made_us: int
     created_us: int
 

@@ -9,6 +9,7 @@ from pydantic import Field
 
 from backend.core.parameter_value import Parameters
 from backend.core.request_body import RequestBody
+from backend.law.limit_proof import Cell
 from backend.tuning.models.law import AssistModes, FuzzyTable, UnitLimits
 from backend.web.models import Answer
 
@@ -57,16 +58,6 @@ class Claim(Answer):
         "counters can remember."
     )
     values: dict[str, float | str]
-
-
-class Cell(Answer):
-    """Between two speed points: the assist per rider torque that any mode asks for at most, and
-    what the market allows there at least."""
-
-    from_kmh: float
-    to_kmh: float
-    ratio_most: float
-    allowed_ratio: float | None
 
 
 class Certificate(Answer):

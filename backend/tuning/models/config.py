@@ -9,6 +9,7 @@ from pydantic import Field
 
 from backend.core.parameter_value import TOKEN, TOKEN_PATTERN, Parameters, ParameterValue
 from backend.core.request_body import RequestBody
+from backend.device.configuration import Free
 from backend.web.models import Answer
 
 CONFIRM_S_MAX = 255
@@ -16,14 +17,6 @@ CONFIRM_S = (
     "0 commits for good; else the unit returns to what it had after so many seconds, at a restart "
     "or power loss, unless `POST .../config/confirm` comes first."
 )
-
-
-class Free(Answer):
-    """Without the maker's token a value may be set from here to there."""
-
-    min: float
-    max: float
-    around: str = Field(description="The parameter that holds what the factory measured.")
 
 
 class Parameter(Answer):

@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
+from backend.core.fuzzy_table import Label
 from backend.core.request_body import RequestBody
 from backend.web.models import Answer
 
@@ -16,7 +17,6 @@ def in_lower_case(value: Any) -> Any:
 
 
 AnyCase = BeforeValidator(in_lower_case)
-Label = Literal["NB", "NS", "ZO", "PS", "PB"]
 Table = Literal["first", "second"]
 Inference = Annotated[Literal["mamdani_centroid", "weighted_average"], AnyCase]
 Law = Annotated[Literal["off", "fixed", "fuzzy"], AnyCase]
@@ -187,18 +187,3 @@ class LintRequest(RequestBody):
         le=100.0,
         description="The unit's own, motor turns per crank turn; else the registry's default.",
     )
-
-
-class Finding(Answer):
-    code: str
-    message: str
-    where: str | None
-    values: dict[str, float | str] = Field(
-        description="What the message tells, by name, for a text in another language."
-    )
-
-
-class LintReport(Answer):
-    errors: list[Finding]
-    warnings: list[Finding]
-    notes: list[Finding]

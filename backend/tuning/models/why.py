@@ -6,8 +6,10 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from backend.core.fuzzy_table import Label
 from backend.core.request_body import RequestBody
-from backend.tuning.models.law import AssistModes, FuzzyTable, Label, Law, Table, UnitLimits
+from backend.law.why import FiredRule, WhyStep
+from backend.tuning.models.law import AssistModes, FuzzyTable, Law, Table, UnitLimits
 from backend.web.models import Answer
 
 CHANGES = {"fuzzy_table", "second_table", "assist_modes", "limits"}
@@ -53,27 +55,6 @@ class WhyRequest(RequestBody):
         if self.limits is not None:
             changes["limits"].pop("effective_assist_cutoff_kmh")
         return self.model_dump(exclude=CHANGES), changes
-
-
-class FiredRule(Answer):
-    """Its cell, `[row][column]` of the table's rules, and how much it had to say."""
-
-    row: int
-    column: int
-    label: Label
-    weight: float = Field(
-        description="Above 0, to 1: the lesser of the two memberships under `mamdani_centroid`, "
-        "their product under `weighted_average`."
-    )
-
-
-class WhyStep(Answer):
-    """What one step of the pipeline added to the torque at the crank, or took from it."""
-
-    name: str
-    torque_nm: float
-    power_w: float | None = Field(description="At the crank's speed; null where it is not known.")
-    limit: str | None = Field(description="The limit it is, where it took or gave something.")
 
 
 class WhyMoment(Answer):

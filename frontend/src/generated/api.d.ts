@@ -2961,7 +2961,10 @@ export interface components {
             /** Allowed Ratio */
             allowed_ratio: number | null;
         };
-        /** CellChange */
+        /**
+         * CellChange
+         * @description A rule with another label. row: of the speed; column: of the torque rate.
+         */
         CellChange: {
             /**
              * Row
@@ -3247,9 +3250,15 @@ export interface components {
             ascent_m: number;
             /** Descent M */
             descent_m: number;
-            /** Lowest M */
+            /**
+             * Lowest M
+             * @description Of the averaged heights.
+             */
             lowest_m: number;
-            /** Highest M */
+            /**
+             * Highest M
+             * @description Of the averaged heights.
+             */
             highest_m: number;
         };
         /**
@@ -3479,8 +3488,8 @@ export interface components {
             name: string;
             /** Unit */
             unit: string;
-            a: components["schemas"]["ToldFigure"];
-            b: components["schemas"]["ToldFigure"];
+            a: components["schemas"]["FigureValue"];
+            b: components["schemas"]["FigureValue"];
             /**
              * Difference
              * @description B less A; null where one is missing.
@@ -3890,7 +3899,8 @@ export interface components {
             gain_of_unit: number;
             /**
              * Samples
-             * @description Of the output, ends included, with which the file was evaluated, as MATLAB does; the unit's centroid is exact. Null for a Sugeno system, which has none.
+             * @description Of the output, ends included, with which the file was evaluated, as MATLAB does; the unit's
+             *     centroid is exact. Null for a Sugeno system, which has none.
              */
             samples: number | null;
             /**
@@ -4024,9 +4034,15 @@ export interface components {
              * @enum {string}
              */
             state: "clean" | "found" | "impossible";
-            /** Findings */
+            /**
+             * Findings
+             * @default []
+             */
             findings: components["schemas"]["DiagnosisFinding"][];
-            /** Missing */
+            /**
+             * Missing
+             * @default []
+             */
             missing: string[];
         };
         /**
@@ -4036,6 +4052,7 @@ export interface components {
         DiagnosisFinding: {
             /**
              * Kind
+             * @description Which check found it, with what it found.
              * @enum {string}
              */
             kind: "zero_drift" | "saturation" | "rows_lost" | "sensor_silent" | "torque_late" | "brown_out" | "derating" | "speed_jump" | "speed_silent" | "wheel";
@@ -4049,7 +4066,10 @@ export interface components {
              * @description Where to look first.
              */
             from_s: number;
-            /** To S */
+            /**
+             * To S
+             * @description With `from_s`: where to look first.
+             */
             to_s: number;
             /**
              * Numbers
@@ -4058,7 +4078,10 @@ export interface components {
             numbers: {
                 [key: string]: number;
             };
-            /** Channel */
+            /**
+             * Channel
+             * @description What it is about, if it is one.
+             */
             channel: string | null;
         };
         /**
@@ -4077,7 +4100,10 @@ export interface components {
             reference: number | null;
             /** Bands */
             bands: components["schemas"]["Band"][];
-            /** Mean */
+            /**
+             * Mean
+             * @description Of what is counted.
+             */
             mean: number;
             /**
              * Most
@@ -4086,7 +4112,10 @@ export interface components {
             most: number;
             /** Known S */
             known_s: number;
-            /** Unknown S */
+            /**
+             * Unknown S
+             * @description Time without the quantity.
+             */
             unknown_s: number;
         };
         /** DocumentParameter */
@@ -4157,7 +4186,13 @@ export interface components {
              */
             motor_per_rider: number | null;
         };
-        /** ErasedLog */
+        /**
+         * ErasedLog
+         * @description A log that was freed.
+         *
+         *     erases: blocks of the unit's flash for logs erased in its life; None where the unit's answer was
+         *     lost and the log is gone.
+         */
         ErasedLog: {
             /** Log Id */
             log_id: number;
@@ -4346,7 +4381,8 @@ export interface components {
             rise_nm_per_s: number;
             /**
              * Ripple Pct
-             * @description Rms of the motor's torque about its mean over half a turn of the crank, as a share of it, under even legs.
+             * @description Rms of the motor's torque about its mean over half a turn of the crank, as a share of it,
+             *     under even legs.
              */
             ripple_pct: number | null;
             /**
@@ -4385,6 +4421,24 @@ export interface components {
             };
         };
         /**
+         * FigureValue
+         * @description A figure of one side.
+         */
+        FigureValue: {
+            /** Value */
+            value: number | null;
+            /**
+             * Missing
+             * @description Why there is no value; null with one.
+             */
+            missing: ("no_speed" | "no_way" | "no_motion" | "no_rider_power" | "no_motor_power" | "no_battery_power" | "only_asked" | "no_height" | "no_rider_work") | null;
+            /**
+             * Unknown S
+             * @description Time that an energy leaves out because its samples are missing.
+             */
+            unknown_s: number | null;
+        };
+        /**
          * Filled
          * @description A stretch the recording lacked, filled from the unit's own log at the log's rate.
          *
@@ -4395,9 +4449,15 @@ export interface components {
             from_s: number;
             /** To S */
             to_s: number;
-            /** Rows Lost */
+            /**
+             * Rows Lost
+             * @description Rows of the ride that lie in it.
+             */
             rows_lost: number;
-            /** Rows Filled */
+            /**
+             * Rows Filled
+             * @description So many of them have samples now.
+             */
             rows_filled: number;
             /**
              * Period Us
@@ -4406,17 +4466,32 @@ export interface components {
             period_us: number;
             /**
              * Source
+             * @default unit_log
              * @constant
              */
             source: "unit_log";
         };
-        /** Finding */
+        /**
+         * Finding
+         * @description code: for programs. message: for people. where: the cell, point or field; None for all.
+         *
+         *     values: what the message tells, by name, for whoever says it in another language.
+         */
         Finding: {
-            /** Code */
+            /**
+             * Code
+             * @description For programs.
+             */
             code: string;
-            /** Message */
+            /**
+             * Message
+             * @description For people.
+             */
             message: string;
-            /** Where */
+            /**
+             * Where
+             * @description The cell, point or field; null for all.
+             */
             where: string | null;
             /**
              * Values
@@ -4442,7 +4517,8 @@ export interface components {
             label: "NB" | "NS" | "ZO" | "PS" | "PB";
             /**
              * Weight
-             * @description Above 0, to 1: the lesser of the two memberships under `mamdani_centroid`, their product under `weighted_average`.
+             * @description Above 0, to 1: the lesser of the two memberships under `mamdani_centroid`, their product
+             *     under `weighted_average`.
              */
             weight: number;
         };
@@ -4731,7 +4807,10 @@ export interface components {
              * @description Of its own battery.
              */
             battery_v: number | null;
-            /** Battery Status */
+            /**
+             * Battery Status
+             * @description The last that was reported.
+             */
             battery_status: string | null;
         };
         /**
@@ -4741,23 +4820,32 @@ export interface components {
          *     rows_read = rows_kept + rows_joined + the sum of rows_dropped.
          */
         Intake: {
-            /** Rows Read */
+            /**
+             * Rows Read
+             * @default 0
+             */
             rows_read: number;
-            /** Rows Kept */
+            /**
+             * Rows Kept
+             * @default 0
+             */
             rows_kept: number;
             /**
              * Rows Joined
              * @description Of one time, each with a part of the values.
+             * @default 0
              */
             rows_joined: number;
             /**
              * Rows Spread
              * @description Of one time with values of their own; they stand evenly within it.
+             * @default 0
              */
             rows_spread: number;
             /**
              * Rows Moved
              * @description How often the clock went back.
+             * @default 0
              */
             rows_moved: number;
             /**
@@ -4783,7 +4871,9 @@ export interface components {
             };
             /**
              * Taken As
-             * @description What the file does not say, and what it was taken as: `time_zone`, `rows_per_second`, a column's unit. `start`: where its date is from. `clock`: the zone that its two clocks, one of UTC, are apart.
+             * @description What the file does not say, and what it was taken as: `time_zone`, `rows_per_second`, a
+             *     column's unit. `start`: where its date is from. `clock`: the zone that its two clocks, one of
+             *     UTC, are apart.
              */
             taken_as: {
                 [key: string]: string;
@@ -4964,20 +5054,6 @@ export interface components {
             limits: components["schemas"]["Limits"];
         };
         /**
-         * KnownAnswer
-         * @description What was said before.
-         */
-        KnownAnswer: {
-            /** Time Zone */
-            time_zone: string | null;
-            /** Units */
-            units: {
-                [key: string]: string;
-            };
-            /** Rows Per Second */
-            rows_per_second: number | null;
-        };
-        /**
          * KnownTable
          * @description A kind of table that was answered for.
          */
@@ -4986,9 +5062,12 @@ export interface components {
             header_sha256: string;
             /** Kind */
             kind: string;
-            /** Columns */
+            /**
+             * Columns
+             * @description Their names.
+             */
             columns: string[];
-            answer: components["schemas"]["KnownAnswer"];
+            answer: components["schemas"]["TableAnswer"];
         };
         /** KnownTables */
         KnownTables: {
@@ -5014,9 +5093,15 @@ export interface components {
              * @description Time the device's timer ran.
              */
             timer_s: number | null;
-            /** Distance M */
+            /**
+             * Distance M
+             * @description As the device counted it; null where it did not.
+             */
             distance_m: number | null;
-            /** Calories Kcal */
+            /**
+             * Calories Kcal
+             * @description As the device counted them; null where it did not.
+             */
             calories_kcal: number | null;
         };
         /**
@@ -5028,7 +5113,10 @@ export interface components {
             from_s: number;
             /** To S */
             to_s: number;
-            /** Seconds */
+            /**
+             * Seconds
+             * @description Of the rows in the lap.
+             */
             seconds: number;
             /** Distance Km */
             distance_km: number | null;
@@ -5039,7 +5127,10 @@ export interface components {
             /** Heart Rate Bpm Mean */
             heart_rate_bpm_mean: number | null;
         };
-        /** LargestDifference */
+        /**
+         * LargestDifference
+         * @description Where two surfaces are furthest apart.
+         */
         LargestDifference: {
             /**
              * Gain
@@ -5206,7 +5297,10 @@ export interface components {
          * @description One entry without its values.
          */
         LibraryRow: {
-            /** Id */
+            /**
+             * Id
+             * @description What the entry is requested by.
+             */
             id: string;
             /** Name */
             name: string;
@@ -5236,7 +5330,10 @@ export interface components {
              * @description Of what it is; `If-Match` of a change.
              */
             etag: string;
-            /** Deleted */
+            /**
+             * Deleted
+             * @default false
+             */
             deleted: boolean;
             /**
              * Version
@@ -5254,7 +5351,8 @@ export interface components {
             author: string | null;
             /**
              * Author Proof
-             * @description How the author is known: `stated` is by their own word, `signed_in` by an account or a key.
+             * @description How the author is known: `stated` is by their own word, `signed_in` by an account or a
+             *     key.
              */
             author_proof: ("stated" | "signed_in") | null;
         };
@@ -5352,13 +5450,25 @@ export interface components {
             /** End Point */
             end_point: number;
         };
-        /** LintReport */
+        /**
+         * LintReport
+         * @description errors: cannot be written. warnings: need a reason. notes: good to know.
+         */
         LintReport: {
-            /** Errors */
+            /**
+             * Errors
+             * @description Cannot be written.
+             */
             errors: components["schemas"]["Finding"][];
-            /** Warnings */
+            /**
+             * Warnings
+             * @description Need a reason.
+             */
             warnings: components["schemas"]["Finding"][];
-            /** Notes */
+            /**
+             * Notes
+             * @description Good to know.
+             */
             notes: components["schemas"]["Finding"][];
         };
         /** LintRequest */
@@ -6812,6 +6922,7 @@ export interface components {
             t_s: number;
             /**
              * Kind
+             * @description The first `assist_mode` is the mode the ride began in.
              * @enum {string}
              */
             kind: "fault_set" | "fault_cleared" | "assist_mode" | "settings" | "mark" | "clock_set";
@@ -6896,7 +7007,10 @@ export interface components {
          * @description Where a ride began: the nearest town of GeoNames. Null for what nobody knows.
          */
         RidePlace: {
-            /** Name */
+            /**
+             * Name
+             * @description The nearest town's.
+             */
             name: string | null;
             /**
              * Country
@@ -7223,11 +7337,15 @@ export interface components {
              * @description Of A's track, so near to B's, whenever B was there.
              */
             a_near_b: number;
-            /** B Near A */
+            /**
+             * B Near A
+             * @description As `a_near_b`.
+             */
             b_near_a: number;
             /**
              * In Step
-             * @description Of the way that both have, where they are so near at the same distance from their starts: how well they line up by distance. Null without a way.
+             * @description Of the way that both have, where they are so near at the same distance from their starts: how
+             *     well they line up by distance. Null without a way.
              */
             in_step: number | null;
         };
@@ -8051,6 +8169,7 @@ export interface components {
             /**
              * Unit
              * @description Empty for none, and where nothing tells it.
+             * @default
              */
             unit: string;
         };
@@ -8063,7 +8182,10 @@ export interface components {
             from_s: number;
             /** To S */
             to_s: number;
-            /** Figures */
+            /**
+             * Figures
+             * @default []
+             */
             figures: components["schemas"]["Stated"][];
         };
         /**
@@ -8150,6 +8272,29 @@ export interface components {
             torque_rates: number[];
         };
         /**
+         * TableAnswer
+         * @description What was said before.
+         */
+        TableAnswer: {
+            /**
+             * Time Zone
+             * @description A name of the IANA database.
+             */
+            time_zone: string | null;
+            /**
+             * Units
+             * @description By column.
+             */
+            units: {
+                [key: string]: string;
+            };
+            /**
+             * Rows Per Second
+             * @description Of rows without a time.
+             */
+            rows_per_second: number | null;
+        };
+        /**
          * TableColumn
          * @description One column of a table.
          */
@@ -8169,19 +8314,27 @@ export interface components {
             /**
              * Units
              * @description What may be said; empty where nothing is asked.
+             * @default []
              */
             units: string[];
             /**
              * Samples
              * @description Of the first rows.
+             * @default []
              */
             samples: string[];
         };
-        /** TableComparison */
+        /**
+         * TableComparison
+         * @description Two tables, point by point and by what the unit computes of them.
+         */
         TableComparison: {
             /** Cells */
             cells: components["schemas"]["CellChange"][];
-            /** Points Changed */
+            /**
+             * Points Changed
+             * @description Which of the three rows of points differ.
+             */
             points_changed: ("speed_points_kmh" | "torque_rate_points" | "gain_points")[];
             /** Inference Changed */
             inference_changed: boolean;
@@ -8194,7 +8347,10 @@ export interface components {
              * @description Gain, `[speed][torque rate]`.
              */
             left: number[][];
-            /** Right */
+            /**
+             * Right
+             * @description As `left`.
+             */
             right: number[][];
             /** @description Looked for over a finer grid and at every point of both. */
             largest: components["schemas"]["LargestDifference"];
@@ -8220,7 +8376,7 @@ export interface components {
             rows_per_second: boolean;
             /** Columns */
             columns: components["schemas"]["TableColumn"][];
-            answer: components["schemas"]["KnownAnswer"] | null;
+            answer: components["schemas"]["TableAnswer"] | null;
         };
         /**
          * TableUse
@@ -8348,21 +8504,6 @@ export interface components {
             recorded_s: number | null;
             /** Replayed S */
             replayed_s: number;
-        };
-        /** ToldFigure */
-        ToldFigure: {
-            /** Value */
-            value: number | null;
-            /**
-             * Missing
-             * @description Why there is no value; null with one.
-             */
-            missing: ("no_speed" | "no_way" | "no_motion" | "no_rider_power" | "no_motor_power" | "no_battery_power" | "only_asked" | "no_height" | "no_rider_work") | null;
-            /**
-             * Unknown S
-             * @description Time that an energy leaves out because its samples are missing.
-             */
-            unknown_s: number | null;
         };
         /**
          * TorqueSurface
@@ -8623,17 +8764,30 @@ export interface components {
          * @description How many of the files within a container are in which state.
          */
         UploadParts: {
-            /** Waiting */
+            /**
+             * Waiting
+             * @default 0
+             */
             waiting: number;
-            /** Complete */
+            /**
+             * Complete
+             * @default 0
+             */
             complete: number;
-            /** Partial */
+            /**
+             * Partial
+             * @default 0
+             */
             partial: number;
-            /** Rejected */
+            /**
+             * Rejected
+             * @default 0
+             */
             rejected: number;
             /**
              * Here
              * @description Rides that were known before the container came.
+             * @default 0
              */
             here: number;
         };

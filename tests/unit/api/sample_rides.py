@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any
 
-from backend.rides.models import RideSummary
+from backend.core.ride import RideSummary
 
 SAMPLE_RIDE: dict[str, Any] = {
     "id": 1,
@@ -48,5 +49,5 @@ SAMPLE_RIDE: dict[str, Any] = {
     "tags": ["winter"],
     "place": {"name": "Dublin", "country": "IE", "zone": "Europe/Dublin", "is_loop": False},
     "speed_line_kmh": [20.0, None] * 32,
-    "summary": {**dict.fromkeys(RideSummary.model_fields), "duration_s": 7200.0},
+    "summary": {**dict.fromkeys(field.name for field in fields(RideSummary)), "duration_s": 7200.0},
 }

@@ -14,7 +14,7 @@ import pytest
 
 from backend import law
 from backend.core.channels import Values
-from backend.rides.diagnosis.finding import Check, Evidence, Limits
+from backend.rides.diagnosis.finding import DiagnosisCheck, Evidence, Limits
 from backend.rides.diagnosis.service import METHOD, diagnose
 from tests.fakes.simulated_ride import LOOK_S, simulated_ride
 
@@ -43,7 +43,7 @@ def commute(**changes: Values) -> Evidence:
     return evidence({**columns_of("commute"), **changes})
 
 
-def answer(ride: Evidence, name: str) -> Check:
+def answer(ride: Evidence, name: str) -> DiagnosisCheck:
     return next(check for check in diagnose(ride) if check.name == name)
 
 
