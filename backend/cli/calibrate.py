@@ -1,35 +1,45 @@
-"""`spindle calibrate evaluate`: readings of an error test, or a certificate worked out again."""
+"""`spindle calibrate evaluate` and `paper`: a certificate's file, worked out again or printed; no
+server is needed."""
 
 from __future__ import annotations
 
 from argparse import Namespace
 from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
 from backend.calibration.certificate import Evaluated, is_certificate, written_document
 from backend.calibration.certificate import evaluate as evaluate_certificate
+from backend.calibration.paper.pdf import certificate_paper
 from backend.calibration.plain import to_plain
 from backend.cli.client import print_json, text_of
-from backend.cli.device import read_json, server_of
+from backend.cli.device import read_json
 from backend.core.canonical_json import sha256_of
+from backend.errors import InvalidRequest
 
 SHOWN_MAX = 20
 """Differences that are listed; a wrong arm changes hundreds of numbers."""
 
 
 def evaluate(options: Namespace) -> int:
-    """The figures of a file. Of a certificate it needs no server, and is 1 unless all of it
-    follows from its raw captures."""
-    body = read_json(options.file)
-    if is_certificate(body):
-        return _certificate(body, options.json)
-    answer = server_of(options).ask("POST", "/calibration/evaluate", json=body)
-    if options.json:
-        print_json(answer)
-        return 0
-    for name, value in answer.items():
-        print(f"{name:20} {text_of(value)}")
+    """A certificate worked out again; 1 unless all of it follows from its raw captures."""
+    return _certificate(certificate_in(options.file), options.json)
+
+
+def paper(options: Namespace) -> int:
+    """A certificate as a PDF to be signed."""
+    manner = {name: getattr(options, name) for name in ("language", "zone", "paper")}
+    body = certificate_in(options.file)
+    options.output.write_bytes(certificate_paper(body, options.file.name, **manner))
     return 0
+
+
+def certificate_in(file: Path) -> dict[str, Any]:
+    """What a certificate's file says. Raises InvalidRequest where it is none."""
+    body = read_json(file)
+    if not is_certificate(body):
+        raise InvalidRequest(f"{file} is no certificate: of `GET /calibrations/N/certificate`.")
+    return body
 
 
 def _certificate(body: dict[str, Any], as_json: bool) -> int:

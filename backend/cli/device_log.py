@@ -1,4 +1,4 @@
-"""`spindle device logs`, `spindle device download` and `spindle device erase`"""
+"""`spindle device download`: a ride from a unit's own flash."""
 
 from __future__ import annotations
 
@@ -6,48 +6,10 @@ import sys
 import time
 from argparse import Namespace
 
-from backend.cli.client import print_json, print_table
+from backend.cli.client import print_json
 from backend.cli.device import server_of
 
 LOOK_EVERY_S = 0.5
-
-
-def list_logs(options: Namespace) -> int:
-    """Every ride log of a unit."""
-    server = server_of(options)
-    answer = server.ask("GET", f"/devices/{server.device_id(options.unit)}/logs")
-    if options.json:
-        print_json(answer)
-        return 0
-    rows = [
-        [
-            log["log_id"],
-            log["state"],
-            log["started_at"],
-            round(log["duration_s"]),
-            log["length"],
-            "yes" if log["confirmed"] else "no",
-        ]
-        for log in answer["items"]
-    ]
-    print_table(rows, ["log", "state", "started", "seconds", "bytes", "fetched"])
-    if answer["overwritten"]:
-        print(f"{answer['overwritten']} logs were overwritten before anybody fetched them.")
-    return 0
-
-
-def erase(options: Namespace) -> int:
-    """Frees a fetched log in the unit's flash."""
-    server = server_of(options)
-    path = f"/devices/{server.device_id(options.unit)}/logs/{options.log}"
-    answer = server.ask("DELETE", path)
-    if options.json:
-        print_json(answer)
-    else:
-        blocks = answer["erases"]
-        so_far = "" if blocks is None else f"; {blocks} blocks of the unit's flash so far"
-        print(f"Log {options.log} is erased{so_far}.")
-    return 0
 
 
 def download(options: Namespace) -> int:

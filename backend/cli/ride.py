@@ -13,7 +13,7 @@ from typing import Any
 from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 
 from backend.cli.client import print_json, print_table, text_of
-from backend.cli.device import backup_at, read_json, server_of
+from backend.cli.device import server_of
 from backend.errors import RequestRefused
 
 # From which hour on a ride is called what, as on the page.
@@ -188,26 +188,6 @@ def title_of(ride: dict[str, Any]) -> str:
     return ", ".join(filter(None, [part, place.get("name")]))
 
 
-def tag(options: Namespace) -> int:
-    """Adds tags to rides, or takes them away."""
-    change = {"remove" if options.remove else "add": options.tags}
-    body = {"ride_ids": options.rides, **change}
-    server_of(options).ask("POST", "/rides/tags", json=body)
-    if options.json:
-        print_json(body)
-    return 0
-
-
-def sample(options: Namespace) -> int:
-    """Has the sample ride made, or finds it."""
-    made = server_of(options).ask("POST", "/rides/sample")
-    if options.json:
-        print_json(made)
-    else:
-        print(f"ride {made['id']}: {made['name']}")
-    return 0
-
-
 def show(options: Namespace) -> int:
     """One ride's figures."""
     ride = server_of(options).ask("GET", f"/rides/{options.ride}")
@@ -257,115 +237,6 @@ def save(options: Namespace, what: str, params: dict[str, Any]) -> int:
     shutil.move(partial, options.output)
     if options.json:
         print_json({"file": str(options.output), "bytes": len(response.content)})
-    return 0
-
-
-def replay(options: Namespace) -> int:
-    """What the motor would have done with other settings; or the same road again with them."""
-    body = {
-        name: read_json(file)
-        for name, file in (
-            ("fuzzy_table", options.table),
-            ("second_table", options.second_table),
-            ("assist_modes", options.modes),
-        )
-        if file is not None
-    }
-    if options.settings is not None:
-        body["parameters"] = backup_at(options.settings).parameters
-    server, path = server_of(options), f"/rides/{options.ride}"
-    if options.closed_loop:
-        told = {"mass_kg": options.mass_kg, "drag_area_m2": options.drag_area_m2}
-        estimate = server.ask("POST", f"{path}/again", json=body | told)
-        print_json(estimate) if options.json else print_estimate(estimate)
-        return 0
-    answer = server.ask("POST", f"{path}/replay", json=body)
-    if options.json:
-        print_json(answer)
-        return 0
-    print(answer.pop("meaning"))
-    for name, value in answer.items():
-        if not isinstance(value, dict | list):
-            print(f"{name:32} {text_of(value)}")
-    rows = [
-        [name, *(text_of(value[part]) for part in ("recorded", "replayed", "difference"))]
-        for name, value in answer.items()
-        if isinstance(value, dict) and "replayed" in value
-    ]
-    print_table(rows, ["", "recorded", "replayed", "difference"])
-    before = answer["limit_shares_recorded"] or {}
-    held = [
-        [name, f"{before[name]:.1%}" if name in before else "-", f"{share:.1%}"]
-        for name, share in answer["limit_shares"].items()
-        if share or before.get(name)
-    ]
-    print_table(held, ["share of time held back by", "recorded", "replayed"])
-    return 0
-
-
-def print_estimate(estimate: dict[str, Any]) -> None:
-    """The same road again: figures with their bands, and how far the twin can be trusted."""
-    print(estimate["meaning"])
-    parts = ("recorded", "replayed", "difference", "low", "high")
-    figures = [
-        [name, *(text_of(value[part]) for part in parts)]
-        for name, value in estimate.items()
-        if isinstance(value, dict) and "difference" in value
-    ]
-    print_table(figures, ["", *parts])
-    held = [
-        [row["limit"], *(text_of(row[name]) for name in ("recorded_s", "replayed_s"))]
-        for row in estimate["limits"]
-    ]
-    print_table(held, ["seconds held back by", "recorded", "replayed"])
-    for name, value in estimate["trust"].items():
-        print(f"{name:32} {text_of(value)}")
-
-
-def since(options: Namespace) -> int:
-    """The unit's rides since a change beside those before it."""
-    server = server_of(options)
-    path = f"/devices/{server.device_id(options.unit)}/config/revisions"
-    revision = options.revision
-    if revision is None:
-        history = server.ask("GET", path)["items"]
-        if not history:
-            raise RequestRefused("The unit has no configuration in its history yet.")
-        revision = history[0]["seq"]
-    answer = server.ask("GET", f"{path}/{revision}/since")
-    if options.json:
-        print_json(answer)
-        return 0
-    print(f"Configuration {answer['seq']} of {answer['created_at']}. {answer['meaning']}")
-    sides = [answer[side] for side in ("before", "after")]
-    rows = [["rides", *(len(side.pop("ride_ids")) for side in sides)]]
-    rows += [[name, *(side[name] for side in sides)] for name in sides[0]]
-    print_table(rows, ["", "before", "since"])
-    print(f"motor work by distance since: {answer['motor_wh_per_km_after']}")
-    print(f"other configurations meanwhile: {answer['other_changes']}")
-    return 0
-
-
-def list_files(options: Namespace) -> int:
-    """Files that came, the latest first: also those that were refused and can be removed."""
-    answer = server_of(options).ask("GET", "/uploads", params={"limit": options.limit})
-    if options.json:
-        print_json(answer)
-        return 0
-    rows = []
-    for upload in answer["items"]:
-        rides = ", ".join(map(str, upload["ride_ids"])) or None
-        facts = [upload[key] for key in ("id", "name", "length", "state")]
-        rows.append([*facts, rides, upload["expires_at"]])
-    print_table(rows, ["file", "name", "bytes", "state", "rides", "goes by itself"])
-    return 0
-
-
-def remove_file(options: Namespace) -> int:
-    """Removes a file that no ride came from, and its bytes."""
-    server_of(options).ask("DELETE", f"/uploads/{options.file}")
-    if options.json:
-        print_json({"removed": options.file})
     return 0
 
 

@@ -113,25 +113,17 @@ def test_a_planted_gain_is_found_and_gone_once_it_is_written(
     assert told["resistance"]["air_ns2_m2"] == pytest.approx(0.24, rel=0.05)
     assert told["calibrated"]["source"] == "unknown"
     assert found["motor_energy_j"] == pytest.approx(0.0, abs=5.0)
-    file = tmp_path / "climb.json"
-    file.write_text(json.dumps(asked), encoding="utf-8")
-    shown = spindle(server, "calibrate", "climb", str(file), "--json")
-    assert (shown.returncode, json.loads(shown.stdout)) == (1, told)
-    assert "differs from the calibration" in spindle(server, "calibrate", "climb", file).stdout
 
-    begin_s, end_s = str(asked["climb"]["from_s"]), str(asked["climb"]["to_s"])
-    number = str(asked["climb"]["ride_id"])
-    turning = spindle(server, "calibrate", "cadence", number, "--window", begin_s, end_s, "--json")
-    turned = json.loads(turning.stdout)
-    assert (turning.returncode, turned["agrees"]) == (0, True)
+    ride_id, begin_s, end_s = (asked["climb"][name] for name in ("ride_id", "from_s", "to_s"))
+    window = {"ride_id": ride_id, "from_s": begin_s, "to_s": end_s}
+    turned = server.ask("POST", "/calibration/cadence", json=window)
+    assert turned["agrees"]
     # One turn of the crank is 44/14 of the wheel.
-    wheel_turns = way_m(server, int(number), float(begin_s), float(end_s)) / CIRCUMFERENCE_M
+    wheel_turns = way_m(server, ride_id, begin_s, end_s) / CIRCUMFERENCE_M
     assert turned["turns"] == pytest.approx(wheel_turns * 14 / 44, rel=2e-3)
-    by_the_crank = f"{turned['turns'] * 44 / 14:.2f}"
-    window = ("--window", begin_s, end_s, "--turns", by_the_crank, "--json")
-    counted = spindle(server, "calibrate", "pulses", number, *window)
-    pulses = json.loads(counted.stdout)["pulses"]
-    assert (counted.returncode, pulses["whole"], pulses["agrees"]) == (0, 36, True)
+    by_the_crank = {"turns": turned["turns"] * 44 / 14}
+    pulses = server.ask("POST", "/calibration/wheel/pulses", json=window | by_the_crank)["pulses"]
+    assert (pulses["whole"], pulses["agrees"]) == (36, True)
 
     gain = server.get(f"/devices/{device}/config")["parameters"][GAIN]
     server.configure(device, **{GAIN: gain / PLANTED_GAIN})
@@ -151,31 +143,19 @@ def test_a_planted_gain_is_found_and_gone_once_it_is_written(
 def test_a_rolled_wheel_is_told_beside_the_unit_s(server: SpindleServer) -> None:
     device = server.ready_device()
     larger_m = [2 * 1.03 * CIRCUMFERENCE_M + error for error in (-0.002, 0.0, 0.002)]
-    rolled = [f"{one:.4f}" for one in larger_m]
+    rolls = {"distances_m": larger_m, "turns": 2, "tape_limit_m": 0.003, "device_id": device}
 
-    shown = spindle(
-        server,
-        "calibrate",
-        "wheel",
-        "--rolled",
-        *rolled,
-        "--turns",
-        "2",
-        "--unit",
-        device,
-        "--json",
-    )
+    told = server.ask("POST", "/calibration/wheel/roll-out", json=rolls)
 
-    told = json.loads(shown.stdout)
     beside = told["beside"]
-    assert (shown.returncode, beside["agrees"], beside["in_band"]) == (1, False, True)
+    assert (beside["agrees"], beside["in_band"]) == (False, True)
     assert told["measured"]["circumference_m"] == pytest.approx(1.03 * CIRCUMFERENCE_M, abs=1e-4)
     assert beside["difference_pct"] == pytest.approx(3.0, abs=0.01)
     limit = beside["cut_off"]
     assert limit["true_kmh"] == pytest.approx(1.03 * limit["limit_kmh"], rel=1e-4)
     assert not limit["lawful"]
-    plain = spindle(server, "calibrate", "wheel", "--rolled", "2.0734", "2.0735", "--unit", device)
-    assert (plain.returncode, "and agrees" in plain.stdout) == (0, True)
+    same = rolls | {"distances_m": [2.0734, 2.0735], "turns": 1}
+    assert server.ask("POST", "/calibration/wheel/roll-out", json=same)["beside"]["agrees"]
     ride = server.get("/rides")["items"]
     if ride:
         body = {"ride_id": ride[0]["id"]}

@@ -64,9 +64,6 @@ def test_a_drift_is_seen_calibrated_and_gone(server: SpindleServer) -> None:
     assert zeros_nm[2] - zeros_nm[1] == pytest.approx(25.0 * DRIFT_NM_PER_S, abs=0.1)
     assert far["latest"]["temperature_degc"] == pytest.approx(20.0, abs=1.0)
     assert far["no_trend"] == "few_rides"
-    shown = spindle(server, "calibrate", "drift")
-    assert (shown.returncode, "calibrate it" in shown.stdout) == (1, True)
-    assert shown.stdout.count("\n") > 4
 
     offset = {"sensor_offset_counts": round(far["latest"]["zero_counts"], 1)}
     body = {"parameters": offset, "reason": "zero had moved"}
@@ -79,7 +76,6 @@ def test_a_drift_is_seen_calibrated_and_gone(server: SpindleServer) -> None:
 
     assert again["level"] == "ok"
     assert again["latest"]["zero_nm"] == pytest.approx(0.0, abs=0.2)
-    assert json.loads(spindle(server, "calibrate", "drift", "--json").stdout) == again
 
     server.ask("DELETE", f"/rides/{again['latest']['ride_id']}")
     assert drift(server, device)["latest"] is None

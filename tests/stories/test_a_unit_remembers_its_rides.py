@@ -151,10 +151,10 @@ def test_the_command_lists_and_fetches(workshop: SpindleServer) -> None:
         assert done.returncode == 0, done.stderr
         return done.stdout
 
-    assert str(newest) in spindle("device", "logs")
+    assert str(newest) in spindle("api", "GET", "/devices/{unit}/logs")
     refused = workshop.client.delete(f"/devices/{device}/logs/{newest}")
     assert (refused.status_code, refused.json()["code"]) == (409, "not_confirmed")
     with time_goes_by(workshop, device):
         assert "ride" in spindle("device", "download", str(newest))
-        assert "erased" in spindle("device", "erase", str(newest))
+        assert "erases" in spindle("api", "DELETE", f"/devices/{{unit}}/logs/{newest}")
     assert newest not in [log["log_id"] for log in logs(workshop, device)]

@@ -15,14 +15,17 @@ from pathlib import Path
 import pytest
 
 from firmware_protocol.parameters import default_config
-from tests.fakes.command import ROOT, spindle, spindle_process
+from tests.fakes.command import ROOT, Ran, spindle, spindle_process
 from tests.fakes.fit_file import fit_ride
 from tests.fakes.server import SpindleServer, eventually
 
 WRONG = [
     ["device"],
     ["ride", "export", "not-a-number"],
-    ["surface", "--speeds", "0:25"],
+    ["api", "GET"],
+    ["api", "FETCH", "/devices"],
+    ["api", "PATCH", "/devices/{unit}/config", "no-equals-sign"],
+    ["api", "POST", "/lint", "--input", "no-such-file.json"],
     ["device", "set", "no-equals-sign"],
     ["device", "restore", "no-such-file.json"],
     ["serve", "--port", "99999"],
@@ -178,7 +181,8 @@ def test_a_file_is_imported_listed_and_exported(server: SpindleServer, tmp_path:
     reported = spindle(server, "ride", "report", str(ride), "-o", page, *told)
     listed = spindle(server, "ride", "list")
     card = eventually(lambda: server.get(f"/rides/{ride}")["speed_line_kmh"], bool)
-    tagged = spindle(server, "ride", "tag", "winter", "--rides", str(ride))
+    tags = (f"ride_ids=[{ride}]", 'add=["winter"]')
+    tagged = spindle(server, "api", "POST", "/rides/tags", *tags)
     found = spindle(server, "ride", "list", "--tag", "Winter", "--json")
     none = spindle(server, "ride", "list", "--motor", "--json")
     home = server.get("/rides/home", params={"zone": "Asia/Tokyo"})
@@ -217,48 +221,42 @@ def test_a_file_that_is_no_ride_ends_with_one_and_the_reason(
     assert "letter.fit" in result.stderr
 
 
-def test_the_surface_and_the_sensor_s_figures_come_from_the_shell_too(
+def test_any_request_of_the_api_is_sent_from_the_shell(
     server: SpindleServer, device: str, tmp_path: Path
 ) -> None:
     readings = tmp_path / "readings.json"
-    readings.write_text(
-        json.dumps(
-            {
-                "full_scale_nm": 100.0,
-                "load_nm": [0.0, 50.0, 100.0],
-                "forward": [[0.0, 50.2, 100.0], [0.0, 50.2, 100.0]],
-                "reverse": [[0.0, 50.2, 100.0], [0.0, 50.2, 100.0]],
-            }
-        )
-    )
+    strokes = [[0.0, 50.2, 100.0], [0.0, 50.2, 100.0]]
+    load = {"full_scale_nm": 100.0, "load_nm": [0.0, 50.0, 100.0]}
+    readings.write_text(json.dumps(load | {"forward": strokes, "reverse": strokes}))
+    backup = tmp_path / "store.zip"
 
-    surface = spindle(server, "surface", "--speeds", "5:25:5", "--rates", "0:0.9:5", "--json")
-    figures = spindle(server, "calibrate", "evaluate", readings, "--json")
+    def api(*words: str | Path) -> Ran:
+        return spindle(server, "api", *words)
 
-    assert len(json.loads(surface.stdout)["gain"]) == 5
+    figures = api("POST", "/calibration/evaluate", "--input", readings, "--json")
+    again = api("post", "api/v1/calibration/evaluate", f"forward=@{readings}", "load_nm=[0]")
+    tried = api("POST", "/devices/{unit}/live", "parameters.pedal_stop_ms=222", "ttl_s=200")
+    told = api("GET", "/devices/{unit}/live", "--unit", device, "--json")
+    ended = api("DELETE", "/devices/{unit}/live")
+    second = api("GET", "/devices/{unit}/fuzzy-table", "table=second", "--json")
+    listed = api("GET", "/devices")
+    refused = api("POST", "/devices/{unit}/live", "parameters.pedal_stop_ms=99999", "ttl_s=9")
+    saved = api("GET", "/store/backup", "-o", backup)
+    gone = api("DELETE", "/library/even", "-H", 'if-match: "x"')
+
     # 0.2 Nm off at 50 Nm of 100 Nm full scale; the strokes repeat exactly.
     assert json.loads(figures.stdout)["linearity_pct"] == pytest.approx(0.2)
-    assert json.loads(figures.stdout)["repeatability_pct"]["range"] == 0.0
-
-
-def test_both_of_the_unit_s_tables_are_drawn_and_judged(server: SpindleServer, device: str) -> None:
-    grid = ["--speeds", "10:25:2", "--rates", "0.8:0.9:2", "--json"]
-
-    first = spindle(server, "surface", *grid)
-    second = spindle(server, "surface", "--second", *grid)
-    findings = spindle(server, "lint", "--second", "--unit", device, "--json")
-    proven = spindle(server, "certificate", "--unit", device)
-
-    # The factory's tables differ in how they are combined; beside the points that shows.
-    tables = [json.loads(drawn.stdout) for drawn in (first, second)]
-    assert tables[0]["fuzzy_table"]["name"] == "thesis 4-2"
-    assert tables[1]["fuzzy_table"]["name"] == "thesis 4-2, smooth"
-    assert tables[0]["gain"] != tables[1]["gain"]
-    assert findings.returncode == 0, findings.stderr
-    # Every fuzzy mode of the factory uses the first table.
-    assert "table_not_used" in [note["code"] for note in json.loads(findings.stdout)["notes"]]
-    assert proven.returncode == 0, proven.stdout + proven.stderr
-    assert "At 25 km/h and above" in proven.stdout
+    assert (again.returncode, "full_scale_nm" in again.stderr) == (1, True)
+    assert "pedal_stop_ms: 222" in tried.stdout
+    assert json.loads(told.stdout)["parameters"] == {"pedal_stop_ms": 222}
+    assert "remaining_s: -" in ended.stdout
+    assert json.loads(second.stdout)["name"] == "thesis 4-2, smooth"
+    assert listed.stdout.splitlines()[0].startswith("id ")
+    assert device in listed.stdout
+    assert (refused.returncode, "pedal_stop_ms" in refused.stderr) == (1, True)
+    assert saved.returncode == 0, saved.stderr
+    assert zipfile.is_zipfile(backup)
+    assert (gone.returncode, "comes with Spindle" in gone.stderr) == (1, True)
 
 
 def test_no_server_is_said_so_with_what_to_do() -> None:
@@ -279,21 +277,6 @@ def test_wrong_usage_ends_with_two(
             assert result.returncode == 2, result.stderr
             assert result.stderr
             assert "sim_device" not in result.stderr
-
-
-def test_values_are_tried_and_wear_is_told(server: SpindleServer, device: str) -> None:
-    tried = spindle(server, "device", "try", "pedal_stop_ms=222", "--seconds", "200", "--json")
-    told = spindle(server, "device", "try")
-    ended = spindle(server, "device", "try", "--end")
-    wear = spindle(server, "device", "service", "--json")
-    wrong = spindle(server, "device", "try", "pedal_stop_ms=99999")
-
-    assert json.loads(tried.stdout)["parameters"] == {"pedal_stop_ms": 222}
-    assert "pedal_stop_ms" in told.stdout
-    assert "Nothing is tried" in ended.stdout
-    assert len(json.loads(wear.stdout)["config_slots"]) == 2
-    assert wrong.returncode == 1
-    assert "pedal_stop_ms" in wrong.stderr
 
 
 def test_scenarios_run_without_a_server() -> None:

@@ -92,22 +92,3 @@ def test_what_is_no_ride_or_no_window_is_refused(pair: tuple[SpindleServer, list
         ({"a": a, "b": a, "a_from_s": 20, "a_to_s": 10}, 422),
     ):
         assert server.client.get("/rides/compare", params=params).status_code == status, params
-
-
-def test_a_shell_says_the_same(pair: tuple[SpindleServer, list[int]]) -> None:
-    server, rides = pair
-
-    def compare(*words: str) -> Ran:
-        return spindle(server, "ride", "compare", *map(str, rides), *words)
-
-    told, along, parted = (
-        compare("--json"),
-        compare("--by", "distance"),
-        compare("--a-window", "0", "10", "--b-window", "5", "20", "--by", "crank"),
-    )
-
-    assert json.loads(told.stdout) == asked(pair)
-    assert "torque_filter_s" in along.stdout
-    assert "difference of means" in along.stdout
-    assert (along.returncode, parted.returncode) == (0, 0), parted.stderr
-    assert "few_turns" in parted.stdout

@@ -224,13 +224,13 @@ def test_the_command_makes_the_paper_of_a_file_without_a_server(
     file, paper = tmp_path / "kept.json", tmp_path / "kept.pdf"
     file.write_text(json.dumps(body), encoding="utf-8")
 
-    assert main(["calibrate", "certificate", str(file), "--pdf", str(paper)]) == 0
+    assert main(["calibrate", "paper", str(file), str(paper)]) == 0
 
     assert body["sha256"] in read(paper.read_bytes())
     assert "spindle calibrate evaluate kept.json" in read(paper.read_bytes())
     file.write_text("{}", encoding="utf-8")
-    assert main(["calibrate", "certificate", str(file), "--pdf", str(paper)]) == 2
-    assert "document" in capsys.readouterr().err
+    assert main(["calibrate", "paper", str(file), str(paper)]) == 2
+    assert "no certificate" in capsys.readouterr().err
 
 
 @pytest.mark.slow
