@@ -153,7 +153,7 @@ class Unit:
 
     def fuzzy_table(self, table: Table = "first") -> FuzzyTable:
         """One of the two rule tables, read from the unit."""
-        answer = self._server.ask("GET", f"{self._path}/fuzzy-table", params={"table": table})
+        answer = self._server.ask("GET", f"{self._path}/parts/fuzzy_table", params={"table": table})
         return read_as(FuzzyTable, answer)
 
     def write_fuzzy_table(
@@ -168,12 +168,12 @@ class Unit:
         The second table's points of speed and torque rate are the first's; others are refused.
         """
         query = {"table": table, "reason": reason, "confirm_s": confirm_s}
-        path, body = f"{self._path}/fuzzy-table", value.model_dump()
+        path, body = f"{self._path}/parts/fuzzy_table", value.model_dump()
         return read_as(ConfigChange, self._server.ask("PUT", path, params=query, json=body))
 
     def limits(self) -> UnitLimits:
         """What the unit enforces whatever a table says, and where assist ends because of it."""
-        return read_as(UnitLimits, self._server.ask("GET", f"{self._path}/limits"))
+        return read_as(UnitLimits, self._server.ask("GET", f"{self._path}/parts/limits"))
 
     def confirm(self) -> ConfigChange:
         """Keep what is on trial."""

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, cast
 
-from fastapi import APIRouter, Header, Query, Response
+from fastapi import APIRouter, Depends, Header, Query, Request, Response
+from fastapi.exceptions import RequestValidationError
+from pydantic import ValidationError
 
 from backend.core.parameter_value import TOKEN, TOKEN_PATTERN
 from backend.tuning.live_set import LiveTuning
@@ -20,7 +22,7 @@ from backend.tuning.models.config import (
     ParameterList,
     RevisionList,
 )
-from backend.tuning.models.law import AssistModes, Calibration, FuzzyTable, Table, UnitLimits
+from backend.tuning.models.law import AssistModes, Calibration, FuzzyTable, LawModel, Table, UnitLimits
 from backend.tuning.models.why import Why, WhyRequest
 from backend.tuning.service import Tuning
 from backend.tuning.types import etag
@@ -55,11 +57,46 @@ WhichTable = Annotated[
 ]
 ConfirmS = Annotated[int, Query(ge=0, le=CONFIRM_S_MAX, description=CONFIRM_S)]
 Token = Annotated[str | None, Query(pattern=TOKEN_PATTERN, description=TOKEN)]
-TABLES = {"first": "fuzzy_table", "second": "second_fuzzy_table"}
+Part = Literal["fuzzy_table", "assist_modes", "calibration", "limits"]
+AnyPart = FuzzyTable | AssistModes | Calibration | UnitLimits
+PARTS: dict[Part, type[LawModel]] = {
+    "fuzzy_table": FuzzyTable,
+    "assist_modes": AssistModes,
+    "calibration": Calibration,
+    "limits": UnitLimits,
+}
+PART_IN_BODY = {
+    "requestBody": {
+        "required": True,
+        "content": {
+            "application/json": {
+                "schema": {
+                    "anyOf": [
+                        {"$ref": f"#/components/schemas/{kind.__name__}"} for kind in PARTS.values()
+                    ]
+                }
+            }
+        },
+    }
+}
 Bank = Annotated[
     Literal["active", "previous", "default"],
     Query(description="Of the unit: what is in force, what was before, what its firmware brings."),
 ]
+
+
+def place_of(part: Part, table: Table) -> str:
+    """What the service calls a part; the second table is one of its own."""
+    return "second_fuzzy_table" if (part, table) == ("fuzzy_table", "second") else part
+
+
+async def part_in_body(part: Part, request: Request) -> LawModel:
+    """The body as the part it is for. Raises RequestValidationError with its fields."""
+    try:
+        return PARTS[part].model_validate_json(await request.body())
+    except ValidationError as wrong:
+        faults = [{**one, "loc": ("body", *one["loc"])} for one in wrong.errors()]
+        raise RequestValidationError(faults) from None
 
 
 @router.get("/parameters", operation_id="list_parameters", response_model=ParameterList)
@@ -153,18 +190,34 @@ def end_live(device_id: str, live: TheLiveTuning) -> Any:
     return live.end(device_id)
 
 
-@router.get("/fuzzy-table", operation_id="get_fuzzy_table", response_model=FuzzyTable)
-def get_fuzzy_table(
-    device_id: str, tuning: TheTuning, response: Response, table: WhichTable = "first"
-) -> Any:
-    """A rule table and its points, as the surface and the linter take them."""
-    return _tagged(tuning.read_part(device_id, TABLES[table]), response)
-
-
-@router.put("/fuzzy-table", operation_id="put_fuzzy_table", response_model=ConfigChange)
-def put_fuzzy_table(
+@router.get("/parts/{part}", operation_id="get_part", response_model=AnyPart)
+def get_part(
     device_id: str,
-    body: FuzzyTable,
+    part: Part,
+    tuning: TheTuning,
+    response: Response,
+    table: WhichTable = "first",
+) -> Any:
+    """A part of the configuration in the shape people edit.
+
+    `fuzzy_table`: a rule table and its points, as the surface and the linter take them.
+    `assist_modes`: the five slots of the rider's switch. `calibration`: how raw counts become
+    newton metres. `limits`: what the unit enforces whatever the table says, and where assist ends
+    because of it.
+    """
+    return _tagged(tuning.read_part(device_id, place_of(part, table)), response)
+
+
+@router.put(
+    "/parts/{part}",
+    operation_id="put_part",
+    response_model=ConfigChange,
+    openapi_extra=PART_IN_BODY,
+)
+def put_part(
+    device_id: str,
+    part: Part,
+    body: Annotated[LawModel, Depends(part_in_body)],
     tuning: TheTuning,
     response: Response,
     author: Author,
@@ -174,89 +227,13 @@ def put_fuzzy_table(
     table: WhichTable = "first",
     token: Token = None,
 ) -> Any:
-    """Writes a whole table in one transaction.
+    """Writes a whole part in one transaction; the unit refuses what its market forbids.
 
     Both tables share the points of speed and torque rate: those of the second are not changed here.
     """
+    written = body.model_dump(exclude_unset=part == "calibration", exclude_none=part == "limits")
     change = tuning.write_part(
-        device_id, TABLES[table], body.model_dump(), reason, if_match, confirm_s, token, author
-    )
-    return _stamped(change, response)
-
-
-@router.get("/assist-modes", operation_id="get_assist_modes", response_model=AssistModes)
-def get_assist_modes(device_id: str, tuning: TheTuning, response: Response) -> Any:
-    """The five slots of the rider's switch."""
-    return _tagged(tuning.read_part(device_id, "assist_modes"), response)
-
-
-@router.put("/assist-modes", operation_id="put_assist_modes", response_model=ConfigChange)
-def put_assist_modes(
-    device_id: str,
-    body: AssistModes,
-    tuning: TheTuning,
-    response: Response,
-    author: Author,
-    if_match: IfMatch = None,
-    reason: Reason = "",
-    confirm_s: ConfirmS = 0,
-    token: Token = None,
-) -> Any:
-    """Writes all five slots in one transaction."""
-    change = tuning.write_part(
-        device_id, "assist_modes", body.model_dump(), reason, if_match, confirm_s, token, author
-    )
-    return _stamped(change, response)
-
-
-@router.get("/calibration", operation_id="get_calibration", response_model=Calibration)
-def get_calibration(device_id: str, tuning: TheTuning, response: Response) -> Any:
-    """How raw counts become newton metres in this unit."""
-    return _tagged(tuning.read_part(device_id, "calibration"), response)
-
-
-@router.put("/calibration", operation_id="put_calibration", response_model=ConfigChange)
-def put_calibration(
-    device_id: str,
-    body: Calibration,
-    tuning: TheTuning,
-    response: Response,
-    author: Author,
-    if_match: IfMatch = None,
-    reason: Reason = "",
-    confirm_s: ConfirmS = 0,
-    token: Token = None,
-) -> Any:
-    """Writes sensor, filters and the record of a calibration in one transaction."""
-    written = body.model_dump(exclude_unset=True)
-    change = tuning.write_part(
-        device_id, "calibration", written, reason, if_match, confirm_s, token, author
-    )
-    return _stamped(change, response)
-
-
-@router.get("/limits", operation_id="get_limits", response_model=UnitLimits)
-def get_limits(device_id: str, tuning: TheTuning, response: Response) -> Any:
-    """What the unit enforces whatever the table says, and where assist ends because of it."""
-    return _tagged(tuning.read_part(device_id, "limits"), response)
-
-
-@router.put("/limits", operation_id="put_limits", response_model=ConfigChange)
-def put_limits(
-    device_id: str,
-    body: UnitLimits,
-    tuning: TheTuning,
-    response: Response,
-    author: Author,
-    if_match: IfMatch = None,
-    reason: Reason = "",
-    confirm_s: ConfirmS = 0,
-    token: Token = None,
-) -> Any:
-    """Writes the limits in one transaction; the unit refuses what its market forbids."""
-    written = body.model_dump(exclude_none=True)
-    change = tuning.write_part(
-        device_id, "limits", written, reason, if_match, confirm_s, token, author
+        device_id, place_of(part, table), written, reason, if_match, confirm_s, token, author
     )
     return _stamped(change, response)
 

@@ -84,7 +84,7 @@ def test_the_second_table_can_be_tried_and_given_up(unit: Unit) -> None:
 def test_a_change_of_the_second_table_made_for_an_older_configuration_is_refused(
     server: SpindleServer, device: str, unit: Unit
 ) -> None:
-    path, query = f"/devices/{device}/fuzzy-table", {"table": "second"}
+    path, query = f"/devices/{device}/parts/fuzzy_table", {"table": "second"}
     response = server.client.get(path, params=query)
     unit.write({"torque_filter_s": 0.4}, "somebody else")
 
@@ -116,7 +116,7 @@ def test_points_that_both_share_are_refused_by_name_and_nothing_is_written(unit:
 def test_a_table_the_unit_does_not_have_is_refused_by_name(
     server: SpindleServer, device: str, method: str
 ) -> None:
-    path = f"/devices/{device}/fuzzy-table"
+    path = f"/devices/{device}/parts/fuzzy_table"
     body = server.get(path) if method == "PUT" else None
 
     response = server.client.request(method, path, params={"table": "third"}, json=body)
@@ -128,14 +128,14 @@ def test_a_table_the_unit_does_not_have_is_refused_by_name(
 def test_what_the_unit_says_of_its_limits_is_what_the_linter_judges(
     server: SpindleServer, device: str, unit: Unit
 ) -> None:
-    limits = server.get(f"/devices/{device}/limits")
+    limits = server.get(f"/devices/{device}/parts/limits")
     assert (limits["market"], limits["effective_assist_cutoff_kmh"]) == ("eu_epac", 25.0)
     assert unit.limits().effective_assist_cutoff_kmh == 25.0
 
     def codes(market: str) -> set[str]:
         question: dict[str, Any] = {
-            "fuzzy_table": server.get(f"/devices/{device}/fuzzy-table"),
-            "assist_modes": server.get(f"/devices/{device}/assist-modes"),
+            "fuzzy_table": server.get(f"/devices/{device}/parts/fuzzy_table"),
+            "assist_modes": server.get(f"/devices/{device}/parts/assist_modes"),
             "limits": limits | {"market": market},
         }
         report = server.ask("POST", "/lint", json=question)
@@ -149,9 +149,9 @@ def test_what_the_unit_says_of_its_limits_is_what_the_linter_judges(
 def test_the_market_is_the_maker_s_and_not_changed_with_the_limits(
     server: SpindleServer, device: str, unit: Unit
 ) -> None:
-    limits = server.get(f"/devices/{device}/limits")
+    limits = server.get(f"/devices/{device}/parts/limits")
 
-    response = server.client.put(f"/devices/{device}/limits", json=limits | {"market": "japan"})
+    response = server.client.put(f"/devices/{device}/parts/limits", json=limits | {"market": "japan"})
 
     assert response.status_code == 403
-    assert server.get(f"/devices/{device}/limits") == limits
+    assert server.get(f"/devices/{device}/parts/limits") == limits

@@ -20,7 +20,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
 
 
 def test_a_unit_for_japan_ends_assist_at_24_and_says_so(server: SpindleServer) -> None:
-    limits = server.get(f"/devices/{server.ready_device()}/limits")
+    limits = server.get(f"/devices/{server.ready_device()}/parts/limits")
 
     assert limits["market"] == "japan"
     assert limits["assist_cutoff_kmh"] == 24.0
@@ -29,12 +29,12 @@ def test_a_unit_for_japan_ends_assist_at_24_and_says_so(server: SpindleServer) -
 
 def test_a_dealer_does_not_move_it_to_another_market(server: SpindleServer) -> None:
     device = server.ready_device()
-    limits = server.get(f"/devices/{device}/limits")
+    limits = server.get(f"/devices/{device}/parts/limits")
 
-    response = server.client.put(f"/devices/{device}/limits", json=limits | {"market": "eu_epac"})
+    response = server.client.put(f"/devices/{device}/parts/limits", json=limits | {"market": "eu_epac"})
 
     assert response.status_code == 403
-    assert server.get(f"/devices/{device}/limits")["market"] == "japan"
+    assert server.get(f"/devices/{device}/parts/limits")["market"] == "japan"
 
 
 def test_a_market_that_is_none_is_named_with_those_there_are(server: SpindleServer) -> None:

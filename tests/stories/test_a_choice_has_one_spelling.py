@@ -37,7 +37,7 @@ TODAY = {
     "mode_tapers": ["none", "none", "japan_1_to_1", "japan_2_to_1", "taper_speeds"],
 }
 MORE = [
-    "/devices/{device_id}/fuzzy-table?table=second",
+    "/devices/{device_id}/parts/fuzzy_table?table=second",
     "/devices/{device_id}/config?bank=default",
 ]
 

@@ -49,7 +49,7 @@ def test_writing_what_stands_there_already_ends_the_walking_pace(running: Spindl
     device = running.ready_device()
     before = running.get(f"/devices/{device}/config")
     assert active_faults(running, device) == ["config_defaulted"]
-    assert running.get(f"/devices/{device}/limits")["effective_assist_cutoff_kmh"] is None
+    assert running.get(f"/devices/{device}/parts/limits")["effective_assist_cutoff_kmh"] is None
 
     written = running.ask("PATCH", f"/devices/{device}/config", json=SAME)
 
@@ -57,7 +57,7 @@ def test_writing_what_stands_there_already_ends_the_walking_pace(running: Spindl
     assert written["generation"] == before["generation"] + 1
     assert running.get(f"/devices/{device}/config")["parameters"] == before["parameters"]
     assert active_faults(running, device) == []
-    assert running.get(f"/devices/{device}/limits")["effective_assist_cutoff_kmh"] == 25.0
+    assert running.get(f"/devices/{device}/parts/limits")["effective_assist_cutoff_kmh"] == 25.0
     again = running.ask("PATCH", f"/devices/{device}/config", json=SAME)
     assert again["generation"] == written["generation"]
 

@@ -65,7 +65,7 @@ def test_the_api_s_refusal_carries_the_challenge(shop: SpindleServer) -> None:
 
 def test_a_typed_view_takes_the_token_as_well(shop: SpindleServer, tmp_path: Path) -> None:
     device = shop.ready_device()
-    path = f"/devices/{device}/limits"
+    path = f"/devices/{device}/parts/limits"
     before = shop.get(path)
     shop.ask("PUT", path, json=before | {"motor_torque_nm_max": 1.0})
 

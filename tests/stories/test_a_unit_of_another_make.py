@@ -25,10 +25,10 @@ pytestmark = [pytest.mark.slow]
 
 NAME = "the cargo bike"
 CANNOT = [
-    ("GET", "/fuzzy-table", None, "fuzzy_table"),
-    ("GET", "/assist-modes", None, "assist_modes"),
-    ("GET", "/calibration", None, "calibrate"),
-    ("GET", "/limits", None, "limits"),
+    ("GET", "/parts/fuzzy_table", None, "fuzzy_table"),
+    ("GET", "/parts/assist_modes", None, "assist_modes"),
+    ("GET", "/parts/calibration", None, "calibrate"),
+    ("GET", "/parts/limits", None, "limits"),
     ("GET", "/live", None, "live_set"),
     ("POST", "/live", {"parameters": {"pedal_stop_ms": 300}, "ttl_s": 30}, "live_set"),
     ("DELETE", "/live", None, "live_set"),

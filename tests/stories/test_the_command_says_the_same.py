@@ -238,7 +238,7 @@ def test_any_request_of_the_api_is_sent_from_the_shell(
     tried = api("POST", "/devices/{unit}/live", "parameters.pedal_stop_ms=222", "ttl_s=200")
     told = api("GET", "/devices/{unit}/live", "--unit", device, "--json")
     ended = api("DELETE", "/devices/{unit}/live")
-    second = api("GET", "/devices/{unit}/fuzzy-table", "table=second", "--json")
+    second = api("GET", "/devices/{unit}/parts/fuzzy_table", "table=second", "--json")
     listed = api("GET", "/devices")
     refused = api("POST", "/devices/{unit}/live", "parameters.pedal_stop_ms=99999", "ttl_s=9")
     saved = api("GET", "/store/backup", "-o", backup)

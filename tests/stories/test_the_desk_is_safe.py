@@ -57,7 +57,7 @@ def test_a_big_body_is_refused_before_it_is_read(server: SpindleServer) -> None:
 
 
 def test_numbers_that_are_none_are_refused(server: SpindleServer, device: str) -> None:
-    table = server.get(f"/devices/{device}/fuzzy-table")
+    table = server.get(f"/devices/{device}/parts/fuzzy_table")
     for text in ("NaN", "Infinity", "-Infinity", "1e999"):
         body = (
             httpx.Request("POST", server.url, json={"fuzzy_table": table, "points": [[0.5, 0.25]]})

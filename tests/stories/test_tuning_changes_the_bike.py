@@ -33,24 +33,24 @@ def ride_along(server: SpindleServer, device: str) -> dict[str, float]:
 def test_a_table_of_one_label_gives_that_gain_on_the_road(
     server: SpindleServer, device: str
 ) -> None:
-    table = server.get(f"/devices/{device}/fuzzy-table")
+    table = server.get(f"/devices/{device}/parts/fuzzy_table")
     table["inference"] = "weighted_average"
     table["rules"] = [["PB"] * 5] * 5
     table["gain_points"] = [0.05, 0.10, 0.15, 0.20, 0.25]
     table["name"] = "always most"
 
     change = server.ask(
-        "PUT", f"/devices/{device}/fuzzy-table", json=table, params={"reason": "a story"}
+        "PUT", f"/devices/{device}/parts/fuzzy_table", json=table, params={"reason": "a story"}
     )
 
     assert change["verified"] is True
     assert change["state"] == "committed"
-    assert server.get(f"/devices/{device}/fuzzy-table") == table
+    assert server.get(f"/devices/{device}/parts/fuzzy_table") == table
     assert ride_along(server, device)["fuzzy_gain"] == pytest.approx(0.25, abs=0.001)
 
 
 def test_the_live_gain_is_the_one_the_surface_promised(server: SpindleServer, device: str) -> None:
-    table = server.get(f"/devices/{device}/fuzzy-table")
+    table = server.get(f"/devices/{device}/parts/fuzzy_table")
 
     now = ride_along(server, device)
     point = [now["speed_kmh"], max(0.0, now["torque_rate"])]
@@ -124,11 +124,11 @@ def test_what_only_the_factory_may_change_is_refused(server: SpindleServer, devi
 def test_raw_counts_become_newton_metres_by_the_calibration_that_was_written(
     server: SpindleServer, device: str
 ) -> None:
-    calibration = server.get(f"/devices/{device}/calibration")
+    calibration = server.get(f"/devices/{device}/parts/calibration")
     calibration["sensor_gain_nm_per_count"] *= 1.1
     calibration["sensor_offset_counts"] += 100.0
 
-    server.ask("PUT", f"/devices/{device}/calibration", json=calibration)
+    server.ask("PUT", f"/devices/{device}/parts/calibration", json=calibration)
     server.advance(device, 1.0)
     now = server.get(f"/devices/{device}/snapshot")["channels"]
 
@@ -141,7 +141,7 @@ def test_raw_counts_become_newton_metres_by_the_calibration_that_was_written(
 def test_a_calibration_is_kept_with_its_certificate_and_what_is_not_known_of_it(
     server: SpindleServer, device: str
 ) -> None:
-    calibration = server.get(f"/devices/{device}/calibration")
+    calibration = server.get(f"/devices/{device}/parts/calibration")
     assert calibration["sensor_reference_degc"] == 20.0
     record = {
         "sensor_offset_counts_per_k": 1.5,
@@ -152,9 +152,9 @@ def test_a_calibration_is_kept_with_its_certificate_and_what_is_not_known_of_it(
         "calibration_certificate": [0, 17, 34, 51, 170, 187, 204, 255],
     }
 
-    server.ask("PUT", f"/devices/{device}/calibration", json=calibration | record)
+    server.ask("PUT", f"/devices/{device}/parts/calibration", json=calibration | record)
 
-    assert server.get(f"/devices/{device}/calibration") == calibration | record
+    assert server.get(f"/devices/{device}/parts/calibration") == calibration | record
     rows = server.get(f"/devices/{device}/parameters")["items"]
     assert {row["name"] for row in rows if row["may_be_none"]} == {*list(record)[:3]}
     whole = server.get(f"/devices/{device}/config")["parameters"]

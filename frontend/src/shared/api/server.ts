@@ -155,8 +155,9 @@ export class Server {
   }
 
   /** What the unit enforces, its market included, and where assist ends because of it. */
-  limits(id: string): Promise<Limits> {
-    return body(this.http.GET('/api/v1/devices/{device_id}/limits', this.unit(id)))
+  async limits(id: string): Promise<Limits> {
+    const at = { params: { path: { device_id: id, part: 'limits' as const } } }
+    return (await body(this.http.GET('/api/v1/devices/{device_id}/parts/{part}', at))) as Limits
   }
 
   /** What the unit was last known to be set to, connected or not. */
