@@ -108,11 +108,11 @@ simulate: $(STAMP)/native ## the story of one seed of the simulated link: make s
 .PHONY: fuzz
 fuzz: $(STAMP)/native ## every fuzzer for SECONDS each, 60 unless told; C needs clang (libFuzzer)
 	@.ci/ensure-tools fuzzing
-	$(BIN)/python -m tests.fuzz $(or $(SECONDS),60)
+	$(BIN)/python -m tools.fuzz $(or $(SECONDS),60)
 
 .PHONY: mutate
 mutate: $(STAMP)/native ## break the codec and the transaction in every known way; a test must notice
-	$(BIN)/python -m tests.mutation
+	$(BIN)/python -m tools.mutation
 
 .PHONY: lint lint-python lint-c lint-web
 lint: lint-python lint-c lint-web ## all static checks, Python, C and browser
@@ -143,14 +143,14 @@ gen: $(STAMP)/python $(STAMP)/web-modules ## regenerate everything that comes fr
 
 .PHONY: bench
 bench: setup $(STAMP)/rivals ## ratios against named rivals in one run, into docs/benchmarks.md
-	$(BIN)/python -m tests.bench
+	$(BIN)/python -m tools.bench
 
 .PHONY: reproduction
 reproduction: $(STAMP)/native ## the thesis beside what the simulator does, tables and filters measured, into docs/
-	$(BIN)/python -m tests.reproduction
-	$(BIN)/python -m tests.reproduction.tables
-	$(BIN)/python -m tests.reproduction.filters
-	$(BIN)/python -m tests.reproduction.current_control
+	$(BIN)/python -m tools.reproduction
+	$(BIN)/python -m tools.reproduction.tables
+	$(BIN)/python -m tools.reproduction.filters
+	$(BIN)/python -m tools.reproduction.current_control
 
 .PHONY: release-data
 release-data: setup ## what a version leaves on a disk, kept for every later one to open: VERSION=0.6.0
@@ -162,8 +162,8 @@ lock: $(STAMP)/python ## pin versions and hashes again, without registry address
 		--no-header --all-extras -o requirements.lock
 	$(BIN)/uv pip compile -q build.in --universal --generate-hashes --no-emit-index-url \
 		--no-header -o build.lock
-	$(BIN)/uv pip compile -q tests/bench/rivals.in --universal --generate-hashes \
-		--no-emit-index-url --no-header -o tests/bench/rivals.lock
+	$(BIN)/uv pip compile -q tools/bench/rivals.in --universal --generate-hashes \
+		--no-emit-index-url --no-header -o tools/bench/rivals.lock
 
 .PHONY: native
 native: $(STAMP)/python ## the C extension, rebuilt in place
@@ -203,7 +203,7 @@ $(STAMP)/web: $(STAMP)/web-modules $(WEB_SOURCES)
 	cd frontend && npm run --silent build
 	@touch $@
 
-$(STAMP)/rivals: tests/bench/rivals.lock $(STAMP)/python
+$(STAMP)/rivals: tools/bench/rivals.lock $(STAMP)/python
 	$(BIN)/uv venv -q --clear $(STAMP)/rivals-venv
-	$(BIN)/uv pip sync -q --python $(STAMP)/rivals-venv/bin/python --require-hashes tests/bench/rivals.lock
+	$(BIN)/uv pip sync -q --python $(STAMP)/rivals-venv/bin/python --require-hashes tools/bench/rivals.lock
 	@touch $@

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from xdist.scheduler import LoadScopeScheduling
 
 SPREAD = {
-    "tests/fuzz/test_fuzzers_find_nothing.py",
-    "tests/mutation/test_every_known_break_is_noticed.py",
+    "tests/tools/test_fuzzers_find_nothing.py",
+    "tests/tools/test_every_known_break_is_noticed.py",
     "tests/unit/law/test_gain_bounds.py",
     "tests/unit/sim_device/test_no_transient_breaks_a_law.py",
 }

@@ -8,8 +8,8 @@ from types import ModuleType
 
 import pytest
 
-from tests.reproduction import __main__ as reproduction
-from tests.reproduction import filters, tables
+from tools.reproduction import __main__ as reproduction
+from tools.reproduction import filters, tables
 
 
 @pytest.mark.slow

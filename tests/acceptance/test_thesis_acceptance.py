@@ -16,7 +16,7 @@ from sim_device.calibration_metrics import metrics
 from sim_device.lockstep import LockstepUnit
 from sim_device.scenario import run
 from sim_device.scenario_file import load, names
-from tests.reproduction.__main__ import LITERAL
+from tools.reproduction.__main__ import LITERAL
 
 SEEDS = range(200)
 LOAD_NM = [float(load) for load in range(0, 101, 10)]

@@ -1,6 +1,6 @@
 """Goal: the stack has a bound that is computed, and nothing the firmware does lies outside of it.
 
-Method: the call graph of the linked images (tests/bench/stack.py), against what the compiler says
+Method: the call graph of the linked images (tools/bench/stack.py), against what the compiler says
 of each frame, against the stack painted in QEMU, and on listings written down here.
 """
 
@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from sim_device import emulator
-from tests.bench import board, stack
-from tests.bench.call_graph import (
+from tools.bench import board, stack
+from tools.bench.call_graph import (
     Source,
     UnknownStack,
     frames_reported,

@@ -4,7 +4,7 @@ made up, assist stays within its limits, and after the faults everything comes t
 Method: 200 seeds of 40 simulated seconds (0.12 s of ours each), in `make test` the first 20, each
 with faults of its own; the session against the unit's firmware on one virtual clock. Clients write,
 try, unlock, ride and collect rides; judges read the unit's flash and its pins. Planted faults prove
-that they see: in the host here, in the firmware with tests/mutation (`judged` in breaks.toml).
+that they see: in the host here, in the firmware with tools/mutation (`judged` in breaks.toml).
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@ Method: the benchmark of `make bench` in virtual time, so that it is the same on
 
 import pytest
 
-from tests.bench.answers import WITHIN_S, answers
+from tools.bench.answers import WITHIN_S, answers
 
 
 @pytest.mark.host_build("the line is simulated in steps of a millisecond")

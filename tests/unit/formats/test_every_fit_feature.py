@@ -2,7 +2,7 @@
 walks, the one for sound files and the one for damaged ones, find the same.
 
 Method: small files with one feature of the format each, written byte by byte; fitdecode is the
-other reader (`tests.compare_decoders` does the same for folders of real files).
+other reader (`tools.compare_decoders` does the same for folders of real files).
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import pytest
 from backend.formats.fit import read_fit
 from backend.formats.fit.read import read_damaged
 from backend.formats.outcome import COMPLETE, ImportedRide
-from tests.compare_decoders.cells import compare
+from tools.compare_decoders.cells import compare
 from tests.fakes.fit_file import FIT_EPOCH_S, START_S, commute, definition, enclosed, fit_file
 
 NOW = START_S - FIT_EPOCH_S

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from tests.reproduction.table_rides import (
+from tools.reproduction.table_rides import (
     Ride,
     column_shares,
     mean_kmh,

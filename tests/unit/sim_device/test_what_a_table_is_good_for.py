@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.reproduction.table_rides import (
+from tools.reproduction.table_rides import (
     Ride,
     column_shares,
     mean_gain,
@@ -20,7 +20,7 @@ from tests.reproduction.table_rides import (
     switched_hz,
     wh_per_km,
 )
-from tests.reproduction.tables import HALF_TURN, TABLES
+from tools.reproduction.tables import HALF_TURN, TABLES
 
 pytestmark = pytest.mark.slow
 

@@ -1,4 +1,4 @@
-"""Goal: whatever lies in the flash for logs, the directory is one. Found by tests/fuzz."""
+"""Goal: whatever lies in the flash for logs, the directory is one. Found by tools/fuzz."""
 
 from __future__ import annotations
 
