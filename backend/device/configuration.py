@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -92,22 +93,30 @@ class Free:
     """The parameter that holds what the factory measured."""
 
 
-@dataclass(frozen=True)
-class ParameterTable:
+class ParameterTable(ABC):
     """The parameters of one kind of unit, and the checks of a whole configuration of it.
 
-    rows: in the order they are shown. free_of: a parameter's band in a configuration, None for one
-    without. faults_of: everything that is wrong with a whole configuration, each element named.
-    rounded: a checked configuration as the unit will hold it. crc32_of: the checksum a unit gives
-    for it. factory: the maker's names.
+    rows: in the order they are shown. factory: the maker's names.
     """
 
     rows: Sequence[ParameterRow]
-    free_of: Callable[[str, Config], Free | None]
-    faults_of: Callable[[Config], list[FieldError]]
-    rounded: Callable[[Config], dict[str, Value]]
-    crc32_of: Callable[[Config], int]
     factory: frozenset[str] = frozenset()
+
+    def free_of(self, name: str, config: Config) -> Free | None:
+        """The band of a parameter in this configuration; None for one without."""
+        return None
+
+    @abstractmethod
+    def faults_of(self, config: Config) -> list[FieldError]:
+        """Everything that is wrong with a whole configuration, each element named."""
+
+    @abstractmethod
+    def rounded(self, config: Config) -> dict[str, Value]:
+        """A checked configuration as the unit will hold it."""
+
+    @abstractmethod
+    def crc32_of(self, config: Config) -> int:
+        """The checksum a unit gives for this whole configuration."""
 
     def group(self, name: str) -> tuple[str, ...]:
         """Names of the parameters of one group, in the order of the rows."""

@@ -74,10 +74,6 @@ def _within(value: float, row: ParameterRow) -> bool:
     return row.min is not None and row.max is not None and row.min <= value <= row.max
 
 
-def _crc32_of(config: Config) -> int:
-    return zlib.crc32(json.dumps([_count_of(row, config[row.name]) for row in ROWS]).encode())
-
-
 def _count_of(row: ParameterRow, value: Value) -> int:
     if row.choices is not None:
         return row.choices.index(str(value))
@@ -89,15 +85,22 @@ def _value_of(row: ParameterRow, count: int) -> Value:
     return count if row.choices is None else row.choices[count]
 
 
-TABLE = ParameterTable(
-    rows=ROWS,
-    free_of=lambda name, config: None,
-    faults_of=_faults_of,
-    rounded=lambda config: {
-        row.name: _value_of(row, _count_of(row, config[row.name])) for row in ROWS
-    },
-    crc32_of=_crc32_of,
-)
+class TinyParameters(ParameterTable):
+    """What it has."""
+
+    rows = ROWS
+
+    def faults_of(self, config: Config) -> list[FieldError]:
+        return _faults_of(config)
+
+    def rounded(self, config: Config) -> dict[str, Value]:
+        return {row.name: _value_of(row, _count_of(row, config[row.name])) for row in ROWS}
+
+    def crc32_of(self, config: Config) -> int:
+        return zlib.crc32(json.dumps([_count_of(row, config[row.name]) for row in ROWS]).encode())
+
+
+TABLE = TinyParameters()
 
 
 class TinyUnit(Unit):

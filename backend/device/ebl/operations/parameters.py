@@ -38,35 +38,31 @@ def _row(row: Parameter, default: Value) -> ParameterRow:
     )
 
 
-def free_of(name: str, config: Mapping[str, Value]) -> Free | None:
-    """The band of a parameter in this configuration; None for one without."""
-    band = BAND_BY_NAME.get(name)
-    return None if band is None else Free(*band_limits(band, config), band.around)
-
-
 PARAMETER_ROWS = tuple(_row(row, default_config()[row.name]) for row in PARAMETERS)
 
 
-def faults_of(config: Mapping[str, Value]) -> list[FieldError]:
-    """Everything that is wrong with a whole configuration, each element named."""
-    return host_violations(config)
+class EblParameters(ParameterTable):
+    """Checks by the registry, and by the rules that the unit's own code checks."""
+
+    rows = PARAMETER_ROWS
+    factory = frozenset(row.name for row in PARAMETER_ROWS if row.access == FACTORY)
+
+    def free_of(self, name: str, config: Mapping[str, Value]) -> Free | None:
+        """The band of a parameter in this configuration; None for one without."""
+        band = BAND_BY_NAME.get(name)
+        return None if band is None else Free(*band_limits(band, config), band.around)
+
+    def faults_of(self, config: Mapping[str, Value]) -> list[FieldError]:
+        """Everything that is wrong with a whole configuration, each element named."""
+        return host_violations(config)
+
+    def rounded(self, config: Mapping[str, Value]) -> dict[str, Value]:
+        """A checked configuration as the unit will hold it: numbers as their float32."""
+        return unpack_image(pack_image(config))
+
+    def crc32_of(self, config: Mapping[str, Value]) -> int:
+        """The checksum a unit gives for this whole configuration."""
+        return zlib.crc32(pack_image(config))
 
 
-def rounded(config: Mapping[str, Value]) -> dict[str, Value]:
-    """A checked configuration as the unit will hold it: numbers as their float32."""
-    return unpack_image(pack_image(config))
-
-
-def image_crc32(config: Mapping[str, Value]) -> int:
-    """The checksum a unit gives for this whole configuration."""
-    return zlib.crc32(pack_image(config))
-
-
-TABLE = ParameterTable(
-    rows=PARAMETER_ROWS,
-    free_of=free_of,
-    faults_of=faults_of,
-    rounded=rounded,
-    crc32_of=image_crc32,
-    factory=frozenset(row.name for row in PARAMETER_ROWS if row.access == FACTORY),
-)
+TABLE = EblParameters()
