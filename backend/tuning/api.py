@@ -22,7 +22,14 @@ from backend.tuning.models.config import (
     ParameterList,
     RevisionList,
 )
-from backend.tuning.models.law import AssistModes, Calibration, FuzzyTable, LawModel, Table, UnitLimits
+from backend.tuning.models.law import (
+    AssistModes,
+    Calibration,
+    FuzzyTable,
+    LawModel,
+    Table,
+    UnitLimits,
+)
 from backend.tuning.models.why import Why, WhyRequest
 from backend.tuning.service import Tuning
 from backend.tuning.types import etag

@@ -151,7 +151,9 @@ def test_the_market_is_the_maker_s_and_not_changed_with_the_limits(
 ) -> None:
     limits = server.get(f"/devices/{device}/parts/limits")
 
-    response = server.client.put(f"/devices/{device}/parts/limits", json=limits | {"market": "japan"})
+    response = server.client.put(
+        f"/devices/{device}/parts/limits", json=limits | {"market": "japan"}
+    )
 
     assert response.status_code == 403
     assert server.get(f"/devices/{device}/parts/limits") == limits

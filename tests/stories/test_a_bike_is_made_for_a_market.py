@@ -31,7 +31,9 @@ def test_a_dealer_does_not_move_it_to_another_market(server: SpindleServer) -> N
     device = server.ready_device()
     limits = server.get(f"/devices/{device}/parts/limits")
 
-    response = server.client.put(f"/devices/{device}/parts/limits", json=limits | {"market": "eu_epac"})
+    response = server.client.put(
+        f"/devices/{device}/parts/limits", json=limits | {"market": "eu_epac"}
+    )
 
     assert response.status_code == 403
     assert server.get(f"/devices/{device}/parts/limits")["market"] == "japan"

@@ -10,7 +10,6 @@ shell.
 from __future__ import annotations
 
 import csv
-import json
 import math
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,7 +18,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.fakes.command import spindle
 from tests.fakes.server import ServerHere, SpindleServer, eventually
 
 pytestmark = pytest.mark.slow

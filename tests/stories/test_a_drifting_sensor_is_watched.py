@@ -7,13 +7,11 @@ rides that coast. What is told is judged by what was planted, over HTTP and from
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
-from tests.fakes.command import spindle
 from tests.fakes.server import ServerHere, SpindleServer, eventually
 
 DRIFT_NM_PER_S = 4.0 / 60.0

@@ -7,13 +7,11 @@ settings by what was written to the unit.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
-from tests.fakes.command import Ran, spindle
 from tests.fakes.ride_in_time import recorded_ride
 from tests.fakes.server import ServerHere, SpindleServer
 

@@ -13,9 +13,9 @@ from firmware_protocol._generated import (
     StrSubscribeRequest,
     StrSubscribeResponse,
 )
-from tools.bench.figures import Figure
 from tests.fakes.bench_unit import BenchUnit
 from tests.fakes.serial_wire import SerialWire
+from tools.bench.figures import Figure
 
 TURN_AROUND_S = 0.002
 # Rate -> 99 of 100 answers within so long, the turn-around not counted (protocol page, 5.6).

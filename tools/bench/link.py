@@ -20,9 +20,9 @@ from firmware_protocol.codec import Stream, decode, decode_stream, encode
 from firmware_protocol.framing import encode_frame
 from sim_device.firmware.python import wire
 from sim_device.lockstep import LockstepUnit
-from tools.bench.figures import Figure, best_of
 from tests.fakes.bench import Bench
 from tests.fakes.unit_link import LockstepAsUnit
+from tools.bench.figures import Figure, best_of
 
 HERE = Path(__file__).resolve().parent
 RIVALS = HERE.parents[1] / ".make" / "rivals-venv" / "bin" / "python"

@@ -22,8 +22,8 @@ from backend.rides.service import Rides
 from backend.store import Store, open_store
 from backend.store.sql import tables as t
 from firmware_protocol._generated import CHANNELS
-from tools.bench.figures import Figure
 from tests.fakes import postgres
+from tools.bench.figures import Figure
 
 RIDES = 10_000
 RUNS = 15

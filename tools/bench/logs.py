@@ -2,9 +2,9 @@
 
 from backend.device.ebl.operations.ride_logs import list_logs, receive_log
 from backend.device.ebl.session.log_receiver import LogReceiver
-from tools.bench.figures import Figure
 from tests.fakes.bench_logs import unit_with_log
 from tests.fakes.serial_wire import SerialWire
+from tools.bench.figures import Figure
 
 RATES = (115200, 1_000_000)
 TURN_AROUNDS_S = (0.002, 0.018)

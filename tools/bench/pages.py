@@ -14,10 +14,10 @@ from typing import Any
 
 from playwright.sync_api import Page, sync_playwright
 
-from tools.bench.figures import Figure
-from tools.bench.server import ask, serving
 from tests.browser.chromium import NoChromium, find_chromium
 from tests.browser.long_ride import ROWS, write_long_ride
+from tools.bench.figures import Figure
+from tools.bench.server import ask, serving
 
 EDITS = 40
 EDITS_3D = 20

@@ -14,10 +14,10 @@ import httpx
 
 from backend.formats import Outcome, Readers, read_in_child
 from backend.formats.formats import read_file
+from tests.fakes.fit_file import START_S, commute, fit_file
 from tools.bench.figures import Figure, best_of
 from tools.bench.law import RIVALS
 from tools.bench.server import serving
-from tests.fakes.fit_file import START_S, commute, fit_file
 
 SCRIPT = Path(__file__).with_name("rivals_fit.py")
 FILES = 500

@@ -4,9 +4,9 @@ line for each way. Requests under way together make it a little less."""
 
 from backend.device.ebl.operations.config_transaction import read_config, write_config
 from firmware_protocol._generated import IMAGE_LENGTH
-from tools.bench.figures import Figure
 from tests.fakes.bench_unit import BenchUnit
 from tests.fakes.serial_wire import STEP_S, SerialWire
+from tools.bench.figures import Figure
 
 RATES = (115200, 1_000_000)
 TURN_AROUNDS_S = (0.002, 0.018)

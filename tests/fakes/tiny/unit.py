@@ -164,7 +164,7 @@ def read_config() -> Operation[ConfigImage]:
     parameters: dict[str, Value] = {}
     for row in ROWS:
         parameters[row.name] = _value_of(row, int((yield f"G {row.id}")))
-    return ConfigImage(0, _crc32_of(parameters), parameters)
+    return ConfigImage(0, TABLE.crc32_of(parameters), parameters)
 
 
 def write_config(base: ConfigImage, changes: Config) -> Operation[ConfigImage]:

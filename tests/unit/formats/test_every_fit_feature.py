@@ -16,8 +16,8 @@ import pytest
 from backend.formats.fit import read_fit
 from backend.formats.fit.read import read_damaged
 from backend.formats.outcome import COMPLETE, ImportedRide
-from tools.compare_decoders.cells import compare
 from tests.fakes.fit_file import FIT_EPOCH_S, START_S, commute, definition, enclosed, fit_file
+from tools.compare_decoders.cells import compare
 
 NOW = START_S - FIT_EPOCH_S
 UINT8, UINT16, UINT32, SINT32, FLOAT32, TEXT, BYTES = 0x02, 0x84, 0x86, 0x85, 0x88, 0x07, 0x0D
