@@ -20,8 +20,8 @@ from backend.store.entries import Entries
 from backend.store.facts import KeptRide
 from backend.store.from_object import add_kept, damage_of, files_of, read_kept
 from backend.store.identity import new_id, write_identity
+from backend.store.inspect_schema import DAMAGED, EMPTY, MISSING, OK, DatabaseView, inspect_database
 from backend.store.locks import hold
-from backend.store.look import DAMAGED, EMPTY, MISSING, OK, DatabaseView, look_at
 from backend.store.objects import (
     RIDE_SUFFIX,
     SIDECAR_SUFFIX,
@@ -89,10 +89,10 @@ def rebuild_store(db_url: str, objects_url: str) -> Rebuilt:
 
 def rebuilt_store(db_url: str, objects: FileObjects) -> Rebuilt:
     """As `rebuild_store`, over a folder that is there. Raises OSError as the system does."""
-    may_be_rebuilt(look_at(db_url, whole=True), db_url, objects)
+    may_be_rebuilt(inspect_database(db_url, whole=True), db_url, objects)
     with ExitStack() as closing:
         hold(closing, db_url, objects)
-        view = look_at(db_url, whole=True)
+        view = inspect_database(db_url, whole=True)
         store_id = may_be_rebuilt(view, db_url, objects) or new_id()
         report = Rebuilt(store_id, set_aside=set_aside(view, db_url))
         objects.set_identity(store_id)

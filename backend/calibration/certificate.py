@@ -48,7 +48,7 @@ class About(Plain):
 
 
 @dataclass(frozen=True, slots=True)
-class Told(Plain):
+class CertificateContent(Plain):
     """What a certificate is worked out from. found: the coefficients the unit had."""
 
     kind: Literal["spindle.torque_calibration"]
@@ -74,7 +74,7 @@ class Evaluated:
     """sha256: of the document as it is; stated_sha256: as it says. reproduced: both are the same
     and nothing differs."""
 
-    told: Told
+    told: CertificateContent
     worked: Worked
     sha256: str
     stated_sha256: str
@@ -94,7 +94,9 @@ def certificate(
     limits: Limits,
 ) -> dict[str, Any]:
     """The file's content, plain JSON."""
-    told = Told("spindle.torque_calibration", 1, about, setup, captures, found, limits)
+    told = CertificateContent(
+        "spindle.torque_calibration", 1, about, setup, captures, found, limits
+    )
     document = to_plain(told) | {"worked": to_plain(work_out(setup, captures, found, limits))}
     return {"document": document, "sha256": sha256_of(document)}
 
@@ -129,7 +131,9 @@ def evaluate(body: Mapping[str, Any]) -> Evaluated:
         fault = FieldError("document", "missing", "a certificate has a document and its sha256")
         raise InvalidRequest(fault.message, "invalid_certificate", [fault])
     stated = document.get("worked")
-    told = from_plain(Told, {k: v for k, v in document.items() if k != "worked"}, _faults)
+    told = from_plain(
+        CertificateContent, {k: v for k, v in document.items() if k != "worked"}, _faults
+    )
     fresh = tuple(_again(capture) for capture in told.captures)
     worked = work_out(told.setup, fresh, told.found, told.limits)
     differences = [
@@ -139,7 +143,7 @@ def evaluate(body: Mapping[str, Any]) -> Evaluated:
     return Evaluated(told, worked, sha256_of(document), body["sha256"], tuple(differences))
 
 
-def _faults(told: Told) -> list[FieldError]:
+def _faults(told: CertificateContent) -> list[FieldError]:
     faults = [
         FieldError(f"setup.{fault.field}", fault.code, fault.message)
         for fault in faults_of(told.setup)

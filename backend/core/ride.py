@@ -11,6 +11,7 @@ import numpy.typing as npt
 from backend.core._generated import MOVING_KMH
 from backend.core.channels import ChannelSpec, Counts, Values, channel_to_json
 from backend.core.described import described
+from backend.core.device_metadata import DeviceMetadata, Pause, metadata_to_json
 from backend.core.energy import (
     BATTERY_POWER,
     MOTOR_POWER,
@@ -23,7 +24,6 @@ from backend.core.energy import (
 from backend.core.filled import Filled
 from backend.core.intake import Intake
 from backend.core.moments import utc
-from backend.core.noted import Noted, Pause, noted_to_json
 from backend.core.ride_events import RideEvent, settings_changes
 from backend.core.sphere import great_circle_m
 
@@ -168,7 +168,7 @@ class Ride:
     bike_id: int | None = None
     sport: str | None = None
     intake: Intake | None = None
-    noted: Noted = Noted()  # noqa: RUF009 - frozen
+    noted: DeviceMetadata = DeviceMetadata()  # noqa: RUF009 - frozen
     same_ride_as: int | None = None
     tags: tuple[str, ...] = ()
     place: RidePlace | None = None
@@ -217,7 +217,7 @@ class Ride:
             "cut_short": self.cut_short,
             "sport": self.sport,
             "intake": asdict(self.intake) if self.intake else None,
-            **noted_to_json(self.noted),
+            **metadata_to_json(self.noted),
             "upload_id": self.upload_id,
             "object_bytes": self.object_bytes,
             "summary": asdict(self.summary) if self.summary else None,

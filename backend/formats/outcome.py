@@ -13,8 +13,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from backend.core.device_metadata import DeviceMetadata
 from backend.core.intake import Intake
-from backend.core.noted import Noted
 from backend.core.ride import RideContext, RideRows
 from backend.core.ride_events import RideEvent
 from backend.formats.questions import TableQuestion
@@ -43,7 +43,7 @@ class ImportedRide:
     start_known: bool = True
     events: tuple[RideEvent, ...] = ()
     intake: Intake | None = None
-    noted: Noted = Noted()  # noqa: RUF009 - frozen
+    noted: DeviceMetadata = DeviceMetadata()  # noqa: RUF009 - frozen
 
     @property
     def span_s(self) -> tuple[float, float]:

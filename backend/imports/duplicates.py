@@ -71,16 +71,16 @@ class Kind(Enum):
 
 
 @dataclass(frozen=True)
-class Kin:
+class DuplicateMatch:
     """A ride that is here, and how the file's ride is to it."""
 
     kind: Kind
     ride: Ride
 
 
-def kin_of(
+def find_duplicate(
     rides: RideStore, imported: ImportedRide, whole: bool, upload_id: str | None
-) -> Kin | None:
+) -> DuplicateMatch | None:
     """The ride that a file's ride is, or is beside of; None for a new one.
 
     whole: nothing of it is missing in its file. upload_id: rides of this upload do not count.
@@ -92,7 +92,7 @@ def kin_of(
     sought = Sought(from_us=start_us - LONGEST_US, to_us=stop_us + 1)
     names = (LATITUDE, LONGITUDE, *TOLERANCES)
     theirs: BySecond | None = None
-    found: list[Kin] = []
+    found: list[DuplicateMatch] = []
     for ride in rides.list(sought, limit=PAGE).items:
         duration_s = ride.summary.duration_s if ride.summary else 0.0
         over = ride.started_us + duration_s * 1e6 < start_us
@@ -106,7 +106,7 @@ def kin_of(
         times_us = reader.times_us(0, reader.row_count)
         ours = by_second(ride.started_us, times_us, reader.values(names))
         if (kind := judged(ride, ours, imported, theirs, whole)) is not None:
-            found.append(Kin(kind, ride))
+            found.append(DuplicateMatch(kind, ride))
     order = list(Kind)
     return min(found, key=lambda kin: order.index(kin.kind), default=None)
 

@@ -9,7 +9,7 @@ from backend.formats import ImportedRide, Outcome
 
 
 @dataclass
-class Came:
+class ImportResult:
     """The rides of a file, by what became of them.
 
     fresh: new ones, each with the ride that another device recorded meanwhile. known: those that
@@ -22,22 +22,22 @@ class Came:
     rows_filled: int = 0
 
 
-def told_of(came: Came, outcome: Outcome) -> tuple[str | None, str | None]:
+def describe_result(came: ImportResult, outcome: Outcome) -> tuple[str | None, str | None]:
     """Code and sentence of an upload; the reader's own where the file is a new ride."""
     if came.made_whole:
-        return "made_whole", told_of_whole(came.made_whole[0])
+        return "made_whole", describe_completed(came.made_whole[0])
     if came.fresh:
         beside = next((ride for _, ride in came.fresh if ride is not None), None)
         if beside is None or outcome.code is not None:
             return outcome.code, outcome.detail
-        return "same_ride", told_of_beside(beside)
+        return "same_ride", describe_second_recording(beside)
     if came.known:
         code = "filled" if came.rows_filled else "duplicate"
-        return code, told_of_known(came.known[0], came.rows_filled)
+        return code, describe_duplicate(came.known[0], came.rows_filled)
     return outcome.code, outcome.detail
 
 
-def told_of_known(ride: Ride, rows_filled: int) -> str:
+def describe_duplicate(ride: Ride, rows_filled: int) -> str:
     """What became of a file whose ride is here."""
     found = f"This is ride {ride.id} of {iso_utc(ride.started_us)[:10]}, which is here already"
     if rows_filled:
@@ -45,7 +45,7 @@ def told_of_known(ride: Ride, rows_filled: int) -> str:
     return f"{found}; the file is kept beside it and nothing is stored twice."
 
 
-def told_of_whole(ride: Ride) -> str:
+def describe_completed(ride: Ride) -> str:
     """What became of a ride of which only a part was here."""
     return (
         f"This is ride {ride.id} of {iso_utc(ride.started_us)[:10]}, of which less was here: it "
@@ -53,7 +53,7 @@ def told_of_whole(ride: Ride) -> str:
     )
 
 
-def told_of_beside(ride: Ride) -> str:
+def describe_second_recording(ride: Ride) -> str:
     """What became of a ride that was recorded twice."""
     return (
         f"Ride {ride.id} was recorded at the same time on the same road, perhaps by another "

@@ -33,9 +33,9 @@ from backend.formats import (
 from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED, TOO_SLOW
 from backend.formats.questions import TableAnswer, TableQuestion
 from backend.imports.container import Container, Unpacker
-from backend.imports.duplicates import Kind, kin_of, same_rides
+from backend.imports.duplicates import Kind, find_duplicate, same_rides
 from backend.imports.gap_filling import fill
-from backend.imports.outcome import Came, told_of
+from backend.imports.outcome import ImportResult, describe_result
 from backend.imports.reading import SLOW, UNPACKING, GoesElsewhere, Lanes, ride_name
 from backend.imports.records import TableAnswers
 from backend.store import Store, Upload, Verdict
@@ -263,7 +263,7 @@ class Uploads:
 
     def _keep(self, upload: Upload, outcome: Outcome) -> Upload:
         """Make rides of what was read, or fill, replace or leave those that are here; say so."""
-        came = Came()
+        came = ImportResult()
         for imported in outcome.rides:
             twins = same_rides(self._store.rides, imported, upload.id)
             if live := next((ride for ride in twins if ride.state == "live"), None):
@@ -280,7 +280,7 @@ class Uploads:
             ride = ride_of(upload, imported, number, len(came.fresh), outcome.completeness)
             same_as = None if beside is None else beside.id
             self._store.rides.add(replace(ride, same_ride_as=same_as), imported.rows, upload.id)
-        code, detail = told_of(came, outcome)
+        code, detail = describe_result(came, outcome)
         only_known = came.known and not (came.fresh or came.made_whole)
         return self._conclude(
             upload.id,
@@ -293,9 +293,11 @@ class Uploads:
             outcome.question.header_sha256 if outcome.question else None,
         )
 
-    def _settle(self, upload: Upload, imported: ImportedRide, outcome: Outcome, came: Came) -> None:
+    def _settle(
+        self, upload: Upload, imported: ImportedRide, outcome: Outcome, came: ImportResult
+    ) -> None:
         """A ride that no unit's clock tells from others: whether its recording is here already."""
-        kin = kin_of(self._store.rides, imported, outcome.state == COMPLETE, upload.id)
+        kin = find_duplicate(self._store.rides, imported, outcome.state == COMPLETE, upload.id)
         if kin is None:
             came.fresh.append((imported, None))
         elif kin.kind is Kind.KNOWN:

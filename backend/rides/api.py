@@ -26,7 +26,7 @@ from backend.rides.replay.why_ride import WhyRide
 from backend.rides.service import Rides
 from backend.tuning.models.why import Cuts, Ledger, Why
 from backend.web.problem import DAMAGED, refusals
-from backend.web.responses import in_pieces, while_asked, whole
+from backend.web.responses import json_response, streamed_json, while_connected
 from backend.web.services import provided
 
 router = APIRouter(prefix="/rides", tags=["rides"], responses=refusals(404, 409, 415))
@@ -56,13 +56,13 @@ def list_rides(
 ) -> Any:
     """Newest first; `next` is the cursor of the following page, or null."""
     page = rides.list(begin, end, limit, cursor, device=device, **kind.told())
-    return whole(RideList, page)
+    return json_response(RideList, page)
 
 
 @router.get("/{ride_id}", operation_id="get_ride", response_model=Ride)
 def get_ride(ride_id: RideId, rides: TheRides) -> Any:
     """One ride with its summary, its gaps and its channels."""
-    return whole(Ride, rides.get(ride_id))
+    return json_response(Ride, rides.get(ride_id))
 
 
 @router.patch("/{ride_id}", operation_id="patch_ride", response_model=Ride)
@@ -98,7 +98,7 @@ def get_ride_series(
     if BINARY_MEDIA_TYPE in request.headers.get("accept", ""):
         return Response(trace.to_bytes(), media_type=BINARY_MEDIA_TYPE)
     # Thousands of numbers that the view has just made: checking each again costs more than them.
-    return in_pieces(JSONResponse(trace.to_json()).body)
+    return streamed_json(JSONResponse(trace.to_json()).body)
 
 
 @router.get(
@@ -109,7 +109,7 @@ def get_ride_series(
 )
 def get_ride_track(ride_id: RideId, rides: TheRides) -> Any:
     """Where the ride went: some 2000 of its rows, enough to draw its track."""
-    return whole(Track, rides.track(ride_id).to_json())
+    return json_response(Track, rides.track(ride_id).to_json())
 
 
 @router.get(
@@ -126,7 +126,7 @@ def get_ride_figure(
     language: Literal["en", "zh"] = "en",
 ) -> Any:
     """The traces of a ride as a Plotly figure, its titles in a language."""
-    return whole(Figure, rides.figure(ride_id, channel_names(channels), px, language))
+    return json_response(Figure, rides.figure(ride_id, channel_names(channels), px, language))
 
 
 @router.get(
@@ -154,7 +154,7 @@ def export_ride(
 def replay_ride(ride_id: RideId, body: ReplayRequest, rides: TheRides) -> Any:
     """Runs the ride's inputs through the unit's own law with other settings; speed and legs are as
     recorded, the bike does not answer."""
-    return whole(Replay, rides.replay(ride_id, **body.changes()))
+    return json_response(Replay, rides.replay(ride_id, **body.changes()))
 
 
 @router.post(
@@ -169,11 +169,11 @@ async def ride_again(
     """The same road again with other settings, by a twin of the bike; 422 says why where that
     cannot be trusted. Takes a second for some minutes of road, and ends when nobody waits."""
 
-    def work(still_asked: Callable[[], None]) -> Any:
-        told = ride_again_with(ride_id, body.told(), still_asked, **body.changes())
-        return whole(ClosedLoop, told)
+    def work(check_connected: Callable[[], None]) -> Any:
+        told = ride_again_with(ride_id, body.told(), check_connected, **body.changes())
+        return json_response(ClosedLoop, told)
 
-    return await while_asked(request, work)
+    return await while_connected(request, work)
 
 
 @router.get("/{ride_id}/why", operation_id="why_of_ride", response_model=Why, responses=DAMAGED)
@@ -201,4 +201,4 @@ def ledger_of_ride(ride_id: RideId, ledger: TheEnergyLedger) -> Any:
 @router.post("/table-use", operation_id="table_use", response_model=TableUse)
 def table_use(body: TableUseRequest, use: TheUseOfTable) -> Any:
     """Where in a fuzzy table rides were: seconds and motor energy of each cell."""
-    return whole(TableUse, use(**body.model_dump()))
+    return json_response(TableUse, use(**body.model_dump()))

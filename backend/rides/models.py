@@ -7,9 +7,9 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from backend.core.device_metadata import DeviceSession, Instrument, Lap, Pause
 from backend.core.filled import Filled
 from backend.core.intake import Intake
-from backend.core.noted import Instrument, Lap, Pause, Statement
 from backend.core.request_body import RequestBody
 from backend.core.ride import Gap, RidePlace, RideSummary
 from backend.core.ride_events import RideEvent
@@ -75,7 +75,7 @@ class Ride(Answer):
     laps: list[Lap] = Field(description="As the file tells them; empty for none.")
     pauses: list[Pause] = Field(description="Of the timer of the device that recorded.")
     instruments: list[Instrument] = Field(description="What recorded the file's ride.")
-    statements: list[Statement] = Field(
+    statements: list[DeviceSession] = Field(
         description="What that device stated of the whole ride; a session of several rides is with "
         "each. Never mixed with `summary`, which is of the ride's own rows."
     )

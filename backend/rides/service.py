@@ -11,7 +11,7 @@ from typing import Any
 from backend.core.ride import BAD, Ride, RideSummary
 from backend.errors import InvalidRequest, NotFound
 from backend.rides.files import Export, archive, export, share
-from backend.rides.traces.along import Axis
+from backend.rides.traces.axes import Axis
 from backend.rides.traces.figure import figure
 from backend.rides.traces.trace import Trace, trace
 from backend.rides.traces.track import Track, track

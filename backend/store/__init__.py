@@ -2,6 +2,7 @@
 SQLAlchemy and pyarrow."""
 
 from backend.store.bikes import SeenUnit
+from backend.store.health import WriteFault, WriteWatch
 from backend.store.logbook.book import Home, Logbook
 from backend.store.logbook.cards import CardStore
 from backend.store.logbook.find import RidePage, Sought
@@ -11,7 +12,6 @@ from backend.store.reader import RideReader
 from backend.store.rides import RideStore
 from backend.store.soundness import ROW_DAMAGED, expected_of
 from backend.store.store import Store, open_store
-from backend.store.trouble import Trouble, WriteWatch
 from backend.store.upkeep.backup import StorePlace, backup_of, place_of
 from backend.store.uploads import Upload, UploadStore, Verdict
 
@@ -29,10 +29,10 @@ __all__ = [
     "Store",
     "StorePlace",
     "Totals",
-    "Trouble",
     "Upload",
     "UploadStore",
     "Verdict",
+    "WriteFault",
     "WriteWatch",
     "backup_of",
     "expected_of",

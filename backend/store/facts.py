@@ -11,10 +11,10 @@ from typing import Any
 
 from backend.core.channels import ChannelSpec, channel_to_json
 from backend.core.described import from_members
+from backend.core.device_metadata import metadata_from_json, metadata_to_json
 from backend.core.energy import derivable
 from backend.core.filled import Filled
 from backend.core.intake import Intake
-from backend.core.noted import noted_from_json, noted_to_json
 from backend.core.ride import ORIGINS, Gap, Ride, RideContext
 from backend.core.ride_events import RideEvent
 from backend.core.ride_tags import clean_tags
@@ -76,7 +76,7 @@ def facts_of(ride: Ride) -> dict[str, object]:
         "cut_short": ride.cut_short,
         "sport": ride.sport,
         "intake": asdict(ride.intake) if ride.intake else None,
-        "noted": noted_to_json(ride.noted),
+        "noted": metadata_to_json(ride.noted),
     }
 
 
@@ -112,7 +112,7 @@ def kept_ride(
         cut_short=bool(facts.get("cut_short", False)),
         sport=facts.get("sport"),
         intake=from_members(Intake, facts["intake"]) if facts.get("intake") else None,
-        noted=noted_from_json(facts.get("noted")),
+        noted=metadata_from_json(facts.get("noted")),
         tags=clean_tags(sidecar.get("tags", ())),
     )
     return KeptRide(

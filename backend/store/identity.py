@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from sqlalchemy import Connection, delete, insert, select, update
 
 from backend.errors import StoreError
-from backend.store.look import DAMAGED, FOREIGN, DatabaseView
+from backend.store.inspect_schema import DAMAGED, FOREIGN, DatabaseView
 from backend.store.objects import FileObjects
 from backend.store.sql import tables as t
 

@@ -28,7 +28,7 @@ from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
 from backend.errors import StoreError
-from backend.store.trouble import WriteWatch, write_a_little
+from backend.store.health import WriteWatch, write_a_little
 
 STAGING = ".staging"
 STAGED_NAME = re.compile(r"[0-9a-f]{16}")

@@ -11,10 +11,10 @@ from typing import Any
 from sqlalchemy import Connection, Row, Select, delete, insert, select, update
 
 from backend.core.channels import ChannelSpec, channel_to_json
+from backend.core.device_metadata import metadata_from_json, metadata_to_json
 from backend.core.energy import derivable
 from backend.core.filled import Filled
 from backend.core.intake import Intake
-from backend.core.noted import noted_from_json, noted_to_json
 from backend.core.ride import (
     BAD,
     ORIGINS,
@@ -169,7 +169,7 @@ def sound_ride(row: Row[Any], tags: tuple[str, ...]) -> Ride:
         bike_id=body["bike_id"],
         sport=body["sport"],
         intake=Intake(**body["intake"]) if body["intake"] else None,
-        noted=noted_from_json(body["noted"]),
+        noted=metadata_from_json(body["noted"]),
         same_ride_as=body["same_ride_as"],
         tags=tags,
         place=None if place == RidePlace() else place,
@@ -225,7 +225,7 @@ def row_of(ride: Ride) -> dict[str, object]:
         "cut_short": ride.cut_short,
         "sport": ride.sport,
         "intake": asdict(ride.intake) if ride.intake else None,
-        "noted": noted_to_json(ride.noted),
+        "noted": metadata_to_json(ride.noted),
         "same_ride_as": ride.same_ride_as,
     }
 

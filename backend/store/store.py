@@ -16,12 +16,13 @@ from backend.core.ride import Ride, iso_utc
 from backend.errors import StoreError
 from backend.store.deletion import SPOOL, Deletions
 from backend.store.entries import Entries
+from backend.store.health import DISK_FULL, WORDS, code_of
 from backend.store.identity import belonging, new_id, require, write_identity
+from backend.store.inspect_schema import inspect_database
 from backend.store.locks import hold
 from backend.store.logbook.book import Logbook
 from backend.store.logbook.cards import CardStore
 from backend.store.logbook.zeros import ZeroStore
-from backend.store.look import look_at
 from backend.store.marks import MarkStore
 from backend.store.named import expected_objects, named_keys
 from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
@@ -30,7 +31,6 @@ from backend.store.soundness import Soundness
 from backend.store.sql.advisory import fence
 from backend.store.sql.database import Database, is_postgresql, shown
 from backend.store.sql.database_url import check_url
-from backend.store.trouble import DISK_FULL, WORDS, code_of
 from backend.store.uploads import UploadStore
 
 LOG = logging.getLogger(__name__)
@@ -200,13 +200,13 @@ def saying_where() -> Iterator[None]:
 
 def opened_store(db_url: str, objects: FileObjects) -> Store:
     """As `open_store`, over open objects. Raises OSError where the system refuses a path."""
-    require(belonging(look_at(db_url), objects), shown(db_url), objects)
+    require(belonging(inspect_database(db_url), objects), shown(db_url), objects)
     server_id = new_id()
     closing = ExitStack()
     try:
         hold(closing, db_url, objects)
         # Another server may have come and gone since the first look.
-        found = belonging(look_at(db_url), objects)
+        found = belonging(inspect_database(db_url), objects)
         store_id = require(found, shown(db_url), objects)
         database = Database(db_url, objects.watch)
         closing.callback(database.close)

@@ -25,12 +25,12 @@ PIECE_BYTES = 32 * 1024
 MEDIA_TYPE = "application/json"
 
 
-def whole(model: type[BaseModel], answer: Any) -> Response:
+def json_response(model: type[BaseModel], answer: Any) -> Response:
     """An answer, checked against its model, as a response that is ready but for sending."""
-    return in_pieces(model.model_validate(answer).model_dump_json().encode())
+    return streamed_json(model.model_validate(answer).model_dump_json().encode())
 
 
-def in_pieces(body: bytes | memoryview) -> Response:
+def streamed_json(body: bytes | memoryview) -> Response:
     """JSON text as a response; a long one is sent piece by piece."""
     if len(body) <= PIECE_BYTES:
         return Response(bytes(body), media_type=MEDIA_TYPE)
@@ -46,7 +46,7 @@ def pieces(body: bytes) -> Iterator[bytes]:
 Answer = TypeVar("Answer")
 
 
-async def while_asked(request: Request, work: Callable[[Callable[[], None]], Answer]) -> Answer:
+async def while_connected(request: Request, work: Callable[[Callable[[], None]], Answer]) -> Answer:
     """The answer of `work`, which runs in the thread pool.
 
     work: is given a function to call now and then, which raises once the connection of the request
@@ -54,7 +54,7 @@ async def while_asked(request: Request, work: Callable[[Callable[[], None]], Ans
     """
     gone = threading.Event()
 
-    def still_asked() -> None:
+    def check_connected() -> None:
         if gone.is_set():
             raise RequestRefused("Nobody waits for the answer any more.", "given_up")
 
@@ -65,6 +65,6 @@ async def while_asked(request: Request, work: Callable[[Callable[[], None]], Ans
 
     watching = asyncio.create_task(watch())
     try:
-        return await run_in_threadpool(work, still_asked)
+        return await run_in_threadpool(work, check_connected)
     finally:
         watching.cancel()

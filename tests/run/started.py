@@ -60,7 +60,7 @@ class Started:
 HERE = Started()
 
 
-class Told:
+class Report:
     """Adds up what the workers started, tells it, and fails a run that started too much.
 
     more: how much may be started of some kinds, for `MOST`.
@@ -114,4 +114,4 @@ def counted(config: pytest.Config) -> None:
     sys.addaudithook(HERE.hear)
     worker = hasattr(config, "workerinput")
     more = {UNIT: UNITS_ON_A_BOARD} if config.getoption("--unit", "host") == "qemu" else {}
-    config.pluginmanager.register(Counted() if worker else Told(more), "started")
+    config.pluginmanager.register(Counted() if worker else Report(more), "started")

@@ -13,16 +13,16 @@ from math import floor
 
 import numpy as np
 
-from backend.core.noted import within
+from backend.core.device_metadata import within
 from backend.formats.columns import Places, rides_of_columns
 from backend.formats.fit.balance import with_leg
+from backend.formats.fit.device_figures import statements_of
 from backend.formats.fit.fields import Table, descriptions, table_of
 from backend.formats.fit.layout import CHECKSUM_BYTES, Part
 from backend.formats.fit.mend import mended
-from backend.formats.fit.noted import noted_of
+from backend.formats.fit.metadata import metadata_of
 from backend.formats.fit.profile import RECORD_FIELDS, SPORTS, ProfileField
 from backend.formats.fit.salvage import Salvage, Salvaging
-from backend.formats.fit.stated import statements_of
 from backend.formats.fit.walk import sound_parts
 from backend.formats.fit_numbers import EPOCH_S, FIELD_DESCRIPTION, RECORD, SESSION
 from backend.formats.outcome import COMPLETE, PARTIAL, ImportedRide, Outcome, rejected
@@ -94,7 +94,7 @@ def rides_of(data: bytes, cells: np.typing.NDArray[np.uint8], part: Part) -> lis
     described = descriptions(data, part.of(FIELD_DESCRIPTION))
     records = table_of(cells, part.of(RECORD), RECORD_FIELDS, described)
     stated, unread = statements_of(cells, part, described, records.time_s)
-    noted = replace(noted_of(data, cells, part), statements=stated)
+    noted = replace(metadata_of(data, cells, part), statements=stated)
     found: list[ImportedRide] = []
     for sport, rows in legs_of(records, table_of(cells, part.of(SESSION), SESSION_FIELDS)):
         leg = records.of_rows(rows)

@@ -24,7 +24,15 @@ from typing import Any
 import numpy as np
 
 from backend.core.channels import Values
-from backend.core.noted import PAUSES_MAX, Instrument, Noted, Pause, Stated, Statement, within
+from backend.core.device_metadata import (
+    PAUSES_MAX,
+    DeviceFigure,
+    DeviceMetadata,
+    DeviceSession,
+    Instrument,
+    Pause,
+    within,
+)
 from backend.core.zones import zone_of
 from backend.formats.cells import Growing, as_written, iso_moment, number, step_of, unix_seconds
 from backend.formats.columns import FIT_FIELDS, FieldRule, rides_of_columns
@@ -90,7 +98,7 @@ class Document:
         self._moments: list[datetime | None] = []
         self._paused: list[int] = []
         self._members: dict[str, str] = {}
-        self._stated: dict[str, Stated] = {}
+        self._stated: dict[str, DeviceFigure] = {}
 
     def member(self, name: str, value: Any) -> None:
         """A member of the document that is no point."""
@@ -107,7 +115,7 @@ class Document:
         told = number(value) if isinstance(value, str) else float("nan")
         if key not in STATED or not isfinite(told):
             return False
-        self._stated[name] = Stated(name, told, STATED[key])
+        self._stated[name] = DeviceFigure(name, told, STATED[key])
         return True
 
     def point(self, point: dict[str, Any]) -> None:
@@ -160,7 +168,7 @@ class Document:
             for ride in found
         ]
 
-    def _noted(self, times: Values) -> Noted:
+    def _noted(self, times: Values) -> DeviceMetadata:
         spans = [times[at : at + 2].tolist() for at in self._paused if at + 1 < len(times)]
         pauses = [Pause(from_s, to_s) for from_s, to_s in spans if to_s > from_s]
         serial = self._members.get(SERIAL, "").encode("ascii", "ignore").decode() or None
@@ -168,11 +176,11 @@ class Document:
         told = tuple(self._stated.values())
         there = times[np.isfinite(times)]
         stated = (
-            (Statement(float(there.min()), float(there.max()), told),)
+            (DeviceSession(float(there.min()), float(there.max()), told),)
             if told and len(there)
             else ()
         )
-        return Noted((), tuple(pauses[:PAUSES_MAX]), (bike,), stated)
+        return DeviceMetadata((), tuple(pauses[:PAUSES_MAX]), (bike,), stated)
 
     def ridden_share(self) -> float | None:
         """Of the time between the start and the stop the file names, what its points cover."""

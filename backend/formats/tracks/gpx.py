@@ -11,7 +11,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 from math import isfinite
 
-from backend.core.noted import INSTRUMENTS_MAX, PAUSES_MAX, Instrument, Noted, Pause
+from backend.core.device_metadata import (
+    INSTRUMENTS_MAX,
+    PAUSES_MAX,
+    DeviceMetadata,
+    Instrument,
+    Pause,
+)
 from backend.formats.outcome import Outcome
 from backend.formats.tracks.rides import Clock, Track, outcome_of, refused
 from backend.formats.tracks.walk import Listener, Shape, Texts, UnsafeXml, as_utf8, walk
@@ -83,7 +89,7 @@ class GpxReader:
         time_s = track.add(texts)
         if self._new_segment and self._last_s < time_s and len(track.noted.pauses) < PAUSES_MAX:
             pauses = (*track.noted.pauses, Pause(self._last_s, time_s))
-            track.noted = Noted(pauses=pauses)
+            track.noted = DeviceMetadata(pauses=pauses)
         self._new_segment = False
         if isfinite(time_s):
             self._last_s = time_s

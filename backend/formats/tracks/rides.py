@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 from datetime import UTC, tzinfo
 from math import floor
 
+from backend.core.device_metadata import DeviceMetadata, within
 from backend.core.intake import Intake
-from backend.core.noted import Noted, within
 from backend.formats.cells import Growing, as_written, iso_moment, step_of, unix_seconds
 from backend.formats.columns import rides_of_columns
 from backend.formats.outcome import COMPLETE, PARTIAL, ImportedRide, Outcome, rejected
@@ -74,7 +74,7 @@ class Track:
     clock: Clock
     sport: str | None = None
     points: Growing = field(default_factory=Growing)
-    noted: Noted = field(default_factory=Noted)
+    noted: DeviceMetadata = field(default_factory=DeviceMetadata)
 
     def add(self, texts: Texts) -> float:
         """A point; its Unix time, NaN for none."""

@@ -15,7 +15,7 @@ from math import isfinite
 
 import numpy as np
 
-from backend.core.noted import LAPS_MAX, Instrument, Lap, Noted
+from backend.core.device_metadata import LAPS_MAX, DeviceMetadata, Instrument, Lap
 from backend.core.zones import zone_of
 from backend.formats.cells import number
 from backend.formats.outcome import NEEDS_MAPPING, Outcome, rejected
@@ -71,7 +71,9 @@ def read_tcx(data: bytes, answer: TableAnswer | None = None) -> Outcome:
         detail = f"A {question.kind} that does not say: time_zone. Say it once, and every such "
         return replace(rejected(NEEDS_MAPPING, f"{detail}file is read."), question=question)
     for activity in activities:
-        activity.track.noted = Noted(laps=laps_of(activity), instruments=device_of(activity))
+        activity.track.noted = DeviceMetadata(
+            laps=laps_of(activity), instruments=device_of(activity)
+        )
     tracks = [activity.track for activity in activities]
     return outcome_of(tracks, walked, len(data), "points without a time are no ride")
 

@@ -15,7 +15,7 @@ from backend.rides.rows import Window
 from backend.tuning.models.config import SinceChange as SinceChangeAnswer
 from backend.units.precondition import FOR_ONE_UNIT
 from backend.web.problem import DAMAGED, refusals
-from backend.web.responses import whole
+from backend.web.responses import json_response
 from backend.web.services import provided
 
 router = APIRouter(prefix="/rides/compare", tags=["rides"], responses={**refusals(404), **DAMAGED})
@@ -67,7 +67,7 @@ def compare_ride_series(
     comparison = insight.comparison
     part = (from_x, to_x)
     told = comparison.series(pair.a, pair.b, by, channel_names(channels), part, px)
-    return whole(ComparedSeries, told)
+    return json_response(ComparedSeries, told)
 
 
 @router.get("/crank", operation_id="compare_ride_crank", response_model=ComparedCrank)

@@ -44,7 +44,7 @@ Columns = Mapping[str, Values]
 Config = Mapping[str, Any]
 Estimate = dict[str, float]
 Samples = npt.NDArray[np.void]
-StillAsked = Callable[[], None]
+CheckConnected = Callable[[], None]
 NOTHING_TOLD = RiderAndBike()
 
 
@@ -63,12 +63,12 @@ class RideAgain:
         self,
         ride_id: int,
         told: RiderAndBike = NOTHING_TOLD,
-        still_asked: StillAsked = as_ever,
+        check_connected: CheckConnected = as_ever,
         **changes: Any,
     ) -> dict[str, Any]:
         """The estimate as the API tells it.
 
-        told: of rider and bike. still_asked: called before every ride of the twin; what it raises
+        told: of rider and bike. check_connected: called before every ride of the twin; what it raises
         ends the estimate. changes: as of `changed_config`. Raises NotFound; InvalidRequest with the
         reason where the ride cannot be trusted for that, or for settings the law refuses.
         """
@@ -76,7 +76,7 @@ class RideAgain:
         config, _ = unchanged(self._config_of, reader.ride)
         changed = changed_config(config, **changes)
         twin = twin_of(reader, config, told)
-        still_asked()
+        check_connected()
         again, samples = twin.ridden(changed, twin.rider, sample_steps=1)
         if again.gave_up:
             raise InvalidRequest(
@@ -87,7 +87,7 @@ class RideAgain:
         own, own_samples = twin.ridden(config, twin.rider, sample_steps=1)
         return {
             "meaning": MEANING,
-            **estimates(twin, again, twin.band(changed, still_asked)),
+            **estimates(twin, again, twin.band(changed, check_connected)),
             "limits": limits(twin, own, again),
             "curves": curves(twin, own_samples, samples),
             "trust": trust(twin, own),

@@ -55,7 +55,7 @@ section{break-inside:avoid}
 
 
 @dataclass(frozen=True)
-class Told:
+class ReportContent:
     """What a report is made of: title, facts below it, figures by name, where and in which modes
     it went, and the answers that the API gives. traces: a plotly Figure, None for a ride without
     any."""
@@ -73,7 +73,7 @@ class Told:
     diagnosis: Mapping[str, Any]
 
 
-def page(told: Told, language: str) -> Iterator[str]:
+def page(told: ReportContent, language: str) -> Iterator[str]:
     """The file, piece by piece. language: one of WORDS."""
     from plotly.offline import get_plotlyjs
 

@@ -11,7 +11,7 @@ from backend.core.ride import Ride, iso_utc
 from backend.rides.diagnosis.service import Diagnosis
 from backend.rides.files import Export, stem
 from backend.rides.insight.service import RideEffort, RideEnergy, RidePedalling
-from backend.rides.report.page import Told, page
+from backend.rides.report.page import ReportContent, page
 from backend.rides.traces.figure import figure
 from backend.rides.traces.track import track
 from backend.store import RideReader, Store
@@ -45,7 +45,7 @@ class RideReport:
         """The report as a file. language: `en` or `zh`. Raises NotFound, ObjectDamaged."""
         reader = self._store.rides.reader(ride_id)
         energy = self._energy(ride_id)
-        told = Told(
+        told = ReportContent(
             title=reader.ride.name,
             facts=facts(reader.ride),
             version=__version__,

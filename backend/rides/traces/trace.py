@@ -47,7 +47,7 @@ from backend.core.channels import ChannelSpec, Counts, Values
 from backend.core.pyramid import Level, reduce_groups
 from backend.core.ride import pause_us
 from backend.errors import FieldError, InvalidRequest
-from backend.rides.traces.along import Along, Axis, Rows, told_along
+from backend.rides.traces.axes import Along, Axis, Rows, told_along
 
 MAGIC = b"SPV1"
 # A screen has at most this many columns; more would only cost the browser memory.

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from backend.core.channels import Values
 from backend.core.ride import PAUSE_MIN_US
-from backend.rides.traces.along import ODOMETER, SPEED, Axis, Rows, places
+from backend.rides.traces.axes import ODOMETER, SPEED, Axis, Rows, places
 
 LATITUDE, LONGITUDE = "latitude_deg", "longitude_deg"
 EVEN_POINTS = 1000

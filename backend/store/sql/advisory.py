@@ -17,9 +17,9 @@ from sqlalchemy.exc import SQLAlchemyError
 from sqlalchemy.pool import NullPool
 
 from backend.errors import StoreError
+from backend.store.health import reason_of
 from backend.store.sql import tables as t
 from backend.store.sql.database import shown
-from backend.store.trouble import reason_of
 
 LOG = logging.getLogger(__name__)
 

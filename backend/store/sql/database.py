@@ -21,8 +21,7 @@ from sqlalchemy.engine import make_url
 from sqlalchemy.exc import SQLAlchemyError
 
 from backend.errors import StoreError
-from backend.store.sql.sound_rows import decoded, parsed
-from backend.store.trouble import (
+from backend.store.health import (
     DAMAGED,
     QUEUE_FULL,
     WORDS,
@@ -31,6 +30,7 @@ from backend.store.trouble import (
     reason_of,
     write_a_little,
 )
+from backend.store.sql.sound_rows import decoded, parsed
 
 LOG = logging.getLogger(__name__)
 Result = TypeVar("Result")

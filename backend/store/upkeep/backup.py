@@ -25,7 +25,7 @@ from sqlalchemy import func, select
 from backend.core.described import described
 from backend.core.ride import iso_utc
 from backend.errors import StoreError
-from backend.store.look import look_at
+from backend.store.inspect_schema import inspect_database
 from backend.store.objects import IDENTITY, READ_BYTES, RIDE_SUFFIX, sidecar_key
 from backend.store.pipe import Pipe
 from backend.store.sql import tables as t
@@ -110,7 +110,7 @@ def written(store: Store, version: str) -> Iterator[bytes]:
                 if path is not None:
                     yield from added(archive, pipe, DATABASE, copy, ZIP_DEFLATED)
                 url = url_of(store) if path is None else f"sqlite:///{copy}"
-                keys = sorted(look_at(url).object_keys)
+                keys = sorted(inspect_database(url).object_keys)
                 lacking = yield from added_objects(archive, pipe, store, keys)
                 told = {
                     "format": 1,

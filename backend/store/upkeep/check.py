@@ -17,7 +17,13 @@ from backend.errors import StoreError
 from backend.store.entries import ROWS_AT_ONCE
 from backend.store.from_object import damage_of
 from backend.store.identity import belonging
-from backend.store.look import OK, DatabaseView, LiveRecording, look_at, reading_engine
+from backend.store.inspect_schema import (
+    OK,
+    DatabaseView,
+    LiveRecording,
+    inspect_database,
+    reading_engine,
+)
 from backend.store.objects import FileObjects, open_objects
 from backend.store.ride_table import damaged_rows
 from backend.store.sql import tables as t
@@ -107,7 +113,7 @@ def check_store(db_url: str, objects_url: str) -> StoreCheck:
 
 def checked(db_url: str, objects: FileObjects) -> StoreCheck:
     """As `check_store`. Raises OSError where the system refuses a path."""
-    view = look_at(db_url, whole=True)
+    view = inspect_database(db_url, whole=True)
     try:
         folder_id = objects.identity()
     except StoreError:

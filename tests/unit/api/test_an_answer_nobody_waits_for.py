@@ -33,13 +33,13 @@ class Working:
         self.briefly = False
 
     def __call__(
-        self, ride_id: int, told: object, still_asked: Callable[[], None], **changes: Any
+        self, ride_id: int, told: object, check_connected: Callable[[], None], **changes: Any
     ) -> Any:
         self.begun.set()
         until = time.monotonic() + (0.05 if self.briefly else PATIENCE_S)
         while time.monotonic() < until:
             try:
-                still_asked()
+                check_connected()
             except RequestRefused:
                 self.given_up.set()
                 raise

@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from tcxreader.tcxreader import TCXReader
 
-from backend.core.noted import Instrument, Pause
+from backend.core.device_metadata import Instrument, Pause
 from backend.formats.formats import read_file
 from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide
 from backend.formats.questions import TableAnswer

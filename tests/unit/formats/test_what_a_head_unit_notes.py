@@ -13,21 +13,26 @@ import fitdecode
 import numpy as np
 import pytest
 
-from backend.core.noted import (
+from backend.core.device_metadata import (
+    DeviceFigure,
+    DeviceMetadata,
+    DeviceSession,
     Instrument,
     Lap,
-    Noted,
     Pause,
-    Stated,
-    Statement,
-    noted_from_json,
-    noted_to_json,
+    metadata_from_json,
+    metadata_to_json,
     within,
 )
 from backend.core.ride import find_gaps
 from backend.formats.fit import read_fit
-from backend.formats.fit.noted_words import BATTERY_STATUS, DEVICE_KINDS, LOCAL_KINDS, MANUFACTURERS
-from backend.formats.fit.stated import SESSION_FIELDS
+from backend.formats.fit.device_figures import SESSION_FIELDS
+from backend.formats.fit.metadata_words import (
+    BATTERY_STATUS,
+    DEVICE_KINDS,
+    LOCAL_KINDS,
+    MANUFACTURERS,
+)
 from backend.formats.outcome import ImportedRide
 from tests.fakes.fit_file import FIT_EPOCH_S, START_S, definition, enclosed
 
@@ -168,13 +173,15 @@ def test_the_share_of_the_right_leg_is_a_channel_and_an_unknown_side_is_none() -
 
 
 def test_notes_survive_being_written_and_a_newer_version_s_words() -> None:
-    noted = Noted((Lap(0.0, 60.0, "manual"),), (Pause(1.0, 2.0),), (Instrument("recorder"),))
-    body = noted_to_json(noted)
+    noted = DeviceMetadata(
+        (Lap(0.0, 60.0, "manual"),), (Pause(1.0, 2.0),), (Instrument("recorder"),)
+    )
+    body = metadata_to_json(noted)
     newer = {**body, "laps": [{"from_s": 0.0, "to_s": 60.0, "trigger": "manual", "mood": "good"}]}
 
-    assert noted_from_json(body) == noted
-    assert noted_from_json(newer) == noted
-    assert noted_from_json(None) == Noted()
+    assert metadata_from_json(body) == noted
+    assert metadata_from_json(newer) == noted
+    assert metadata_from_json(None) == DeviceMetadata()
 
 
 def an_e_bikes_session(times: bool = True) -> bytes:
@@ -257,15 +264,17 @@ def test_a_session_without_times_is_of_the_records() -> None:
 
 
 def test_a_statement_is_never_cut_and_comes_back_from_json() -> None:
-    whole = Noted(statements=(Statement(100.0, 500.0, (Stated("total_work", 9.0, "J"),)),))
+    whole = DeviceMetadata(
+        statements=(DeviceSession(100.0, 500.0, (DeviceFigure("total_work", 9.0, "J"),)),)
+    )
 
     of_second = within(whole, 300.0, 200.0)
 
-    assert of_second.statements == (Statement(-200.0, 200.0, whole.statements[0].figures),)
+    assert of_second.statements == (DeviceSession(-200.0, 200.0, whole.statements[0].figures),)
     assert within(whole, 600.0, 100.0).statements == ()
-    assert noted_from_json(noted_to_json(of_second)) == of_second
+    assert metadata_from_json(metadata_to_json(of_second)) == of_second
     # As a version wrote it that knew no statements.
-    assert noted_from_json({"laps": [], "pauses": [], "instruments": []}) == Noted()
+    assert metadata_from_json({"laps": [], "pauses": [], "instruments": []}) == DeviceMetadata()
 
 
 def test_every_figure_of_a_session_is_that_of_fitdecodes_profile() -> None:

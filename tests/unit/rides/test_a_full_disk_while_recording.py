@@ -19,8 +19,8 @@ from backend.main import open_services
 from backend.rides.recording.recorder import Recorder, RecordSettings
 from backend.settings import load
 from backend.store import Store, open_store
+from backend.store.health import CALM_S, WriteWatch
 from backend.store.objects import FileObjects
-from backend.store.trouble import CALM_S, WriteWatch
 from tests.fakes.server import eventually
 from tests.unit.rides.test_recording import (
     PERIOD_US,

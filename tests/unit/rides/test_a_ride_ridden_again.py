@@ -237,13 +237,13 @@ def test_what_no_unit_takes_is_refused_before_the_road_is_ridden(store: Store) -
 def test_an_estimate_that_nobody_waits_for_ends_with_the_ride_of_the_moment(store: Store) -> None:
     asked = []
 
-    def still_asked() -> None:
+    def check_connected() -> None:
         asked.append(1)
         if len(asked) == 5:
             raise RequestRefused("gone")
 
     with pytest.raises(RequestRefused, match="gone"):
-        again(store, sport(), still_asked=still_asked)
+        again(store, sport(), check_connected=check_connected)
 
     # Of the forty rides of the band.
     assert len(asked) == 5

@@ -12,7 +12,7 @@ import pytest
 
 from backend.core.channels import ChannelSpec, Values
 from backend.errors import InvalidRequest
-from backend.rides.traces.along import Axis, along
+from backend.rides.traces.axes import Axis, along
 from backend.rides.traces.trace import trace
 from backend.rides.traces.track import BENDS, EVEN_POINTS, track
 from tests.unit.rides.test_trace_is_exact import PlainReader

@@ -62,7 +62,7 @@ class Instrument:
 
 
 @described
-class Stated:
+class DeviceFigure:
     """A figure as the device that recorded stated it, by its own rules: none of `summary`."""
 
     name: str
@@ -73,38 +73,40 @@ class Stated:
 
 
 @described
-class Statement:
+class DeviceSession:
     """What the device stated of one whole session, which may reach beyond the ride."""
 
     from_s: float
     to_s: float
-    figures: tuple[Stated, ...] = ()
+    figures: tuple[DeviceFigure, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
-class Noted:
+class DeviceMetadata:
     """All of it, each in the order of time or of the file."""
 
     laps: tuple[Lap, ...] = ()
     pauses: tuple[Pause, ...] = ()
     instruments: tuple[Instrument, ...] = ()
-    statements: tuple[Statement, ...] = ()
+    statements: tuple[DeviceSession, ...] = ()
 
 
-def noted_to_json(noted: Noted) -> dict[str, object]:
-    """Plain JSON, the inverse of `noted_from_json`."""
+def metadata_to_json(noted: DeviceMetadata) -> dict[str, object]:
+    """Plain JSON, the inverse of `metadata_from_json`."""
     return asdict(noted)
 
 
-def noted_from_json(body: Mapping[str, Any] | None) -> Noted:
+def metadata_from_json(body: Mapping[str, Any] | None) -> DeviceMetadata:
     """From the members it has; a newer version may have told more. Raises TypeError, ValueError."""
     body = body or {}
-    return Noted(
+    return DeviceMetadata(
         laps=_items(Lap, body.get("laps", ())),
         pauses=_items(Pause, body.get("pauses", ())),
         instruments=_items(Instrument, body.get("instruments", ())),
         statements=tuple(
-            Statement(told["from_s"], told["to_s"], _items(Stated, told.get("figures", ())))
+            DeviceSession(
+                told["from_s"], told["to_s"], _items(DeviceFigure, told.get("figures", ()))
+            )
             for told in body.get("statements", ())
         ),
     )
@@ -114,7 +116,7 @@ def _items(kind: type[Any], bodies: Sequence[Mapping[str, Any]]) -> tuple[Any, .
     return tuple(from_members(kind, body) for body in bodies)
 
 
-def within(noted: Noted, started_s: float, duration_s: float) -> Noted:
+def within(noted: DeviceMetadata, started_s: float, duration_s: float) -> DeviceMetadata:
     """What of a file's notes is of one ride of it.
 
     noted: with times as Unix seconds. started_s: Unix time of the ride's first row. What reaches
@@ -132,11 +134,11 @@ def within(noted: Noted, started_s: float, duration_s: float) -> Noted:
     pauses = [cut(pause) for pause in noted.pauses if _touches(pause, started_s, duration_s)]
     laps.sort(key=lambda lap: (lap.from_s, lap.to_s))
     statements = [
-        Statement(round(s.from_s - started_s, 6), round(s.to_s - started_s, 6), s.figures)
+        DeviceSession(round(s.from_s - started_s, 6), round(s.to_s - started_s, 6), s.figures)
         for s in noted.statements
         if _touches(s, started_s, duration_s)
     ]
-    return Noted(
+    return DeviceMetadata(
         tuple(laps[:LAPS_MAX]),
         tuple(pauses[:PAUSES_MAX]),
         noted.instruments,
@@ -144,6 +146,6 @@ def within(noted: Noted, started_s: float, duration_s: float) -> Noted:
     )
 
 
-def _touches(item: Lap | Pause | Statement, started_s: float, duration_s: float) -> bool:
+def _touches(item: Lap | Pause | DeviceSession, started_s: float, duration_s: float) -> bool:
     shared_s = min(item.to_s, started_s + duration_s) - max(item.from_s, started_s)
     return shared_s > 0 and shared_s >= min(LEAST_S, 0.5 * (item.to_s - item.from_s))

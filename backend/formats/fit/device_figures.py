@@ -10,7 +10,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from backend.core.channels import Values
-from backend.core.noted import STATED_MAX, STATEMENTS_MAX, Stated, Statement
+from backend.core.device_metadata import STATED_MAX, STATEMENTS_MAX, DeviceFigure, DeviceSession
 from backend.formats.fit.fields import Bytes, Described, table_of
 from backend.formats.fit.layout import Part
 from backend.formats.fit.profile import ProfileField
@@ -112,7 +112,7 @@ LEFT_OUT = frozenset(field.name for field in ASIDE.values())
 
 def statements_of(
     cells: Bytes, part: Part, described: Mapping[tuple[int, int], Described], records_s: Values
-) -> tuple[tuple[Statement, ...], dict[str, int]]:
+) -> tuple[tuple[DeviceSession, ...], dict[str, int]]:
     """What each session states, with Unix times, and which of its fields are no single number.
 
     records_s: FIT times (n,) of the records, which a session without times is of.
@@ -126,7 +126,7 @@ def statements_of(
     found = []
     for row in range(min(len(sessions), STATEMENTS_MAX)):
         figures = [
-            Stated(name, round(float(column.values[row]), 6), column.unit)
+            DeviceFigure(name, round(float(column.values[row]), 6), column.unit)
             for name, column in sessions.columns.items()
             if name not in LEFT_OUT and np.isfinite(column.values[row])
         ]
@@ -135,6 +135,6 @@ def statements_of(
             from_s, to_s = float(there.min()), float(there.max())
         if figures and to_s > from_s:
             told = tuple(figures[:STATED_MAX])
-            found.append(Statement(EPOCH_S + from_s, EPOCH_S + to_s, told))
+            found.append(DeviceSession(EPOCH_S + from_s, EPOCH_S + to_s, told))
     unread = {f"session_{name}": count for name, count in sessions.unread.items()}
     return tuple(found), unread

@@ -16,12 +16,12 @@ from sqlalchemy.engine import make_url
 from sqlalchemy.exc import DatabaseError, OperationalError, SQLAlchemyError
 
 from backend.errors import StoreError
+from backend.store.health import DAMAGED as FILE_DAMAGED
+from backend.store.health import code_of, reason_of
 from backend.store.named import calibration_key
 from backend.store.objects import RIDE_SUFFIX, content_key, sidecar_key
 from backend.store.sql.database import shown, sqlite_path
 from backend.store.sql.sound_rows import NOT_AS_WRITTEN, decoded, parsed
-from backend.store.trouble import DAMAGED as FILE_DAMAGED
-from backend.store.trouble import code_of, reason_of
 
 MISSING, EMPTY, DAMAGED, FOREIGN, OK = "missing", "empty", "damaged", "foreign", "ok"
 # The end of the year 9999, the last that ISO 8601 tells with four digits.
@@ -61,7 +61,7 @@ class DatabaseView:
     live: tuple[LiveRecording, ...] = ()
 
 
-def look_at(url: str, whole: bool = False) -> DatabaseView:
+def inspect_database(url: str, whole: bool = False) -> DatabaseView:
     """The contents of a database. Raises StoreError when it cannot be reached or used at all.
 
     whole: reads every page of an SQLite file, so that a destroyed one is known as such.

@@ -77,7 +77,7 @@ OF_SQLSTATE = {"53": DISK_FULL, "25": READ_ONLY, "58": IO_ERROR, "08": UNREACHAB
 
 
 @dataclass(frozen=True)
-class Trouble:
+class WriteFault:
     """Something that cannot be written now.
 
     part: what (`database`, `objects`, `uploads`). code: why, one of `WORDS`. message: for people.
@@ -94,12 +94,12 @@ class WriteWatch:
     def __init__(self, now_s: Callable[[], float] = time.monotonic) -> None:
         self._now_s = now_s
         self._lock = threading.Lock()
-        self._troubles: dict[str, Trouble] = {}
+        self._troubles: dict[str, WriteFault] = {}
         self._refused_s: dict[str, float] = {}
         self._since_s: dict[str, float] = {}
 
     @property
-    def troubles(self) -> tuple[Trouble, ...]:
+    def troubles(self) -> tuple[WriteFault, ...]:
         """What cannot be written now, in the order in which it began."""
         with self._lock:
             return tuple(self._troubles.values())
@@ -127,7 +127,7 @@ class WriteWatch:
     def note(self, part: str, code: str) -> None:
         """Note that `part` cannot be written because of `code`; in the log once a spell."""
         done = "be trusted" if code == DAMAGED else "be written"
-        trouble = Trouble(part, code, f"The {part} cannot {done}: {WORDS[code]}.")
+        trouble = WriteFault(part, code, f"The {part} cannot {done}: {WORDS[code]}.")
         now_s = self._now_s()
         with self._lock:
             is_new = part not in self._troubles

@@ -4,10 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from backend.core.noted import INSTRUMENTS_MAX, LAPS_MAX, PAUSES_MAX, Instrument, Lap, Noted, Pause
+from backend.core.device_metadata import (
+    INSTRUMENTS_MAX,
+    LAPS_MAX,
+    PAUSES_MAX,
+    DeviceMetadata,
+    Instrument,
+    Lap,
+    Pause,
+)
 from backend.formats.fit.fields import Bytes, Table, table_of, text
 from backend.formats.fit.layout import Part
-from backend.formats.fit.noted_words import (
+from backend.formats.fit.metadata_words import (
     BATTERY_STATUS,
     DEVICE_KINDS,
     LAP_TRIGGERS,
@@ -48,9 +56,9 @@ BY_HAND, BY_ITSELF = 0, 1
 CREATOR, LOCAL = 0, 5
 
 
-def noted_of(data: bytes, cells: Bytes, part: Part) -> Noted:
+def metadata_of(data: bytes, cells: Bytes, part: Part) -> DeviceMetadata:
     """Laps and pauses with their times as Unix seconds, and the instruments."""
-    return Noted(
+    return DeviceMetadata(
         laps_of(table_of(cells, part.of(LAP), LAP_FIELDS)),
         pauses_of(table_of(cells, part.of(EVENT), EVENT_FIELDS)),
         instruments_of(data, cells, part),
