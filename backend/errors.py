@@ -190,7 +190,7 @@ class NotSignedIn(RequestRefused):
 
 
 class NotAllowed(RequestRefused):
-    """Who asks is known, and their role or key does not allow it."""
+    """The caller is known, and their role or key does not allow it."""
 
     default_code = "not_allowed"
 

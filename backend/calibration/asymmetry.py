@@ -33,7 +33,7 @@ from backend.calibration.setup import Setup
 from backend.core.statistics import Numbers
 
 ANGLE_SPAN_RAD = math.radians(20.0)
-"""Less, and the scatter of the hangings decides: a third of the load bends across at 20 degrees."""
+"""Below this span, load placement dominates: a third of the load bends across at 20 degrees."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -48,7 +48,7 @@ def known_people(request: Request) -> PeopleService | None:
 
 
 def asking(request: Request) -> Caller:
-    """Who asks. Raises NotSignedIn."""
+    """The signed-in user. Raises NotSignedIn."""
     caller = caller_of(request)
     if caller is None:
         raise NotSignedIn("Nobody is signed in.")
@@ -60,7 +60,7 @@ Asking = Annotated[Caller, Depends(asking)]
 
 
 def in_browser(caller: Asking) -> Caller:
-    """Who asks, by a session. Raises NotAllowed for a key: it must not take over its person."""
+    """The signed-in user, by a session. Raises NotAllowed for a key: it must not take over its person."""
     if caller.session_id is None:
         raise NotAllowed("A key cannot do this: sign in.", "needs_session")
     return caller

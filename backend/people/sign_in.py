@@ -76,7 +76,7 @@ class SignIn:
         try:
             self._verified(name, old)
         except NotSignedIn:
-            # Who asks is known: it is one field that is wrong.
+            # The user is known: it is one field that is wrong.
             raise field_refusal("old", "wrong_password", "This is not your password.") from None
         self._succeed(folded(name), address)
         hashed = self._passwords.hashed(new)

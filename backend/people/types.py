@@ -30,7 +30,7 @@ class People:
 
 @described
 class SignedIn:
-    """Who asks."""
+    """The signed-in user."""
 
     person: Person
     permissions: list[Permission]

@@ -121,7 +121,7 @@ class SimulationRoadChange(RequestBody):
 
 
 class SimulationFaults(RequestBody):
-    """What is to be broken, until it is told to be sound again."""
+    """Simulated faults; they persist until cleared."""
 
     torque_sensor: Literal["sound", "stuck", "open_high", "open_low", "drifting"] | None = None
     speed_sensor: Literal["sound", "lost", "stuck"] | None = None

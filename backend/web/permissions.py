@@ -33,7 +33,7 @@ def operation_of(connection: HTTPConnection) -> str:
 
 
 def caller_of(connection: HTTPConnection) -> Caller | None:
-    """Who asks, as the door found out; None where nobody is known."""
+    """The caller, as authentication found; None where nobody is known."""
     caller: Caller | None = connection.scope.get("state", {}).get("caller")
     return caller
 

@@ -68,9 +68,9 @@ class RideAgain:
     ) -> dict[str, Any]:
         """The estimate as the API tells it.
 
-        told: of rider and bike. check_connected: called before every ride of the twin; what it raises
-        ends the estimate. changes: as of `changed_config`. Raises NotFound; InvalidRequest with the
-        reason where the ride cannot be trusted for that, or for settings the law refuses.
+        told: of rider and bike. check_connected: called before every ride of the twin; what it
+        raises ends the estimate. changes: as of `changed_config`. Raises NotFound; InvalidRequest
+        with the reason where the ride cannot be trusted for that, or for settings the law refuses.
         """
         reader = self._store.rides.reader(ride_id)
         config, _ = unchanged(self._config_of, reader.ride)

@@ -75,7 +75,7 @@ export const en: Record<HelpKey, string> = {
   'lag.word': 'Lag',
   'lag.means':
     'The time until a sudden push has changed the motor by 63 % of all it will change.',
-  'commanded.word': 'Asked, told, delivered',
+  'commanded.word': 'Requested, commanded, delivered',
   'commanded.means':
     'What the law asks for, what is told to the motor after every limit, and what arrives by ' +
     'its measured current. Energy counts only what was delivered.',

@@ -26,7 +26,7 @@ export const en = {
   motor_power_w_mean: 'Motor power, mean while moving',
   ripple_nm_per_s: "Ripple: how fast the motor's torque changes",
   torque_nm: 'Largest motor torque',
-  asked_nm: 'Largest motor torque asked',
+  asked_nm: 'Largest motor torque requested',
   limits: 'Time held back by',
   no_battery: 'The ride did not record what left the battery, so there is no range.',
   no_limits: 'The ride does not tell its limits.',

@@ -32,8 +32,8 @@ export const en = {
   moved: '{moved} of {count} rules moved to the nearest label.',
   moved_none: 'No rule moved: each has the label that is nearest already.',
   fires_now: 'fires now',
-  felt: 'At {push} from you: {asked} asked, {given} arrive at the crank.',
-  felt_unit: 'In the unit {asked} are asked.',
+  felt: 'At {push} from you: {asked} requested, {given} delivered at the crank.',
+  felt_unit: 'In the unit {asked} are requested.',
   rescale: 'Rescale the torque-rate points to your rides…',
 }
 

@@ -23,8 +23,8 @@ export const en = {
   no_distance: 'One of them tells no speed and no way.',
   start: 'Both are counted from the starts of their windows.',
   apart:
-    'One ride tells what its motor gave, the other only what was asked of it. Only what was ' +
-    'asked of both is laid side by side.',
+    'One ride has what its motor gave, the other only what was requested of it. Only what was ' +
+    'requested of both is laid side by side.',
   difference_is: 'The difference is of the means over time in each stretch of the axis, B less A.',
   channels: 'Channels',
   more_channels: '{count} more channels',
@@ -56,7 +56,7 @@ export const en = {
   no_rider_power: 'no torque or power of yours',
   no_motor_power: 'no motor power',
   no_battery_power: 'no voltage and current',
-  only_asked: 'only asked, not measured',
+  only_asked: 'only requested, not measured',
   no_height: 'no height',
   no_rider_work: 'none of yours',
   without: 'without {time}',

@@ -19,7 +19,7 @@ export const en = {
   wh_for_each: 'Wh for each Wh of yours',
   odometer: 'as its odometer counted',
   from_speed: 'speed over time',
-  not_asked: 'only asked, not measured',
+  not_asked: 'only requested, not measured',
   none_speed: 'no speed recorded',
   none_rider: 'no torque or power of yours',
   none_motor: 'no motor power recorded',

@@ -4,9 +4,9 @@ import { pageWords } from '$shared/i18n/page_words.svelte'
 
 export const en = {
   shown: 'Show',
-  shown_asked_nm: 'Asked, torque',
+  shown_asked_nm: 'Requested, torque',
   shown_given_nm: 'Arrives, torque',
-  shown_asked_w: 'Asked, power',
+  shown_asked_w: 'Requested, power',
   shown_given_w: 'Arrives, power',
   push: 'Your push',
   mode: 'Mode',
@@ -19,7 +19,7 @@ export const en = {
   slice_speed: '{name} at {speed}',
   slice_rate: '{name} at torque rate {rate}',
   slice_summary: '{least} to {most}.',
-  slice_asked: 'Dashed: asked, up to {most}; hatched: taken by a limit.',
+  slice_asked: 'Dashed: requested, up to {most}; hatched: taken by a limit.',
   turn: 'Drag or arrow keys turn it',
 }
 
