@@ -41,7 +41,7 @@ def test_what_arrives_ends_at_the_rating_and_what_was_taken_is_hatched_and_named
     surface.get_by_role("button", name="Slices").click()
     slice_at = surface.get_by_role("img", name="Arrives, power (W) at 15 km/h")
     expect(slice_at).to_have_accessible_name("Arrives, power (W) at 15 km/h 250 W to 250 W. "
-                                             "Dashed: asked, up to 525 W; hatched: taken by a "
+                                             "Dashed: requested, up to 525 W; hatched: taken by a "
                                              "limit.")  # fmt: skip
     assert sideways(page) == 0
     page.evaluate(axe)

@@ -73,7 +73,7 @@ def test_a_change_on_trial_is_reverted_and_the_table_follows(
 
     page.click(f"{BAR} >> text=Revert")
 
-    expect(page.locator(OVER)).to_contain_text("Reverted as asked")
+    expect(page.locator(OVER)).to_contain_text("Reverted as requested")
     assert first_rule(server, standing) == "ZO"
     expect(page.locator(f"{CELL} .label")).to_have_text("ZO")
     expect(page.locator("[data-testid=draft-bar]")).to_contain_text("Same as in the unit")
@@ -104,7 +104,7 @@ def test_a_trial_that_ends_early_by_another_hand_is_told_apart(
 
     server.ask("POST", f"/devices/{standing}/config/rollback")
 
-    expect(page.locator(OVER)).to_contain_text("Reverted as asked")
+    expect(page.locator(OVER)).to_contain_text("Reverted as requested")
     page.click(f"{OVER} >> text=Dismiss")
     expect(page.locator(OVER)).to_have_count(0)
 

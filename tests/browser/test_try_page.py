@@ -243,7 +243,7 @@ def test_a_motor_torque_that_was_only_asked_is_called_so(tuner: Desk, ride: int)
     expect(page.get_by_test_id("try-answer")).to_contain_text("the two are not compared")
     expect(page.locator("[data-source=defaults]")).to_contain_text("not known")
     names = tuner.plot("gd.data.map((line) => line.name)")
-    assert names[:2] == ["Motor torque asked, at the shaft", "Motor torque asked, replayed"]
+    assert names[:2] == ["Motor torque requested, at the shaft", "Motor torque requested, replayed"]
     page.unroute_all(behavior="ignoreErrors")
 
 

@@ -194,7 +194,7 @@ export const en = {
   'trial.revert': 'Revert',
   'trial.kept': 'Kept: what was on trial is in the unit for good.',
   'trial.over': 'The trial is over',
-  'trial.asked': 'Reverted as asked: the unit has again what it had before the trial.',
+  'trial.asked': 'Reverted as requested: the unit has again what it had before the trial.',
   'trial.time_out':
     'The time of the trial ran out and nobody kept it: the unit has again what it had before.',
   'trial.restart':

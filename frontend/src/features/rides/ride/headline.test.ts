@@ -38,7 +38,7 @@ it('has a reason for each of eight figures of a ride with a heart rate only', ()
 })
 
 it('tells a motor torque that was only asked for from one that nobody recorded', () => {
-  expect(told(ride([], {}, 'demanded'))['motor_energy']?.note).toBe('only asked, not measured')
+  expect(told(ride([], {}, 'demanded'))['motor_energy']?.note).toBe('only requested, not measured')
   expect(told(ride([], {}))['motor_energy']?.note).toBe('no motor power recorded')
 })
 
