@@ -41,7 +41,7 @@ export const enRides = {
   'ride.rider_energy': 'Rider energy',
   'ride.motor_energy': 'Motor energy',
   'ride.only_asked':
-    'What the motor gave was not measured on this ride: its torque is what was asked of it, ' +
+    'What the motor gave was not measured on this ride: its torque is what was requested of it, ' +
     'and no energy is made of that.',
   'ride.traces': 'Traces',
   'ride.zoom': 'Zoom',
@@ -153,8 +153,8 @@ export const enRides = {
   'try.at_shaft': "Work and torque are those at the motor's shaft.",
   'try.limits': 'Share of the time held back by',
   'try.why_demanded':
-    'As ridden only what was asked of the motor is known, not what it gave: no work is made of ' +
-    'that, and the two are not compared.',
+    'As ridden only what was requested of the motor is known, not what it gave: no work is made ' +
+    'of that, and the two are not compared.',
   'try.why_torque': 'The ride has no motor torque.',
   'try.why_speed': 'The ride has no motor speed, so the work as ridden is not known.',
   'try.why_limits': 'The ride does not tell its limits.',
