@@ -33,7 +33,7 @@ def request(options: Namespace) -> int:
     response = server.response(options.method, path, **sent)
     if options.output is not None:
         options.output.write_bytes(response.content)
-    elif "json" not in response.headers.get("content-type", ""):
+    elif not response.content or "json" not in response.headers.get("content-type", ""):
         sys.stdout.buffer.write(response.content)
     elif options.json:
         print_json(response.json())

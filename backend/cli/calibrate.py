@@ -36,7 +36,7 @@ def paper(options: Namespace) -> int:
 
 def certificate_in(file: Path) -> dict[str, Any]:
     """What a certificate's file says. Raises InvalidRequest where it is none."""
-    body = read_json(file)
+    body: dict[str, Any] = read_json(file)
     if not is_certificate(body):
         raise InvalidRequest(f"{file} is no certificate: of `GET /calibrations/N/certificate`.")
     return body

@@ -60,7 +60,7 @@ Asking = Annotated[Caller, Depends(asking)]
 
 
 def in_browser(caller: Asking) -> Caller:
-    """The signed-in user, by a session. Raises NotAllowed for a key: it must not take over its person."""
+    """The signed-in user, by a session. Raises NotAllowed for a key."""
     if caller.session_id is None:
         raise NotAllowed("A key cannot do this: sign in.", "needs_session")
     return caller

@@ -131,8 +131,8 @@ def test_rider_and_motor_are_told_apart(desk: Desk, server: SpindleServer) -> No
     expect(summary).to_contain_text("Your energy")
     expect(summary).to_contain_text("Motor energy")
     assert desk.plot("gd.data.map((d) => d.name)") == [
-        "Speed", "Rider torque", "Motor torque requested, at the crank", "Motor torque at the crank",
-        "rider", "motor", "Gain", "Cadence",
+        "Speed", "Rider torque", "Motor torque requested, at the crank",
+        "Motor torque at the crank", "rider", "motor", "Gain", "Cadence",
     ]  # fmt: skip
 
 

@@ -263,7 +263,7 @@ def test_with_the_maker_s_word_and_back_to_what_the_unit_had(
     spindle("PUT", f"{path}/setup", "--input", str(setup))
     workshop.capture()
     workshop.hang(10.0)
-    extra = {"kind": "load", "side": "right", "mass_kg": 10.0, "stroke": 3}
+    extra = {"kind": "load", "side": "right", "mass_kg": 10.0, "stroke": 3, "direction": "loading"}
     workshop.server.ask("POST", f"{path}/captures", json=extra)
     struck = spindle("DELETE", f"{path}/captures/13", "reason=one too many")
     assert struck["captures"][-1]["struck"]["reason"] == "one too many"

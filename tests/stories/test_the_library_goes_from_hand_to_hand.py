@@ -50,6 +50,7 @@ def test_a_dealer_keeps_compares_and_hands_on(
     again = server.ask("POST", "/library", json=taken["document"])
     gone = spindle("api", "DELETE", f"/library/{again['id']}", "-H", f"if-match: {again['etag']}")
     unseen = [entry["id"] for entry in spindle("api", "GET", "/library")["items"]]
+    document.write_text(json.dumps(body | {"name": "mine"}))
     back = spindle("api", "PUT", f"/library/{again['id']}", "--input", document)
 
     assert taken["deviation"]["gain"] < 1e-6

@@ -167,12 +167,12 @@ def test_a_calibration_is_kept_with_its_certificate_and_what_is_not_known_of_it(
 def test_a_program_of_before_writes_a_part_without_what_came_since(
     server: SpindleServer, device: str, part: str, newer: str
 ) -> None:
-    before = server.get(f"/devices/{device}/{part}")
+    before = server.get(f"/devices/{device}/parts/{part}")
     known_then = {name: value for name, value in before.items() if name != newer}
 
-    server.ask("PUT", f"/devices/{device}/{part}", json=known_then)
+    server.ask("PUT", f"/devices/{device}/parts/{part}", json=known_then)
 
-    assert server.get(f"/devices/{device}/{part}") == before
+    assert server.get(f"/devices/{device}/parts/{part}") == before
 
 
 def test_every_change_is_remembered_with_reason_and_author(

@@ -810,7 +810,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/devices/{device_id}/fuzzy-table": {
+    "/api/v1/devices/{device_id}/parts/{part}": {
         parameters: {
             query?: never;
             header?: never;
@@ -818,89 +818,22 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Get Fuzzy Table
-         * @description A rule table and its points, as the surface and the linter take them.
+         * Get Part
+         * @description A part of the configuration in the shape people edit.
+         *
+         *     `fuzzy_table`: a rule table and its points, as the surface and the linter take them.
+         *     `assist_modes`: the five slots of the rider's switch. `calibration`: how raw counts become
+         *     newton metres. `limits`: what the unit enforces whatever the table says, and where assist ends
+         *     because of it.
          */
-        get: operations["get_fuzzy_table"];
+        get: operations["get_part"];
         /**
-         * Put Fuzzy Table
-         * @description Writes a whole table in one transaction.
+         * Put Part
+         * @description Writes a whole part in one transaction; the unit refuses what its market forbids.
          *
          *     Both tables share the points of speed and torque rate: those of the second are not changed here.
          */
-        put: operations["put_fuzzy_table"];
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/devices/{device_id}/assist-modes": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Get Assist Modes
-         * @description The five slots of the rider's switch.
-         */
-        get: operations["get_assist_modes"];
-        /**
-         * Put Assist Modes
-         * @description Writes all five slots in one transaction.
-         */
-        put: operations["put_assist_modes"];
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/devices/{device_id}/calibration": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Get Calibration
-         * @description How raw counts become newton metres in this unit.
-         */
-        get: operations["get_calibration"];
-        /**
-         * Put Calibration
-         * @description Writes sensor, filters and the record of a calibration in one transaction.
-         */
-        put: operations["put_calibration"];
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/devices/{device_id}/limits": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Get Limits
-         * @description What the unit enforces whatever the table says, and where assist ends because of it.
-         */
-        get: operations["get_limits"];
-        /**
-         * Put Limits
-         * @description Writes the limits in one transaction; the unit refuses what its market forbids.
-         */
-        put: operations["put_limits"];
+        put: operations["put_part"];
         post?: never;
         delete?: never;
         options?: never;
@@ -3987,6 +3920,25 @@ export interface components {
              */
             last_seen_at: string | null;
         };
+        /**
+         * DeviceFigure
+         * @description A figure as the device that recorded stated it, by its own rules: none of `summary`.
+         */
+        DeviceFigure: {
+            /**
+             * Name
+             * @description Of FIT's profile or of the file: `lev_battery_consumption`, `unknown_177`.
+             */
+            name: string;
+            /** Value */
+            value: number;
+            /**
+             * Unit
+             * @description Empty for none, and where nothing tells it.
+             * @default
+             */
+            unit: string;
+        };
         /** DeviceHealth */
         DeviceHealth: {
             /** Id */
@@ -4017,6 +3969,21 @@ export interface components {
              * @description What you call the unit. A unit without a serial number is known by it, and nothing is written to it before it has one (409 `name_first`): give the same name each time. Adding the same url again with another name names it anew.
              */
             name?: string | null;
+        };
+        /**
+         * DeviceSession
+         * @description What the device stated of one whole session, which may reach beyond the ride.
+         */
+        DeviceSession: {
+            /** From S */
+            from_s: number;
+            /** To S */
+            to_s: number;
+            /**
+             * Figures
+             * @default []
+             */
+            figures: components["schemas"]["DeviceFigure"][];
         };
         /**
          * DiagnosisCheck
@@ -6723,7 +6690,7 @@ export interface components {
              * Statements
              * @description What that device stated of the whole ride; a session of several rides is with each. Never mixed with `summary`, which is of the ride's own rows.
              */
-            statements: components["schemas"]["Statement"][];
+            statements: components["schemas"]["DeviceSession"][];
             /** Upload Id */
             upload_id: string | null;
             /** Object Bytes */
@@ -7785,7 +7752,7 @@ export interface components {
         };
         /**
          * SignedIn
-         * @description Who asks.
+         * @description The signed-in user.
          */
         SignedIn: {
             person: components["schemas"]["Person"];
@@ -7935,7 +7902,7 @@ export interface components {
         };
         /**
          * SimulationFaults
-         * @description What is to be broken, until it is told to be sound again.
+         * @description Simulated faults; they persist until cleared.
          */
         SimulationFaults: {
             /** Torque Sensor */
@@ -8153,40 +8120,6 @@ export interface components {
             direction?: ("loading" | "unloading") | null;
             /** Sensor Degc */
             sensor_degc?: number | null;
-        };
-        /**
-         * Stated
-         * @description A figure as the device that recorded stated it, by its own rules: none of `summary`.
-         */
-        Stated: {
-            /**
-             * Name
-             * @description Of FIT's profile or of the file: `lev_battery_consumption`, `unknown_177`.
-             */
-            name: string;
-            /** Value */
-            value: number;
-            /**
-             * Unit
-             * @description Empty for none, and where nothing tells it.
-             * @default
-             */
-            unit: string;
-        };
-        /**
-         * Statement
-         * @description What the device stated of one whole session, which may reach beyond the ride.
-         */
-        Statement: {
-            /** From S */
-            from_s: number;
-            /** To S */
-            to_s: number;
-            /**
-             * Figures
-             * @default []
-             */
-            figures: components["schemas"]["Stated"][];
         };
         /**
          * Step
@@ -13342,7 +13275,7 @@ export interface operations {
             };
         };
     };
-    get_fuzzy_table: {
+    get_part: {
         parameters: {
             query?: {
                 /** @description Which of the unit's two tables; a mode names the one it uses so, too. */
@@ -13354,6 +13287,7 @@ export interface operations {
             };
             path: {
                 device_id: string;
+                part: "fuzzy_table" | "assist_modes" | "calibration" | "limits";
             };
             cookie?: never;
         };
@@ -13365,7 +13299,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["FuzzyTable"];
+                    "application/json": components["schemas"]["FuzzyTable"] | components["schemas"]["AssistModes"] | components["schemas"]["Calibration"] | components["schemas"]["UnitLimits"];
                 };
             };
             /** @description Unauthorized */
@@ -13442,7 +13376,7 @@ export interface operations {
             };
         };
     };
-    put_fuzzy_table: {
+    put_part: {
         parameters: {
             query?: {
                 /** @description Why; kept with the revision for later readers. */
@@ -13464,666 +13398,13 @@ export interface operations {
             };
             path: {
                 device_id: string;
+                part: "fuzzy_table" | "assist_modes" | "calibration" | "limits";
             };
             cookie?: never;
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["FuzzyTable"];
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["ConfigChange"];
-                };
-            };
-            /** @description The body is not JSON */
-            400: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unauthorized */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Forbidden */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Not Found */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Conflict */
-            409: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Precondition Failed */
-            412: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Gateway Timeout */
-            504: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    get_assist_modes: {
-        parameters: {
-            query?: never;
-            header?: {
-                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
-                "spindle-unit"?: string | null;
-            };
-            path: {
-                device_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["AssistModes"];
-                };
-            };
-            /** @description Unauthorized */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Forbidden */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Not Found */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Conflict */
-            409: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Precondition Failed */
-            412: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Gateway Timeout */
-            504: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    put_assist_modes: {
-        parameters: {
-            query?: {
-                /** @description Why; kept with the revision for later readers. */
-                reason?: string;
-                /** @description 0 commits for good; else the unit returns to what it had after so many seconds, at a restart or power loss, unless `POST .../config/confirm` comes first. */
-                confirm_s?: number;
-                /** @description The maker's answer to the `challenge` of a refusal `token_needed`. */
-                token?: string | null;
-            };
-            header?: {
-                /** @description The ETag of the configuration the change was made for, several, or `*`. */
-                "if-match"?: string | null;
-                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
-                "spindle-unit"?: string | null;
-                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. Who signed in or sends a key is the author, whatever this says. */
-                "spindle-author"?: string | null;
-            };
-            path: {
-                device_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["AssistModes"];
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["ConfigChange"];
-                };
-            };
-            /** @description The body is not JSON */
-            400: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unauthorized */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Forbidden */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Not Found */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Conflict */
-            409: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Precondition Failed */
-            412: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Gateway Timeout */
-            504: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    get_calibration: {
-        parameters: {
-            query?: never;
-            header?: {
-                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
-                "spindle-unit"?: string | null;
-            };
-            path: {
-                device_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Calibration"];
-                };
-            };
-            /** @description Unauthorized */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Forbidden */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Not Found */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Conflict */
-            409: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Precondition Failed */
-            412: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Gateway Timeout */
-            504: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    put_calibration: {
-        parameters: {
-            query?: {
-                /** @description Why; kept with the revision for later readers. */
-                reason?: string;
-                /** @description 0 commits for good; else the unit returns to what it had after so many seconds, at a restart or power loss, unless `POST .../config/confirm` comes first. */
-                confirm_s?: number;
-                /** @description The maker's answer to the `challenge` of a refusal `token_needed`. */
-                token?: string | null;
-            };
-            header?: {
-                /** @description The ETag of the configuration the change was made for, several, or `*`. */
-                "if-match"?: string | null;
-                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
-                "spindle-unit"?: string | null;
-                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. Who signed in or sends a key is the author, whatever this says. */
-                "spindle-author"?: string | null;
-            };
-            path: {
-                device_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["Calibration"];
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["ConfigChange"];
-                };
-            };
-            /** @description The body is not JSON */
-            400: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unauthorized */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Forbidden */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Not Found */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Conflict */
-            409: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Precondition Failed */
-            412: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Gateway Timeout */
-            504: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    get_limits: {
-        parameters: {
-            query?: never;
-            header?: {
-                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
-                "spindle-unit"?: string | null;
-            };
-            path: {
-                device_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["UnitLimits"];
-                };
-            };
-            /** @description Unauthorized */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Forbidden */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Not Found */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Conflict */
-            409: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Precondition Failed */
-            412: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Gateway Timeout */
-            504: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    put_limits: {
-        parameters: {
-            query?: {
-                /** @description Why; kept with the revision for later readers. */
-                reason?: string;
-                /** @description 0 commits for good; else the unit returns to what it had after so many seconds, at a restart or power loss, unless `POST .../config/confirm` comes first. */
-                confirm_s?: number;
-                /** @description The maker's answer to the `challenge` of a refusal `token_needed`. */
-                token?: string | null;
-            };
-            header?: {
-                /** @description The ETag of the configuration the change was made for, several, or `*`. */
-                "if-match"?: string | null;
-                /** @description The `unit_key` of the unit the request is for, percent-encoded UTF-8. At another one the answer is 412 `other_unit`, and nothing is changed. */
-                "spindle-unit"?: string | null;
-                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. Who signed in or sends a key is the author, whatever this says. */
-                "spindle-author"?: string | null;
-            };
-            path: {
-                device_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["UnitLimits"];
+                "application/json": components["schemas"]["FuzzyTable"] | components["schemas"]["AssistModes"] | components["schemas"]["Calibration"] | components["schemas"]["UnitLimits"];
             };
         };
         responses: {

@@ -62,13 +62,13 @@ def test_while_rides_are_read_others_are_answered(
     services: Any = Desk(rides)
     app = build_api(WebSettings("0"), services)
     made_on: list[str] = []
-    make: Callable[[type[BaseModel], Any], Any] = large.whole
+    make: Callable[[type[BaseModel], Any], Any] = large.json_response
 
     def noted(model: type[BaseModel], answer: Any) -> Any:
         made_on.append(threading.current_thread().name)
         return make(model, answer)
 
-    monkeypatch.setattr("backend.rides.api.whole", noted)
+    monkeypatch.setattr("backend.rides.api.json_response", noted)
 
     async def story() -> tuple[int, Any]:
         transport = httpx.ASGITransport(app=app)

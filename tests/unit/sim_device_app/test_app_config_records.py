@@ -23,7 +23,7 @@ from firmware_protocol._generated import (
 )
 from tests import counts
 from tests.fakes.bench_unit import FLASH_BLOCK_BYTES, BenchUnit
-from tests.fakes.config_flash import AT_RECORDS, Item, items_of, records_at, slot
+from tests.fakes.config_flash import AT_COPY, AT_RECORDS, Item, items_of, records_at, slot
 from tests.fakes.maker import Maker, challenged, commit, provision, respond, staged
 
 JAPAN = {"market": "japan", "assist_cutoff_kmh": 18.0, "sensor_offset_counts": 120.0}
@@ -32,6 +32,7 @@ NOTCHED = 400.0
 WALKING_KMH = 6.0
 ENOUGH_S = 1.5
 WORDS_BYTES = 12
+AT_GENERATION = 8
 
 
 def image_with(**changes: object) -> bytes:
@@ -179,6 +180,18 @@ def test_no_flipped_bit_of_a_slot_changes_anything_without_a_word(copies: int) -
     assert flips_felt
     assert min(flips_felt) >= AT_RECORDS
     assert max(flips_felt) < len(new)
+
+
+def test_a_newer_slot_that_cannot_be_read_is_reported_and_holds_assist_back() -> None:
+    unit = BenchUnit(provisioned=False)
+    newer = slot(items_of(image_with(**JAPAN)), 2)
+    for at in (AT_GENERATION, AT_COPY + AT_GENERATION):
+        newer[at] ^= 1
+
+    lay(unit, newer, slot(items_of(image_with()), 1))
+
+    assert unit.faults() & FaultFlags.CONFIG_DEFAULTED
+    assert assist_at(unit, 10.0) == 0.0
 
 
 @pytest.mark.parametrize("record", ["MARKET", "FACTORY", "CALIBRATION", "TUNABLE"])

@@ -79,8 +79,8 @@ function why(changes: Partial<Why> = {}): Why {
 
 it('names the hardest clamp first, with its watts', () => {
   expect(sentence(why(), say, units)).toBe(
-    "Boost asked for 119\u00a0Nm; 75\u00a0Nm arrived. The motor's torque limit took 174\u00a0W, " +
-      "the battery's limit 25\u00a0W.",
+    "Boost requested 119\u00a0Nm; 75\u00a0Nm was delivered. The motor's torque limit took " +
+      "174\u00a0W, the battery's limit 25\u00a0W.",
   )
   expect(takers(why()).map(({ name }) => name)).toEqual(['motor_torque', 'battery_current'])
   expect(tableCannotHelp(why())).toBe(true)
@@ -89,7 +89,7 @@ it('names the hardest clamp first, with its watts', () => {
 it('says what was told to the motor where nothing was measured', () => {
   const steady = why({ delivered_nm: null, steps: why().steps.slice(0, -1) })
 
-  expect(sentence(steady, say, units)).toContain('the motor was told 75')
+  expect(sentence(steady, say, units)).toContain('the motor was commanded 75')
   expect(waterfall(steady).at(-1)?.name).toBe('commanded')
 })
 
@@ -98,14 +98,14 @@ it.each([
   [{ result: 'input_refused' as const }, 'The unit refused its readings and gave no torque.'],
   [
     { steps: [step('rider_torque', 0), step('mode_ratio', 0), step('brake', 0)] },
-    'Boost asked for nothing: no push that counts.',
+    'Boost requested nothing: no push that counts.',
   ],
   [
     {
       steps: [step('rider_torque', 20), step('mode_ratio', 0), step('brake', 0)],
       delivered_nm: 20,
     },
-    'You got all that Boost asked for: 20\u00a0Nm.',
+    'You got all that Boost requested: 20\u00a0Nm.',
   ],
 ])('%o', (changes, told) => {
   expect(sentence(why(changes), say, units)).toBe(told)
