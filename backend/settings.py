@@ -59,7 +59,7 @@ class Settings:
     browsers may call the server besides localhost. root_path: of the site, below which a proxy has
     the server (`/spindle`), else empty. upload_bytes_max: largest file taken.
     author: whose changes those are whose request names nobody; the system's user unless set.
-    calibration_limits: tables of the file alone, as of domain.calibration.judgement.limits.
+    calibration_limits: tables of the file alone, as of calibration.judgement.
     """
 
     host: str

@@ -67,8 +67,8 @@ def document_of(
 ) -> dict[str, Any]:
     """A closed job's file: the certificate, if there is one, and what brings the job back.
 
-    certificate: as domain.calibration makes it; its document holds the captures that count. apart:
-    the captures that are not in it.
+    certificate: as calibration.describe makes it; its document holds the captures that count.
+    apart: the captures that are not in it.
     """
     return {
         **({DOCUMENT: None} if certificate is None else certificate),

@@ -111,7 +111,7 @@ class CalibrationJobs:
     def set_up(self, job_id: int, setup: Mapping[str, Any]) -> None:
         """Give a job its instruments and plan; a fit of before is one no more.
 
-        setup: as of domain.calibration's Setup, without the gain that the unit was made with, which
+        setup: as of calibration.setup's Setup, without the gain that the unit was made with, which
         the unit tells. Raises InvalidRequest naming every field, NotFound, Conflict.
         """
 

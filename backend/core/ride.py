@@ -96,7 +96,7 @@ class RideSummary:
 class RideContext:
     """What was true of the bike while the ride was made; None where nobody knows.
 
-    device_id: the connection it came over. unit_key: as of domain.unit_key. boot_id, unit_t0_us:
+    device_id: the connection it came over. unit_key: as of core.unit_key. boot_id, unit_t0_us:
     which start of the unit, and its clock at the ride's first row: together with the key they tell
     one ride from every other, whichever way it came.
     """

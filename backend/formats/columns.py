@@ -1,6 +1,6 @@
 """From the columns a file happens to have to the rows of a ride, by our rules.
 
-- A row without a believable time is dropped, and counted (`domain.intake`).
+- A row without a believable time is dropped, and counted (`core.intake`).
 - A break of hours makes two rides. A clock that jumps away and comes back makes none.
 - Rows of one time that complete each other are one row: some head units write a row's parts one
   after the other. Rows of one time that differ are samples of their own, and stand evenly in it.

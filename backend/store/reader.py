@@ -114,7 +114,7 @@ class RideReader:
         return {name: offered[name].to_values(counts[name]) for name in chosen}
 
     def row_seconds(self) -> Values:
-        """How long the sample of each row (n,) holds; see domain.filled, domain.energy."""
+        """How long the sample of each row (n,) holds; see core.filled, core.energy."""
         ride, count = self.ride, self.row_count
         if ride.period_us is None:
             times_us = self.times_us(0, count)

@@ -26,7 +26,7 @@ OTHER_FIRMWARE = "other_firmware"
 
 
 class Certificates(Protocol):
-    """Where certificates are kept; backend.store has one."""
+    """Where certificates are kept; tuning.records has one."""
 
     def keep(self, made: Certificate) -> int:
         """Since when it is kept, Unix microseconds. Raises StoreError."""

@@ -22,7 +22,7 @@ US_PER_S = 1e6
 
 
 class SightingStore(Protocol):
-    """Where sightings are kept; backend.store has one."""
+    """Where sightings are kept; units.records has one."""
 
     def sighted(self, sighting: Sighting) -> None:
         """Note one. Raises StoreError."""

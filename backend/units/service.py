@@ -1,7 +1,7 @@
 """Units: add one by its url, look at it, listen to it, let it go. Several at once.
 
 A device is a connection: its id comes from its url and is the same after every start. The unit at
-its other end has a key (domain.unit_key), which goes with it to another cable. A device is found by
+its other end has a key (core.unit_key), which goes with it to another cable. A device is found by
 its id, its url, its unit's key and its unit's serial number.
 """
 

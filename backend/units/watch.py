@@ -234,7 +234,7 @@ class Device(Protocol):
 
 
 class Devices(Protocol):
-    """What is needed of services.units.connect."""
+    """What is needed of units.service.Devices."""
 
     def get(self, device_id: str) -> Device: ...
     def channels(self, device_id: str) -> tuple[ChannelSpec, ...]: ...

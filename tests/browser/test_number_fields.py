@@ -102,7 +102,7 @@ def faults_of_fields(desk: Desk, least: int) -> list[str]:
 def tune(desk: Desk, ride: int) -> Page:
     page = desk.open("/tune")
     page.get_by_role("region", name="Gain surface").get_by_role("combobox").first.select_option(
-        "Asked, power"
+        "Requested, power"
     )
     return page
 

@@ -25,7 +25,7 @@ def test_what_arrives_ends_at_the_rating_and_what_was_taken_is_hatched_and_named
     surface = page.get_by_role("region", name="Gain surface")
     shown = surface.get_by_role("combobox", name="Show")
 
-    shown.select_option("Asked, power")
+    shown.select_option("Requested, power")
     surface.get_by_role("textbox", name="Your push").fill("60")
     page.keyboard.press("Tab")
     eventually(lambda: reading(page, 0.95, 0.05), lambda watts: watts > 500)

@@ -80,7 +80,7 @@ class Figure:
 @dataclass(frozen=True)
 class Stretch:
     """Rows (n,) of a window. values: channels by name, missing as NaN; meaning: of the ride's motor
-    torque, as of domain.energy."""
+    torque, as of core.energy."""
 
     values: Mapping[str, Values]
     times_us: TimesUs

@@ -2,7 +2,7 @@
 
 A bin has the least, the greatest and the mean value of the rows that begin in it. Where none does
 and the row before still holds, it has that row's value; how long a row holds is told by
-domain.energy. In a gap, before the first row and behind the last one it has nothing. The mean is
+core.energy. In a gap, before the first row and behind the last one it has nothing. The mean is
 over the time that was spent in the bin, so a bin of way tells what was there for how long.
 """
 

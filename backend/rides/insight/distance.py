@@ -26,7 +26,7 @@ from backend.core.energy import KMH_PER_MS
 CELL_M = 5.0
 WINDOW_M = 100.0
 GAP_S = 10.0
-"""Between heights; as domain.ride counts pauses."""
+"""Between heights; as core.ride counts pauses."""
 GAP_M = 50.0
 GRADIENT_PCT_MAX = 40.0
 """Steeper than any road (Baldwin Street: 34.8 %): the height jumped, and there is no gradient."""

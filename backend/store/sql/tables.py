@@ -63,7 +63,7 @@ discarded_object = Table(
     Column("due_us", BigInteger, nullable=False, server_default="0"),
 )
 
-# Every unit there was, by the key of domain.unit_key. name: its owner's.
+# Every unit there was, by the key of core.unit_key. name: its owner's.
 unit = Table(
     "unit",
     metadata,
@@ -252,7 +252,7 @@ ride_tag = Table(
     Column("tag", String(40), primary_key=True, index=True),
 )
 
-# domain.logbook.card.RideCard: derived, worked out anew by a newer method or for another object.
+# core.ride_card.RideCard: derived, worked out anew by a newer method or for another object.
 # words: all that a search looks at, in lower case, a line each, tags as #tag.
 ride_card = Table(
     "ride_card",
@@ -274,7 +274,7 @@ ride_card = Table(
     Column("words", Text, nullable=False),
 )
 
-# domain.logbook.zero.RideZero: derived, like a card.
+# core.ride_zero.RideZero: derived, like a card.
 ride_zero = Table(
     "ride_zero",
     metadata,
@@ -305,7 +305,7 @@ ride_source = Table(
     UniqueConstraint("ride_id", "upload_id"),
 )
 
-# Real columns, one for each figure of domain.ride.RideSummary: they are searched and summed.
+# Real columns, one for each figure of core.ride.RideSummary: they are searched and summed.
 ride_summary = Table(
     "ride_summary",
     metadata,

@@ -69,7 +69,7 @@ class LibraryEntry:
 
 
 class LibraryItems(Protocol):
-    """Where own items are kept; backend.store has one, and says what each method does."""
+    """Where own items are kept; library.records has one, and says what each method does."""
 
     def newest(self) -> tuple[LibraryVersion, ...]: ...
 
