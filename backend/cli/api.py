@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from argparse import Namespace
 from pathlib import Path
 from typing import Any
 
-from backend.cli.client import Server, print_json, print_table, text_of
-from backend.cli.device import server_of
+from backend.cli.client import Server, print_json, print_table, text_of, write_out
+from backend.cli.device import read_bytes, server_of, value_of
 from backend.errors import InvalidRequest
 
 METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE", "HEAD", "OPTIONS")
@@ -26,15 +25,14 @@ def request(options: Namespace) -> int:
     if options.input is not None:
         if body:
             raise InvalidRequest("--input is the whole body: leave out key=value beside it.")
-        sent["content"] = sys.stdin.buffer.read() if options.input == "-" else read(options.input)
+        sent["content"] = body_of(options.input)
         sent["headers"]["content-type"] = options.type
     elif options.method in WITH_BODY:
         sent["json"] = body
     response = server.response(options.method, path, **sent)
-    if options.output is not None:
-        options.output.write_bytes(response.content)
-    elif not response.content or "json" not in response.headers.get("content-type", ""):
-        sys.stdout.buffer.write(response.content)
+    is_json = response.content and "json" in response.headers.get("content-type", "")
+    if options.output is not None or not is_json:
+        write_out(response.content, options.output)
     elif options.json:
         print_json(response.json())
     else:
@@ -56,42 +54,37 @@ def path_of(server: Server, path: str, unit: str | None) -> str:
     return below.replace(UNIT, server.device_id(unit)) if UNIT in below else below
 
 
-def fields_of(words: list[str], with_body: bool) -> tuple[dict[str, Any], dict[str, Any]]:
+def fields_of(words: list[str], with_body: bool) -> tuple[list[tuple[str, str]], dict[str, Any]]:
     """Query and body of `key=value` and `key==value`; the latter is of the query whatever the
-    method is. `a.b=1` is `{"a": {"b": 1}}`; `@file` is what a file says. Raises InvalidRequest."""
-    query: dict[str, Any] = {}
+    method is, and may be repeated. `a.b=1` is `{"a": {"b": 1}}`; `@file` is what a file says.
+    Raises InvalidRequest."""
+    query: list[tuple[str, str]] = []
     body: dict[str, Any] = {}
     for word in words:
         key, equals, text = word.partition("=")
         if not equals or not key:
             raise InvalidRequest(f"{word}: write key=value, or key==value for the query.")
         if text.startswith("=") or not with_body:
-            query[key] = text.removeprefix("=")
+            query.append((key, text.removeprefix("=")))
             continue
         *parents, name = key.split(".")
         place = body
         for parent in parents:
             place = place.setdefault(parent, {})
-        place[name] = value_of(text)
+            if not isinstance(place, dict):
+                raise InvalidRequest(f"{word}: {parent} has a value already, so it has no members.")
+        place[name] = value_of(text_of_file(text[1:]) if text.startswith("@") else text)
     return query, body
 
 
-def value_of(text: str) -> Any:
-    """JSON where it is some, else the text itself; `@file`: of the file's text."""
-    if text.startswith("@"):
-        text = read(text[1:]).decode("utf-8")
-    try:
-        return json.loads(text)
-    except ValueError:
-        return text
+def text_of_file(name: str) -> str:
+    """What a file says; of other encodings than UTF-8 what is ASCII."""
+    return read_bytes(Path(name)).decode("utf-8-sig", errors="replace")
 
 
-def read(name: str) -> bytes:
-    """A file's bytes. Raises InvalidRequest where it cannot be read."""
-    try:
-        return Path(name).read_bytes()
-    except OSError as error:
-        raise InvalidRequest(f"{name} cannot be read: {error.strerror}.") from None
+def body_of(name: str) -> bytes:
+    """A file's bytes, or standard input's."""
+    return sys.stdin.buffer.read() if name == "-" else read_bytes(Path(name))
 
 
 def print_answer(answer: Any, indent: str = "") -> None:

@@ -12,7 +12,7 @@ from backend.calibration.certificate import Evaluated, is_certificate, written_d
 from backend.calibration.certificate import evaluate as evaluate_certificate
 from backend.calibration.paper.pdf import certificate_paper
 from backend.calibration.plain import to_plain
-from backend.cli.client import print_json, text_of
+from backend.cli.client import print_json, text_of, write_out
 from backend.cli.device import read_json
 from backend.core.canonical_json import sha256_of
 from backend.errors import InvalidRequest
@@ -30,7 +30,7 @@ def paper(options: Namespace) -> int:
     """A certificate as a PDF to be signed."""
     manner = {name: getattr(options, name) for name in ("language", "zone", "paper")}
     body = certificate_in(options.file)
-    options.output.write_bytes(certificate_paper(body, options.file.name, **manner))
+    write_out(certificate_paper(body, options.file.name, **manner), options.output)
     return 0
 
 

@@ -7,6 +7,7 @@ import os
 import sys
 from collections.abc import Mapping
 from http import HTTPStatus
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
@@ -129,6 +130,22 @@ def refusal(response: httpx.Response) -> SpindleError:
         return RequestRefused(problem["detail"], problem.get("code"), fields)
     except (ValueError, KeyError, TypeError, AttributeError):
         return RequestRefused(f"The server answered {response.status_code}: {response.text[:200]}")
+
+
+def write_out(content: bytes, output: Path | None) -> None:
+    """Bytes to a file, which is there whole or not at all; to standard output without one.
+
+    Raises InvalidRequest where it cannot be written.
+    """
+    if output is None:
+        sys.stdout.buffer.write(content)
+        return
+    partial = output.with_name(output.name + ".part")
+    try:
+        partial.write_bytes(content)
+        partial.replace(output)
+    except OSError as error:
+        raise InvalidRequest(f"{output} cannot be written: {error.strerror}.") from None
 
 
 def print_json(value: Any) -> None:

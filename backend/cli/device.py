@@ -297,19 +297,30 @@ def assignment(word: str) -> tuple[str, Any]:
     name, equals, text = word.partition("=")
     if not equals or not name:
         raise InvalidRequest(f"{word!r}: write NAME=VALUE.")
+    return name, value_of(text)
+
+
+def value_of(text: str) -> Any:
+    """JSON where it is some, else the text as it stands."""
     try:
-        return name, json.loads(text)
+        return json.loads(text)
     except ValueError:
-        return name, text
+        return text
 
 
 def read_json(file: Path) -> Any:
     """A JSON file, with a byte order mark or without. Raises InvalidRequest with the reason."""
     try:
-        return json.loads(file.read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise InvalidRequest(f"{file} cannot be read: {error.strerror}.") from None
+        return json.loads(read_bytes(file).decode("utf-8-sig"))
     except UnicodeDecodeError as error:
         raise InvalidRequest(f"{file} is not UTF-8 text, at byte {error.start}.") from None
     except ValueError as error:
         raise InvalidRequest(f"{file} is not JSON: {error}.") from None
+
+
+def read_bytes(file: Path) -> bytes:
+    """A file's bytes. Raises InvalidRequest where it cannot be read."""
+    try:
+        return file.read_bytes()
+    except OSError as error:
+        raise InvalidRequest(f"{file} cannot be read: {error.strerror}.") from None

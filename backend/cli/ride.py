@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import sys
 import time
 from argparse import Namespace
@@ -12,7 +11,7 @@ from pathlib import Path
 from typing import Any
 from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 
-from backend.cli.client import print_json, print_table, text_of
+from backend.cli.client import print_json, print_table, text_of, write_out
 from backend.cli.device import server_of
 from backend.errors import RequestRefused
 
@@ -229,13 +228,8 @@ def report(options: Namespace) -> int:
 def save(options: Namespace, what: str, params: dict[str, Any]) -> int:
     """What the server makes of rides, as a file or to standard output."""
     response = server_of(options).response("GET", f"/rides/{what}", params=params)
-    if options.output is None:
-        sys.stdout.buffer.write(response.content)
-        return 0
-    partial = options.output.with_name(options.output.name + ".part")
-    partial.write_bytes(response.content)
-    shutil.move(partial, options.output)
-    if options.json:
+    write_out(response.content, options.output)
+    if options.json and options.output is not None:
         print_json({"file": str(options.output), "bytes": len(response.content)})
     return 0
 

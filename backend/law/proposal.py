@@ -26,7 +26,6 @@ Floats = npt.NDArray[np.float64]
 Config = Mapping[str, Any]
 
 KNOBS = ("ratio", "band", "filter", "torque_rate", "cells")
-OBJECTIVES = ("more_range", "gentler_start", "flatter_at_the_limit")
 TARGET_PCT = {"more_range": 10.0, "gentler_start": 20.0, "flatter_at_the_limit": 20.0}
 
 RATIO_SHARES = (0.5, 1.6)
@@ -246,13 +245,6 @@ MEASURED = {
         f"The limit needs {FELT_S_MIN:g} s within {LIMIT_KMH:g} km/h of the cut-off speed."
     ),
 }
-
-
-def target_of(objective: str, before: float, target_pct: float) -> float:
-    """What the wish wants the aim to come to: a share more range, or a share less of the rest."""
-    if objective == "more_range":
-        return before / (1.0 + target_pct / 100.0)
-    return before * (1.0 - target_pct / 100.0)
 
 
 def gained_pct(objective: str, before: float, after: float) -> float:

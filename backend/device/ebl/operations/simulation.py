@@ -40,12 +40,6 @@ def simulation_set(changes: Mapping[str, Any]) -> Operation[dict[str, Any]]:
     return _object(expect(request, response, SimSetResponse).text)
 
 
-def simulation_advance(seconds: float) -> Operation[dict[str, Any]]:
-    """Let `seconds` pass for a unit with a virtual clock. They have passed when
-    `advance_left_s` is 0. Raises InvalidRequest for a unit whose clock is real."""
-    return (yield from simulation_set({"advance_s": seconds}))
-
-
 def _refusal(text: str) -> InvalidRequest:
     """The simulator's refusal: the field at fault, empty where there is none, a line break, why."""
     field, _, words = text.partition("\n")
