@@ -100,8 +100,8 @@ export default ts.config(
     files: ['src/features/**'],
     rules: {
       'no-restricted-imports': zone(
-        'a feature imports its own files (./) and $shared; never app or another feature',
-        '^\\.\\./',
+        'a folder of a feature imports its own files (./), the words of the feature and $shared',
+        '^\\.\\./(?!words$)',
         '/(features|app)/',
       ),
       'no-restricted-globals': [

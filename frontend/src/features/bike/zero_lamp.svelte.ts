@@ -1,16 +1,11 @@
 // What the rides tell of the torque sensor's zero, for its lamp. It comes after the page: the first
 // one need not carry it.
+import en from '$messages/en/bike.json'
 import type { SensorDrift } from '$shared/api/types'
 import type { AppContext } from '$shared/context/app_context'
-import { pageWords } from '$shared/i18n/page_words.svelte'
+import { catalogue } from '$shared/i18n/catalogue.svelte'
 
-const en = {
-  ok: 'zero while coasting, {when}',
-  watch: 'its zero has moved: watch it',
-  act: 'its zero has moved: calibrate',
-}
-const zh = async () => (await import('./zero_words_zh')).zh
-const words = await pageWords(en, zh)
+const words = await catalogue(en, () => import('$messages/zh/bike.json'))
 
 export interface ZeroLamp {
   level: NonNullable<SensorDrift['level']>

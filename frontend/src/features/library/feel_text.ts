@@ -1,7 +1,7 @@
 // Figures of how a table feels, as people read them.
 import type { Feel } from '$shared/api/types'
 import type { Locale } from '$shared/i18n/locale.svelte'
-import type { Say } from './words.svelte'
+import type { Say } from './words'
 
 export const FIGURES = [
   { name: 'start_s', unit: 'start_unit', digits: 1 },

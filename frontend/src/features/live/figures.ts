@@ -1,12 +1,12 @@
 // What the page asks of the unit and shows as numbers: four large ones, then eight small.
 import type { Dashboard } from '$shared/api/types'
-import type { LiveKey } from './words.svelte'
+import type { Key } from './words'
 
 export type SummedUp = Exclude<keyof Dashboard, 't_us'>
 
 /** A number of the stream, or one that the server sums up of it once a second. */
 export interface Figure {
-  word: LiveKey
+  word: Key
   unit: string
   digits: number
   channel?: string

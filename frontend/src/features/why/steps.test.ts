@@ -8,8 +8,9 @@ import { Units } from '$shared/units/units.svelte'
 import { expect, it } from 'vitest'
 import { gainShape } from './gain_shape'
 import { askedNm, rowValue, sentence, tableCannotHelp, takers, waterfall } from './steps'
-import { en, words, type WhyKey } from './words.svelte'
-import { zh } from './words_zh'
+import en from '$messages/en/why.json'
+import { words, type Key } from './words'
+import zh from '$messages/zh/why.json'
 
 const locale = new Locale()
 const units = new Units(locale, 'metric')
@@ -149,6 +150,6 @@ it('says the same with the same values in both languages', () => {
   const holes = (text: string) => [...text.matchAll(/\{(\w+)\}/g)].map((found) => found[1]).sort()
 
   for (const [key, text] of Object.entries(en)) {
-    expect([key, holes(zh[key as WhyKey])]).toEqual([key, holes(text)])
+    expect([key, holes(zh[key as Key])]).toEqual([key, holes(text)])
   }
 })

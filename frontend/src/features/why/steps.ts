@@ -1,7 +1,7 @@
 // A control step as rows of a waterfall: what the law asked, what each clamp took, what is left.
 import type { Why } from '$shared/api/types'
 import type { Units } from '$shared/units/units.svelte'
-import type { Say, WhyKey } from './words.svelte'
+import type { Say, Key } from './words'
 
 export type Kind = 'rider' | 'law' | 'asked' | 'clamp' | 'given'
 
@@ -88,7 +88,7 @@ export function sentence(why: Why, say: Say, units: Units): string {
 
 function whoTook([first, second]: Row[], say: Say, units: Units): string {
   if (!first) return ''
-  const by = (row: Row) => say(`by.${row.name}` as WhyKey)
+  const by = (row: Row) => say(`by.${row.name}` as Key)
   const watts = amount(first, units)
   if (!second) return say('took_one', { first: by(first), watts })
   const other = by(second)
@@ -120,7 +120,7 @@ export function rowName(row: Row, why: Why, say: Say, units: Units): string {
     battery_current: units.text(settings.battery_current_a_max, 'A', 0),
     back_emf: units.text(settings.motor_speed_rpm_max, 'rpm'),
   }
-  return say(`step.${row.name}` as WhyKey, {
+  return say(`step.${row.name}` as Key, {
     ratio: units.number(settings.mode_ratio, '', 2),
     gain: units.number(why.gain, '', 3),
     limit: limits[row.name] ?? '',

@@ -1,5 +1,5 @@
 // The figures of a calibration beside what is allowed, as bars; all from the server's own.
-import type { Figure } from '../words/meaning_words.svelte'
+import type { Figure } from '../words/words'
 import type { Job } from '../job/types'
 
 export type Pieces = NonNullable<NonNullable<Job['worked']>['piecewise']>

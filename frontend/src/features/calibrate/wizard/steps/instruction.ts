@@ -2,7 +2,7 @@
 import type { Locale } from '$shared/i18n/locale.svelte'
 import type { Units } from '$shared/units/units.svelte'
 import type { Job, Step } from '../job/types'
-import { words } from '../words/words.svelte'
+import { words } from '../words/words'
 
 const KG_DIGITS = 2
 const MM_PER_M = 1000
