@@ -53,6 +53,8 @@ export default defineConfig({
       $shared: folder('./src/shared'),
       $generated: folder('./src/generated'),
       $messages: folder('./messages'),
+      // Tests run in Node and would otherwise get the client for Node.
+      'tus-js-client': folder('./node_modules/tus-js-client/lib.esm/browser/index.js'),
       // plotly's core imports the style sheet of a map engine that we never draw with.
       'maplibre-gl/dist/maplibre-gl.css': folder('./src/shared/charts/traces/no_map.css'),
     },
