@@ -18,9 +18,9 @@ const SHARED = {
   context: ['api', 'i18n', 'ui', 'units'],
   charts: ['api', 'context', 'i18n', 'stream', 'ui', 'units'],
   device: ['api', 'context', 'i18n', 'stream', 'ui', 'units'],
-  certificate: ['api', 'context', 'i18n', 'ui', 'units'],
+  limit_proof: ['api', 'context', 'i18n', 'ui', 'units'],
   fields: ['context', 'i18n', 'units'],
-  config: ['api', 'certificate', 'context', 'device', 'fields', 'i18n', 'ui', 'units'],
+  config: ['api', 'context', 'device', 'fields', 'i18n', 'limit_proof', 'ui', 'units'],
   lint: ['api', 'config', 'context', 'i18n', 'ui', 'units'],
 }
 

@@ -38,7 +38,7 @@ const GROUPS = [
   chunk('insight', 'features/rides/insight'),
   chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet|Restore|restored)'),
   chunk('settings', 'features/settings/(?!people)'),
-  chunk('review', `shared/(certificate|config/(${REVIEW.join('|')}))`),
+  chunk('review', `shared/(limit_proof|config/(${REVIEW.join('|')}))`),
   chunk('config', 'shared/(config/(?!DraftNotes|draft_words|words|ParameterForm)|lint)'),
   chunk('tune', `features/tune/(?!${LATER.join('|')})`),
 ]

@@ -1,4 +1,4 @@
-"""Goal: nothing that the unit does passes what a certificate claims, and the claims are near to it.
+"""Goal: nothing that the unit does passes what a limit proof claims, and the claims are near to it.
 
 Method: the premises, as the C's sources have them; gains of hostile tables, sampled on, beside and
 between their points by the unit's C; then rides of that C through configurations anywhere in the
@@ -21,10 +21,10 @@ import pytest
 
 from backend.core.fuzzy_table import FuzzyTable
 from backend.errors import InvalidRequest
-from backend.law import certificate as method
-from backend.law.certificate import certify
+from backend.law import prove_limits as method
 from backend.law.corner_bounds import gain_most
-from backend.law.limit_proof import Certificate
+from backend.law.limit_proof import LimitProof
+from backend.law.prove_limits import prove_limits
 from firmware_protocol.parameters import default_config
 from sim_device.firmware.python import law
 from tests import counts
@@ -115,9 +115,9 @@ def since_last(true: npt.NDArray[np.bool_]) -> Vector:
     return np.where(last < 0, math.inf, (steps - last) * STEP_S)
 
 
-def judge(certificate: Certificate, config: dict[str, Any], ride: dict[str, Any]) -> dict[str, Any]:
+def judge(proof: LimitProof, config: dict[str, Any], ride: dict[str, Any]) -> dict[str, Any]:
     """Holds a ride of the unit's C against every claim; what it reached of each."""
-    bound = {claim.code: claim.bound for claim in certificate.claims}
+    bound = {claim.code: claim.bound for claim in proof.claims}
     outputs = law.assist_run(config, ride)
     motor_nm = outputs["motor_torque_nm"].astype(np.float64)
     crank_nm = motor_nm * float(np.float32(config["gear_ratio"]))
@@ -137,7 +137,7 @@ def judge(certificate: Certificate, config: dict[str, Any], ride: dict[str, Any]
     assert np.nanmax(np.append(outputs["fuzzy_gain"], 0.0)) <= (bound.get("gain") or 0.0)
     walks = driven & ~alone & (since_last(ride["cadence_rpm"] > 0) > bound["pedal_stop"] + TINY)
     assert (speed_kmh[walks] < (bound["walk"] or 0.0)).all()
-    for cell in certificate.cells:
+    for cell in proof.cells:
         inside = (speed_kmh >= cell.from_kmh) & (speed_kmh < cell.to_kmh)
         assert (outputs["assist_ratio"][inside] <= cell.ratio_most).all()
     reached = {
@@ -168,26 +168,26 @@ def since_start(values: Vector) -> Vector:
 
 @pytest.mark.large_count
 @pytest.mark.slow
-def test_no_ride_of_the_unit_passes_what_its_certificate_claims() -> None:
-    wishes = plain_random.Random("certificate")
+def test_no_ride_of_the_unit_passes_what_its_limit_proof_claims() -> None:
+    wishes = plain_random.Random("proof")
     helped = 0
     for number in range(counts.of(RIDES)):
         market = MARKETS[number % len(MARKETS)]
         config = hostile_config(wishes, market)
-        certificate = certify(config, "1.0.0")
+        proof = prove_limits(config, "1.0.0")
 
-        told = judge(certificate, config, hostile_ride(wishes, CUTOFF_KMH[market]))
+        told = judge(proof, config, hostile_ride(wishes, CUTOFF_KMH[market]))
 
-        assert certificate.holds
+        assert proof.holds
         helped += told["torque"] > 1.0
     assert helped > counts.of(RIDES) / 2
 
 
 @pytest.mark.parametrize("market", MARKETS)
 def test_what_is_allowed_are_the_numbers_of_the_law_texts(market: str) -> None:
-    certificate = certify({**default_config(), "market": market}, "1.0.0")
+    proof = prove_limits({**default_config(), "market": market}, "1.0.0")
 
-    allowed = {claim.code: claim.allowed for claim in certificate.claims}
+    allowed = {claim.code: claim.allowed for claim in proof.claims}
 
     assert allowed["cutoff"] == pytest.approx(CUTOFF_KMH[market], rel=1e-6)
     assert (allowed["band"] or 0.0) == BAND_KMH.get(market, 0.0)
@@ -198,7 +198,7 @@ def test_what_is_allowed_are_the_numbers_of_the_law_texts(market: str) -> None:
     )
     assert allowed["pedal_stop"] == pytest.approx(PEDAL_STOP_S[market])
     assert ("market_ratio" in allowed) == (market == "japan")
-    assert certificate.holds
+    assert proof.holds
 
 
 def steady(seconds: float, **changes: Any) -> dict[str, Any]:
@@ -241,10 +241,10 @@ def test_a_ride_comes_near_to_each_bound(code: str) -> None:
     config["mode_torque_pct"] = [100] * 5
     config |= GENTLE if code in ("push_stop", "lost_reading") else {}
     config |= {"torque_filter_s": 0.02} if code == "ratio" else {}
-    certificate = certify(config, "1.0.0")
-    bound = {claim.code: claim.bound for claim in certificate.claims}
+    proof = prove_limits(config, "1.0.0")
+    bound = {claim.code: claim.bound for claim in proof.claims}
 
-    told = judge(certificate, config, steady(6.0, **readings))
+    told = judge(proof, config, steady(6.0, **readings))
 
     assert told[code] >= share * (bound[code] or math.inf)
 
@@ -254,7 +254,7 @@ def test_a_ride_comes_near_to_each_bound(code: str) -> None:
 def test_half_an_hour_at_full_power_comes_near_to_its_bound(market: str) -> None:
     config = {**default_config(), "market": market, "motor_torque_nm_max": 2.0}
     config |= {"mode_ratios": [2.0] * 5, "mode_laws": ["fuzzy"] * 5, "battery_current_a_max": 12.0}
-    bound = {claim.code: claim.bound for claim in certify(config, "1.0.0").claims}
+    bound = {claim.code: claim.bound for claim in prove_limits(config, "1.0.0").claims}
     ride = steady(1800.0, motor_speed_rpm=2100.0, speed_kmh=20.0, torque_raw_counts=9000.0)
 
     motor_nm = law.assist_run(config, ride)["motor_torque_nm"].astype(np.float64)
@@ -266,24 +266,24 @@ def test_half_an_hour_at_full_power_comes_near_to_its_bound(market: str) -> None
 def test_in_japan_it_tells_from_where_on_the_last_step_cuts_what_a_table_asks() -> None:
     gentle = {**default_config(), "market": "japan", "mode_ratios": [0.0, 0.5, 1.0, 1.0, 1.0]}
 
-    certificate = certify(gentle, "1.0.0")
+    proof = prove_limits(gentle, "1.0.0")
 
-    told = next(claim for claim in certificate.claims if claim.code == "market_ratio")
+    told = next(claim for claim in proof.claims if claim.code == "market_ratio")
     # 1.0 and half of it again are 1.5; the law allows 2 to 10 km/h and (24 - 15) / 7 at 15.
     assert told.values["from_kmh"] == pytest.approx(10.0)
-    assert certificate.holds
+    assert proof.holds
 
 
-def test_names_are_not_part_of_what_is_certified_but_every_rule_is() -> None:
+def test_names_are_not_part_of_what_is_proven_but_every_rule_is() -> None:
     config = default_config()
     table = FuzzyTable.from_parameters(config)
     rules = [list(row) for row in table.rules]
     rules[4][4] = "PB"
 
-    one = certify(config, "1.0.0")
-    renamed = certify({**config, "fuzzy_table_name": "another"}, "1.0.0")
-    changed = certify({**config, "fuzzy_rules": rules}, "1.0.0")
-    newer = certify(config, "1.0.1")
+    one = prove_limits(config, "1.0.0")
+    renamed = prove_limits({**config, "fuzzy_table_name": "another"}, "1.0.0")
+    changed = prove_limits({**config, "fuzzy_rules": rules}, "1.0.0")
+    newer = prove_limits(config, "1.0.1")
 
     assert one.sha256 == renamed.sha256
     assert len({one.sha256, changed.sha256, newer.sha256}) == 3
@@ -312,6 +312,6 @@ def test_a_premise_of_the_proof_is_the_constant_of_the_c(
     assert float(found) == pytest.approx(premise, rel=1e-12)
 
 
-def test_what_the_unit_refuses_gets_no_certificate() -> None:
-    with pytest.raises(InvalidRequest, match="nothing to certify"):
-        certify({**default_config(), "assist_cutoff_band_kmh": 6.0}, "1.0.0")
+def test_what_the_unit_refuses_gets_no_limit_proof() -> None:
+    with pytest.raises(InvalidRequest, match="nothing to prove"):
+        prove_limits({**default_config(), "assist_cutoff_band_kmh": 6.0}, "1.0.0")

@@ -1,7 +1,7 @@
-"""Goal: whoever asks gets the certificate of what he asks about, and it is kept as first made.
+"""Goal: whoever asks gets the limit proof of what he asks about, and it is kept as first made.
 
 Method: the application over a store of its own, without a unit; a log of revisions that keeps one
-with each. What the claims are worth is shown in tests/unit/law/test_certificate.py.
+with each. What the claims are worth is shown in tests/unit/law/test_limit_proof.py.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from backend.services import Services
 from backend.store import Store, open_store
 from backend.tuning.library.records import LibraryStore
 from backend.tuning.library.service import Library
-from backend.tuning.limit_proof import CertifiedRevisions, Certify, KeptCertificates
-from backend.tuning.records import CertificateStore, RevisionStore
+from backend.tuning.limit_proof import ProveLimits, ProvenRevisions, StoredLimitProofs
+from backend.tuning.records import LimitProofStore, RevisionStore
 from backend.tuning.service import Tuning
 from backend.units.service import Devices
 from backend.web.app import WebSettings
@@ -32,17 +32,17 @@ FIRMWARE = "0.3.0"
 
 @pytest.fixture(scope="module")
 def store(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Store]:
-    tmp_path = tmp_path_factory.mktemp("certificates")
+    tmp_path = tmp_path_factory.mktemp("proofs")
     with open_store(f"sqlite:///{tmp_path}/spindle.db", f"file://{tmp_path}/objects") as store:
         yield store
 
 
 @pytest.fixture(scope="module")
 def client(store: Store) -> TestClient:
-    kept = KeptCertificates(CertificateStore(store.database), FIRMWARE)
+    kept = StoredLimitProofs(LimitProofStore(store.database), FIRMWARE)
     library = Library(LibraryStore(store.database))
-    certify = Certify(kept, cast(Devices, None), cast(Tuning, None), library)
-    services = cast(Services, SimpleNamespace(certify=certify))
+    prove_limits = ProveLimits(kept, cast(Devices, None), cast(Tuning, None), library)
+    services = cast(Services, SimpleNamespace(prove_limits=prove_limits))
     return TestClient(build_api(WebSettings("test"), services), base_url="http://127.0.0.1")
 
 
@@ -52,7 +52,7 @@ def asked(client: TestClient, **question: Any) -> dict[str, Any]:
     return cast(dict[str, Any], answer.json())
 
 
-def test_a_certificate_is_the_same_whenever_it_is_asked_for(client: TestClient) -> None:
+def test_a_limit_proof_is_the_same_whenever_it_is_asked_for(client: TestClient) -> None:
     first = asked(client, library="even")
     again = asked(client, library="even", parameters={"fuzzy_table_name": "my own"})
     other = asked(client, library="even", parameters={"mode_ratios": [0.0, 0.5, 1.0, 1.5, 2.0]})
@@ -67,7 +67,7 @@ def test_a_certificate_is_the_same_whenever_it_is_asked_for(client: TestClient) 
     assert first["cells"][-1]["to_kmh"] == 25.0
 
 
-def test_a_draft_is_certified_without_being_kept_anywhere_else(client: TestClient) -> None:
+def test_a_draft_is_proven_without_being_kept_anywhere_else(client: TestClient) -> None:
     slower = asked(client, parameters={"assist_cutoff_kmh": 18.0})
 
     cutoff = next(claim for claim in slower["claims"] if claim["code"] == "cutoff")
@@ -96,10 +96,10 @@ def test_what_no_unit_takes_is_refused_with_its_reason(
     assert answer.json()["detail"]
 
 
-def test_each_revision_is_kept_with_its_certificate(store: Store, client: TestClient) -> None:
+def test_each_revision_is_kept_with_its_limit_proof(store: Store, client: TestClient) -> None:
     config = {**default_config(), "market": "china"}
-    kept = KeptCertificates(CertificateStore(store.database), FIRMWARE)
-    log = CertifiedRevisions(RevisionStore(store.database), kept)
+    kept = StoredLimitProofs(LimitProofStore(store.database), FIRMWARE)
+    log = ProvenRevisions(RevisionStore(store.database), kept)
 
     revision = log.append("ebl:test", config, reason="first")
     other_make = log.append("bbsfw:test", {"assist_cutoff_kmh": 25.0})

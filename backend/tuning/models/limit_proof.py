@@ -16,7 +16,7 @@ from backend.web.models import Answer
 CHANGES = {"fuzzy_table", "second_table", "assist_modes", "limits"}
 
 
-class CertificateRequest(RequestBody):
+class LimitProofRequest(RequestBody):
     """Of a unit's configuration, one of its revisions, an entry of the library, or the law's
     defaults; tables, modes, limits and parameters take the place of theirs."""
 
@@ -60,7 +60,7 @@ class Claim(Answer):
     values: dict[str, float | str]
 
 
-class Certificate(Answer):
+class LimitProof(Answer):
     """Float32 rounding is within every bound. `holds`: every claim keeps the market's law, and
     the unit runs the firmware that was proven."""
 

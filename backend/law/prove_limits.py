@@ -26,7 +26,7 @@ from backend.core.energy import KMH_PER_MS
 from backend.core.fuzzy_table import FuzzyTable
 from backend.errors import InvalidRequest
 from backend.law.corner_bounds import gain_most
-from backend.law.limit_proof import Cell, Certificate, Claim
+from backend.law.limit_proof import Cell, Claim, LimitProof
 from backend.law.market import market_words
 from sim_device.firmware.python import law
 from sim_device.firmware.python import market as unit
@@ -74,14 +74,14 @@ class _Known:
         return max(cell.ratio_most for cell in self.cells) * averaged
 
 
-def certify(config: Mapping[str, Any], firmware_version: str) -> Certificate:
-    """The certificate of a configuration, without when it was made.
+def prove_limits(config: Mapping[str, Any], firmware_version: str) -> LimitProof:
+    """The limit proof of a configuration, without when it was made.
 
     config: the unit's parameters by registry name; those that are missing have the law's defaults.
     firmware_version: of the C in this process. Raises InvalidRequest for what the law refuses.
     """
     known = _known({**law.law_defaults(), **config})
-    body = Certificate(
+    body = LimitProof(
         sha256="",
         config_sha256=hashlib.sha256(law.law_image(known.config)).hexdigest(),
         table_sha256=hashlib.sha256(law.law_image(known.config, tables_only=True)).hexdigest(),
@@ -94,14 +94,14 @@ def certify(config: Mapping[str, Any], firmware_version: str) -> Certificate:
     ).body()
     claims = tuple(Claim(**claim) for claim in body["claims"])
     cells = tuple(Cell(**cell) for cell in body["cells"])
-    return Certificate(sha256_of(body), **{**body, "claims": claims, "cells": cells})
+    return LimitProof(sha256_of(body), **{**body, "claims": claims, "cells": cells})
 
 
 def _known(config: dict[str, Any]) -> _Known:
     try:
         law.native_config(config)
     except law.LawRefused as refused:
-        raise InvalidRequest(f"There is nothing to certify: {refused}") from refused
+        raise InvalidRequest(f"There is nothing to prove: {refused}") from refused
     market = config["market"]
     cutoff_kmh = unit.cutoff_that_holds_kmh(
         market, config["assist_cutoff_kmh"], config["assist_cutoff_extra_kmh"]
