@@ -31,16 +31,16 @@ const GROUPS = [
   chunk('moment', 'shared/device/(FaultMoment|fault_moment|words)'),
   chunk('traces', 'shared/charts/traces/(Traces|SeriesT|ZoomB|trace_line|trace_window|ride_view)'),
   chunk('apart', 'shared/config/(SettingsApart|SmallTable)'),
-  chunk('rides', 'features/rides/(?!ride/|insight/|compare/|table/|home/(ManyRides|Standing))'),
-  chunk('try', 'features/try/(?!proposals)'),
+  chunk('rides', 'features/(imports/(?!Table|table)|rides/(?!ride/|insight/|comparison/|replay/|logbook/(ManyRides|Standing)))'),
+  chunk('replay', 'features/rides/replay/(?!proposals)'),
   chunk('ride', 'features/rides/ride/(?!from_file/)'),
-  chunk('compare', 'features/rides/compare/'),
+  chunk('comparison', 'features/rides/comparison/'),
   chunk('insight', 'features/rides/insight'),
   chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet|Restore|restored)'),
-  chunk('settings', 'features/settings/(?!people)'),
+  chunk('settings', 'features/(settings|people/(People|Keys))'),
   chunk('review', `shared/(limit_proof|config/(${REVIEW.join('|')}))`),
   chunk('config', 'shared/(config/(?!DraftNotes|draft_words|words|ParameterForm)|lint)'),
-  chunk('tune', `features/tune/(?!${LATER.join('|')})`),
+  chunk('tune', `features/tuning/table/(?!${LATER.join('|')})`),
 ]
 
 export default defineConfig({
