@@ -18,6 +18,7 @@ const MOST = [
 ]
 // What Tune shows on request.
 const LATER = ['[Rr]escale', 'Scale', 'surface/(between|box|solid|words|Slice|Surface[MSV])']
+const OTHER_RIDES = ['ride/', 'insight/', 'comparison/', 'replay/', 'logbook/(ManyRides|Standing)']
 const REVIEW = ['ReviewDialog', 'review_', 'words', 'TokenSteps', 'UnlockPanel', 'Write', 'write_']
 const chunk = (name: string, pattern: string) => ({ name, test: new RegExp(`src/${pattern}`) })
 // Catalogues of another language are files of their own: only who reads them fetches them.
@@ -31,7 +32,7 @@ const GROUPS = [
   chunk('moment', 'shared/device/(FaultMoment|fault_moment|words)'),
   chunk('traces', 'shared/charts/traces/(Traces|SeriesT|ZoomB|trace_line|trace_window|ride_view)'),
   chunk('apart', 'shared/config/(SettingsApart|SmallTable)'),
-  chunk('rides', 'features/(imports/(?!Table|table)|rides/(?!ride/|insight/|comparison/|replay/|logbook/(ManyRides|Standing)))'),
+  chunk('rides', `features/(imports/(?!Table|table)|rides/(?!${OTHER_RIDES.join('|')}))`),
   chunk('replay', 'features/rides/replay/(?!proposals)'),
   chunk('ride', 'features/rides/ride/(?!from_file/)'),
   chunk('comparison', 'features/rides/comparison/'),
