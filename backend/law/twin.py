@@ -57,7 +57,7 @@ SAMPLES_MIN = 100
 """With fewer a fit is a guess."""
 
 
-NOTHING_TOLD = RiderAndBike()
+UNSPECIFIED = RiderAndBike()
 
 
 def assumed_of(told: RiderAndBike) -> Assumed:
@@ -91,7 +91,7 @@ class RoadTwin:
     """
 
     def __init__(
-        self, ride: Recorded, config: Mapping[str, Any], told: RiderAndBike = NOTHING_TOLD
+        self, ride: Recorded, config: Mapping[str, Any], told: RiderAndBike = UNSPECIFIED
     ) -> None:
         """config: the unit's on that ride. told: of rider and bike. Raises
         InvalidRequest if the ride cannot be laid over its distance."""

@@ -52,11 +52,11 @@ class WhySteady:
         known.setdefault("mode", config["assist_mode_at_start"])
         found = law.why_steady(config, known, torque_rate, held_s)
         moment = {"kind": "steady", "ride_id": None, "t_s": None, "held_s": held_s}
-        return told(found, config, known, moment, source)
+        return why_json(found, config, known, moment, source)
 
 
-def told(
-    found: Why,
+def why_json(
+    why: Why,
     config: Config,
     readings: Mapping[str, npt.ArrayLike],
     moment: Json,
@@ -71,13 +71,13 @@ def told(
     mode = int(last.pop("mode") or 0)
     which = tuple(PARAMETERS_OF)[int(config["mode_tables"][mode])]
     return {
-        **asdict(found),
+        **asdict(why),
         "moment": moment,
         "config_source": config_source,
         "engine": law.ENGINE,
         "mode": mode,
         "mode_name": config["mode_names"][mode],
-        "table": stored_json(config, which) if found.law == "fuzzy" else None,
+        "table": stored_json(config, which) if why.law == "fuzzy" else None,
         "speed_kmh": last.get("speed_kmh"),
         "cadence_rpm": last.get("cadence_rpm"),
         "readings": last,

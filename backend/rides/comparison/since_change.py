@@ -117,15 +117,15 @@ def knows(ride: Ride, name: str) -> bool:
 def total(rides: Sequence[Ride], name: str) -> float | None:
     """Sum of a figure over the rides that have it; None if none has."""
     values = [getattr(ride.summary, name) for ride in rides]
-    there = [float(value) for value in values if value is not None]
-    return sum(there) if there else None
+    present = [float(value) for value in values if value is not None]
+    return sum(present) if present else None
 
 
 def by_km(rides: Sequence[Ride], name: str) -> float | None:
     """A figure for a kilometre, over the rides that have it."""
-    there = [ride for ride in rides if knows(ride, name)]
-    sum_wh = total(there, name)
-    return None if sum_wh is None else sum_wh / sum(distance_km(ride) for ride in there)
+    present = [ride for ride in rides if knows(ride, name)]
+    sum_wh = total(present, name)
+    return None if sum_wh is None else sum_wh / sum(distance_km(ride) for ride in present)
 
 
 def per_km(rides: Sequence[Ride]) -> list[float]:

@@ -111,8 +111,8 @@ class Diagnosis:
         config, _ = all_through(self._config_of, rows.ride)
         evidence = evidence_of(rows, limits_of(config))
         checks = [asdict(check) for check in diagnose(evidence)]
-        found = [finding for check in checks for finding in check["findings"]]
-        worst = max((SEVERITIES.index(one["severity"]) for one in found), default=None)
+        findings = [finding for check in checks for finding in check["findings"]]
+        worst = max((SEVERITIES.index(one["severity"]) for one in findings), default=None)
         return {
             "ride_id": ride_id,
             "method": METHOD,

@@ -37,7 +37,7 @@ class RiderHomeService:
         here, now = asked_zone(zone), self._clock()
         spans = last_weeks(now, here, week_begins), last_months(now, here)
         home = self._store.logbook.home(spans, bike_id)
-        weeks, months = map(told, spans, home.by_period)
+        weeks, months = map(with_totals, spans, home.by_period)
         return {
             "weeks": weeks,
             "months": months,
@@ -72,7 +72,7 @@ class RiderHomeService:
         self._store.logbook.tag(ride_ids, clean_tags(add), clean_tags(remove))
 
 
-def told(periods: Sequence[Period], totals: Sequence[Totals]) -> list[Mapping[str, object]]:
+def with_totals(periods: Sequence[Period], totals: Sequence[Totals]) -> list[Mapping[str, object]]:
     """Periods with what the rides in them come to."""
     return [
         {
