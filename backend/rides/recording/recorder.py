@@ -204,15 +204,10 @@ class UnitRecorder:
             if live is None:
                 return None
             live.tail.collect()
-            tail_counts = live.tail.counts
-            rows = tail_counts.rows_saved + tail_counts.rows_lost + tail_counts.rows_waiting
-            return RecordingStatus(
-                live.tail.ride_id,
-                rows,
-                tail_counts.rows_saved,
-                tail_counts.rows_lost,
-                self.missing.rows,
-            )
+            counts = live.tail.counts
+            saved, lost = counts.rows_saved, counts.rows_lost
+            rows = saved + lost + counts.rows_waiting
+            return RecordingStatus(live.tail.ride_id, rows, saved, lost, self.missing.rows)
 
     @property
     def newest(self) -> tuple[int, float] | None:
