@@ -68,13 +68,13 @@ def _plain(found: Evaluated) -> dict[str, Any]:
 
 
 def _print(found: Evaluated) -> None:
-    about, worked = found.told.about, found.worked
+    about, worked = found.content.about, found.worked
     changed = "" if found.sha256 == found.stated_sha256 else ": CHANGED, it was another"
     print(f"Certificate {about.number} of {about.unit_key}, {found.sha256}{changed}")
     state = "all of it follows from the raw captures"
     if found.differences:
         state = f"{len(found.differences)} VALUES DO NOT FOLLOW from the raw captures"
-    print(f"  {len(found.told.captures)} captures; {state}")
+    print(f"  {len(found.content.captures)} captures; {state}")
     for difference in found.differences[:SHOWN_MAX]:
         stated, computed = text_of(difference.stated), text_of(difference.computed)
         print(f"  {difference.path}: says {stated}, is {computed}")
