@@ -153,7 +153,7 @@ def open_services(
             proposals=proposals,
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
             since_change=SinceChange(store, tuning.revisions),
-            sensor_drift=SensorDriftService(store, devices.known_key, tuning.revisions),
+            sensor_drift=SensorDriftService(store, devices.last_known_key, tuning.revisions),
             why_steady=WhySteady(devices.writable),
             why_ride=WhyRide(store, memory.ride_config),
             ledger=EnergyLedger(store, memory.ride_config),
@@ -277,7 +277,7 @@ def tidy(
     uploads.look_again()
     store.sweep(now_us)
     store.scrub(now_us)
-    last_seen.look(devices.list(), now_us)
+    last_seen.update(devices.list(), now_us)
 
 
 def in_background(name: str, work: Callable[[], object]) -> None:

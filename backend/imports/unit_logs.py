@@ -28,7 +28,7 @@ from typing import BinaryIO
 from backend.core.described import described
 from backend.core.ride import iso_utc
 from backend.core.unit_key import EBL, serial_of
-from backend.device.ride_logs import LogPieces, RideLog, RideLogs
+from backend.device.ride_logs import LogSegments, RideLog, RideLogs
 from backend.device.unit import Unit
 from backend.errors import (
     Conflict,
@@ -202,7 +202,7 @@ class Collect:
 
     def get(self, device_id: str, log_id: int) -> Download:
         """How far a download is. Raises NotFound when none was begun."""
-        key = self._devices.known_key(device_id)
+        key = self._devices.last_known_key(device_id)
         with self._lock:
             found = self._downloads.get((key, log_id))
         if found is None:
@@ -312,12 +312,12 @@ class Collect:
         file.truncate(have)
         return have
 
-    def _take(self, source: _Source, log: RideLog, pieces: LogPieces, file: BinaryIO) -> None:
+    def _take(self, source: _Source, log: RideLog, pieces: LogSegments, file: BinaryIO) -> None:
         """Write pieces as they come, until the last."""
         began_s, had = time.monotonic(), pieces.received
         while True:
             over = pieces.done or pieces.failure is not None
-            file.writelines(pieces.take_pieces())
+            file.writelines(pieces.take_segments())
             received = pieces.received
             taken_s = time.monotonic() - began_s
             rate = (received - had) / taken_s if taken_s > 0 else None

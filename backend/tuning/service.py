@@ -89,7 +89,7 @@ class Tuning:
 
     def revisions(self, device_id: str) -> Sequence[Revision]:
         """Every configuration the unit is known to have had, newest first."""
-        return self._book.list(self._devices.known_key(device_id))
+        return self._book.list(self._devices.last_known_key(device_id))
 
     def last_known(self, device_id: str) -> LastKnown:
         """What the unit was last known to be set to, whether it is connected or not.

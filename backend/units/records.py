@@ -6,7 +6,7 @@ import time
 
 from sqlalchemy import Connection, select, update
 
-from backend.store.bikes import SeenUnit, bikes_now, known_unit
+from backend.store.bikes import UnitSighting, bikes_now, known_unit
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
 from backend.units.types import Sighting
@@ -20,7 +20,7 @@ class UnitStore:
         # What those who must not wait are told: this server alone changes it.
         self._bikes = database.read(bikes_now)
 
-    def seen(self, unit: SeenUnit) -> None:
+    def note_unit(self, unit: UnitSighting) -> None:
         """Note that a unit is there now; a name once given stays. Raises StoreError."""
 
         def work(connection: Connection) -> int | None:

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 
-from backend.core.calendar import MONDAY, Period, asked_zone, last_months, last_weeks
+from backend.core.calendar import MONDAY, Period, last_months, last_weeks, require_zone
 from backend.core.ride import iso_utc
 from backend.core.ride_tags import clean_tags
 from backend.store import Store, Totals
@@ -34,7 +34,7 @@ class RiderHomeService:
 
         zone: the rider's, of the IANA database. week_begins: 1 Monday to 7 Sunday.
         """
-        here, now = asked_zone(zone), self._clock()
+        here, now = require_zone(zone), self._clock()
         spans = last_weeks(now, here, week_begins), last_months(now, here)
         home = self._store.logbook.home(spans, bike_id)
         weeks, months = map(with_totals, spans, home.by_period)

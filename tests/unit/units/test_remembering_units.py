@@ -15,7 +15,7 @@ import pytest
 from backend.core.revision import Revision, RevisionLog
 from backend.device.configuration import ConfigImage
 from backend.device.states import UnitEvent
-from backend.store import SeenUnit
+from backend.store import UnitSighting
 from backend.tuning.revisions import GIVEN_UP_REASON, RevisionBook
 from backend.tuning.service import Tuning
 from backend.units.memory import UnitMemory
@@ -31,9 +31,9 @@ class Units:
     """Those that were noted, in order."""
 
     def __init__(self) -> None:
-        self.noted: list[SeenUnit] = []
+        self.noted: list[UnitSighting] = []
 
-    def seen(self, unit: SeenUnit) -> None:
+    def note_unit(self, unit: UnitSighting) -> None:
         self.noted.append(unit)
 
 
