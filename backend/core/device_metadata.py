@@ -14,7 +14,7 @@ from backend.core.described import described, from_members
 
 # More than any ride has; a file may say anything.
 LAPS_MAX, PAUSES_MAX, INSTRUMENTS_MAX = 1000, 2000, 64
-STATEMENTS_MAX, STATED_MAX = 16, 200
+STATEMENTS_MAX, FIGURES_MAX = 16, 200
 # What shares less than this with a ride ended as the ride began: files tell whole seconds.
 LEAST_S = 1.0
 

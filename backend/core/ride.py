@@ -139,7 +139,7 @@ class Ride:
     the recording ended while the bike moved, or with its server, so that nobody knows what came
     after. bike_id: the bike its unit was on; None where nobody knows the unit. sport: as the file
     calls it, None for none. intake: what became of the file's rows and fields, None for what came
-    from no file. noted: what the device that made the file told beside its rows. same_ride_as:
+    from no file. metadata: what the device that made the file told beside its rows. same_ride_as:
     another device's recording of the same ride. tags: words its rider gave it. place,
     speed_line_kmh: of its card, once that is made.
     """
@@ -168,7 +168,7 @@ class Ride:
     bike_id: int | None = None
     sport: str | None = None
     intake: Intake | None = None
-    noted: DeviceMetadata = DeviceMetadata()  # noqa: RUF009 - frozen
+    metadata: DeviceMetadata = DeviceMetadata()  # noqa: RUF009 - frozen
     same_ride_as: int | None = None
     tags: tuple[str, ...] = ()
     place: RidePlace | None = None
@@ -217,7 +217,7 @@ class Ride:
             "cut_short": self.cut_short,
             "sport": self.sport,
             "intake": asdict(self.intake) if self.intake else None,
-            **metadata_to_json(self.noted),
+            **metadata_to_json(self.metadata),
             "upload_id": self.upload_id,
             "object_bytes": self.object_bytes,
             "summary": asdict(self.summary) if self.summary else None,

@@ -69,7 +69,7 @@ class Container:
         try:
             for told in found:
                 if isinstance(told, Left):
-                    left, broken = told, told.trouble
+                    left, broken = told, told.error
                 elif (promise := self._take(told)) is not None:
                     going.append(promise)
                 if len(going) > AHEAD_MAX:

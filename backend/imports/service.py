@@ -55,7 +55,9 @@ CONCLUDED = (COMPLETE, PARTIAL, REJECTED)
 class Reader(Protocol):
     """Reads a file into an outcome, whatever its bytes."""
 
-    def __call__(self, path: Path, name: str, *, said: TableAnswer | None = None) -> Outcome: ...
+    def __call__(
+        self, path: Path, name: str, *, table_answer: TableAnswer | None = None
+    ) -> Outcome: ...
 
 
 @dataclass(frozen=True)
@@ -348,7 +350,7 @@ class Uploads:
         outcome = read(path, upload.name)
         if outcome.question is not None:
             known = self._answers.get(outcome.question.header_sha256)
-            outcome = read(path, upload.name, said=known.answer) if known else outcome
+            outcome = read(path, upload.name, table_answer=known.answer) if known else outcome
         if outcome.code == TOO_SLOW and lane != SLOW:
             raise GoesElsewhere(SLOW)
         return outcome
@@ -393,5 +395,5 @@ def ride_of(
         events=imported.events,
         sport=imported.sport,
         intake=imported.intake,
-        noted=imported.noted,
+        metadata=imported.metadata,
     )

@@ -27,7 +27,7 @@ from backend.errors import FieldError, InvalidRequest, NotFound, SpindleError
 from backend.formats.export import fit, gpx
 from backend.formats.export.blurred import ShownRide, shown_ride, shown_rows
 from backend.formats.export.csv import csv_chunks
-from backend.formats.export.names import told_names
+from backend.formats.export.names import export_names
 from backend.formats.export.seconds import BySecond, by_second
 from backend.store import RideReader, Store
 from backend.store.facts import facts_of
@@ -65,13 +65,13 @@ def export(store: Store, ride: Ride, file_format: str) -> Export:
 
 def as_csv(store: Store, ride: Ride) -> Export:
     """Every recorded row and channel as text."""
-    rows = verified(store, ride).chunks(list(told_names(ride)), CSV_ROWS)
+    rows = verified(store, ride).chunks(list(export_names(ride)), CSV_ROWS)
     return Export(f"{stem(ride)}.csv", "text/csv; charset=utf-8", csv_chunks(ride, rows))
 
 
 def as_parquet(store: Store, ride: Ride) -> Export:
     """Every recorded row and channel as doubles in their units."""
-    names = told_names(ride)
+    names = export_names(ride)
     rows = verified(store, ride).chunks(list(names), ROW_GROUP_ROWS)
     media_type = "application/vnd.apache.parquet"
     chunks = physical_chunks(ride.started_us, names, facts_of(ride), rows)

@@ -66,7 +66,7 @@ def digest(file: RowSource, ride: Ride) -> Digest:
             for depth, step in enumerate(STEPS)
         ),
         summary=summarise(columns, times, ride.period_us, seconds),
-        gaps=find_gaps(times, empty, ride.period_us, ride.noted.pauses),
+        gaps=find_gaps(times, empty, ride.period_us, ride.metadata.pauses),
         events=tuple(merged(seen, ride.events, SAME_EVENT_S)),
         rows_empty=int(np.sum(empty)),
     )

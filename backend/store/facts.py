@@ -76,7 +76,7 @@ def facts_of(ride: Ride) -> dict[str, object]:
         "cut_short": ride.cut_short,
         "sport": ride.sport,
         "intake": asdict(ride.intake) if ride.intake else None,
-        "noted": metadata_to_json(ride.noted),
+        "noted": metadata_to_json(ride.metadata),
     }
 
 
@@ -112,7 +112,7 @@ def kept_ride(
         cut_short=bool(facts.get("cut_short", False)),
         sport=facts.get("sport"),
         intake=from_members(Intake, facts["intake"]) if facts.get("intake") else None,
-        noted=metadata_from_json(facts.get("noted")),
+        metadata=metadata_from_json(facts.get("noted")),
         tags=clean_tags(sidecar.get("tags", ())),
     )
     return KeptRide(

@@ -169,7 +169,7 @@ def sound_ride(row: Row[Any], tags: tuple[str, ...]) -> Ride:
         bike_id=body["bike_id"],
         sport=body["sport"],
         intake=Intake(**body["intake"]) if body["intake"] else None,
-        noted=metadata_from_json(body["noted"]),
+        metadata=metadata_from_json(body["noted"]),
         same_ride_as=body["same_ride_as"],
         tags=tags,
         place=None if place == RidePlace() else place,
@@ -225,7 +225,7 @@ def row_of(ride: Ride) -> dict[str, object]:
         "cut_short": ride.cut_short,
         "sport": ride.sport,
         "intake": asdict(ride.intake) if ride.intake else None,
-        "noted": metadata_to_json(ride.noted),
+        "noted": metadata_to_json(ride.metadata),
         "same_ride_as": ride.same_ride_as,
     }
 

@@ -145,7 +145,7 @@ def limits_of(config: Mapping[str, Any]) -> Limits:
 
 def paused(ride: Ride) -> list[tuple[float, float]]:
     """Where the device says that its timer stood."""
-    return [(pause.from_s, pause.to_s) for pause in ride.noted.pauses]
+    return [(pause.from_s, pause.to_s) for pause in ride.metadata.pauses]
 
 
 UNREADABLE = RideZero(reason="unreadable")

@@ -151,7 +151,7 @@ class RideEffort:
 
 def laps_of_ride(ride: RideColumns) -> list[LapFigures]:
     """The laps that somebody marked off; a lap as long as the ride is none."""
-    laps = [(lap.from_s, lap.to_s) for lap in ride.ride.noted.laps]
+    laps = [(lap.from_s, lap.to_s) for lap in ride.ride.metadata.laps]
     if len(laps) < 2:
         return []
     step_m = ride.distances.step_m if ride.distances else None

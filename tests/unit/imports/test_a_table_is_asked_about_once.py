@@ -32,8 +32,8 @@ def table(day: int) -> bytes:
     return f"timestamp,speed,cadence\n{rows}".encode()
 
 
-def reader(path: Path, name: str, *, said: TableAnswer | None = None) -> Outcome:
-    return read_file(name, path.read_bytes(), said)
+def reader(path: Path, name: str, *, table_answer: TableAnswer | None = None) -> Outcome:
+    return read_file(name, path.read_bytes(), table_answer)
 
 
 @pytest.fixture
@@ -79,11 +79,11 @@ def test_an_answer_reads_every_file_that_waited_for_it_and_those_that_come(
 def test_an_answer_waits_for_no_other_file_and_leaves_other_tables_alone(store: Store) -> None:
     read: list[str] = []
 
-    def read_and_note(path: Path, name: str, *, said: TableAnswer | None = None) -> Outcome:
+    def read_and_note(path: Path, name: str, *, table_answer: TableAnswer | None = None) -> Outcome:
         read.append(name)
         if name == "broken.csv" and read.count(name) > 1:
             raise OSError("a disk that is gone")
-        return reader(path, name, said=said)
+        return reader(path, name, table_answer=table_answer)
 
     uploads = Uploads(store, reader=read_and_note)
     other = uploads.receive_file("other.csv", table(1).replace(b"cadence", b"power"))
