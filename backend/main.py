@@ -64,7 +64,7 @@ from backend.store.schemas import SchemaFiles
 from backend.tuning.library.compare import Compare
 from backend.tuning.library.records import LibraryStore
 from backend.tuning.library.service import Library
-from backend.tuning.limit_proof import CertifiedRevisions, Certify, KeptCertificates
+from backend.tuning.limit_proof import CertificateMaker, CertifiedRevisions, Certify
 from backend.tuning.live_set import LiveTuning
 from backend.tuning.preview import Preview
 from backend.tuning.records import CertificateStore, RevisionStore
@@ -166,9 +166,9 @@ def open_services(
         )
 
 
-def make_revisions(store: Store) -> tuple[CertifiedRevisions, KeptCertificates]:
+def make_revisions(store: Store) -> tuple[CertifiedRevisions, CertificateMaker]:
     """Every unit's configurations, each with the proof that it keeps the limits."""
-    certificates = KeptCertificates(CertificateStore(store.database), __version__)
+    certificates = CertificateMaker(CertificateStore(store.database), __version__)
     return CertifiedRevisions(RevisionStore(store.database), certificates), certificates
 
 
@@ -179,7 +179,7 @@ def make_health(devices: Devices, recorder: Recorder, store: Store) -> HealthChe
         devices,
         recorder,
         store.watch,
-        store.database.ask,
+        store.database.ping,
         store.soundness,
         store.entries,
     )
@@ -274,7 +274,7 @@ def tidy(
     now_us = time.time_ns() // 1000
     store.try_again()
     recorder.tick(now_us)
-    uploads.look_again()
+    uploads.retry_waiting()
     store.sweep(now_us)
     store.scrub(now_us)
     last_seen.update(devices.list(), now_us)
@@ -301,17 +301,17 @@ def every_second(**works: Callable[[], object]) -> Iterator[None]:
     stopped = threading.Event()
 
     def run(name: str, work: Callable[[], object]) -> None:
-        told = ""
+        note = ""
         while not stopped.wait(HOUSEKEEPING_S):
             try:
                 work()
-                told = ""
+                note = ""
             except Exception as error:
                 # What lasts need not be said every second.
-                if repr(error) != told:
+                if repr(error) != note:
                     fault = None if isinstance(error, SpindleError) else error
                     LOG.warning("%s: %s", name, error, exc_info=fault)
-                told = repr(error)
+                note = repr(error)
 
     threads = [
         threading.Thread(target=run, args=one, name=one[0], daemon=True) for one in works.items()

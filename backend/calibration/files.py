@@ -19,7 +19,7 @@ from sqlalchemy import Connection, insert, select
 
 from backend.core.author import AuthorProof
 from backend.errors import StoreError
-from backend.store.bikes import known_unit
+from backend.store.bikes import bike_of_unit
 from backend.store.objects import CALIBRATING, FileObjects, Objects
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
@@ -141,7 +141,7 @@ def bring_back_calibration(database: Database, objects: FileObjects, key: str) -
     def work(connection: Connection) -> bool:
         if connection.execute(select(t.calibration.c.id).where(same)).first() is not None:
             return False
-        bike_id = known_unit(connection, job["unit_key"])
+        bike_id = bike_of_unit(connection, job["unit_key"])
         made = insert(t.calibration).values(**job, bike_id=bike_id)
         job_id = connection.execute(made.returning(t.calibration.c.id)).scalar_one()
         for row in captures:

@@ -25,7 +25,7 @@ from backend.calibration.files import (
 from backend.core.author import proof_of
 from backend.core.canonical_json import canonical_text, sha256_of
 from backend.errors import Conflict, NotFound, ObjectDamaged
-from backend.store.bikes import known_unit
+from backend.store.bikes import bike_of_unit
 from backend.store.named import calibration_key
 from backend.store.soundness import WORDS, Expected
 from backend.store.sql import tables as t
@@ -62,7 +62,7 @@ class CalibrationStore:
                 return int(existing), False
             values = {
                 "unit_key": unit_key,
-                "bike_id": known_unit(connection, unit_key),
+                "bike_id": bike_of_unit(connection, unit_key),
                 "model": model,
                 "open_for": unit_key,
                 "body": dict(body),

@@ -165,7 +165,7 @@ class Rides:
         if ride.state == BAD:
             damage = ROW_DAMAGED
         elif ride.object_key is not None:
-            damage = self._store.soundness.known_damage(expected_of(ride))
+            damage = self._store.soundness.cached_damage(expected_of(ride))
         return {**ride.as_json(), "damage": damage}
 
 

@@ -38,7 +38,7 @@ def bike_of_ride(connection: Connection, context: RideContext, started_us: int) 
     if key is None:
         return None
     unit = UnitSighting(key, context.device_serial, None, context.device_model)
-    known_unit(connection, key, unit, started_us)
+    bike_of_unit(connection, key, unit, started_us)
     columns = (t.bike_unit.c.bike_id, t.bike_unit.c.from_us, t.bike_unit.c.to_us)
     mine = select(*columns).where(t.bike_unit.c.unit_key == key)
     rows = connection.execute(mine.order_by(t.bike_unit.c.from_us)).all()
@@ -48,7 +48,7 @@ def bike_of_ride(connection: Connection, context: RideContext, started_us: int) 
     return int(begun[-1].bike_id)
 
 
-def known_unit(
+def bike_of_unit(
     connection: Connection, key: str, unit: UnitSighting | None = None, now_us: int | None = None
 ) -> int | None:
     """Add a unit that is new, on a bike of its own; returns the bike it is on now."""

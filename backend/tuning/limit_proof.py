@@ -28,7 +28,7 @@ OTHER_FIRMWARE = "other_firmware"
 class Certificates(Protocol):
     """Where certificates are kept; tuning.records has one."""
 
-    def keep(self, made: Certificate) -> int:
+    def save(self, made: Certificate) -> int:
         """Since when it is kept, Unix microseconds. Raises StoreError."""
         ...
 
@@ -48,7 +48,7 @@ class Certified:
     parameters: Mapping[str, Any] = field(default_factory=dict)
 
 
-class KeptCertificates:
+class CertificateMaker:
     """Makes certificates and keeps them. For any thread. firmware_version: of the C in here."""
 
     def __init__(self, certificates: Certificates, firmware_version: str) -> None:
@@ -58,13 +58,13 @@ class KeptCertificates:
     def of(self, config: Mapping[str, Any]) -> Certificate:
         """Of a configuration by registry name. Raises InvalidRequest, StoreError."""
         made = law.certify(config, self._firmware_version)
-        return replace(made, created_us=self._certificates.keep(made))
+        return replace(made, created_us=self._certificates.save(made))
 
 
 class CertifiedRevisions:
     """A log of revisions that keeps a certificate with each; otherwise as the log it stands for."""
 
-    def __init__(self, revisions: RevisionLog, certificates: KeptCertificates) -> None:
+    def __init__(self, revisions: RevisionLog, certificates: CertificateMaker) -> None:
         self._revisions = revisions
         self._certificates = certificates
         self.list = revisions.list
@@ -87,47 +87,47 @@ class Certify:
     """Certificates of what there is and of what might be written. From any thread."""
 
     def __init__(
-        self, kept: KeptCertificates, devices: Devices, tuning: Tuning, library: Library
+        self, certificates: CertificateMaker, devices: Devices, tuning: Tuning, library: Library
     ) -> None:
-        self._kept = kept
+        self._certificates = certificates
         self._devices = devices
         self._tuning = tuning
         self._library = library
 
-    def __call__(self, asked: Certified) -> Certificate:
+    def __call__(self, subject: Certified) -> Certificate:
         """Raises InvalidRequest for what no unit takes, NotFound, NoAnswer, CapabilityMissing."""
-        if asked.device_id is not None and asked.library is not None:
+        if subject.device_id is not None and subject.library is not None:
             message = "Name a unit or an entry of the library, not both."
             raise InvalidRequest(message, fields=[FieldError("library", "not_one", message)])
-        base = self._base(asked)
-        config = {**changed_config(base, **asked.changes), **asked.parameters}
-        unknown = [name for name in asked.parameters if name not in base]
+        base = self._base(subject)
+        config = {**changed_config(base, **subject.changes), **subject.parameters}
+        unknown = [name for name in subject.parameters if name not in base]
         if unknown:
             faults = [FieldError(name, "unknown", f"There is no {name}.") for name in unknown]
             raise InvalidRequest(" ".join(fault.message for fault in faults), fields=faults)
-        made = self._kept.of(config)
-        if asked.device_id is None:
+        made = self._certificates.of(config)
+        if subject.device_id is None:
             return made
-        identity = self._devices.get(asked.device_id).identity
+        identity = self._devices.get(subject.device_id).identity
         runs = identity.firmware_version if identity else None
         return made if runs == made.firmware_version else replace(made, unproven=OTHER_FIRMWARE)
 
-    def _base(self, asked: Certified) -> dict[str, Any]:
+    def _base(self, subject: Certified) -> dict[str, Any]:
         defaults = law.law_defaults()
-        if asked.library is not None:
-            document = self._library.entry(asked.library).document
+        if subject.library is not None:
+            document = self._library.entry(subject.library).document
             values = {name: entry["value"] for name, entry in document["parameters"].items()}
             return {**defaults, **values}
-        if asked.device_id is None:
+        if subject.device_id is None:
             return defaults
-        if asked.revision is None:
-            unit = self._devices.writable(asked.device_id)
+        if subject.revision is None:
+            unit = self._devices.writable(subject.device_id)
             unit.require(Capability.READ_CONFIG, Capability.FUZZY_TABLE)
             return {**defaults, **unit.read_config().parameters}
-        for revision in self._revisions(asked.device_id):
-            if revision.seq == asked.revision and has_law(revision.parameters):
+        for revision in self._revisions(subject.device_id):
+            if revision.seq == subject.revision and has_law(revision.parameters):
                 return {**defaults, **revision.parameters}
-        raise NotFound(f"{asked.device_id} has no revision {asked.revision} with a rule table.")
+        raise NotFound(f"{subject.device_id} has no revision {subject.revision} with a rule table.")
 
     def _revisions(self, device_id: str) -> Sequence[Revision]:
         return self._tuning.revisions(device_id)

@@ -83,13 +83,13 @@ class Preview:
         InvalidRequest.
         """
         config = {**law.law_defaults(), **parameters}
-        found = law.torque_surface(config, mode, rider_torque_nm, speeds_kmh, torque_rates)
+        surface = law.torque_surface(config, mode, rider_torque_nm, speeds_kmh, torque_rates)
         return {
             "speeds_kmh": list(speeds_kmh),
             "torque_rates": list(torque_rates),
-            "asked_nm": found.asked_nm.tolist(),
-            "given_nm": found.given_nm.tolist(),
-            "limit_flags": found.limit_flags.tolist(),
+            "asked_nm": surface.asked_nm.tolist(),
+            "given_nm": surface.given_nm.tolist(),
+            "limit_flags": surface.limit_flags.tolist(),
             "cadence_rpm": law.CADENCE_RPM,
             "crank_rad_per_s": law.CADENCE_RPM * RADIANS_PER_S_PER_RPM,
             "engine": law.ENGINE,

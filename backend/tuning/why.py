@@ -47,12 +47,12 @@ class WhySteady:
             unit.require(Capability.READ_CONFIG, Capability.FUZZY_TABLE)
             base, source = unit.read_config().parameters, "unit"
         config = {**law_defaults(), **changed_config(base, **changes)}
-        known = {name: value for name, value in state.items() if value is not None}
-        torque_rate, held_s = known.pop("torque_rate"), known.pop("held_s")
-        known.setdefault("mode", config["assist_mode_at_start"])
-        found = law.why_steady(config, known, torque_rate, held_s)
+        readings_given = {name: value for name, value in state.items() if value is not None}
+        torque_rate, held_s = readings_given.pop("torque_rate"), readings_given.pop("held_s")
+        readings_given.setdefault("mode", config["assist_mode_at_start"])
+        result = law.why_steady(config, readings_given, torque_rate, held_s)
         moment = {"kind": "steady", "ride_id": None, "t_s": None, "held_s": held_s}
-        return why_json(found, config, known, moment, source)
+        return why_json(result, config, readings_given, moment, source)
 
 
 def why_json(

@@ -6,7 +6,7 @@ import time
 
 from sqlalchemy import Connection, select, update
 
-from backend.store.bikes import UnitSighting, bikes_now, known_unit
+from backend.store.bikes import UnitSighting, bike_of_unit, bikes_now
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
 from backend.units.types import Sighting
@@ -25,7 +25,7 @@ class UnitStore:
 
         def work(connection: Connection) -> int | None:
             now_us = time.time_ns() // 1000
-            bike_id = known_unit(connection, unit.key, unit, now_us)
+            bike_id = bike_of_unit(connection, unit.key, unit, now_us)
             values = {
                 "serial_number": unit.serial_number,
                 "model": unit.model,

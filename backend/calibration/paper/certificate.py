@@ -26,10 +26,10 @@ from backend.paper.sheet import (
     SMALL,
     WARN,
     Cover,
-    beside,
     facts,
     printed,
     section,
+    side_by_side,
     signatures,
     text,
     together,
@@ -97,7 +97,7 @@ def _fitted(certified: Certified, worked: Worked, manner: Manner) -> Iterator[An
     pictures = (residual_picture(certified, worked, manner), loop_picture(worked, manner))
     heads = (text(say("residuals"), 11, bold=True), text(say("loop"), 11, bold=True))
     columns = [[head, picture] for head, picture in zip(heads, pictures, strict=True)]
-    yield beside(columns, manner.width)
+    yield side_by_side(columns, manner.width)
     yield text(say("legend"), SMALL, QUIET)
     if worked.piecewise is not None:
         pairs = "; ".join(

@@ -160,7 +160,7 @@ class RideZeros(DueRides):
     def make(self, ride: Ride) -> None:
         """A ride's zero, or why it tells none."""
         zero = made_or(UNREADABLE, "zero", ride, lambda: self._zero(ride))
-        self._store.zeros.keep(ride, zero)
+        self._store.zeros.save(ride, zero)
 
     def _zero(self, ride: Ride) -> RideZero:
         # Most files of head units: their rows need not be read.

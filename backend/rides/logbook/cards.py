@@ -91,7 +91,7 @@ class RideCards(DueRides):
         card = made_or(
             RideCard(), "card", ride, lambda: card_of(columns_of(self._store, ride.id, CHANNELS))
         )
-        self._store.cards.keep(ride, card, self._place(card))
+        self._store.cards.save(ride, card, self._place(card))
 
     def _place(self, card: RideCard) -> RidePlace:
         """Where the ride began, as far as the gazetteer knows."""

@@ -33,7 +33,7 @@ from backend.law.rider_and_bike import RiderAndBike
 from backend.rides.replay.ride_again import twin_of
 from backend.rides.settings_in_force import ConfigOf, unchanged
 from backend.store import Store
-from backend.tuning.limit_proof import KeptCertificates
+from backend.tuning.limit_proof import CertificateMaker
 
 JOBS_MAX = 20
 WAITING_MAX = 4
@@ -121,7 +121,7 @@ class Proposals:
         self,
         store: Store,
         config_of: ConfigOf,
-        certificates: KeptCertificates,
+        certificates: CertificateMaker,
         generations: int = GENERATIONS,
     ) -> None:
         self._generations = generations

@@ -109,7 +109,7 @@ def test_an_answer_that_lacks_something_changes_nothing(
             mapping.say(upload.id, wrong)
         assert refused.value.fields
     assert uploads.get(upload.id).code == "needs_mapping"
-    assert mapping.known() == {"items": []}
+    assert mapping.answered_tables() == {"items": []}
 
 
 def test_only_a_file_that_is_asked_about_can_be_answered(
@@ -127,7 +127,7 @@ def test_what_was_said_can_be_forgotten_and_is_asked_again(
     uploads: Uploads, mapping: TableMapping
 ) -> None:
     mapping.say(uploads.receive_file("1.csv", table(1)).id, SAID)
-    (known,) = mapping.known()["items"]  # type: ignore[misc]
+    (known,) = mapping.answered_tables()["items"]  # type: ignore[misc]
     assert known["columns"] == ("timestamp", "speed", "cadence")
 
     mapping.forget(known["header_sha256"])

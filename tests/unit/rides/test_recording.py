@@ -422,7 +422,7 @@ def test_health_names_unit_and_cause_of_rows_that_never_came(
     rows = blocks(riding(30))
     feed(recorder, *rows[:100], replace(rows[150], lost_by=LostBy.MACHINE))
 
-    view = health.look()
+    view = health.current()
 
     (reason,) = view.reasons
     assert (view.status, reason.code, reason.part) == ("ok", "rows_missing_machine", "u1")

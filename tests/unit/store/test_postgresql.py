@@ -186,8 +186,8 @@ def test_a_lost_lock_is_taken_again_and_the_recording_goes_on(
     lose_lock_connection(cluster, url)
 
     with caplog.at_level(logging.WARNING):
-        lock.look()
-        lock.look()
+        lock.check()
+        lock.check()
 
     with pytest.raises(StoreError, match="Another Spindle is using"):
         AdvisoryLock(url, NEVER_S)

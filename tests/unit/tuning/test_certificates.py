@@ -19,7 +19,7 @@ from backend.services import Services
 from backend.store import Store, open_store
 from backend.tuning.library.records import LibraryStore
 from backend.tuning.library.service import Library
-from backend.tuning.limit_proof import CertifiedRevisions, Certify, KeptCertificates
+from backend.tuning.limit_proof import CertificateMaker, CertifiedRevisions, Certify
 from backend.tuning.records import CertificateStore, RevisionStore
 from backend.tuning.service import Tuning
 from backend.units.service import Devices
@@ -39,7 +39,7 @@ def store(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Store]:
 
 @pytest.fixture(scope="module")
 def client(store: Store) -> TestClient:
-    kept = KeptCertificates(CertificateStore(store.database), FIRMWARE)
+    kept = CertificateMaker(CertificateStore(store.database), FIRMWARE)
     library = Library(LibraryStore(store.database))
     certify = Certify(kept, cast(Devices, None), cast(Tuning, None), library)
     services = cast(Services, SimpleNamespace(certify=certify))
@@ -98,7 +98,7 @@ def test_what_no_unit_takes_is_refused_with_its_reason(
 
 def test_each_revision_is_kept_with_its_certificate(store: Store, client: TestClient) -> None:
     config = {**default_config(), "market": "china"}
-    kept = KeptCertificates(CertificateStore(store.database), FIRMWARE)
+    kept = CertificateMaker(CertificateStore(store.database), FIRMWARE)
     log = CertifiedRevisions(RevisionStore(store.database), kept)
 
     revision = log.append("ebl:test", config, reason="first")
