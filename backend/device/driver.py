@@ -1,6 +1,6 @@
 """One thread per port: carries bytes between a link and its session, and time into it.
 
-It reads late and in bulk: wake-ups cost, decoding does not (platform page, G). The thread outlives
+It reads late and in bulk: wake-ups cost, decoding does not. The thread outlives
 everything but `close`: a vanished port is opened again, a listener's exception is logged.
 """
 

@@ -92,7 +92,7 @@ def backup_json(
 ) -> dict[str, Any]:
     """A unit's configuration as a file.
 
-    device, config: as the API tells them. units: of each parameter, by name.
+    device, config: as in the API. units: of each parameter, by name.
     """
     serial_number = (device["identity"] or {}).get("serial_number")
     entries = {

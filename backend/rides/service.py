@@ -158,7 +158,7 @@ class Rides:
         return self._replay(self._store.rides.reader(ride_id), **changes)
 
     def _as_json(self, ride: Ride) -> dict[str, object]:
-        """A ride as the API tells it, with what is known to be wrong with its samples."""
+        """A ride as in the API, with what is known to be wrong with its samples."""
         damage = None
         if ride.state == "live":
             ride = replace(ride, summary=self._running(ride.id))

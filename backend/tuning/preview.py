@@ -47,7 +47,7 @@ class Preview:
     def mode_curves(
         self, parameters: Mapping[str, Any], rider_torque_nm: float, speeds_kmh: Sequence[float]
     ) -> dict[str, Any]:
-        """What each mode gives for a steady push, as the API tells it.
+        """What each mode gives for a steady push, as in the API.
 
         parameters: by registry name; those that are missing have the law's defaults. Raises
         InvalidRequest.
@@ -77,7 +77,7 @@ class Preview:
         speeds_kmh: Sequence[float],
         torque_rates: Sequence[float],
     ) -> dict[str, Any]:
-        """What a mode gives over the grid of its table, as the API tells it.
+        """What a mode gives over the grid of its table, as in the API.
 
         parameters: by registry name; those that are missing have the law's defaults. Raises
         InvalidRequest.

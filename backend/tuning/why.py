@@ -34,7 +34,7 @@ class WhySteady:
         self._unit_of = unit_of
 
     def __call__(self, state: Json, changes: Json, device_id: str | None = None) -> dict[str, Any]:
-        """The answer as the API tells it.
+        """The answer as in the API.
 
         state: speed_kmh, torque_rate, rider_torque_nm, cadence_rpm, held_s; mode, or None for the
         one at start; and other inputs of the law by their names, None where not known. changes: as
@@ -63,7 +63,7 @@ def why_json(
     config_source: str,
     recorded: Json | None = None,
 ) -> dict[str, Any]:
-    """A control step as the API tells it: why, with which settings and on which readings.
+    """A control step as in the API: why, with which settings and on which readings.
 
     readings: the law's inputs, (n,) each or one value, of which the last is the step's.
     """

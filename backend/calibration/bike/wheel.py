@@ -134,8 +134,8 @@ def roll_out(distances_m: Sequence[float], turns: float, tape_limit_m: float) ->
 def from_gps(track: Track | None, wheel_m: float, turns: float) -> Circumference:
     """From a ride's track and the turns its speed sensor counted on the same stretch.
 
-    track: by the way told_m that was told there; None where it is too short to tell. Raises
-    InvalidRequest, also for positions too rough to tell.
+    track: None where it is too short. wheel_m: the distance by the wheel sensor. Raises
+    InvalidRequest, also for positions that are too inaccurate.
     """
     faults = []
     long_enough = math.isfinite(wheel_m) and wheel_m >= GPS_LEAST_M

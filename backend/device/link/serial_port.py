@@ -28,7 +28,7 @@ class SerialPort:
     """An open serial port or pseudo-terminal.
 
     name: `/dev/ttyUSB0`, `COM3`, or a pseudo-terminal's path. has_line: False where no wire limits
-    the speed. wanted: the rate to ask the unit for, None for the fastest it offers; the port opens
+    the speed. requested: the rate to ask the unit for, None for its fastest; the port opens
     at 115200, where every unit starts. Raises LinkError with cause and remedy when it does not
     open.
     """

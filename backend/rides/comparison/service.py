@@ -95,7 +95,7 @@ class Side:
         return Laid(at_m, at_m + distances.step_m, seconds)
 
     def as_json(self) -> dict[str, Any]:
-        """The side as the API tells it."""
+        """The side as in the API."""
         axes = {by: self.laid(by) for by in UNITS}
         return {
             "ride_id": self.ride.id,
@@ -116,7 +116,7 @@ class RideComparison:
         self._config_of = config_of
 
     def __call__(self, a: Window, b: Window) -> dict[str, Any]:
-        """Figures, settings, ways and what can be drawn, as the API tells them.
+        """Figures, settings, ways and what can be drawn, as in the API.
 
         Raises NotFound, ObjectDamaged, InvalidRequest for a window without rows.
         """
@@ -170,7 +170,7 @@ class RideComparison:
         part: tuple[float, float | None] = (0.0, None),
         pixels: int = 1000,
     ) -> dict[str, Any]:
-        """Both rides in bins of one axis, as the API tells them.
+        """Both rides in bins of one axis, as in the API.
 
         channels: names as the comparison tells them, None for those that both have. part: of the
         axis, None for its end. Raises as the comparison, and InvalidRequest for a channel that
@@ -298,7 +298,7 @@ def rounded(values: Values, digits: int) -> list[float | None]:
 
 
 def gaps_of(side: Side, laid: Laid) -> list[dict[str, float]]:
-    """Stretches of the axis without samples, as the API tells them."""
+    """Stretches of the axis without samples, as in the API."""
     start_s = side.reader.times_us(side.start, side.stop) / 1e6
     last = len(start_s) - 1
 

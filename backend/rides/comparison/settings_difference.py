@@ -16,7 +16,7 @@ Part = tuple[Ride, float, float]
 
 
 def settings_difference(config_of: ConfigOf, a: Part, b: Part) -> dict[str, Any]:
-    """The configurations in force where two windows begin, as the API tells them, and when they
+    """The configurations in force where two windows begin, as in the API, and when they
     changed within; no difference unless both are known.
 
     A table is among `tables` if anything of it differs and both have it whole.

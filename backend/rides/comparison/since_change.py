@@ -41,7 +41,7 @@ class SinceChange:
         self._revisions_of = revisions_of
 
     def __call__(self, device_id: str, seq: int) -> dict[str, Any]:
-        """The comparison as the API tells it. Raises NotFound for an unknown revision."""
+        """The comparison as in the API. Raises NotFound for an unknown revision."""
         revisions = self._revisions_of(device_id)
         change = next((revision for revision in revisions if revision.seq == seq), None)
         if change is None:

@@ -76,7 +76,7 @@ class SensorDriftService:
         self._clock = clock
 
     def __call__(self, device_id: str, shown: int = RIDES_MAX) -> dict[str, Any]:
-        """The answer as the API tells it, with the newest rides of all. Raises NotFound,
+        """The answer as in the API, with the newest rides of all. Raises NotFound,
         NoAnswer."""
         key = self._key_of(device_id)
         revisions = self._revisions_of(device_id)

@@ -42,7 +42,7 @@ class EnergyLedger:
         self._config_of = config_of
 
     def __call__(self, ride_id: int) -> dict[str, Any]:
-        """The answer as the API tells it. Raises NotFound; InvalidRequest without the channels."""
+        """The answer as in the API. Raises NotFound; InvalidRequest without the channels."""
         reader = self._store.rides.reader(ride_id)
         missing = channels_missing(reader.ride)
         if missing:

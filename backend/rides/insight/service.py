@@ -40,7 +40,7 @@ class RideEnergy:
         self._config_of = config_of
 
     def __call__(self, ride_id: int) -> dict[str, Any]:
-        """The answer as the API tells it. Raises NotFound, ObjectDamaged."""
+        """The answer as in the API. Raises NotFound, ObjectDamaged."""
         ride = columns_of(self._store, ride_id, ENERGY_CHANNELS)
         step_m = ride.distances.step_m if ride.distances else None
         everything = np.zeros(len(ride.seconds), np.intp)
@@ -123,7 +123,7 @@ class RideEffort:
         threshold_power_w: float | None = None,
         heart_rate_bpm_max: float | None = None,
     ) -> dict[str, Any]:
-        """The answer as the API tells it; what a ride has no channel for is None.
+        """The answer as in the API; what a ride has no channel for is None.
 
         threshold_power_w: what the rider can hold for an hour. heart_rate_bpm_max: his greatest.
         None: nobody told, so there are bands and no zones. Raises NotFound, ObjectDamaged.
@@ -171,7 +171,7 @@ class RidePedalling:
         self._config_of = config_of
 
     def __call__(self, ride_id: int) -> dict[str, Any]:
-        """The answer as the API tells it. Raises NotFound, ObjectDamaged."""
+        """The answer as in the API. Raises NotFound, ObjectDamaged."""
         ride = columns_of(self._store, ride_id, PEDALLING_CHANNELS)
         crank = crank_of_ride(ride)
         speed, gain = ride[SPEED], ride[GAIN]

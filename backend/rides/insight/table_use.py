@@ -195,7 +195,7 @@ class UseOfTable:
         ride_ids: Sequence[int] | None = None,
         device: str | None = None,
     ) -> dict[str, Any]:
-        """The answer as the API tells it. Raises InvalidRequest, NotFound."""
+        """The answer as in the API. Raises InvalidRequest, NotFound."""
         points = checked(speed_points_kmh, torque_rate_points)
         rides, more = self._chosen(ride_ids, device)
         total = TableUse.none()
@@ -333,7 +333,7 @@ def names_for_use(ride: Ride) -> list[str]:
 
 
 def told(use: TableUse, points: Points) -> dict[str, Any]:
-    """Sums and cells as the API tells them."""
+    """Sums and cells as in the API."""
     total_s = float(use.seconds.sum())
     wh = use.motor_wh
 

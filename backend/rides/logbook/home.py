@@ -86,7 +86,7 @@ def with_totals(periods: Sequence[Period], totals: Sequence[Totals]) -> list[Map
 
 
 def figures(totals: Totals) -> dict[str, object]:
-    """Totals as the API tells them: the rider's mean power instead of the time it is of."""
+    """Totals as in the API: the rider's mean power instead of the time it is of."""
     body = asdict(totals)
     rider_s = body.pop("rider_s")
     watts = totals.rider_wh * 3600 / rider_s if totals.rider_wh is not None and rider_s else None

@@ -21,7 +21,7 @@ class RideMark:
 
 
 class MarkMoment:
-    """known: raises NotFound for a unit that nobody knows."""
+    """require: raises NotFound for an unknown unit."""
 
     def __init__(
         self, recorder: Recorder, marks: MarkStore, require: Callable[[str], object]

@@ -57,8 +57,8 @@ class _Tail:
 class RideTail:
     """One ride's rows. The caller sees to it that one thread at a time is in here.
 
-    begin: makes the ride in the store, once it lets us, and returns its id. tell: is told of rows
-    as they are taken, saved and lost: the changes of rows_saved, rows_lost, rows_waiting.
+    begin: makes the ride in the store, once it lets us, and returns its id. report: gets the
+    changes of rows_saved, rows_lost and rows_waiting.
     """
 
     def __init__(

@@ -66,7 +66,7 @@ class RideAgain:
         check_connected: CheckConnected = as_ever,
         **changes: Any,
     ) -> dict[str, Any]:
-        """The estimate as the API tells it.
+        """The estimate as in the API.
 
         check_connected: called before every ride of the twin; what it raises ends the estimate.
         changes: as of `changed_config`. Raises NotFound; InvalidRequest with the reason where the
@@ -241,7 +241,7 @@ def limits(twin: law.RoadTwin, own: law.Totals, again: law.Totals) -> list[dict[
 
 
 def curves(twin: law.RoadTwin, own: Samples, again: Samples) -> dict[str, Any]:
-    """The three rides over the distance, as the API tells them."""
+    """The three rides over the distance, as in the API."""
     turn_m = 2.0 * math.pi * twin.reach_m
     ends_km = law.places_km(twin.ride, turn_m)
     of = {

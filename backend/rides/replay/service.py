@@ -74,7 +74,7 @@ class RideReplay:
         second_table: Mapping[str, Any] | None = None,
         parameters: Mapping[str, Any] | None = None,
     ) -> dict[str, Any]:
-        """The comparison as the API tells it. fuzzy_table and the rest: as of `changed_config`.
+        """The comparison as in the API. fuzzy_table and the rest: as of `changed_config`.
 
         Raises InvalidRequest for a ride that lacks what the law needs, or settings it refuses.
         """

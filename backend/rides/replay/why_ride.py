@@ -55,7 +55,7 @@ class WhyRide:
         self._config_of = config_of
 
     def __call__(self, ride_id: int, t_s: float) -> dict[str, Any]:
-        """The answer as the API tells it.
+        """The answer as in the API.
 
         t_s: seconds since the ride's start. Raises NotFound; Conflict `no_table` where the ride's
         configuration is not known; InvalidRequest for a ride that lacks what the law needs and for

@@ -34,7 +34,7 @@ KEEPALIVE = {"keepalives_idle": 10, "keepalives_interval": 5, "keepalives_count"
 class AdvisoryLock:
     """Holds a PostgreSQL database for this process until `release`.
 
-    look_every_s: how often the connection is looked at. Raises StoreError when another server has
+    check_every_s: how often the connection is checked. Raises StoreError when another server has
     the database, or when it cannot be reached.
     """
 

@@ -52,7 +52,7 @@ class Looked:
 
     @property
     def fuzzy_table(self) -> dict[str, Any] | None:
-        """The table as the API tells it."""
+        """The table as in the API."""
         return None if self.table is None else self.table.to_json()
 
 

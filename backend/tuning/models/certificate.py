@@ -1,4 +1,4 @@
-"""What is proven of a configuration, as the API tells it."""
+"""What is proven of a configuration, as in the API."""
 
 from __future__ import annotations
 

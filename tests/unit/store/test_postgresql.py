@@ -53,7 +53,7 @@ def url(cluster: Postgres) -> str:
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
-    monkeypatch.setattr(advisory, "LOOK_EVERY_S", NEVER_S)
+    monkeypatch.setattr(advisory, "CHECK_EVERY_S", NEVER_S)
     return (tmp_path / "objects").as_uri()
 
 

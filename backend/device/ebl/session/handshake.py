@@ -1,4 +1,4 @@
-"""The handshake: HELLO, the version, the schema (protocol page, 4.3 Connect).
+"""The handshake: HELLO, the version, the schema.
 
 A unit whose schema is the one this program was built with can be read and written. Another schema
 is taken from those known or read from the unit, and proven by its hash. Where it means the same to

@@ -20,7 +20,7 @@ from firmware_protocol._generated import Status
 from firmware_protocol.codec import Response
 from firmware_protocol.layout import Message
 
-# The first sending and three repetitions (protocol page, 4.3).
+# The first sending and three repetitions.
 ATTEMPTS = 4
 # A unit that asks for longer spares its flash: whoever writes has to know.
 PATIENCE_MS = 5000
